@@ -17,8 +17,7 @@ from benchmark.given import Given
 from benchmark.machine import machine
 from benchmark.pages import PAGES, Page, page_of, parts_of, text_of
 from benchmark.report import Result, as_text
-from meshforge.errors import AssetError, UsageError
-from meshforge.files import write_atomically
+from meshforge.common import AssetError, UsageError, write_atomically
 
 RESULTS = Path(__file__).resolve().parent / "results"
 

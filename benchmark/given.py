@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING
 
 from pydantic import ValidationError
 
-from meshforge.errors import UsageError, complaint
+from meshforge.common import UsageError, first_validation_error
 
 if TYPE_CHECKING:
-    from meshforge.project.labels.vlm.settings import VlmSettings
+    from meshforge.store.settings import VlmSettings
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,7 +31,8 @@ class Given:
 
     def settings(self) -> VlmSettings | None:
         """Whom to ask and how. Raises UsageError: no such file, no such table, or a field that does not fit."""
-        from meshforge.project.labels.vlm.settings import VlmSettings
+        from meshforge.labels import endpoint_of
+        from meshforge.store.settings import VlmSettings
 
         if self.vlm is None:
             return None
@@ -46,6 +47,6 @@ class Given:
         except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
             raise UsageError(f"this is no TOML: {error}", where=where) from error
         except ValidationError as error:
-            raise UsageError(complaint(error), where=where) from error
-        settings.endpoint().key()
+            raise UsageError(first_validation_error(error), where=where) from error
+        endpoint_of(settings).key()
         return settings if self.max_cost is None else settings.model_copy(update={"max_cost": self.max_cost})

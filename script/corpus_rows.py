@@ -10,9 +10,8 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
 
-from meshforge.errors import told
-from meshforge.formats import MESH_SUFFIXES, SUFFIXES, pieces_of, read, read_triangles
-from meshforge.words import counted
+from meshforge.common import describe_error, pluralize
+from meshforge.formats import MESH_SUFFIXES, SUFFIXES, read, read_triangles, split_into_pieces
 
 _PARTS = (".dae",)
 """Mesh files that are read as parts of assets only."""
@@ -53,7 +52,7 @@ def row(item: tuple[str, str]) -> Row:
         try:
             made = _part(path, name) if path.suffix.lower() in _PARTS else _asset(path, name, root)
         except Exception as error:  # the table shows what a user would see
-            made = Row(name, message=_short(told(error, name), root).removeprefix(f"{name}: "))
+            made = Row(name, message=_short(describe_error(error, name), root).removeprefix(f"{name}: "))
     noise = [f"warning: {w.message}" for w in caught] + [f"stderr: {line}" for line in heard.getvalue().splitlines()]
     return Row(**{**vars(made), "notes": _short("; ".join([made.notes, *noise]).strip("; "), root)}) if noise else made
 
@@ -73,7 +72,7 @@ def _asset(path: Path, name: str, root: str) -> Row:
 
 
 def _part(path: Path, name: str) -> Row:
-    found = pieces_of(read_triangles(path), name=name)
+    found = split_into_pieces(read_triangles(path), name=name)
     opaque = [piece.reason or "no hull" for piece in found if piece.shape is None]
     return Row(name, f"part {path.suffix.lower()}", len(found) - len(opaque), 1, len(opaque), _counted(opaque))
 
@@ -83,7 +82,7 @@ def _counted(reasons: Iterable[str]) -> str:
     found = Counter("not convex" if reason.startswith("not convex") else reason for reason in reasons)
     ordered = sorted(found.items(), key=lambda item: (-item[1], item[0]))
     shown = [f"{count} x {reason}" for reason, count in ordered[:4]]
-    return "; ".join([*shown, counted(len(ordered) - 4, "reason") + " more"] if len(ordered) > 4 else shown)
+    return "; ".join([*shown, pluralize(len(ordered) - 4, "reason") + " more"] if len(ordered) > 4 else shown)
 
 
 def _short(text: str, root: str) -> str:

@@ -10,8 +10,8 @@ from collections.abc import Iterable, Sequence
 from dataclasses import astuple, fields
 from pathlib import Path
 
-from meshforge.batch import Lost, isolated
-from meshforge.words import counted
+from meshforge.batch import ExecutionOptions, WorkerFailure, run_isolated
+from meshforge.common import pluralize
 from script.corpus_rows import Row, entries, row
 
 DOCS = Path(__file__).resolve().parents[1] / "docs"
@@ -36,8 +36,10 @@ def corpus() -> Path:
 
 def rows(root: Path, names: Sequence[str], workers: int | None = None) -> list[Row]:
     """The rows of paths below a root, each read in a worker process, so that none can take the others along."""
-    found = isolated(row, [(str(root), name) for name in names], workers=workers, timeout=_SECONDS)
-    return [Row(n, message=one.why) if isinstance(one, Lost) else one for n, one in zip(names, found, strict=True)]
+    found = run_isolated(row, [(str(root), name) for name in names], ExecutionOptions(workers, _SECONDS))
+    return [
+        Row(n, message=one.why) if isinstance(one, WorkerFailure) else one for n, one in zip(names, found, strict=True)
+    ]
 
 
 def table(found: Iterable[Row]) -> str:
@@ -56,7 +58,7 @@ def page(found: Sequence[Row]) -> str:
     """The page: a summary by format, the files that are refused, what is noted, and the files that are all opaque."""
     refused = [one for one in found if one.message]
     closed = [one for one in found if one.opaque and not one.hulls]
-    parts = [_HEAD, f"{counted(len(found), 'row')}: {_totals(found)}.\n", _summary(found)]
+    parts = [_HEAD, f"{pluralize(len(found), 'row')}: {_totals(found)}.\n", _summary(found)]
     parts += [_listed("Refused", refused, "message"), _noted(found)]
     parts += [_listed("Without a hull, all of it opaque", closed, "reasons")]
     return "\n".join(parts)
@@ -81,7 +83,7 @@ def _cell(text: str) -> str:
 def _totals(found: Sequence[Row]) -> str:
     hulls, opaque = sum(one.hulls for one in found), sum(one.opaque for one in found)
     refused = sum(bool(one.message) for one in found)
-    return f"{counted(hulls, 'hull')}, {counted(opaque, 'opaque piece')}, {refused} refused"
+    return f"{pluralize(hulls, 'hull')}, {pluralize(opaque, 'opaque piece')}, {refused} refused"
 
 
 def _summary(found: Sequence[Row]) -> str:
@@ -128,11 +130,11 @@ def main(words: Sequence[str]) -> int:
     found = rows(root, entries(root))
     if "--check" in words:
         changed = differences(parsed(TABLE.read_text(encoding="utf-8")), parsed(table(found)))
-        print("\n".join(changed) or f"{counted(len(found), 'row')} as before")
+        print("\n".join(changed) or f"{pluralize(len(found), 'row')} as before")
         return int(bool(changed))
     TABLE.write_text(table(found), encoding="utf-8")
     PAGE.write_text(page(found), encoding="utf-8")
-    print(f"{TABLE}: {counted(len(found), 'row')}, {_totals(found)}")
+    print(f"{TABLE}: {pluralize(len(found), 'row')}, {_totals(found)}")
     return 0
 
 

@@ -10,11 +10,11 @@ from pathlib import Path
 
 from meshforge.batch import load_templates
 from meshforge.formats import load
-from meshforge.language import Program, stage
+from meshforge.language import Program, to_canonical_frame
 from meshforge.project import Project
+from meshforge.rendering import compare, draw_labeling_pictures, make_contact_sheet, render, write_png
 from meshforge.samples import TABLES
 from meshforge.symbolic import SymbolicMesh, read_labels
-from meshforge.views import compare, render, sheet, shots, write_png
 
 SHOWN = ("table_03", "table_08", "table_09", "table_11")
 CHOICES = ("Geo(Is(handle), -Z)", "Attach(Is(handle), Is(drawer))", "Geo(Is(handle), -Y)")
@@ -37,30 +37,32 @@ def _tables(path: Path) -> None:
     pairs, titles = [], []
     for name in SHOWN:
         mesh = load(TABLES / f"{name}.obj")
-        upright, pose = stage(mesh, program.orient)
+        upright, pose = to_canonical_frame(mesh, program.orient)
         edited = program.run(mesh, templates).mesh
-        after: SymbolicMesh = replace(edited, hulls=tuple(hull.moved(pose) for hull in edited.hulls))
+        after: SymbolicMesh = replace(edited, hulls=tuple(hull.move(pose) for hull in edited.hulls))
         pairs.append(compare(upright, after, size=(520, 400), color_by="hull"))
         titles.append((f"{len(mesh.hulls)} hulls", f"{len(after.hulls)} hulls"))
     pictures = [image for k in (0, 1) for image in (pair[k] for pair in pairs)]
     words = [text for k in (0, 1) for text in (title[k] for title in titles)]
-    write_png(path, sheet(pictures, columns=len(SHOWN), titles=words))
+    write_png(path, make_contact_sheet(pictures, columns=len(SHOWN), titles=words))
 
 
 def _question(path: Path) -> None:
-    mesh, _ = stage(load(TABLES / "table_03.obj"), Program.read(TABLES / "tables.mf").orient)
+    mesh, _ = to_canonical_frame(load(TABLES / "table_03.obj"), Program.read(TABLES / "tables.mf").orient)
     drawn = []
     for text in CHOICES:
         (rule,) = Program.parse(f"{text} => Delete").rules
         chosen = frozenset(mesh.hulls[k].name for k in rule.extractor.select(mesh))
         drawn.append(render(mesh, highlight=chosen, size=(520, 400), up="Z"))
-    write_png(path, sheet(drawn, columns=len(drawn), titles=[f"choice {k}" for k in range(1, len(drawn) + 1)]))
+    write_png(
+        path, make_contact_sheet(drawn, columns=len(drawn), titles=[f"choice {k}" for k in range(1, len(drawn) + 1)])
+    )
 
 
 def _numbered(path: Path) -> None:
     """What a model is shown of a table, or a person who reads hulls off: two of the views, without the plain ones."""
-    first, second, *_ = shots(load(TABLES / "table_03.obj"), size=760)
-    write_png(path, sheet([first.marked, second.marked], columns=2))
+    first, second, *_ = draw_labeling_pictures(load(TABLES / "table_03.obj"), size=760)
+    write_png(path, make_contact_sheet([first.marked, second.marked], columns=2))
 
 
 def _labels(path: Path) -> None:

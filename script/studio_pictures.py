@@ -11,7 +11,7 @@ from typing import Literal
 from playwright.sync_api import Browser, Page
 
 from benchmark.studio.browser import chromium, studio
-from meshforge.cli.tables import WORDS, demonstrated_tables, kept_tables
+from meshforge.cli.demo import TABLE_LABELS, create_tables, open_tables
 from meshforge.project import Project
 from meshforge.samples import TABLES
 from meshforge.symbolic import read_labels
@@ -24,7 +24,7 @@ GUESSED = "Keep as step 2"
 def main(folder: Path) -> None:
     """Write the pictures into a folder."""
     with tempfile.TemporaryDirectory() as scratch, chromium() as browser:
-        project = kept_tables(Path(scratch) / "one")
+        project = open_tables(Path(scratch) / "one")
         shutil.copytree(TABLES / "demonstrations", project.folder / "demonstrations")
         (project.folder / "demonstrations" / "table_08.obj.json").unlink()
         with studio(project.folder) as address:
@@ -32,7 +32,7 @@ def main(folder: Path) -> None:
             _asked(_page(browser, address, "light"), folder / "studio-learn.png")
         with studio(_unlabelled(Path(scratch) / "three").folder) as address:
             _labelling(_page(browser, address, "light"), folder / "studio-label.png")
-        project = demonstrated_tables(Path(scratch) / "two")
+        project = create_tables(Path(scratch) / "two")
         project.synthesize()
         list(project.apply())
         with studio(project.folder) as address:
@@ -41,7 +41,7 @@ def main(folder: Path) -> None:
 
 def _unlabelled(folder: Path) -> Project:
     """The tables, of which one is labelled by hand."""
-    project = Project.create(folder, sorted(TABLES.glob("*.obj")), vocabulary=WORDS)
+    project = Project.create(folder, sorted(TABLES.glob("*.obj")), vocabulary=TABLE_LABELS)
     true = read_labels(TABLES / f"{BY_HAND[0]}.labels.json").labels
     project.set_labels(f"{BY_HAND[0]}.obj", {hull: label.name for hull, label in true.items()})
     return project

@@ -7,9 +7,9 @@ from pathlib import Path
 
 import numpy as np
 
-from meshforge.asset import Asset, Body, Document, Geom, Inertial, Joint, Mechanism, Opaque, Surface
 from meshforge.formats.visuals import Visual, VisualSurfaces
 from meshforge.geometry import Box, Capsule, Cylinder, Ellipsoid, Pose, Shape, Sphere, convex_hull
+from meshforge.symbolic import Asset, Body, Document, Geom, Inertial, Joint, Mechanism, Opaque, Surface
 from tests.soups import angle
 
 TURNED = Pose.from_rpy([1, 2, 3], [0.4, -1.1, 2.0])

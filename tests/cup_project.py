@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from meshforge.batch import IN_PROCESS
 from meshforge.geometry import Box
 from meshforge.language import Program
 from meshforge.project import Project
@@ -39,5 +40,5 @@ def cup_project(folder: Path) -> Project:
     for asset in project.assets():
         project.set_labels(asset, {hull.name: "cup" for hull in project.mesh(asset).hulls})
     project.accept(Program.parse(FILLING))
-    list(project.apply(workers=0))
+    list(project.apply(execution=IN_PROCESS))
     return project

@@ -7,19 +7,18 @@ from pathlib import Path
 
 import numpy as np
 
-from meshforge.asset import Asset, Body, Document, Geom, Inertial, Joint, Mechanism, Surface
 from meshforge.geometry import Aabb, Box, Pose, Shape
-from meshforge.symbolic import SymbolicMesh
+from meshforge.symbolic import Asset, Body, Document, Geom, Inertial, Joint, Mechanism, Surface, SymbolicMesh
 
-BOTTOM = Box.filling(Aabb([0, 0, 0], [0.1, 0.1, 0.01]))
+BOTTOM = Box.of_bounds(Aabb([0, 0, 0], [0.1, 0.1, 0.01]))
 WALLS = (
-    Box.filling(Aabb([0, 0, 0.01], [0.01, 0.1, 0.1])),
-    Box.filling(Aabb([0.09, 0, 0.01], [0.1, 0.1, 0.1])),
-    Box.filling(Aabb([0.01, 0, 0.01], [0.09, 0.01, 0.1])),
-    Box.filling(Aabb([0.01, 0.09, 0.01], [0.09, 0.1, 0.1])),
+    Box.of_bounds(Aabb([0, 0, 0.01], [0.01, 0.1, 0.1])),
+    Box.of_bounds(Aabb([0.09, 0, 0.01], [0.1, 0.1, 0.1])),
+    Box.of_bounds(Aabb([0.01, 0, 0.01], [0.09, 0.01, 0.1])),
+    Box.of_bounds(Aabb([0.01, 0.09, 0.01], [0.09, 0.1, 0.1])),
 )
-LID = Box.filling(Aabb([0, 0, 0.1], [0.1, 0.1, 0.11]))
-WHOLE = Box.filling(Aabb([0, 0, 0], [0.1, 0.1, 0.1]))
+LID = Box.of_bounds(Aabb([0, 0, 0.1], [0.1, 0.1, 0.11]))
+WHOLE = Box.of_bounds(Aabb([0, 0, 0], [0.1, 0.1, 0.1]))
 INSIDE = 0.08 * 0.08 * 0.09 * 1000
 """What fits into the cup [l]."""
 

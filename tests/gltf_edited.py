@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterable
 from pathlib import Path
 
-from meshforge.asset import Asset, Geom
-from meshforge.formats import Saved, read, save
-from meshforge.geometry import convex_hull, same_shape
+from meshforge.formats import SaveResult, read, save
+from meshforge.geometry import convex_hull, is_same_shape
+from meshforge.symbolic import Asset, Geom
 from tests.gltf_files import SceneFile, Tree, tree_of
 from tests.gltf_validation import errors
 from tests.soups import Soup, box, together
@@ -20,7 +20,7 @@ class Edited:
         self.source = scene.write(folder / f"a{suffix}")
         self.out = folder / "out" / (out or self.source.name)
         self.before = read(self.source)
-        self.saved: Saved
+        self.saved: SaveResult
 
     def edit(self, gone: Iterable[str] = (), made: Iterable[Geom] = ()) -> Asset:
         """The asset read back after some hulls are gone and others made."""
@@ -32,7 +32,7 @@ class Edited:
         told = {self.saved.names.get(geom.name, geom.name): geom for geom in kept}
         for geom in after.geoms:
             if geom.name in told:
-                assert same_shape(geom.shape, told[geom.name].shape, 1e-9)
+                assert is_same_shape(geom.shape, told[geom.name].shape, 1e-9)
                 assert geom.body == told[geom.name].body
         assert told.keys() <= {geom.name for geom in after.geoms}
         assert sorted(o.reason for o in after.opaque) == sorted(o.reason for o in self.before.opaque)

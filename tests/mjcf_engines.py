@@ -8,10 +8,10 @@ from pathlib import Path
 import mujoco
 import numpy as np
 
-from meshforge.asset import Asset, Geom, Opaque
 from meshforge.formats.base import ReadOptions
-from meshforge.formats.mjcf import MjcfFormat
+from meshforge.formats.mjcf.format import MjcfFormat
 from meshforge.geometry import Box, Capsule, Cylinder, Ellipsoid, Floats, Pose, Shape, Sphere
+from meshforge.symbolic import Asset, Geom, Opaque
 
 KINDS = {
     mujoco.mjtGeom.mjGEOM_BOX: "box",

@@ -10,10 +10,10 @@ import mujoco
 import numpy as np
 from mujoco.introspect import structs
 
-from meshforge.asset import Asset, Geom
 from meshforge.formats.base import Mass, Output
-from meshforge.formats.mjcf import MjcfFormat
+from meshforge.formats.mjcf.format import MjcfFormat
 from meshforge.geometry import Floats, Shape
+from meshforge.symbolic import Asset, Geom
 from tests.mjcf_engines import DIRECTIONS, KINDS, mesh_vertices
 from tests.urdf_sample import put as put_output
 

@@ -10,8 +10,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from meshforge.asset import Asset
 from meshforge.geometry import Box, Capsule, Cylinder, Ellipsoid, Pose, Shape, Sphere
+from meshforge.symbolic import Asset
 
 
 @dataclass(frozen=True)

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from meshforge.asset import Asset
 from meshforge.formats.base import Mass, Output, ReadOptions
-from meshforge.formats.sdf import SdfFormat
+from meshforge.formats.sdf.format import SdfFormat
+from meshforge.symbolic import Asset
 from tests.urdf_sample import THREE
 
 SAMPLE = """\

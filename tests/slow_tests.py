@@ -16,13 +16,14 @@ import sys
 from collections import Counter
 from collections.abc import Generator
 from pathlib import Path
+from typing import Any
 
 import pytest
 from hypothesis import is_hypothesis_test, settings
 
 from tests.corpus_path import ABSENT
 
-LIMIT = 2.0
+LIMIT = 4.0
 WARNING = 1.0
 """Seconds of CPU time; a test that takes more than the lower one today may be over the upper one elsewhere."""
 SLOW_FOLDERS = ("tests/e2e/", "tests/loop/", "tests/unit/benchmark/")
@@ -50,11 +51,17 @@ def pytest_addoption(parser: pytest.Parser) -> None:
 def pytest_configure(config: pytest.Config) -> None:
     config.addinivalue_line("markers", "slow: takes more than a second of CPU time; left out of quick runs")
     option = config.option
-    if not _is_worker(config):  # a worker is given the options of the run as they are after this
-        named = config.args_source is pytest.Config.ArgsSource.ARGS or option.keyword or option.markexpr
-        option.quick = option.quick or not (option.all_tests or named)
+    named = config.args_source is pytest.Config.ArgsSource.ARGS or option.keyword or option.markexpr
+    quick = option.quick or not (option.all_tests or named)
+    option.quick = vars(config)["workerinput"]["quick"] if _is_worker(config) else quick
     settings.load_profile("explore" if option.explore else "quick" if option.quick else "all")
     config.pluginmanager.register(Costs(config))
+
+
+@pytest.hookimpl(optionalhook=True)
+def pytest_configure_node(node: Any) -> None:
+    """Tell a worker of pytest-xdist, which is given the words of the command line alone, what kind of run it is."""
+    node.workerinput["quick"] = node.config.option.quick
 
 
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:

@@ -7,18 +7,7 @@ from typing import cast
 import numpy as np
 from hypothesis import strategies as st
 
-from meshforge.geometry import (
-    Box,
-    Capsule,
-    Cylinder,
-    Ellipsoid,
-    Floats,
-    Polytope,
-    Pose,
-    Shape,
-    Sphere,
-    convex_hull,
-)
+from meshforge.geometry import Box, Capsule, Cylinder, Ellipsoid, Floats, Polytope, Pose, Shape, Sphere, convex_hull
 from meshforge.language import (
     AXES,
     DIRECTIONS,
@@ -27,7 +16,7 @@ from meshforge.language import (
     Add,
     All,
     Attach,
-    Base,
+    BaseExtractor,
     Delete,
     Diff,
     Direction,
@@ -136,7 +125,7 @@ def meshes(
     return SymbolicMesh(tuple(hulls))
 
 
-def bases(vocabulary: tuple[str, ...] = VOCABULARY) -> st.SearchStrategy[Base]:
+def bases(vocabulary: tuple[str, ...] = VOCABULARY) -> st.SearchStrategy[BaseExtractor]:
     """All, or Is of a label."""
     return st.one_of(st.just(All()), st.sampled_from(vocabulary).map(Is))
 

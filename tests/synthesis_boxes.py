@@ -24,14 +24,14 @@ def turned(mesh: SymbolicMesh, axes: str) -> SymbolicMesh:
         low, high = [0.0] * 3, [0.0] * 3
         for axis in range(3):
             low[to[axis]], high[to[axis]] = float(hull.aabb.min[axis]), float(hull.aabb.max[axis])
-        moved.append(Hull(hull.name, hull.body, Box.filling(Aabb(low, high)), hull.annotation))
+        moved.append(Hull(hull.name, hull.body, Box.of_bounds(Aabb(low, high)), hull.annotation))
     return SymbolicMesh(tuple(moved))
 
 
 def _hull(piece: Piece, body: str) -> Hull:
     name, label, low, size = piece
     high = [corner + side for corner, side in zip(low, size, strict=True)]
-    return Hull(name, body, Box.filling(Aabb(low, high)), Label(label) if label else None)
+    return Hull(name, body, Box.of_bounds(Aabb(low, high)), Label(label) if label else None)
 
 
 def table(legs: int = 4, drawers: int = 1, knob: float | None = 0.1, litter: int = 1) -> SymbolicMesh:

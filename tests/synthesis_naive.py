@@ -5,10 +5,22 @@ from __future__ import annotations
 from collections.abc import Sequence
 from itertools import product
 
-from meshforge.language import DIRECTIONS, All, Attach, Base, Diff, Extractor, Geo, Intersect, Is, Union, select_mask
+from meshforge.language import (
+    DIRECTIONS,
+    All,
+    Attach,
+    BaseExtractor,
+    Diff,
+    Extractor,
+    Geo,
+    Intersect,
+    Is,
+    Union,
+    select_mask,
+)
 from meshforge.symbolic import SymbolicMesh
-from meshforge.synthesis.example import Example
-from meshforge.synthesis.search.order import order
+from meshforge.synthesis.demonstration import Example
+from meshforge.synthesis.search.terms import order_key
 
 _ROOM = 64  # bits kept for each mesh
 
@@ -25,12 +37,12 @@ def naive_search(examples: Sequence[Example], vocabulary: Sequence[str], max_siz
         sizes.append(_leaves(examples, vocabulary, size) + _compounds(sizes, size))
         hits = [extractor for extractor, selection in sizes[size] if selection == target]
         if hits:
-            return min(hits, key=lambda extractor: order(extractor, labels))
+            return min(hits, key=lambda extractor: order_key(extractor, labels))
     return None
 
 
 def _leaves(examples: Sequence[Example], vocabulary: Sequence[str], size: int) -> Sized:
-    bases: list[Base] = [All(), *map(Is, vocabulary)]
+    bases: list[BaseExtractor] = [All(), *map(Is, vocabulary)]
     of_size: dict[int, list[Extractor]] = {
         1: [*bases],
         2: [Geo(base, direction) for base, direction in product(bases, DIRECTIONS)],

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from meshforge.asset import Asset
+from meshforge.symbolic import Asset
 
 Corners = tuple[np.ndarray, np.ndarray]
 

@@ -5,10 +5,10 @@ from __future__ import annotations
 import os
 from pathlib import Path
 
-from meshforge.asset import Asset, Geom
 from meshforge.formats.base import Output, ReadOptions
-from meshforge.formats.urdf import UrdfFormat
+from meshforge.formats.urdf.format import UrdfFormat
 from meshforge.geometry import Aabb, Box, Shape
+from meshforge.symbolic import Asset, Geom
 
 Corner = tuple[float, float, float]
 
@@ -71,7 +71,7 @@ def boxes_obj(*corners: tuple[Corner, Corner]) -> str:
     """An OBJ of boxes from corner to corner, without groups."""
     lines, start = [], 1
     for low, high in corners:
-        surface = Box.filling(Aabb(low, high)).tessellated()
+        surface = Box.of_bounds(Aabb(low, high)).tessellate()
         lines += [f"v {x!r} {y!r} {z!r}" for x, y, z in surface.vertices.tolist()]
         lines += ["f " + " ".join(str(k + start) for k in face) for face in surface.faces.tolist()]
         start += len(surface.vertices)

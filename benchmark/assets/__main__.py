@@ -14,7 +14,7 @@ from benchmark.assets.decomposing import SETTINGS, Decomposed, decomposed
 from benchmark.assets.frozen import DATA, read, write
 from benchmark.assets.looking import look
 from benchmark.assets.making import CALIBRATION, CATEGORIES, COUNT, SEED, assets
-from meshforge.geometry.decompose import cache_folder
+from meshforge.geometry.decomposition.run import cache_folder
 
 _CALIBRATING = {name: 9 if k < 3 else 8 for k, name in enumerate(CATEGORIES)}
 """Assets of each category in the calibration set: 67, of three meshes each, one less than 202."""

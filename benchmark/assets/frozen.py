@@ -15,7 +15,7 @@ from manifold3d import Manifold, Mesh
 
 from benchmark.assets.asset import Asset, Site
 from benchmark.assets.decomposing import SETTINGS, Decomposed
-from meshforge.files import write_atomically
+from meshforge.common import write_atomically
 from meshforge.geometry import Floats, Ints, Polytope, Pose
 from meshforge.symbolic import Hull, Label, SymbolicMesh
 from script.samples.part import Part
@@ -27,7 +27,7 @@ _FINE = 7  # digits of parts, which booleans are made with
 
 @dataclass(frozen=True, eq=False)
 class Sample:
-    """One collision mesh with its true labels, in the frame of its file; shares: as of `Decomposed`."""
+    """One collision mesh with its true labels, in the frame of its file; shares: as of `DecompositionResult`."""
 
     name: str
     asset: Asset

@@ -7,13 +7,13 @@ from pathlib import Path
 
 from benchmark.assets.frozen import Sample
 from meshforge.geometry import Pose
+from meshforge.rendering import make_contact_sheet, render, write_png
 from meshforge.symbolic import SymbolicMesh
-from meshforge.views import render, sheet, write_png
 
 
 def moved(mesh: SymbolicMesh, pose: Pose) -> SymbolicMesh:
     """The mesh moved rigidly."""
-    return mesh.with_hulls(hull.moved(pose) for hull in mesh.hulls)
+    return mesh.with_hulls(hull.move(pose) for hull in mesh.hulls)
 
 
 def upright(sample: Sample, mesh: SymbolicMesh | None = None) -> SymbolicMesh:
@@ -28,4 +28,4 @@ def look(rows: Sequence[Sample], path: Path, side: int = 260, columns: int = 6) 
     images = [
         render(upright(row), color_by="label", size=(side, side), legend=False, vocabulary=vocabulary) for row in rows
     ]
-    write_png(path, sheet(images, columns, [f"{row.name} {row.asset.kind}" for row in rows]))
+    write_png(path, make_contact_sheet(images, columns, [f"{row.name} {row.asset.kind}" for row in rows]))

@@ -12,10 +12,10 @@ from benchmark.baselines.demonstrated import Shown
 from benchmark.baselines.refining import Tried, fenced
 from benchmark.tasks import Task
 from meshforge import language
-from meshforge.errors import MeshForgeError, ProgramError
+from meshforge.common import MeshForgeError, ProgramError
 from meshforge.geometry import digest
-from meshforge.language import Program, RunResult, show, stage, unstage
-from meshforge.perception.vlm import Message
+from meshforge.labels.vlm.request import Message
+from meshforge.language import Program, RunResult, from_canonical_frame, show, to_canonical_frame
 from meshforge.symbolic import SymbolicMesh
 
 NAME = "VLM Agent"
@@ -67,7 +67,7 @@ class Agent:
     def opening(self) -> tuple[Message, ...]:
         """What the model is told first."""
         frame = self.task.program
-        header = show(replace(frame, rules=()))
+        header = str(replace(frame, rules=()))
         begun = _OPENING.format(header=header.strip(), templates=showing.templates(self.task.templates))
         return instructions(), Message.user(begun, *showing.told(self.shown, frame), _CLOSING)
 
@@ -109,7 +109,9 @@ class Agent:
     def _wanted(self, one: Shown) -> SymbolicMesh:
         """What was shown, in the frame that the mesh came in."""
         frame = self.task.program
-        return unstage(one.demo.mesh, one.after, stage(one.demo.mesh, frame.orient, frame.contact)[1])
+        return from_canonical_frame(
+            one.demo.mesh, one.after, to_canonical_frame(one.demo.mesh, frame.orient, frame.contact)[1]
+        )
 
 
 @cache

@@ -6,11 +6,11 @@ from dataclasses import dataclass
 
 from benchmark.study import CONDITIONS, Bench, Desk, Session
 from benchmark.study.person import Person
-from meshforge.errors import MeshForgeError
+from meshforge.common import MeshForgeError
 from meshforge.language import Program
 from meshforge.symbolic import SymbolicMesh
 from meshforge.synthesis import Demonstration
-from meshforge.synthesis.replay import advanced, begun
+from meshforge.synthesis.replay import advance, begin_replay
 
 
 @dataclass(frozen=True, eq=False)
@@ -53,19 +53,19 @@ def _shown(bench: Bench, desk: Desk, person: Person, name: str) -> Shown:
     frame = bench.task.program
     try:
         demo = person.shows(desk, name)
-        replay = begun(name, demo, frame.orient, frame.contact)
+        replay = begin_replay(name, demo, frame.orient, frame.contact)
     except MeshForgeError:  # a landmark is labelled wrongly: the person put that right, to be able to show anything
         demo = person.shows(_landmarks_right(bench, desk, name), name)
-        replay = begun(name, demo, frame.orient, frame.contact)
+        replay = begin_replay(name, demo, frame.orient, frame.contact)
     stages = [replay.mesh]
     for number, rule in enumerate(frame.rules, 1):
-        replay = advanced(replay, number, rule, bench.task.templates, frame.extremity)
+        replay = advance(replay, number, rule, bench.task.templates, frame.extremity)
         stages.append(replay.mesh)
     return Shown(name, demo, tuple(stages))
 
 
 def _landmarks_right(bench: Bench, desk: Desk, name: str) -> Desk:
-    landmarks = Program(orient=bench.task.program.orient).used_labels
+    landmarks = Program(orient=bench.task.program.orient).labels_in_use
     true = bench.truth.meshes[name].labels
     right = {hull: label for hull, label in true.items() if label.name in landmarks}
-    return Desk(bench, {name: desk.meshes[name].labelled(right)})
+    return Desk(bench, {name: desk.meshes[name].with_labels(right)})

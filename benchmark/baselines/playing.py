@@ -22,8 +22,10 @@ from benchmark.evaluation.journal import JOURNALS, done
 from benchmark.report import Tell
 from benchmark.study import Bench, Session
 from benchmark.tasks import Task, task
-from meshforge.perception.vlm import AskingError, Client, Message
-from meshforge.project.labels.vlm.settings import VlmSettings
+from meshforge.labels.vlm.client import Client
+from meshforge.labels.vlm.endpoint import QuestionError, endpoint_of
+from meshforge.labels.vlm.request import Message
+from meshforge.store.settings import VlmSettings
 
 ANSWERS = "vlm"
 """Where answers are kept, below the journals."""
@@ -90,10 +92,10 @@ def vlm_blender(python: Path) -> Baseline:
 def played(baseline: Baseline, taught: Sequence[Session], settings: VlmSettings, tell: Tell) -> Played:
     """Ask a model in all sessions, and judge what it wrote; nothing is judged where some session is missing."""
     taught = sorted(taught, key=lambda row: row.task)  # so that a task's meshes are read once
-    client = Client(settings.endpoint(), JOURNALS / ANSWERS, max_cost=settings.max_cost)
+    client = Client(endpoint_of(settings), JOURNALS / ANSWERS, max_cost=settings.max_cost)
     with closing(client):
         answers = list(_answers(baseline, taught, client, baseline.room + settings.room, tell))
-    missing = [answer for answer in answers if isinstance(answer, AskingError)]
+    missing = [answer for answer in answers if isinstance(answer, QuestionError)]
     if missing:
         return Played(missing=len(missing), why=missing[0].sentence)
     written = [answer for answer in answers if isinstance(answer, Written)]
@@ -107,7 +109,7 @@ def played(baseline: Baseline, taught: Sequence[Session], settings: VlmSettings,
 
 def _answers(
     baseline: Baseline, taught: Sequence[Session], client: Client, room: int, tell: Tell
-) -> Iterator[Written | AskingError]:
+) -> Iterator[Written | QuestionError]:
     """What came of asking, session by session; task by task, so that meshes are read once."""
     count = 0
     with ThreadPoolExecutor(client.endpoint.concurrency) as pool:
@@ -119,11 +121,11 @@ def _answers(
                 yield answer
 
 
-def _answer(baseline: Baseline, bench: Bench, client: Client, room: int, row: Session) -> Written | AskingError:
+def _answer(baseline: Baseline, bench: Bench, client: Client, room: int, row: Session) -> Written | QuestionError:
     if client.end:
         return client.end
     try:
         with baseline.work(bench.task, demonstrated(bench, row)) as work:
             return refined(client, work.opening, work.tried, room)
-    except AskingError as error:
+    except QuestionError as error:
         return error

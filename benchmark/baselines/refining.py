@@ -7,8 +7,10 @@ from collections.abc import Callable
 from dataclasses import asdict, dataclass, field
 from typing import Any
 
-from meshforge.perception.vlm import Client, Message, Question, Reply, Usage
-from meshforge.perception.vlm.question import Part
+from meshforge.labels.vlm.client import Client
+from meshforge.labels.vlm.endpoint import TokenCount
+from meshforge.labels.vlm.request import Message, Part, VlmQuestion
+from meshforge.labels.vlm.transport import Reply
 
 ROUNDS = 5
 """Answers that a model may give: the first, and four that mend it."""
@@ -56,7 +58,7 @@ def refined(client: Client, opening: tuple[Message, ...], tried: Callable[[str],
     """
     written, messages, least = Written(), opening, 0
     while not written.fits and written.rounds < ROUNDS:
-        reply = client.ask(Question(messages, limit=room))
+        reply = client.ask(VlmQuestion(messages, limit=room))
         _count(written, reply)
         one = tried(reply.text)
         written.wrong.append(None if one.text is None else one.wrong)
@@ -76,7 +78,7 @@ def fenced(text: str) -> str:
 
 
 def _count(written: Written, reply: Reply) -> None:
-    usage = reply.usage or Usage()
+    usage = reply.usage or TokenCount()
     written.rounds += 1
     written.input, written.output = written.input + usage.input, written.output + usage.output
     written.cost += reply.cost

@@ -15,9 +15,8 @@ from benchmark.baselines.blender.process import Blender
 from benchmark.baselines.demonstrated import Shown
 from benchmark.baselines.refining import Tried, fenced
 from benchmark.tasks import Task
+from meshforge.labels.vlm.request import Message, Part
 from meshforge.language import show
-from meshforge.perception.vlm import Message
-from meshforge.perception.vlm.question import Part
 from meshforge.symbolic import EPSILON, Hull, SymbolicMesh
 
 NAME = "VLM Blender"
@@ -105,7 +104,7 @@ class Scripting:
 
     def _faults(self, script: str, one: Shown) -> Iterator[Part]:
         """What a script does otherwise than was shown on a mesh, with a picture of what came out."""
-        from meshforge.views import png
+        from meshforge.rendering import encode_png
 
         done = ran(self.blender, script, self.task, one.before)
         if done.mesh is None:
@@ -114,7 +113,7 @@ class Scripting:
         faults = differences(done.mesh, one.after)
         if faults:
             yield f"{one.name}: " + "; ".join(faults) + ". What came out, and what should have:"
-            yield png(showing.compared(done.mesh, one.after, self.task.program))
+            yield encode_png(showing.compared(done.mesh, one.after, self.task.program))
 
 
 @cache

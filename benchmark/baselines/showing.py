@@ -6,15 +6,15 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING
 
 from benchmark.baselines.demonstrated import Shown
+from meshforge.common import join_names, pluralize
 from meshforge.geometry import Aabb
 from meshforge.language import Program, Template
 from meshforge.symbolic import Hull, SymbolicMesh
-from meshforge.words import counted, listed
 
 if TYPE_CHECKING:
     from PIL.Image import Image
 
-    from meshforge.perception.vlm.question import Part
+    from meshforge.labels.vlm.request import Part
 
 _PICTURES, _SIZE = 2, 768  # numbered ones of a mesh; [px]
 _PAIR = (640, 560)
@@ -23,21 +23,21 @@ _FEW = 8  # made hulls that are told
 
 def told(shown: Sequence[Shown], frame: Program) -> Iterator[Part]:
     """All demonstrations, each with its hulls, its steps, and pictures before and after."""
-    from meshforge.views import png, shots
+    from meshforge.rendering import draw_labeling_pictures, encode_png
 
     for number, one in enumerate(shown, 1):
         yield f"## Demonstration {number}: {one.name}\n\n{described(one.before)}\n"
-        for shot in shots(one.before, most=_PICTURES, size=_SIZE):
+        for shot in draw_labeling_pictures(one.before, most=_PICTURES, size=_SIZE):
             yield f"{one.name} before, {shot.name}; hull_07 has the number 7."
-            yield png(shot.marked)
+            yield encode_png(shot.marked)
         yield f"What was done on {one.name}, step by step:\n{steps(one)}"
         yield f"{one.name} before and after all steps, coloured by label:"
-        yield png(_pair(one.before, one.after, frame))
+        yield encode_png(_pair(one.before, one.after, frame))
 
 
 def described(mesh: SymbolicMesh) -> str:
     """The symbolic mesh as text: a line a hull, with its label, its box, and what it touches."""
-    lines = [f"{counted(len(mesh.hulls), 'hull')}: name, label, box, hulls in contact with it"]
+    lines = [f"{pluralize(len(mesh.hulls), 'hull')}: name, label, box, hulls in contact with it"]
     for place, one in enumerate(mesh.hulls):
         near = [mesh.hulls[other].name for other in sorted(mesh.neighbours(place))]
         lines.append(f"{hull(one)}; {', '.join(near) or 'none'}")
@@ -53,7 +53,7 @@ def steps(shown: Shown) -> str:
         if not step.select:
             lines.append(f"{what}: on no hull of this mesh")
             continue
-        made = [hull(shown.stages[step.rule].named(name)) for name in shown.made(step.rule)]
+        made = [hull(shown.stages[step.rule].hull_of(name)) for name in shown.made(step.rule)]
         more = [f"and {len(made) - _FEW} more"] if len(made) > _FEW else []
         end = f"\n   made {'; '.join([*made[:_FEW], *more])}" if made else ""
         lines.append(f"{what}: on {', '.join(sorted(step.select))}{end}")
@@ -63,7 +63,8 @@ def steps(shown: Shown) -> str:
 def templates(given: Mapping[str, Template]) -> str:
     """The template files, with what they hold."""
     rows = [
-        f'"{name}": {counted(len(one.shapes), "hull")}, {_sides(one.aabb)} along X, Y, Z' for name, one in given.items()
+        f'"{name}": {pluralize(len(one.shapes), "hull")}, {_sides(one.aabb)} along X, Y, Z'
+        for name, one in given.items()
     ]
     return "\n".join(rows) or "none"
 
@@ -75,19 +76,19 @@ def compared(got: SymbolicMesh, wanted: SymbolicMesh, frame: Program) -> Image:
 
 def named(hulls: Sequence[Hull]) -> str:
     """Hulls by name and label."""
-    return listed([f"{one.name} ({one.label or 'no label'})" for one in hulls], most=12)
+    return join_names([f"{one.name} ({one.label or 'no label'})" for one in hulls], most=12)
 
 
 def _pair(
     first: SymbolicMesh, second: SymbolicMesh, frame: Program, titles: tuple[str, str] = ("before", "after")
 ) -> Image:
-    from meshforge.views import joint_bounds, render, sheet
+    from meshforge.rendering import joint_bounds, make_contact_sheet, render
 
     box = joint_bounds(first, second)
     images = [
         render(mesh, color_by="label", size=_PAIR, bounds=box, vocabulary=frame.labels) for mesh in (first, second)
     ]
-    return sheet(images, 2, titles)
+    return make_contact_sheet(images, 2, titles)
 
 
 def hull(one: Hull) -> str:

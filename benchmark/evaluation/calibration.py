@@ -16,9 +16,9 @@ from benchmark.evaluation.sessions import QUICK
 from benchmark.report import Goal, Result, Table, Tell
 from benchmark.study.labels import noisy, wrong
 from benchmark.tasks import task
-from meshforge.errors import MeshForgeError
+from meshforge.common import MeshForgeError
 from meshforge.geometry import distance
-from meshforge.language import Direction, Geo, Is, select, stage
+from meshforge.language import Direction, Geo, Is, select, to_canonical_frame
 from meshforge.symbolic import SymbolicMesh
 
 UPRIGHT: tuple[Direction, ...] = ("+Z", "-Z")
@@ -125,7 +125,7 @@ def _oriented(sample: Sample) -> SymbolicMesh | None:
     """The mesh as the category's hard task orients it, which may lean a little; None where it cannot be oriented."""
     try:
         orient = task(f"{sample.asset.category}-hard").program.orient
-        return stage(sample.mesh, orient, None)[0]
+        return to_canonical_frame(sample.mesh, orient, None)[0]
     except MeshForgeError:
         return None
 

@@ -19,7 +19,8 @@ from benchmark.evaluation.sessions import sessions
 from benchmark.given import Given
 from benchmark.report import Cell, Result, Table, Tell
 from benchmark.study import FULL, NOISY, Session
-from meshforge.project.labels.vlm.settings import VlmSettings
+from meshforge.labels import endpoint_of
+from meshforge.store.settings import VlmSettings
 
 _CONDITIONS = (FULL, NOISY)
 
@@ -53,7 +54,7 @@ def measure(tell: Tell, quick: bool, given: Given | None = None) -> Result:
         ),
     )
     whole = [(row.name, row.whole, row.name == agent.NAME) for row in rows if row.whole]
-    is_priced = settings is not None and settings.endpoint().is_priced
+    is_priced = settings is not None and endpoint_of(settings).is_priced
     return Result(
         "comparison",
         "RQ2: comparison",
@@ -128,6 +129,6 @@ def _notes(rows: Sequence[_Row], settings: VlmSettings | None) -> Iterator[str]:
             "limits what one run may spend on each baseline."
         )
     else:
-        endpoint = settings.endpoint()
+        endpoint = endpoint_of(settings)
         yield f"The model asked: {endpoint.model}, at temperature 0."
     yield paper.CONDITIONS

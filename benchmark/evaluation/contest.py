@@ -12,7 +12,7 @@ from benchmark.learning.search_tables import Row, by_group, by_size, contest_goa
 from benchmark.learning.task_cases import task_cases
 from benchmark.report import Goal, Result, Tell
 from benchmark.study import REPORTED
-from meshforge.words import counted
+from meshforge.common import pluralize
 
 SHOWN = (1, 3)
 """Meshes on which each rule is shown."""
@@ -28,7 +28,7 @@ def measure(tell: Tell, quick: bool) -> Result:
         seconds = contest.seconds(1 if quick else _ROUNDS)
         names.append((case.family, len(case.shown)))
         rows.append(
-            Row(f"shown on {counted(len(case.shown), 'mesh', 'meshes')}", seconds, contest.sizes(), contest.alarms)
+            Row(f"shown on {pluralize(len(case.shown), 'mesh', 'meshes')}", seconds, contest.sizes(), contest.alarms)
         )
         details.append({"task": case.family, **contest.to_json(seconds)})
         tell(f"contest: {len(rows)} rules, {case.family}")

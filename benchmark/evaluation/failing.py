@@ -9,9 +9,9 @@ from benchmark.assets.looking import upright
 from benchmark.report import Table
 from benchmark.study import CONDITIONS, Bench, Session
 from benchmark.tasks import Edited, task
-from meshforge.language import Program, Rule, show, size
+from meshforge.language import Program, Rule, show, size_of
+from meshforge.rendering import joint_bounds, make_contact_sheet, render
 from meshforge.symbolic import SymbolicMesh
-from meshforge.views import joint_bounds, render, sheet
 
 if TYPE_CHECKING:
     from PIL.Image import Image
@@ -58,7 +58,7 @@ def reason(row: Session) -> str:
 
 
 def _why(learned: Rule, wanted: Rule, noisy: bool) -> str:
-    ours, theirs = size(learned.extractor), size(wanted.extractor)
+    ours, theirs = size_of(learned.extractor), size_of(wanted.extractor)
     if ours > theirs:
         return "a larger rule was learned, under noisy labels" if noisy else "a larger rule fits as well"
     if ours < theirs:
@@ -92,7 +92,7 @@ def pictures(rows: Sequence[Session], most: int = 12) -> Iterator[tuple[str, Ima
                 for mesh in meshes
             ]
             told = f"{row.task}, {name}, {row.condition}, seed {row.seed}"
-            yield told, sheet(images, 3, ["before", "as learned", "as meant"])
+            yield told, make_contact_sheet(images, 3, ["before", "as learned", "as meant"])
 
 
 def _shown(row: Session) -> tuple[str, SymbolicMesh, SymbolicMesh, SymbolicMesh] | None:

@@ -13,9 +13,9 @@ from benchmark.evaluation.journal import JOURNALS, ROOT, done
 from benchmark.evaluation.sessions import QUICK
 from benchmark.report import Result, Table, Tell
 from benchmark.tasks import Edited, Task, task, tasks
-from meshforge.files import write_atomically
+from meshforge.common import write_atomically
+from meshforge.rendering import encode_webp, joint_bounds, render
 from meshforge.symbolic import SymbolicMesh
-from meshforge.views import joint_bounds, render, webp
 
 GALLERY = ROOT / "benchmark" / "gallery"
 _SIDE, _HANDFUL = 194, 4
@@ -98,7 +98,7 @@ def _cells(one: Task, sample: Sample, folder: Path, pictures: list[str]) -> Iter
                        vocabulary=one.program.labels)  # fmt: skip
         path = folder / "pictures" / f"{one.name}-{sample.name}-{k}.webp"
         path.parent.mkdir(parents=True, exist_ok=True)
-        write_atomically(path, webp(image))
+        write_atomically(path, encode_webp(image))
         pictures.append(path.name)
         told = escape(f"{sample.name} ({sample.asset.kind}), {len(mesh.hulls)} hulls" if not k else _rule(one, k))
         verdict = _verdict(why[0]) if not k else _verdict(why[1]) if k == len(shown) - 1 else ""

@@ -14,8 +14,8 @@ from benchmark.evaluation.sessions import QUICK
 from benchmark.report import Result, as_text
 from benchmark.study import Session
 from benchmark.tasks import task, tasks
-from meshforge.files import write_atomically
-from meshforge.views import before_after, sheet, write_png
+from meshforge.common import write_atomically
+from meshforge.rendering import draw_before_after, make_contact_sheet, write_png
 
 if TYPE_CHECKING:
     from PIL.Image import Image
@@ -69,18 +69,19 @@ def pictures(folder: Path, results: Mapping[str, Result], quick: bool) -> None:
     folder.mkdir(parents=True, exist_ok=True)
     every = [one for one in tasks() if not quick or one.category == QUICK]
     shown = [
-        before_after(upright(sample), after, size=(200, 160), vocabulary=task(name).program.labels)
+        draw_before_after(upright(sample), after, size=(200, 160), vocabulary=task(name).program.labels)
         for name, sample, after in overview(every)
     ]
-    write_png(folder / "tasks.png", sheet(shown, 3, [one.name for one in every]))
+    write_png(folder / "tasks.png", make_contact_sheet(shown, 3, [one.name for one in every]))
     ended = [Session.of_json(row) for row in results["effectiveness"].details] if "effectiveness" in results else []
     if otherwise := list(failing.pictures(ended)):
         captions, images = zip(*otherwise, strict=True)
-        write_png(folder / "sessions.png", sheet(images, 2, captions))
+        write_png(folder / "sessions.png", make_contact_sheet(images, 2, captions))
     meshes = _failing(results["ceiling"]) if "ceiling" in results else []
     if meshes:
         write_png(
-            folder / "failures.png", sheet([_failed(*row) for row in meshes], 2, [f"{a}, {b}" for a, b in meshes])
+            folder / "failures.png",
+            make_contact_sheet([_failed(*row) for row in meshes], 2, [f"{a}, {b}" for a, b in meshes]),
         )
 
 
@@ -97,4 +98,4 @@ def _failed(name: str, mesh: str) -> Image:
     sample = next(row for row in one.samples() if row.name == mesh)
     edited = one.run(one.program, sample.mesh)
     after = upright(sample, edited.mesh) if edited.mesh else upright(sample)
-    return before_after(upright(sample), after, size=(260, 200), vocabulary=one.program.labels)
+    return draw_before_after(upright(sample), after, size=(260, 200), vocabulary=one.program.labels)

@@ -121,7 +121,7 @@ def _stretched(mesh: SymbolicMesh, rng: np.random.Generator) -> SymbolicMesh:
     """The mesh with every side longer or shorter by up to a tenth."""
     linear = np.diag(np.exp(rng.uniform(-0.1, 0.1, 3)))
     return SymbolicMesh(
-        tuple(Hull(h.name, h.body, h.shape.mapped(linear, np.zeros(3)), h.annotation) for h in mesh.hulls)
+        tuple(Hull(h.name, h.body, h.shape.transform(linear, np.zeros(3)), h.annotation) for h in mesh.hulls)
     )
 
 
@@ -140,11 +140,11 @@ def _with_hulls(mesh: SymbolicMesh, count: int) -> SymbolicMesh:
 def _with_labels(mesh: SymbolicMesh, count: int, one: Task, rng: np.random.Generator) -> SymbolicMesh:
     """The mesh with so many labels: others than the rules' become `misc`, or small boxes of new ones lie beside it."""
     kept = sorted(one.labels | {"misc"})
-    hulls = [h if h.label in kept else h.labelled(Label("misc", 1.0, "file")) for h in mesh.hulls]
+    hulls = [h if h.label in kept else h.with_label(Label("misc", 1.0, "file")) for h in mesh.hulls]
     low = mesh.aabb.max + 0.1 if mesh.aabb else np.zeros(3)
     for k in range(count - len(kept)):
         corner = low + rng.uniform(0.0, 0.3, 3)
-        shape: Polytope | Box = Box.filling(Aabb(corner, corner + 0.02))
+        shape: Polytope | Box = Box.of_bounds(Aabb(corner, corner + 0.02))
         hulls.append(Hull(f"extra_{k}", "body", shape, Label(f"extra{k}", 1.0, "file")))
     return SymbolicMesh(tuple(hulls))
 

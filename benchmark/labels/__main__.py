@@ -7,9 +7,8 @@ from pathlib import Path
 
 from benchmark.assets import CATEGORIES, samples
 from benchmark.labels.fitting import fitted, rows_of
-from meshforge.files import write_atomically
-from meshforge.perception import propagation
-from meshforge.perception.propagation.metric import FILE
+from meshforge.common import write_atomically
+from meshforge.labels.propagation import propagate
 
 _ABOUT = "made by `python -m benchmark.labels` on the calibration set of the benchmark"
 
@@ -18,7 +17,7 @@ def main() -> None:
     """Write the file."""
     weights = fitted([rows_of(samples(category, calibration=True)) for category in CATEGORIES])
     data = {"about": _ABOUT, "weights": [round(float(weight), 4) for weight in weights]}
-    write_atomically(Path(propagation.__file__).parent / FILE, json.dumps(data, indent=1) + "\n")
+    write_atomically(Path(propagate.__file__).parent / propagate.METRIC_FILE, json.dumps(data, indent=1) + "\n")
 
 
 if __name__ == "__main__":

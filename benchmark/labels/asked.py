@@ -11,8 +11,14 @@ from time import perf_counter
 from benchmark.evaluation.journal import JOURNALS
 from benchmark.labels.methods import Labels, Method, Told
 from benchmark.labels.sampling import Family
-from meshforge.perception.vlm import Client, Endpoint, Labeller, Question, Reply, Said
-from meshforge.project.labels.vlm.settings import VlmSettings
+from meshforge.labels.vlm.answer import VlmAnswers
+from meshforge.labels.vlm.client import Client
+from meshforge.labels.vlm.endpoint import Endpoint, endpoint_of
+from meshforge.labels.vlm.labeller import Labeller
+from meshforge.labels.vlm.prompt import prompt_config_of
+from meshforge.labels.vlm.request import VlmQuestion
+from meshforge.labels.vlm.transport import Reply
+from meshforge.store.settings import VlmSettings
 from meshforge.symbolic import SymbolicMesh
 
 
@@ -24,7 +30,7 @@ class CountingClient(Client):
         self.cost = 0.0
         self._counting = threading.Lock()
 
-    def ask(self, question: Question) -> Reply:
+    def ask(self, question: VlmQuestion) -> Reply:
         reply = super().ask(question)
         with self._counting:
             self.cost += reply.cost
@@ -44,21 +50,21 @@ class Asked:
 
     def _told(self, family: Family, repeat: int) -> Told:
         """Each repeat has its own answers on disk, so that it is asked anew, yet goes on where it was interrupted."""
-        endpoint, most = self.settings.endpoint(), self.settings.max_cost
+        endpoint, most = endpoint_of(self.settings), self.settings.max_cost
         left = None if most is None else max(0.0, most - self.spent)
-        manner = self.settings.model_copy(update={"about": "", "descriptions": {}}).manner(family.vocabulary)
+        manner = prompt_config_of(self.settings.model_copy(update={"about": "", "descriptions": {}}), family.vocabulary)
         started = perf_counter()
         client = CountingClient(endpoint, JOURNALS / "vlm" / f"labels-{repeat}", left)
         with closing(client), closing(Labeller(client, manner)) as labeller:
             pending = [labeller.begin(family.bare[place]) for place in family.drawn]
-            said = [one.said() for one in pending]
-        self.spent += client.bill.cost or 0.0
+            said = [one.result() for one in pending]
+        self.spent += client.usage.cost or 0.0
         labels = tuple(_labels(family.bare[place], one) for place, one in zip(family.drawn, said, strict=True))
         why = next((problem for one in said for problem in one.failed), "")
         cost = client.cost if endpoint.is_priced else None
         return Told(labels, perf_counter() - started, cost, sum(bool(one.failed) for one in said), why)
 
 
-def _labels(mesh: SymbolicMesh, said: Said) -> Labels:
+def _labels(mesh: SymbolicMesh, said: VlmAnswers) -> Labels:
     found = {name: label.name for name, label in said.labels.items()}
     return tuple(found.get(hull.name) for hull in mesh.hulls)

@@ -11,9 +11,8 @@ from scipy.optimize import minimize
 
 from benchmark.assets import Sample
 from meshforge.geometry import Floats
-from meshforge.perception.propagation.describe import WIDTH
-from meshforge.perception.propagation.family import Scale
-from meshforge.perception.propagation.sketch import Sketcher
+from meshforge.label_model.family import ColumnScale
+from meshforge.labels.propagation.describe import ROW_WIDTH, MeshDescriber
 
 PURE = 0.8
 """Hulls of a lower purity teach nothing, and are not counted."""
@@ -40,9 +39,9 @@ class Rows:
 def rows_of(samples: Sequence[Sample]) -> Rows:
     """The hulls of some samples."""
     sizes = [len(sample.mesh.hulls) for sample in samples]
-    rows = np.concatenate([Sketcher(sample.mesh).sketch().rows for sample in samples])
+    rows = np.concatenate([MeshDescriber(sample.mesh).describe().rows for sample in samples])
     return Rows(
-        Scale.of(rows)(rows),
+        ColumnScale.of(rows)(rows),
         np.array([hull.label for sample in samples for hull in sample.mesh.hulls]),
         np.array([purity >= PURE for sample in samples for purity in sample.purities]),
         np.repeat(np.arange(len(samples)), sizes),
@@ -58,14 +57,14 @@ def fitted(families: Sequence[Rows], seed: int = 0) -> Floats:
     """
     draw = np.random.default_rng(seed)
     episodes = [_episode(family, draw) for family in families for _ in range(_EPISODES)]
-    start = np.full(WIDTH, np.log(_START))
+    start = np.full(ROW_WIDTH, np.log(_START))
 
     def cost(logs: Floats) -> tuple[float, Floats]:
         weights = np.exp(logs)
         told = [_surprise(apart, same, weights) for apart, same in episodes]
         strayed = logs - start
         total = np.mean([surprise for surprise, _ in told]) + _STRAYING * np.mean(strayed**2)
-        slope = np.mean([slope for _, slope in told], axis=0) * weights + 2 * _STRAYING * strayed / WIDTH
+        slope = np.mean([slope for _, slope in told], axis=0) * weights + 2 * _STRAYING * strayed / ROW_WIDTH
         return float(total), slope
 
     found = minimize(cost, start, jac=True, method="L-BFGS-B", options={"maxiter": _STEPS})

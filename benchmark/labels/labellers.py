@@ -11,7 +11,7 @@ from benchmark.labels.methods import Method, offline
 from benchmark.labels.sampling import Family, families
 from benchmark.labels.scores import Score, scored
 from benchmark.report import Cell, Result, Table, Tell
-from meshforge.project.labels.vlm.settings import VlmSettings
+from meshforge.store.settings import VlmSettings
 
 _QUICK = 8  # meshes
 _COLUMNS = (

@@ -10,8 +10,8 @@ from pathlib import Path
 from time import perf_counter
 
 from benchmark.labels.sampling import LABELLED, Family
-from meshforge.errors import UsageError
-from meshforge.perception.names import Names, told
+from meshforge.common import UsageError
+from meshforge.labels.names.hull_names import HullNames, match_names
 from meshforge.symbolic import Label, SymbolicMesh
 from meshforge.symbolic.label_file import read_labels
 
@@ -60,7 +60,7 @@ def offline(folders: Sequence[Path]) -> list[Method]:
 def _propagated(count: int, family: Family, repeat: int) -> Told:
     labelled = family.told(family.advised[:count])
     started = perf_counter()
-    found = family.relatives.propagated(labelled)
+    found = family.relatives.propagate(labelled)
     seconds = perf_counter() - started
     return Told(tuple(tuple(map(_name, found.labels(place))) for place in family.drawn), seconds)
 
@@ -72,7 +72,7 @@ def _named(family: Family, repeat: int) -> Told:
 
 
 def _by_names(mesh: SymbolicMesh, vocabulary: Sequence[str]) -> Labels:
-    said = (told(Names(hull.name, hull.body), vocabulary) for hull in mesh.hulls)
+    said = (match_names(HullNames(hull.name, hull.body), vocabulary) for hull in mesh.hulls)
     return tuple(one.label if one else None for one in said)
 
 

@@ -14,11 +14,10 @@ from benchmark.assets import CATEGORIES, Sample, samples
 from benchmark.labels.fitting import PURE, fitted, rows_of
 from benchmark.report import Cell, Goal, Result, Table, Tell
 from meshforge.geometry import Floats, Pose
-from meshforge.perception import Propagated, Relatives
-from meshforge.perception.propagation.agreement import agreeing
-from meshforge.perception.propagation.family import Family, Scale
-from meshforge.perception.propagation.likeness import by_likeness
-from meshforge.perception.propagation.metric import weights
+from meshforge.label_model.family import ColumnScale, FamilyTable
+from meshforge.label_model.posterior import refine_by_neighbors, vote_by_similarity
+from meshforge.labels import FamilyPosterior, Propagator
+from meshforge.labels.propagation.propagate import metric_weights
 from meshforge.symbolic import SymbolicMesh, descriptors
 
 COUNTS = (1, 2, 3, 5)
@@ -40,7 +39,7 @@ class Known:
     """A category with all that is known of it. plain: rows of `descriptors`; asset: of each hull, by number."""
 
     name: str
-    relatives: Relatives
+    relatives: Propagator
     plain: Floats
     truth: Strings
     pure: Bools
@@ -48,7 +47,7 @@ class Known:
     seconds: float
 
     @property
-    def family(self) -> Family:
+    def family(self) -> FamilyTable:
         return self.relatives.family
 
     def told(self, meshes: Sequence[int]) -> list[str | None]:
@@ -61,7 +60,7 @@ class Known:
         """The meshes that are labelled by somebody who always takes the one that is advised, in this order."""
         meshes: list[int] = []
         while len(meshes) < max(COUNTS):
-            meshes += self.relatives.propagated(self.told(meshes)).next_to_label()
+            meshes += self.relatives.propagate(self.told(meshes)).next_to_label()
         return tuple(meshes)
 
     def drawn(self, count: int, seed: int) -> list[int]:
@@ -115,14 +114,14 @@ def _known(name: str, rows: Sequence[Sample], tell: Tell, turns: Sequence[Pose] 
     for mesh in meshes:
         assert mesh.contacts is not None
     started = perf_counter()
-    relatives = Relatives(meshes)
+    relatives = Propagator(meshes)
     seconds = perf_counter() - started
     places = {asset: place for place, asset in enumerate(dict.fromkeys(sample.asset.name for sample in rows))}
     plain = descriptors(meshes)
     return Known(
         name,
         relatives,
-        Scale.of(plain)(plain),
+        ColumnScale.of(plain)(plain),
         np.array([hull.label for mesh in meshes for hull in mesh.hulls]),
         np.array([purity >= PURE for sample in rows for purity in sample.purities]),
         np.array([places[sample.asset.name] for sample in rows], dtype=np.int64)[relatives.family.owner],
@@ -132,18 +131,20 @@ def _known(name: str, rows: Sequence[Sample], tell: Tell, turns: Sequence[Pose] 
 
 def _propagated(metric: Floats | None = None) -> Guess:
     def guess(known: Known, told: Told) -> tuple[Strings, Floats]:
-        return _likeliest(known.relatives.propagated(told, metric))
+        return _likeliest(known.relatives.propagate(told, metric))
 
     return guess
 
 
 def _as_it_lies(known: Known, told: Told) -> tuple[Strings, Floats]:
     """Propagation that takes each mesh to stand as it seems to."""
-    family = known.family.taught(told)
-    return _likeliest(Propagated(family, agreeing(family, by_likeness(family, weights()))))
+    family = known.family.with_labels(told)
+    return _likeliest(
+        FamilyPosterior(family, refine_by_neighbors(family, vote_by_similarity(family, metric_weights())))
+    )
 
 
-def _likeliest(found: Propagated) -> tuple[Strings, Floats]:
+def _likeliest(found: FamilyPosterior) -> tuple[Strings, Floats]:
     return np.array(found.family.labels)[found.chances.argmax(axis=1)], found.chances.max(axis=1)
 
 
@@ -226,7 +227,7 @@ def _lying(tell: Tell) -> Table:
 
 
 def _turned(mesh: SymbolicMesh, turn: Pose) -> SymbolicMesh:
-    return SymbolicMesh(tuple(hull.moved(turn) for hull in mesh.hulls))
+    return SymbolicMesh(tuple(hull.move(turn) for hull in mesh.hulls))
 
 
 def _left_out(tell: Tell) -> Table:

@@ -17,10 +17,9 @@ import numpy as np
 
 from benchmark.assets import CATEGORIES, Sample, samples
 from benchmark.tasks import task
-from meshforge.errors import UsageError
-from meshforge.files import write_atomically
+from meshforge.common import UsageError, write_atomically
 from meshforge.formats import save
-from meshforge.perception import Relatives
+from meshforge.labels import Propagator
 from meshforge.symbolic import SymbolicMesh
 
 LABELLED = 3
@@ -49,7 +48,7 @@ class Family:
         return _bare(self.name)
 
     @property
-    def relatives(self) -> Relatives:
+    def relatives(self) -> Propagator:
         """The meshes as propagation sees them."""
         return _relatives(self.name)
 
@@ -87,19 +86,19 @@ def families(count: int, names: tuple[str, ...] = CATEGORIES) -> list[Family]:
 
 @cache
 def _bare(name: str) -> tuple[SymbolicMesh, ...]:
-    return tuple(sample.mesh.labelled(dict.fromkeys(sample.mesh.index)) for sample in samples(name))
+    return tuple(sample.mesh.with_labels(dict.fromkeys(sample.mesh.index)) for sample in samples(name))
 
 
 @cache
-def _relatives(name: str) -> Relatives:
-    return Relatives(_bare(name))
+def _relatives(name: str) -> Propagator:
+    return Propagator(_bare(name))
 
 
 @cache
 def _advised(name: str) -> tuple[int, ...]:
     chosen = list[int]()
     while len(chosen) < LABELLED:
-        chosen += _relatives(name).propagated(_told(name, chosen)).next_to_label()
+        chosen += _relatives(name).propagate(_told(name, chosen)).next_to_label()
     return tuple(chosen)
 
 

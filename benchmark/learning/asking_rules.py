@@ -11,8 +11,8 @@ from benchmark.learning.cases import Case, learned, name_of
 from benchmark.learning.programs import Wanted
 from benchmark.learning.talk import talk
 from benchmark.report import Cell, Table
-from meshforge.language import Delete, Program, Rule, select_mask, show, size
-from meshforge.synthesis import Options, Outcome
+from meshforge.language import Delete, Program, Rule, select_mask, show, size_of
+from meshforge.synthesis import LearningOutcome, Options
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,7 +53,7 @@ def asked(case: Case, count: int) -> Asked:
         f"{case.family}: {show(case.hidden)}",
         count,
         len(weighed.terms),
-        size(case.hidden) <= smallest.size + Options().above,
+        size_of(case.hidden) <= smallest.size + Options().above,
         any(term.bits == truth for term in weighed.terms),
         smallest.bits == truth,
         weighed.terms[believed].bits == truth,
@@ -72,7 +72,7 @@ def _task(case: Case) -> Wanted:
     return Wanted(case.family, program, {name_of(k): mesh for k, mesh in enumerate(case.meshes)}, {})
 
 
-def _wrong(case: Case, outcome: Outcome) -> float:
+def _wrong(case: Case, outcome: LearningOutcome) -> float:
     """The share of the meshes on which what was learned selects something else than the hidden extractor."""
     extractor = outcome.rules[0].extractor
     return mean(select_mask(extractor, mesh) != mask for mesh, mask in zip(case.meshes, case.masks, strict=True))

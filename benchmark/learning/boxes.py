@@ -9,12 +9,12 @@ import numpy as np
 
 from benchmark.learning.cases import Case
 from meshforge.geometry import Aabb, Box
-from meshforge.language import Extractor, parse_extractor, select_mask, size
+from meshforge.language import Extractor, parse_extractor, select_mask, size_of
 from meshforge.symbolic import Hull, Label, SymbolicMesh
 
 LABELS = tuple("abcdefghijkl")
 SIZED: dict[int, Extractor] = {
-    size(extractor): extractor
+    size_of(extractor): extractor
     for extractor in map(
         parse_extractor,
         (
@@ -48,7 +48,7 @@ def _mesh(draw: np.random.Generator, hulls: int, labels: Sequence[str]) -> Symbo
     names = draw.integers(0, len(labels), hulls)
     mesh = SymbolicMesh(
         tuple(
-            Hull(f"h{k}", "body", Box.filling(Aabb(low, low + sides)), Label(labels[name], 1.0, "file"))
+            Hull(f"h{k}", "body", Box.of_bounds(Aabb(low, low + sides)), Label(labels[name], 1.0, "file"))
             for k, (low, sides, name) in enumerate(zip(lows.astype(float), sizes.astype(float), names, strict=True))
         )
     )

@@ -20,10 +20,11 @@ from benchmark.learning.cases import Case, cases
 from benchmark.learning.task_cases import QUICK, task_cases
 from benchmark.report import Cell, Result, Table, Tell
 from meshforge.geometry import Floats
-from meshforge.synthesis.readings import belief, every
-from meshforge.synthesis.readings.evidence import evidence, unneeded
-from meshforge.synthesis.search import Hit
-from meshforge.synthesis.search.term import Term
+from meshforge.synthesis.readings import belief
+from meshforge.synthesis.readings.belief import count_idle, measure_evidence
+from meshforge.synthesis.readings.enumeration import enumerate_consistent
+from meshforge.synthesis.search.smallest import Hit
+from meshforge.synthesis.search.terms import Term
 
 WEIGHTS = ("NODE", "ALL", "UPRIGHT", "SIDEWAYS", "SELF", "UNTRIED", "UNNEEDED", "IDLE", "STRANGE")
 FITTED, JUDGED = range(3), range(3, 5)
@@ -91,19 +92,19 @@ def _rule(case: Case) -> Rule | None:
     search = case.search()
     found = search.run()
     assert isinstance(found, Hit)
-    terms = every(search, found.extractor, search.options.above).terms
+    terms = enumerate_consistent(search, found.extractor, search.options.above).terms
     truth = search.field.bits(case.hidden)
     right = next((k for k, term in enumerate(terms) if term.bits == truth), None)
     if right is None or len(terms) == 1:
         return None
-    facts = evidence(search.field, search.selections, [term.bits for term in terms])
+    facts = measure_evidence(search.field, search.selections, [term.bits for term in terms])
     shown = (1 << search.width) - 1
-    idle = [unneeded(term, shown, search.field) for term in terms]
+    idle = [count_idle(term, shown, search.field) for term in terms]
 
     def column(name: str) -> Floats:
         alone: dict[str, Any] = {other: float(other == name) for other in WEIGHTS}
         with patch.multiple(belief, **alone):
-            shares = belief.beliefs(terms, facts, shown, len(case.rest()), None, idle)
+            shares = belief.compute_beliefs(terms, facts, shown, len(case.rest()), None, idle)
         nats: Floats = -np.log(np.array(shares))
         return nats
 
@@ -133,7 +134,7 @@ def _fitted(rules: Sequence[Rule], columns: Sequence[int] | None = None) -> Floa
 
 def _judged(name: str, weights: Floats, fitting: Sequence[Rule], judging: Sequence[Rule]) -> tuple[Cell, ...]:
     believed = [int(rule.shares(weights).argmax()) == rule.right for rule in judging]
-    taken = [belief.taken(rule.terms, rule.shares(weights).tolist()) == rule.right for rule in judging]
+    taken = [belief.choose_reading(rule.terms, rule.shares(weights).tolist()) == rule.right for rule in judging]
     return (name, _surprise(weights, fitting), _surprise(weights, judging), percent(believed), percent(taken))
 
 

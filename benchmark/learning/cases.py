@@ -11,11 +11,11 @@ from benchmark.learning.families import FAMILIES, VOCABULARIES, family
 from benchmark.learning.hidden import hidden
 from meshforge.language import Extractor, select_mask, show
 from meshforge.symbolic import SymbolicMesh
-from meshforge.synthesis.example import Example
-from meshforge.synthesis.options import Options
-from meshforge.synthesis.readings import Weighed, every
-from meshforge.synthesis.search import Hit, Search
-from meshforge.synthesis.watch import Watch
+from meshforge.synthesis.demonstration import Example
+from meshforge.synthesis.options import Options, TimeBudget
+from meshforge.synthesis.readings.enumeration import enumerate_consistent
+from meshforge.synthesis.readings.rank import RankedReadings
+from meshforge.synthesis.search.smallest import Hit, Search
 
 FAMILY = 30
 """Meshes of a family."""
@@ -45,7 +45,7 @@ class Case:
     def search(self, also: Sequence[int] = (), options: Options | None = None, batch: bool = True) -> Search:
         """The search for the rule's extractor; batch: False leaves the meshes out that nothing is known about."""
         rest = [self.meshes[k] for k in self.rest(also)] if batch else []
-        return Search(self.examples(also), self.vocabulary, Watch(_LONG), options or Options(), batch=rest)
+        return Search(self.examples(also), self.vocabulary, TimeBudget(_LONG), options or Options(), batch=rest)
 
 
 def name_of(place: int) -> str:
@@ -53,11 +53,11 @@ def name_of(place: int) -> str:
     return f"mesh {place:04}"
 
 
-def learned(search: Search) -> Weighed:
+def learned(search: Search) -> RankedReadings:
     """The readings of a rule, as a lesson makes them."""
     found = search.run()
     assert isinstance(found, Hit), "there is an extractor: the hidden one"
-    return Weighed(search, every(search, found.extractor, search.options.above))
+    return RankedReadings(search, enumerate_consistent(search, found.extractor, search.options.above))
 
 
 @cache

@@ -12,14 +12,15 @@ from typing import Any
 from benchmark.clock import Run, in_turns
 from benchmark.learning.cases import Case, learned, name_of
 from benchmark.learning.sygus import cvc5_problem
-from meshforge.language import Extractor, show, size
-from meshforge.synthesis.correction import Correction
-from meshforge.synthesis.options import Options
-from meshforge.synthesis.paper import paper_search
-from meshforge.synthesis.readings import Weighed, every
-from meshforge.synthesis.repair import Explanation, Labels, explain
-from meshforge.synthesis.search import Hit
-from meshforge.synthesis.watch import Watch
+from meshforge.label_model.odds import LabelBeliefs
+from meshforge.language import Extractor, show, size_of
+from meshforge.synthesis.options import Options, TimeBudget
+from meshforge.synthesis.paper.search import PaperSearch
+from meshforge.synthesis.questions import LabelCorrection
+from meshforge.synthesis.readings.enumeration import enumerate_consistent
+from meshforge.synthesis.readings.rank import RankedReadings
+from meshforge.synthesis.repair.explain import CorrectionSearch, Explanation
+from meshforge.synthesis.search.smallest import Hit
 
 ALONE, READINGS, REPAIR = "MeshForge, search alone", "MeshForge, search and readings", "MeshForge, repair on"
 PAPER, PAPER_REPAIR, CVC5 = "the paper's, repair off", "the paper's, repair on", "cvc5"
@@ -55,7 +56,7 @@ class Contest:
 
     def sizes(self) -> dict[str, int | None]:
         """The sizes of what was found."""
-        return {name: size(found) if found else None for name, found in self.answers.items()}
+        return {name: size_of(found) if found else None for name, found in self.answers.items()}
 
     def to_json(self, seconds: dict[str, float]) -> dict[str, Any]:
         found = {name: show(extractor) if extractor else None for name, extractor in self.answers.items()}
@@ -78,13 +79,15 @@ class Contest:
         found = search.run()
         assert isinstance(found, Hit)
         self.alarms = bool(self._explained(found.extractor))
-        return _smallest(Weighed(search, every(search, found.extractor, search.options.above)))
+        return _smallest(RankedReadings(search, enumerate_consistent(search, found.extractor, search.options.above)))
 
     def _explained(self, exact: Extractor) -> Explanation | None:
         case = self.case
         known, rest = ({name_of(k): case.meshes[k] for k in some} for some in (case.shown, case.rest()))
-        labels = Labels(known, rest, case.vocabulary)
-        return explain(case.examples(), case.vocabulary, labels, Options(), Watch(self.limit), exact=exact)
+        labels = LabelBeliefs(known, rest, case.vocabulary)
+        return CorrectionSearch(
+            case.examples(), case.vocabulary, labels, Options(), TimeBudget(self.limit), exact=exact
+        ).run()
 
     def _paper(self, repair: bool) -> Extractor | None:
         """With repair on it asks about every label it would correct, and the answer is no: all are right."""
@@ -92,7 +95,7 @@ class Contest:
             return None  # what it does not finish without repair it does not finish with it
         options = Options(strategy="paper", repair=repair)
         examples, vocabulary = self.case.examples(), self.case.vocabulary
-        found = paper_search(examples, vocabulary, Watch(self.limit), options, confirm=_no)
+        found = PaperSearch(examples, vocabulary, TimeBudget(self.limit), options, confirm=_no).run()
         return found.extractor if isinstance(found, Hit) else None
 
     def _cvc5(self) -> Callable[[], object]:
@@ -100,9 +103,9 @@ class Contest:
         return self._noted(CVC5, solve)()
 
 
-def _smallest(weighed: Weighed) -> Extractor:
+def _smallest(weighed: RankedReadings) -> Extractor:
     return weighed.consistent.terms[0].extractor
 
 
-def _no(_: Correction) -> bool:
+def _no(_: LabelCorrection) -> bool:
     return False

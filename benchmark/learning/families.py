@@ -25,7 +25,7 @@ class Builder:
             start, side = list(low), list(size)
             side[axis] = size[axis] / cuts
             start[axis] = low[axis] + k * side[axis]
-            shape = Box.filling(Aabb(start, [a + b for a, b in zip(start, side, strict=True)]))
+            shape = Box.of_bounds(Aabb(start, [a + b for a, b in zip(start, side, strict=True)]))
             self._hulls.append(Hull(f"h{len(self._hulls)}", "body", shape, Label(label, 1.0, "file")))
 
     def chance(self, share: float) -> bool:

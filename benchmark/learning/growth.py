@@ -12,8 +12,9 @@ import numpy as np
 from benchmark.clock import in_turns
 from benchmark.learning.boxes import SIZED, boxes_case
 from benchmark.report import Cell, Goal, Result, Table, Tell
-from meshforge.synthesis.readings import Weighed, every
-from meshforge.synthesis.search import Hit, Search
+from meshforge.synthesis.readings.enumeration import enumerate_consistent
+from meshforge.synthesis.readings.rank import RankedReadings
+from meshforge.synthesis.search.smallest import Hit, Search
 
 _ROUNDS = 3
 _SLOW = 0.5  # seconds of a turn that is not taken again
@@ -99,7 +100,7 @@ def _largest(tell: Tell, quick: bool) -> Iterator[Point]:
 
 def _point(setting: Setting, rounds: int) -> Point:
     case = boxes_case(setting.nodes, setting.meshes, setting.demonstrated, setting.hulls, setting.labels)
-    found: list[Weighed] = []
+    found: list[RankedReadings] = []
     searches: list[tuple[Search, Hit]] = []
 
     def search() -> None:
@@ -110,7 +111,9 @@ def _point(setting: Setting, rounds: int) -> Point:
 
     def weigh() -> None:
         searching, answer = searches[-1]
-        found.append(Weighed(searching, every(searching, answer.extractor, searching.options.above)))
+        found.append(
+            RankedReadings(searching, enumerate_consistent(searching, answer.extractor, searching.options.above))
+        )
 
     times = in_turns({"search": lambda: search, "readings": lambda: weigh}, rounds, slow=_SLOW)
     field, consistent = found[-1].field, found[-1].consistent

@@ -11,8 +11,8 @@ from benchmark.learning.families import FAMILIES, VOCABULARIES
 from benchmark.learning.tables import DEMONSTRATED, PROGRAM, stretched, templates
 from meshforge.language import Program, Rule, Template, select
 from meshforge.symbolic import SymbolicMesh
-from meshforge.synthesis import Demonstration, Outcome, Step
-from meshforge.synthesis.replay import Replay, advanced, begun
+from meshforge.synthesis import Demonstration, LearningOutcome, Step
+from meshforge.synthesis.replay import Replay, advance, begin_replay
 
 _TEXTS: dict[str, tuple[str, ...]] = {
     "table": (
@@ -69,12 +69,14 @@ class Wanted:
     def met(self, asset: str, rules: Sequence[Rule]) -> SymbolicMesh:
         """A mesh after some rules, as the next one meets it."""
         program = self.program
-        replay: Replay = begun(asset, Demonstration(self.meshes[asset], (), asset), program.orient, program.contact)
+        replay: Replay = begin_replay(
+            asset, Demonstration(self.meshes[asset], (), asset), program.orient, program.contact
+        )
         for number, rule in enumerate(rules, 1):
-            replay = advanced(replay, number, rule, self.templates, program.extremity)
+            replay = advance(replay, number, rule, self.templates, program.extremity)
         return replay.mesh
 
-    def meant(self, asset: str, number: int, outcome: Outcome) -> frozenset[str]:
+    def meant(self, asset: str, number: int, outcome: LearningOutcome) -> frozenset[str]:
         """What a person wants a rule to select, on the mesh that the learned rules before it make."""
         mesh = self.met(asset, outcome.rules[: number - 1])
         chosen = select(self.program.rules[number - 1].extractor, mesh)

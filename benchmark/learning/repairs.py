@@ -13,14 +13,14 @@ import numpy as np
 from benchmark.learning.families import FAMILIES, VOCABULARIES, family
 from benchmark.learning.hidden import hidden
 from benchmark.report import Cell, Goal, Result, Table, Tell
-from meshforge.language import Extractor, select_mask, size
-from meshforge.symbolic import Label, Source, SymbolicMesh, descriptors
-from meshforge.synthesis.correction import Correction
-from meshforge.synthesis.example import Example
-from meshforge.synthesis.options import Options
-from meshforge.synthesis.repair import Labels, explain
-from meshforge.synthesis.search import Hit, Search
-from meshforge.synthesis.watch import Watch
+from meshforge.label_model.odds import LabelBeliefs
+from meshforge.language import Extractor, select_mask, size_of
+from meshforge.symbolic import Label, LabelSource, SymbolicMesh, descriptors
+from meshforge.synthesis.demonstration import Example
+from meshforge.synthesis.options import Options, TimeBudget
+from meshforge.synthesis.questions import LabelCorrection
+from meshforge.synthesis.repair.explain import CorrectionSearch
+from meshforge.synthesis.search.smallest import Hit, Search
 
 OPTIONS = Options(max_size=9)
 ROUNDS = 6
@@ -42,7 +42,7 @@ class Noise:
 
     errors: int
     rest: float = 0.08
-    source: Source = "vlm"
+    source: LabelSource = "vlm"
 
 
 def spoilt(
@@ -66,12 +66,12 @@ def spoilt(
     for index, hull in enumerate(mesh.hulls):
         sure = 1.0 if noise.source == "file" else float(rng.beta(6, 3) if index in wrong else rng.beta(18, 2))
         labels[hull.name] = Label(wrong.get(index) or str(hull.label), sure, noise.source)
-    return mesh.labelled(labels)
+    return mesh.with_labels(labels)
 
 
 def found(examples: Sequence[Example], vocabulary: Sequence[str]) -> Extractor | None:
     """The smallest exact extractor."""
-    answer = Search(examples, vocabulary, Watch(30.0), OPTIONS).run()
+    answer = Search(examples, vocabulary, TimeBudget(30.0), OPTIONS).run()
     return answer.extractor if isinstance(answer, Hit) else None
 
 
@@ -116,15 +116,15 @@ def _learn(case: Case, tally: Tally) -> None:
     exact = found(examples, case.vocabulary)
     truth = {(name, hull.name): hull.label for name, mesh in true.items() for hull in mesh.hulls}
     spoiled = any(hull.label != truth[one.name, hull.name] for one in examples for hull in one.mesh.hulls)
-    needed = spoiled and (exact is None or size(exact) > size(best))
+    needed = spoiled and (exact is None or size_of(exact) > size_of(best))
     rest = {f"m{k}": mesh for k, mesh in enumerate(case.noisy) if k not in case.chosen}
-    rejected, spent = set[Correction](), Counter[str]()
+    rejected, spent = set[LabelCorrection](), Counter[str]()
     for _ in range(ROUNDS):
-        labels = Labels({one.name: one.mesh for one in examples}, rest, case.vocabulary)
+        labels = LabelBeliefs({one.name: one.mesh for one in examples}, rest, case.vocabulary)
         start = perf_counter()
-        said = explain(
-            examples, case.vocabulary, labels, OPTIONS, Watch(60.0), exact=exact, spent=spent, rejected=rejected
-        )
+        said = CorrectionSearch(
+            examples, case.vocabulary, labels, OPTIONS, TimeBudget(60.0), exact=exact, spent=spent, rejected=rejected
+        ).run()
         tally.seconds.append(perf_counter() - start)
         if said is None:
             break
@@ -139,9 +139,9 @@ def _learn(case: Case, tally: Tally) -> None:
     tally.counts.update(rules=1, needed=needed, recovered=needed and same)
 
 
-def _corrected(example: Example, rows: Sequence[Correction]) -> Example:
+def _corrected(example: Example, rows: Sequence[LabelCorrection]) -> Example:
     labels = {row.hull: Label(row.to, 1.0, "repair") for row in rows if row.asset == example.name}
-    return Example(example.name, example.mesh.labelled(labels), example.selection)
+    return Example(example.name, example.mesh.with_labels(labels), example.selection)
 
 
 def measure(tell: Tell, quick: bool) -> Result:
@@ -169,7 +169,7 @@ def measure(tell: Tell, quick: bool) -> Result:
     )
 
 
-_SOURCES: tuple[Source, ...] = ("vlm", "file")
+_SOURCES: tuple[LabelSource, ...] = ("vlm", "file")
 
 
 def _row(noise: Noise, tally: Tally) -> tuple[Cell, ...]:

@@ -10,12 +10,11 @@ from benchmark.clock import in_turns
 from benchmark.learning.cases import learned
 from benchmark.learning.programs import Wanted, wanted, wanted_tables
 from benchmark.report import Cell, Tell
-from meshforge.language import EXTREMITY, select_mask
+from meshforge.language import select_mask
 from meshforge.synthesis import Demonstration, synthesize
-from meshforge.synthesis.example import Example
-from meshforge.synthesis.options import Options
-from meshforge.synthesis.search import Search
-from meshforge.synthesis.watch import Watch
+from meshforge.synthesis.demonstration import Example
+from meshforge.synthesis.options import Options, TimeBudget
+from meshforge.synthesis.search.smallest import Search
 
 _SEED, _ROUNDS = 100, 3
 
@@ -96,6 +95,6 @@ def _readings(task: Wanted, shown: Sequence[str], number: int, rounds: int) -> f
     rest = [mesh for name, mesh in met.items() if name not in shown]
 
     def run() -> object:
-        return learned(Search(examples, task.program.labels, Watch(120.0), Options(), EXTREMITY, rest))
+        return learned(Search(examples, task.program.labels, TimeBudget(120.0), Options(), rest))
 
     return median(in_turns({"ours": lambda: run}, rounds)["ours"])

@@ -7,9 +7,9 @@ from functools import cache
 
 import numpy as np
 
-from meshforge.batch.templates import load_templates, template_folders
+from meshforge.batch.jobs import load_templates, template_folders
 from meshforge.formats import load
-from meshforge.language import Extractor, Program, Template, parse_extractor, stage
+from meshforge.language import Extractor, Program, Template, parse_extractor, to_canonical_frame
 from meshforge.samples import TABLES
 from meshforge.symbolic import SymbolicMesh
 
@@ -50,7 +50,7 @@ def bundled() -> dict[str, SymbolicMesh]:
 @cache
 def upright() -> dict[str, SymbolicMesh]:
     """The tables as the first rule of a program sees them, their contacts known."""
-    found = {name: stage(mesh, PROGRAM.orient)[0] for name, mesh in bundled().items()}
+    found = {name: to_canonical_frame(mesh, PROGRAM.orient)[0] for name, mesh in bundled().items()}
     assert all(mesh.contacts is not None for mesh in found.values())
     return found
 
@@ -62,6 +62,6 @@ def stretched(count: int) -> dict[str, SymbolicMesh]:
     for k in range(len(found), count):
         mesh = list(bundled().values())[k % len(bundled())]
         factors = np.diag(draw.uniform(0.8, 1.25, 3))
-        hulls = (replace(hull, shape=hull.shape.mapped(factors, np.zeros(3))) for hull in mesh.hulls)
+        hulls = (replace(hull, shape=hull.shape.transform(factors, np.zeros(3))) for hull in mesh.hulls)
         found[f"table_{k + 1:02}"] = SymbolicMesh(tuple(hulls))
     return dict(list(found.items())[:count])

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from benchmark.learning.programs import Wanted
-from meshforge.synthesis import Ambiguous, Answer, Demonstration, Options, Outcome, Repair, synthesize
+from meshforge.synthesis import Ambiguous, Answer, Demonstration, LearningOutcome, Options, Repair, synthesize
 
 _MOST = 30  # answers, should it never end
 
@@ -15,8 +15,8 @@ _MOST = 30  # answers, should it never end
 class Talk:
     """How it went; first: the outcome before any answer, last: after all; refused: proposals to correct a label."""
 
-    first: Outcome
-    last: Outcome
+    first: LearningOutcome
+    last: LearningOutcome
     answers: tuple[Answer, ...]
     refused: int
 
@@ -35,7 +35,7 @@ def talk(task: Wanted, demos: Sequence[Demonstration], options: Options) -> Talk
         refused.append(repair)
         return False
 
-    def learned() -> Outcome:
+    def learned() -> LearningOutcome:
         labels, meshes = task.program.labels, task.meshes
         return synthesize(demos, meshes, vocabulary=labels, options=options, confirm=refuse, answers=answers)
 
@@ -50,4 +50,4 @@ def _answer(task: Wanted, outcome: Ambiguous) -> Answer:
     """The choice that is what is wanted, or neither."""
     asks = outcome.question
     meant = task.meant(asks.asset, asks.rule, outcome)
-    return asks.answered(next((k for k, choice in enumerate(asks.choices) if set(choice.select) == meant), None))
+    return asks.answer_with(next((k for k, choice in enumerate(asks.choices) if set(choice.select) == meant), None))

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from benchmark.report import Tell
-from meshforge.errors import MeshForgeError
+from meshforge.common import MeshForgeError
 from meshforge.formats import SUFFIXES, read
 from meshforge.geometry import digest
 from meshforge.samples import TABLES

@@ -34,7 +34,7 @@ def measure(tell: Tell, quick: bool) -> Result:
 
 def one_mesh(name: str, mesh: SymbolicMesh, rounds: int) -> dict[str, Any]:
     """Median seconds of building and asking of each contestant on one mesh, and where the answers differ."""
-    shapes = [hull.shape.tessellated() for hull in mesh.hulls]
+    shapes = [hull.shape.tessellate() for hull in mesh.hulls]
     known = _of(shapes)
     near, pairs = known.contact_distance, near_pairs(shapes, known.contact_distance)
     rivals = [kind(shapes, near, pairs) for kind in _RIVALS]

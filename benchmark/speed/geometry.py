@@ -9,7 +9,7 @@ import numpy as np
 
 from benchmark.clock import in_turns, medians
 from benchmark.report import Result, Table, Tell
-from meshforge.geometry import Floats, Ints, convex_hull, pieces
+from meshforge.geometry import Floats, Ints, convex_hull, split_pieces
 
 _ROUNDS = 3
 
@@ -36,7 +36,7 @@ def measure(tell: Tell, quick: bool) -> Result:
         "the same, no vertex shared": _soup(*torus(many // 2)),
     }.items():
         tell(f"pieces: {name}")
-        work = partial(pieces, vertices, faces, name=name)
+        work = partial(split_pieces, vertices, faces, name=name)
         parts.append((name, len(faces), medians(in_turns({"ours": _run(work)}, _ROUNDS))["ours"]))
     return Result(
         "geometry",

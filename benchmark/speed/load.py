@@ -18,7 +18,7 @@ from benchmark.clock import in_turns, medians, once
 from benchmark.report import Goal, Result, Table, Tell
 from benchmark.speed.assets import corpus_files, name_of
 from meshforge.formats import read
-from meshforge.formats.triangles import read_triangles
+from meshforge.formats.mesh_reader import read_triangles
 from meshforge.samples import TABLES
 
 OURS, HULLS, THEIRS, RAW = "MeshForge", "MeshForge, hulls too", "trimesh", "trimesh, process=False"

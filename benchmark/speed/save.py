@@ -13,15 +13,14 @@ from typing import Any
 from benchmark.clock import Run, in_turns, medians, once
 from benchmark.report import Goal, Result, Table, Tell
 from benchmark.speed.assets import multi_hull
-from meshforge.asset import Asset, Body, Document, Geom
-from meshforge.errors import AssetError
+from meshforge.common import AssetError
 from meshforge.formats import save
-from meshforge.formats.gltf import GltfFormat
-from meshforge.formats.plain.obj import Obj
-from meshforge.formats.plain.parts import as_parts
-from meshforge.formats.plain.stl import Stl
+from meshforge.formats.gltf.format import GltfFormat
+from meshforge.formats.plain.obj import ObjFormat
+from meshforge.formats.plain.parts import to_parts
+from meshforge.formats.plain.stl import StlFormat
 from meshforge.geometry import Pose
-from meshforge.symbolic import SymbolicMesh
+from meshforge.symbolic import Asset, Body, Document, Geom, SymbolicMesh
 
 OURS, CHECKED, THEIRS = "MeshForge", "MeshForge, read back", "trimesh"
 _SUFFIXES = (".obj", ".stl", ".glb")
@@ -54,7 +53,7 @@ def one_file(name: str, mesh: SymbolicMesh, suffix: str, folder: Path, rounds: i
 
 def _polytopes(mesh: SymbolicMesh) -> Asset:
     """The hulls of a mesh as an asset of no format."""
-    geoms = tuple(Geom(hull.name, "body", hull.shape.tessellated()) for hull in mesh.hulls)
+    geoms = tuple(Geom(hull.name, "body", hull.shape.tessellate()) for hull in mesh.hulls)
     return Asset(Path("memory"), "memory", (Body("body", Pose.identity()),), geoms, Document())
 
 
@@ -62,9 +61,9 @@ def _content(asset: Asset, suffix: str) -> bytes:
     """The bytes of a file of the hulls."""
     match suffix:
         case ".obj":
-            return Obj().made(as_parts(asset.geoms)[0])
+            return ObjFormat().format_parts(to_parts(asset.geoms)[0])
         case ".stl":
-            return Stl().made(as_parts(asset.geoms)[0])
+            return StlFormat().format_parts(to_parts(asset.geoms)[0])
         case _:
             return GltfFormat().create(asset, "saved.glb").main
 

@@ -16,7 +16,7 @@ from websockets.sync.client import connect
 
 from benchmark.report import Goal, Result, Table, Tell
 from benchmark.studio.browser import chromium, seen, studio
-from meshforge.cli.tables import demonstrated_tables
+from meshforge.cli.demo import create_tables
 
 OPEN, SHOWN = "table_05.obj", "table_08.obj"
 """A table of which nothing is shown, and one that demonstrates."""
@@ -42,7 +42,7 @@ def measure(tell: Tell, quick: bool) -> Result:
     """On the bundled tables, of which two show five rules: change a label, or a step, and wait for the lesson."""
     turns = 2 if quick else 10
     with tempfile.TemporaryDirectory() as folder:
-        project = demonstrated_tables(Path(folder) / "tables")
+        project = create_tables(Path(folder) / "tables")
         with studio(project.folder) as address:
             with chromium() as browser:
                 page = seen(browser, address, project.assets()[0], LESSONS)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from benchmark.study.desk import Bench, Desk
-from meshforge.perception import given_label
+from meshforge.label_model import reference_label
 from meshforge.symbolic import Label, SymbolicMesh
 
 
@@ -12,10 +12,10 @@ def begun_by_hand(bench: Bench, count: int) -> tuple[Desk, frozenset[str], int]:
 
     With the names of those, and how many labels a person gave for that.
     """
-    desk = Desk(bench, {name: mesh.labelled(dict.fromkeys(mesh.index)) for name, mesh in bench.truth.meshes.items()})
+    desk = Desk(bench, {name: mesh.with_labels(dict.fromkeys(mesh.index)) for name, mesh in bench.truth.meshes.items()})
     names, done, given = list(desk.meshes), list[str](), 0
     for _ in range(count):
-        (advised,) = bench.relatives.propagated(_told(desk)).next_to_label()
+        (advised,) = bench.relatives.propagate(_told(desk)).next_to_label()
         done.append(names[advised])
         desk, more = labelled_by_hand(desk, names[advised])
         given += more
@@ -29,18 +29,18 @@ def labelled_by_hand(desk: Desk, name: str) -> tuple[Desk, int]:
     """
     true = desk.bench.truth.meshes[name]
     wrong = sum(a.label != b.label for a, b in zip(true.hulls, desk.meshes[name].hulls, strict=True))
-    meshes = {**desk.meshes, name: true.labelled({hull.name: Label(hull.label or "") for hull in true.hulls})}
+    meshes = {**desk.meshes, name: true.with_labels({hull.name: Label(hull.label or "") for hull in true.hulls})}
     looked_through = Desk(desk.bench, meshes)
-    found = desk.bench.relatives.propagated(_told(looked_through))
+    found = desk.bench.relatives.propagate(_told(looked_through))
     rows = enumerate(looked_through.meshes.items())
     return Desk(desk.bench, {name: _with(mesh, found.labels(place)) for place, (name, mesh) in rows}), wrong
 
 
 def _told(desk: Desk) -> list[str | None]:
-    return [given_label(hull.annotation) for mesh in desk.meshes.values() for hull in mesh.hulls]
+    return [reference_label(hull.annotation) for mesh in desk.meshes.values() for hull in mesh.hulls]
 
 
 def _with(mesh: SymbolicMesh, found: list[Label | None]) -> SymbolicMesh:
     """The mesh with labels that were found, where nobody gave one."""
     rows = zip(mesh.hulls, found, strict=True)
-    return mesh.labelled({hull.name: label for hull, label in rows if given_label(hull.annotation) is None})
+    return mesh.with_labels({hull.name: label for hull, label in rows if reference_label(hull.annotation) is None})

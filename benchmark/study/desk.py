@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from hashlib import blake2b
 from typing import Literal
@@ -11,20 +11,20 @@ from typing import Literal
 from benchmark.assets import Sample
 from benchmark.study.labels import noisy
 from benchmark.tasks import Edited, Task
+from meshforge.labels import Propagator
 from meshforge.language import EXTREMITY, Extractor, Program, select_mask
-from meshforge.perception import Relatives
 from meshforge.symbolic import Label, SymbolicMesh
 from meshforge.synthesis import (
     Answer,
-    Correction,
     Demonstration,
+    LabelCorrection,
+    LearningOutcome,
     Options,
-    Outcome,
     Repair,
-    most_telling,
+    choose_first_demonstration,
     synthesize,
 )
-from meshforge.synthesis.replay import Replay, advanced, begun
+from meshforge.synthesis.replay import Replay, advance, begin_replay
 
 Selections = tuple[frozenset[str], ...]
 """What each rule selects on a mesh, by hull names."""
@@ -50,9 +50,9 @@ class Bench:
         return Desk(self, {name: sample.mesh for name, sample in self.samples.items()})
 
     @cached_property
-    def relatives(self) -> Relatives:
+    def relatives(self) -> Propagator:
         """The meshes as propagation sees them."""
-        return Relatives([sample.mesh for sample in self.samples.values()])
+        return Propagator([sample.mesh for sample in self.samples.values()])
 
     def desk(self, labels: Literal["true", "noisy"], seed: int) -> Desk:
         """The meshes as a demonstrator gets them who labels nothing."""
@@ -106,11 +106,11 @@ class Desk:
             task = self.bench.task
             frame = task.program
             if not place:
-                replay = begun(name, Demonstration(self.meshes[name], (), name), frame.orient, frame.contact)
+                replay = begin_replay(name, Demonstration(self.meshes[name], (), name), frame.orient, frame.contact)
             else:
                 self.met(name, place - 1)
                 before, rule = self._met[name, place - 1], frame.rules[place - 1]
-                replay = advanced(before, place, rule, task.templates, frame.extremity)
+                replay = advance(before, place, rule, task.templates, frame.extremity)
             self._met[key] = replay
         return self._met[key].mesh
 
@@ -120,8 +120,8 @@ class Desk:
         options: Options,
         confirm: Callable[[Repair], bool] | None = None,
         answers: Sequence[Answer] = (),
-        rejected: Iterable[Correction] = (),
-    ) -> Outcome:
+        rejected: Iterable[LabelCorrection] = (),
+    ) -> LearningOutcome:
         """What the tool learns from demonstrations on these meshes; raises as `synthesize` does."""
         one, templates = self.bench.task.program, self.bench.task.templates
         return synthesize(
@@ -130,18 +130,15 @@ class Desk:
             one.orient,
             templates,
             one.labels,
-            one.contact,
-            one.extremity,
-            options,
+            replace(options, contact=one.contact, extremity=one.extremity, rejected=tuple(rejected)),
             confirm,
             answers,
-            rejected,
         )
 
     def proposed(self, names: Iterable[str]) -> str | None:
         """The mesh that the tool proposes to demonstrate first."""
         one, some = self.bench.task.program, frozenset(names)
-        return most_telling(self.meshes, one.labels, one.orient, one.contact, one.extremity, some)
+        return choose_first_demonstration(self.meshes, one.labels, one.orient, one.contact, one.extremity, some)
 
     def behaves(self, extractor: Extractor, place: int, names: Iterable[str]) -> bool:
         """Whether an extractor selects what the reference's rule at a place selects, on all these meshes."""
@@ -155,11 +152,11 @@ class Desk:
             return list(names)
         return [name for name in names if self.selected(program, name) != self.reference[name]]
 
-    def corrected(self, corrections: Iterable[Correction]) -> Desk:
+    def corrected(self, corrections: Iterable[LabelCorrection]) -> Desk:
         """The same with some labels corrected."""
         meshes = dict(self.meshes)
         for one in corrections:
-            meshes[one.asset] = meshes[one.asset].labelled({one.hull: Label(one.to, 1.0, "repair")})
+            meshes[one.asset] = meshes[one.asset].with_labels({one.hull: Label(one.to, 1.0, "repair")})
         kept = {key: done for key, done in self._edits.items() if meshes[key[1]] is self.meshes[key[1]]}
         return Desk(self.bench, meshes, kept)
 

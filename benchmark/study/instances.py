@@ -14,9 +14,9 @@ from benchmark.study.desk import Bench, Desk
 from benchmark.study.keystrokes import CONFIRMATION, DEMONSTRATION, HULL, INSPECTION, LABEL, LOOK, RULE
 from benchmark.study.person import Person
 from benchmark.tasks import task
-from meshforge.errors import MeshForgeError
+from meshforge.common import MeshForgeError
 from meshforge.language import Program
-from meshforge.synthesis import Correction, Options, Repair
+from meshforge.synthesis import LabelCorrection, Options, Repair
 
 Way = Literal["no correction", "all labels inspected (Standard PBE)", "ABI"]
 _SEED, _DRAWS = 300, 12
@@ -81,16 +81,16 @@ def mended(one: Instance, way: Way) -> Mended:
     """One way on one instance: from two demonstrations on, as many of the pool as it takes."""
     person = Person(one.desk, one.seed, NOISY)
     desk, log = one.desk, Mended(one.bench.task.name, way, False, 0, 0, 0, 0, 0, 0.0, 0.0)
-    rejected: list[Correction] = []
+    rejected: list[LabelCorrection] = []
     for count in range(_FIRST, MOST + 1):
         shown = one.pool[:count]
         if way.startswith("all labels"):
             hulls = sum(len(desk.meshes[name].hulls) for name in shown)
             log.inspected, log.typed = hulls, len(list(_wrong(one.desk, shown)))
             desk = _inspected(desk, shown)
-        agreed: list[Correction] = []
+        agreed: list[LabelCorrection] = []
 
-        def confirm(repair: Repair, agreed: list[Correction] = agreed) -> bool:
+        def confirm(repair: Repair, agreed: list[LabelCorrection] = agreed) -> bool:
             if said := person.confirms(repair):
                 log.confirmed += 1
                 agreed.append(repair.correction)
@@ -116,7 +116,7 @@ def _learned(
     shown: Sequence[str],
     options: Options,
     confirm: Callable[[Repair], bool] | None = None,
-    rejected: Sequence[Correction] = (),
+    rejected: Sequence[LabelCorrection] = (),
 ) -> Program | None:
     person = Person(one.desk, one.seed, NOISY)
     try:
@@ -131,13 +131,13 @@ def _right(one: Instance, program: Program | None, desk: Desk | None = None) -> 
     return not (desk or one.desk).differing(program, rest)
 
 
-def _wrong(desk: Desk, names: Sequence[str]) -> Iterator[Correction]:
+def _wrong(desk: Desk, names: Sequence[str]) -> Iterator[LabelCorrection]:
     for name in names:
         true = desk.bench.truth.meshes[name]
         for hull in desk.meshes[name].hulls:
-            right = true.named(hull.name).label
+            right = true.hull_of(hull.name).label
             if right and hull.label != right:
-                yield Correction(name, hull.name, hull.label, right)
+                yield LabelCorrection(name, hull.name, hull.label, right)
 
 
 def _inspected(desk: Desk, names: Sequence[str]) -> Desk:

@@ -9,7 +9,7 @@ from dataclasses import replace
 from benchmark.study.condition import SEEN, Condition
 from benchmark.study.desk import Desk, Selections
 from meshforge.language import Program
-from meshforge.synthesis import Answer, Correction, Demonstration, Question, Repair, Step
+from meshforge.synthesis import Answer, Demonstration, LabelCorrection, Question, Repair, Step
 
 
 class Person:
@@ -87,7 +87,7 @@ class Person:
         right = next((choices.index(select) for select in wanted if select in choices), None)
         if self._slips.random() < self._errs:
             right = self._slips.choice([place for place in (*range(len(choices)), None) if place != right])
-        return question.answered(right)
+        return question.answer_with(right)
 
     def _wanted(self, desk: Desk, question: Question, program: Program) -> Iterator[frozenset[str]]:
         name, place = question.asset, question.rule - 1
@@ -110,6 +110,6 @@ class Person:
         right = self.knows(repair.correction)
         return right != (self._slips.random() < self._errs)
 
-    def knows(self, correction: Correction) -> bool:
+    def knows(self, correction: LabelCorrection) -> bool:
         """Whether a correction is right."""
-        return self._truth.meshes[correction.asset].named(correction.hull).label == correction.to
+        return self._truth.meshes[correction.asset].hull_of(correction.hull).label == correction.to

@@ -11,9 +11,9 @@ from benchmark.study.carrying import begun_by_hand, labelled_by_hand
 from benchmark.study.condition import MOST, Condition
 from benchmark.study.desk import Bench, Selections
 from benchmark.study.person import Person
-from meshforge.errors import MeshForgeError
+from meshforge.common import MeshForgeError
 from meshforge.language import Program
-from meshforge.synthesis import Ambiguous, Answer, Correction, Demonstration, NoProgram, Outcome, Repair
+from meshforge.synthesis import Ambiguous, Answer, Demonstration, LabelCorrection, LearningOutcome, NoProgram, Repair
 
 _ANSWERS = 12  # that a person gives between two demonstrations at most
 
@@ -103,8 +103,8 @@ class _Teaching:
         self.given: dict[str, frozenset[int] | None] = {}
         """Meshes with the rules that were shown on them, None for all."""
         self.answers: list[Answer] = []
-        self.rejected: set[Correction] = set()
-        self.corrections: list[Correction] = []
+        self.rejected: set[LabelCorrection] = set()
+        self.corrections: list[LabelCorrection] = []
         self.accepted: dict[str, Selections] = {}
         """Results that were found right when they were looked at."""
         self.clean: Program | None = None
@@ -152,12 +152,12 @@ class _Teaching:
                 if busy:
                     self._show(self.person.begins_with(self.desk, busy), None)
 
-    def _learn(self) -> Outcome | MeshForgeError:
+    def _learn(self) -> LearningOutcome | MeshForgeError:
         """What the tool makes of it, or why it refuses the demonstrations."""
         demos = [self.person.shows(self.desk, name, rules) for name, rules in self.given.items()]
         start = perf_counter()
         try:
-            outcome: Outcome | MeshForgeError = self._outcome(demos)
+            outcome: LearningOutcome | MeshForgeError = self._outcome(demos)
         except MeshForgeError as error:
             outcome = error
         seconds = {"all": perf_counter() - start}
@@ -175,19 +175,21 @@ class _Teaching:
         log, differs = self.log, len(self.desk.differing(program, self._rest()))
         log.rounds.append(Round(len(log.shown), log.answers, status, _text(program), settled, differs, seconds))
 
-    def _labelled(self, outcome: Outcome | MeshForgeError) -> bool:
+    def _labelled(self, outcome: LearningOutcome | MeshForgeError) -> bool:
         """Whether labels were given by hand: to the landmarks of a demonstrated mesh that could not be oriented."""
         if not isinstance(outcome, MeshForgeError) or outcome.where not in self.given:
             return False
-        landmarks = Program(orient=self.bench.task.program.orient).used_labels
+        landmarks = Program(orient=self.bench.task.program.orient).labels_in_use
         mesh, true = self.desk.meshes[outcome.where], self.bench.truth.meshes[outcome.where]
-        pairs = [(hull, true.named(hull.name).label) for hull in mesh.hulls]
-        wrong = [Correction(outcome.where, h.name, h.label, to) for h, to in pairs if to in landmarks and h.label != to]
+        pairs = [(hull, true.hull_of(hull.name).label) for hull in mesh.hulls]
+        wrong = [
+            LabelCorrection(outcome.where, h.name, h.label, to) for h, to in pairs if to in landmarks and h.label != to
+        ]
         self.desk = self.desk.corrected(wrong)
         self.log.typed += len(wrong)
         return bool(wrong)
 
-    def _outcome(self, demos: list[Demonstration]) -> Outcome:
+    def _outcome(self, demos: list[Demonstration]) -> LearningOutcome:
         """What the tool learns; where no program keeps all that was accepted, that is forgotten, as a project does."""
         found = self._synthesized(demos)
         if isinstance(found, NoProgram) and self.accepted:
@@ -195,11 +197,11 @@ class _Teaching:
             found = self._synthesized(demos)
         return found
 
-    def _synthesized(self, demos: list[Demonstration]) -> Outcome:
+    def _synthesized(self, demos: list[Demonstration]) -> LearningOutcome:
         said = [*self._verdicts(), *self.answers]
         return self.desk.learned(demos, self.condition.options, self._confirm, said, self.rejected)
 
-    def _known_among(self, outcome: Outcome) -> list[bool]:
+    def _known_among(self, outcome: LearningOutcome) -> list[bool]:
         """For each rule, whether one of its readings behaves as the reference does on every mesh."""
         rules, readings = range(len(self.bench.task.program.rules)), outcome.readings
         able = [name for name in self.able if self.desk.reference[name] is not None]
@@ -218,7 +220,7 @@ class _Teaching:
             self.rejected.add(repair.correction)
         return said
 
-    def _answered(self, outcome: Outcome | MeshForgeError) -> bool:
+    def _answered(self, outcome: LearningOutcome | MeshForgeError) -> bool:
         """Whether a question of the tool was answered."""
         since = self.log.answers - self.log.rounds[-1].answers if self.log.rounds else 0
         if not self.condition.questions or not isinstance(outcome, Ambiguous) or since >= _ANSWERS:
@@ -231,7 +233,7 @@ class _Teaching:
         self.log.neither += answer.select is None
         return True
 
-    def _another(self, outcome: Outcome | MeshForgeError) -> bool:
+    def _another(self, outcome: LearningOutcome | MeshForgeError) -> bool:
         """No program fits, and the tool names a mesh: an answer about it is taken back; a demonstration of some rules,
         whose hulls are gone, shows the others, too; else it is set aside, and another mesh demonstrated.
         """
@@ -259,7 +261,7 @@ class _Teaching:
                 return True
         return False
 
-    def _looks_on(self, outcome: Outcome, program: Program) -> bool:
+    def _looks_on(self, outcome: LearningOutcome, program: Program) -> bool:
         """Look at a dozen results; go on where one is wrong: take an answer back, or demonstrate the rule there.
 
         Where all are right they are told to the tool; if it keeps the program then, it is accepted.
@@ -301,7 +303,7 @@ class _Teaching:
         for name, done in self.accepted.items():
             yield from (Answer(rule, name, select) for rule, select in enumerate(done, 1))
 
-    def _judge(self, outcome: Outcome | MeshForgeError) -> None:
+    def _judge(self, outcome: LearningOutcome | MeshForgeError) -> None:
         """How good the last program is on all meshes that were not demonstrated."""
         log, bench = self.log, self.bench
         rest = [name for name in self._rest() if name not in self.by_hand]

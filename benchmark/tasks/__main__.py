@@ -14,7 +14,7 @@ from benchmark.assets import CATEGORIES, Sample
 from benchmark.assets.frozen import read
 from benchmark.assets.looking import upright
 from benchmark.tasks import Edited, Task, task, tasks
-from meshforge.views import before_after, sheet, write_png
+from meshforge.rendering import draw_before_after, make_contact_sheet, write_png
 
 
 def main() -> None:
@@ -67,10 +67,12 @@ def picture(one: Task, rows: Sequence[Sample], path: Path) -> None:
         edited = one.run(one.program, row.mesh)
         if edited.mesh:
             images.append(
-                before_after(upright(row), upright(row, edited.mesh), size=(260, 260), vocabulary=one.program.labels)
+                draw_before_after(
+                    upright(row), upright(row, edited.mesh), size=(260, 260), vocabulary=one.program.labels
+                )
             )
             titles.append(f"{row.name} {row.asset.kind}")
-    write_png(path, sheet(images, 3, titles))
+    write_png(path, make_contact_sheet(images, 3, titles))
 
 
 if __name__ == "__main__":

@@ -12,9 +12,9 @@ from typing import Any
 from benchmark.assets import CATEGORIES, Sample, samples
 from benchmark.assets.looking import upright
 from benchmark.criteria import Case, judged
-from meshforge.errors import MeshForgeError
+from meshforge.common import MeshForgeError
 from meshforge.formats import read
-from meshforge.language import Program, RuleTrace, Template, labels_used
+from meshforge.language import Program, RuleTrace, Template, labels_of
 from meshforge.symbolic import Label, SymbolicMesh
 
 TASKS = Path(__file__).resolve().parent
@@ -61,7 +61,7 @@ class Task:
     @cached_property
     def labels(self) -> frozenset[str]:
         """The labels that the rules name."""
-        return frozenset(label for rule in self.program.rules for label in labels_used(rule.extractor))
+        return frozenset(label for rule in self.program.rules for label in labels_of(rule.extractor))
 
     def impure(self, sample: Sample) -> list[str]:
         """The hulls that the decomposition made of several parts, where one of these is the rules' business."""
@@ -100,7 +100,7 @@ def _truly_labelled(edited: Edited, truth: Mapping[str, Label | None]) -> Symbol
     """Hulls with their true labels; made ones with that of the hull they are named after, or what the program says."""
     assert edited.mesh
     names = [hull.name for hull in edited.mesh.hulls if hull.name not in edited.named]
-    return edited.mesh.labelled({name: truth.get(name.split("~")[0]) for name in names})
+    return edited.mesh.with_labels({name: truth.get(name.split("~")[0]) for name in names})
 
 
 @cache

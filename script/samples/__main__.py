@@ -8,7 +8,7 @@ from pathlib import Path
 
 from meshforge.formats import read
 from meshforge.geometry import convex_hull
-from meshforge.geometry.decompose import cache_folder
+from meshforge.geometry.decomposition.run import cache_folder
 from meshforge.language import Program, Template
 from meshforge.samples import TABLES
 from meshforge.symbolic import SymbolicMesh

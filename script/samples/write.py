@@ -21,7 +21,7 @@ def write_table(folder: Path, name: str, about: str, pieces: Sequence[Piece]) ->
     names = [f"convex_{k:0{width}}" for k in range(len(pieces))]
     path.write_text(obj_text(about, {n: p.hull for n, p in zip(names, pieces, strict=True)}), encoding="ascii")
     labels = {n: Label(p.label, 1.0, "file") for n, p in zip(names, pieces, strict=True)}
-    mesh = load(path).labelled(labels)
+    mesh = load(path).with_labels(labels)
     if [hull.name for hull in mesh.hulls] != names:
         raise SystemExit(f"{path} does not read back as it was written")
     write_labels(folder / f"{name}.labels.json", mesh, LABELS)

@@ -1,4 +1,4 @@
-"""MeshForge: teach one collision mesh, mend the whole family.
+"""MeshForge: teach one collision mesh, fix the whole family.
 
 The names below are the Python interface; each is imported when it is first used, so that `import meshforge` is quick.
 """
@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     __version__: str
-    from meshforge.errors import MeshForgeError
+    from meshforge.common import MeshForgeError
     from meshforge.formats import load, load_many, save
     from meshforge.language import Add, Delete, Each, Merge, Program, Replace, Rule, Scale, Template
     from meshforge.project import Project
@@ -42,20 +42,20 @@ __all__ = [
     "synthesize",
 ]
 
-_ROOMS = {
-    "errors": ("MeshForgeError",),
+_PACKAGES = {
+    "common": ("MeshForgeError",),
     "formats": ("load", "load_many", "save"),
     "language": ("Add", "Delete", "Each", "Merge", "Program", "Replace", "Rule", "Scale", "Template"),
     "project": ("Project",),
     "symbolic": ("Hull", "Label", "SymbolicMesh"),
     "synthesis": ("Answer", "Demonstration", "Options", "Step", "synthesize"),
 }
-_HOMES = {name: room for room, names in _ROOMS.items() for name in names}
+_HOMES = {name: package for package, names in _PACKAGES.items() for name in names}
 
 
 def __getattr__(name: str) -> Any:
     if name == "__version__":
-        from importlib.metadata import version
+        from importlib.metadata import version  # lazy: reads files
 
         return version("meshforge")
     if name not in _HOMES:

@@ -15,7 +15,7 @@ from tests.e2e.test_api_labels import relabelled
 from tests.e2e.walk import PAGE, address
 from tests.loopback import KEY, Server, serving
 from tests.unit.batch.families import tree
-from tests.unit.project.labels.vlm_family import VARIABLE, family, right, truth
+from tests.unit.labels.vlm_family import VARIABLE, family, right, truth
 
 COUNT = 3
 

@@ -10,6 +10,7 @@ from typing import Any
 
 import pytest
 
+from meshforge.batch import IN_PROCESS
 from meshforge.project import Project
 from meshforge.symbolic import Label
 from tests.e2e.studio import Studio, ok, opened
@@ -26,7 +27,7 @@ def prepared_project(folder: Path) -> Project:
     project = demo_project(folder)
     project.synthesize()
     project.set_labels(THIRD, {"convex_05": None})
-    list(project.apply([FIRST, THIRD], workers=0))
+    list(project.apply([FIRST, THIRD], execution=IN_PROCESS))
     return project
 
 

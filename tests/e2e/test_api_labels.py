@@ -1,4 +1,4 @@
-"""Labels carried over in the studio: a job that blocks nothing, is one step of the history, and loses no label."""
+"""Labels propagated in the studio: a job that blocks nothing, is one step of the history, and loses no label."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ def labels(studio: Studio) -> dict[str, bytes]:
 
 
 def carry(studio: Studio, page: Page) -> dict[str, Any]:
-    """Carry labels over; the job when it is over."""
+    """Propagate labels; the job when it is over."""
     return page.job(ok(studio.post("/api/jobs", {"kind": "propagate"}))["id"])
 
 
@@ -55,7 +55,7 @@ def relabelled(page: Page) -> dict[str, Any]:
 
 def test_labels_are_carried_over_with_one_step_and_what_changed_is_told(studio: Studio) -> None:
     before = labels(studio)
-    assert "carry labels over" in studio.settled()["project"]["next"]["say"]
+    assert "propagate labels" in studio.settled()["project"]["next"]["say"]
     with studio.page() as page:
         assert page.hello["relabelled"] is None
         assert page.hello["project"]["carried"] is None
@@ -74,7 +74,7 @@ def test_labels_are_carried_over_with_one_step_and_what_changed_is_told(studio: 
         assert hello["project"]["carried"] == {"unused": 0, "next": hello["project"]["carried"]["next"]}
         assert hello["project"]["carried"]["next"] in (SECOND, THIRD, "t3.obj")
         after = labels(studio)
-        assert ok(studio.post("/api/undo"))["said"] == "labels carried over"
+        assert ok(studio.post("/api/undo"))["said"] == "labels propagated"
         assert page.until(lambda e: e["kind"] == "relabelled")["relabelled"] is None
         assert labels(studio) == before
         ok(studio.post("/api/redo"))
@@ -110,7 +110,7 @@ def test_what_a_person_says_meanwhile_stays_and_is_not_blocked(studio: Studio) -
     assert dict(project.labels(SECOND).labels) == said
     assert _given(studio, SECOND) == len(HULLS)
     after = 0  # labels that came when all was carried over already
-    while ok(studio.post("/api/undo"))["said"] != "labels carried over":
+    while ok(studio.post("/api/undo"))["said"] != "labels propagated":
         after += 1
     assert dict(project.labels(SECOND).labels) == dict(list(said.items())[: len(said) - after])
     assert not project.labels(THIRD).labels
@@ -194,6 +194,6 @@ def test_one_that_is_killed_leaves_labels_whole(tmp_path: Path, seconds: float) 
         hello = studio.settled()
         assert not any(card["error"] for card in hello["cards"])
         assert said.items() <= dict(project.labels("table_02.obj").labels).items()
-        if hello["history"]["undo"] == "labels carried over":
+        if hello["history"]["undo"] == "labels propagated":
             ok(studio.post("/api/undo"))
         assert {name: text for name, text in labels(studio).items() if not name.endswith(".tmp")} == before

@@ -77,7 +77,7 @@ def _label_one(person: Hand, studio: Studio) -> None:
     person.page.get_by_placeholder(re.compile("^Search 5 hulls")).fill("")
     go_to(person, FIRST)
     studio.cards(lambda cards: cards[FIRST]["given"] == len(HULLS))
-    person.sees("3 assets have no label: carry labels over.")
+    person.sees("3 assets have no label: propagate labels.")
     person.sees("5 labels on 1 asset")
 
 
@@ -125,7 +125,7 @@ def _taken_back_and_done_again(person: Hand, labels: Path, said: dict[str, bytes
     again = tree(labels)
     person.click(_outcome(person).get_by_role("button", name="Undo"))
     _outcome(person).wait_for(state="hidden")
-    person.sees("Undone: labels carried over")
+    person.sees("Undone: labels propagated")
     assert tree(labels) == said
     person.press("Control+Shift+Z")
     _outcome(person).wait_for()

@@ -6,9 +6,9 @@ from pathlib import Path
 
 import pytest
 
-from meshforge.asset import Asset
-from meshforge.errors import MeshForgeError
+from meshforge.common import MeshForgeError
 from meshforge.formats import read, save
+from meshforge.symbolic import Asset
 from tests.corpus_case import Case, cases
 
 KINDS = ("obj", "stl", "ply", "urdf", "dae", "mjcf", "gltf", "glb", "folder")

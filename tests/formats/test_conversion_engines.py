@@ -10,9 +10,9 @@ import mujoco
 import numpy as np
 import pytest
 
-from meshforge.asset import Asset, Joint
 from meshforge.formats import read, save
 from meshforge.formats.visuals import VisualSurfaces
+from meshforge.symbolic import Asset, Joint
 from tests.conversion_samples import SAMPLES, block, crowd, doors, foreign, inertial
 from tests.corpus_path import corpus
 from tests.mjcf_engines import assert_as_in_mujoco
@@ -253,7 +253,7 @@ def test_trimesh_finds_the_volume_of_all_hulls_in_a_plain_mesh(suffix: str, tmp_
 
     asset = crowd()
     mesh = trimesh.load_mesh(save(asset, tmp_path / f"m{suffix}").path)
-    wanted = sum(geom.shape.tessellated().volume for geom in asset.geoms)
+    wanted = sum(geom.shape.tessellate().volume for geom in asset.geoms)
     assert float(mesh.volume) == pytest.approx(wanted, rel=1e-5)
     low, high = mesh.bounds
     bounds = asset.aabb

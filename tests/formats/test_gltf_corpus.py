@@ -9,11 +9,11 @@ import numpy as np
 import pytest
 import trimesh
 
-from meshforge.asset import Asset, Geom
-from meshforge.errors import AssetError
+from meshforge.common import AssetError
 from meshforge.formats import read, save
 from meshforge.formats.gltf.document import GltfDocument
-from meshforge.geometry import Box, Floats, same_shape
+from meshforge.geometry import Box, Floats, is_same_shape
+from meshforge.symbolic import Asset, Geom
 from tests.corpus_path import corpus
 from tests.gltf_files import Tree, tree_of
 from tests.gltf_validation import errors
@@ -108,7 +108,7 @@ def edited(asset: Asset) -> tuple[Asset, set[int], int]:
     """The last hull gone and the first one a box; the nodes that this touches, and how many triangles it takes."""
     assert isinstance(asset.document, GltfDocument)
     first, gone = asset.geoms[0], {geom.name for geom in (asset.geoms[0], asset.geoms[-1])}
-    boxed = Geom(f"{first.name}~1", first.body, Box.filling(first.shape.aabb), first.name)
+    boxed = Geom(f"{first.name}~1", first.body, Box.of_bounds(first.shape.aabb), first.name)
     touched, less = set(), 0
     for element in asset.document.authored:
         for k, name in enumerate(element.names):
@@ -133,7 +133,7 @@ def test_an_edit_leaves_the_rest_of_the_scene_as_it_was(assets: dict[str, Asset]
         assert not saved.names, key
         assert [g.name for g in again.geoms if "~" not in g.name] == [g.name for g in asset.geoms[1:-1]], key
         for now, before in zip((g for g in again.geoms if "~" not in g.name), asset.geoms[1:-1], strict=True):
-            assert same_shape(now.shape, before.shape, 1e-9), key
+            assert is_same_shape(now.shape, before.shape, 1e-9), key
         assert [o.name for o in again.opaque] == [o.name for o in asset.opaque], key
         _assert_rest_is_drawn(asset, saved.path, touched, less, key)
         sources.append(asset.path)

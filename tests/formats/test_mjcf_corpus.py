@@ -8,7 +8,7 @@ import mujoco
 import numpy as np
 import pytest
 
-from meshforge.errors import AssetError
+from meshforge.common import AssetError
 from tests.corpus_path import corpus
 from tests.mjcf_engines import assert_as_in_mujoco, read
 

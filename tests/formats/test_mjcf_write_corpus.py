@@ -8,10 +8,10 @@ import mujoco
 import numpy as np
 import pytest
 
-from meshforge.asset import Asset, Geom
-from meshforge.errors import AssetError
+from meshforge.common import AssetError
 from meshforge.formats.base import Mass
 from meshforge.geometry import Box, convex_hull
+from meshforge.symbolic import Asset, Geom
 from tests.corpus_path import corpus
 from tests.mjcf_engines import read
 from tests.mjcf_models import Pair, compiled, hull, replaced, write
@@ -60,7 +60,7 @@ def deleted(asset: Asset, k: int) -> tuple[Asset, list[Geom]]:
 
 def boxed(asset: Asset, k: int) -> tuple[Asset, list[Geom]]:
     geom = asset.geoms[k]
-    made = hull(asset, geom.name, Box.filling(geom.shape.aabb))
+    made = hull(asset, geom.name, Box.of_bounds(geom.shape.aabb))
     return replaced(asset, [geom.name], made), [made]
 
 

@@ -7,7 +7,7 @@ from collections import Counter
 import pytest
 
 from meshforge.formats import read
-from meshforge.perception.names import Names, told
+from meshforge.labels.names.hull_names import HullNames, match_names
 from tests.corpus_path import corpus
 
 VOCABULARY = ("door", "drawer", "handle", "knob", "top", "back", "trim", "shelf", "window", "lid", "leg", "blade")
@@ -37,6 +37,6 @@ SAID: dict[str, dict[tuple[str, str], int]] = {
 def test_names_say_what_hulls_are_and_by_which_kind_of_name(path: str) -> None:
     found = Counter[tuple[str, str]]()
     for geom in read(corpus(path)).geoms:
-        one = told(Names(geom.name, geom.body, geom.mentions), VOCABULARY)
+        one = match_names(HullNames(geom.name, geom.body, geom.mentions), VOCABULARY)
         found[(one.label or "", one.kind) if one else ("", "")] += 1
     assert found == SAID[path]

@@ -8,10 +8,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from meshforge.asset import Asset, Geom
-from meshforge.errors import AssetError
+from meshforge.common import AssetError
 from meshforge.formats import read, save
 from meshforge.geometry import convex_hull
+from meshforge.symbolic import Asset, Geom
 from tests.corpus_path import corpus
 from tests.mesh_engines import bounds
 

@@ -7,9 +7,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from meshforge.asset import Geom
 from meshforge.formats import read, save
 from meshforge.geometry import convex_hull
+from meshforge.symbolic import Geom
 from tests.mesh_engines import Bullet, bounds, mujoco_hull, objects
 from tests.mesh_files import obj, ply, stl_ascii, stl_binary
 from tests.soups import box, together

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from meshforge.errors import AssetError
+from meshforge.common import AssetError
 from tests.corpus_path import corpus
 from tests.sdf_sample import read, write
 from tests.urdf_sample import assert_reads_back, put, without

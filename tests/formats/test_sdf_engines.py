@@ -9,9 +9,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from meshforge.asset import Asset
 from meshforge.formats import read, save
 from meshforge.geometry import Box, Pose, Sphere
+from meshforge.symbolic import Asset
 from tests.conversion_samples import crowd, doors, primitives
 from tests.corpus_case import ROOT
 from tests.corpus_path import corpus

@@ -8,8 +8,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from meshforge.asset import Asset
 from meshforge.geometry import Box, Ellipsoid, Pose, Sphere
+from meshforge.symbolic import Asset
 from tests.corpus_path import corpus
 from tests.urdf_engines import GEOMS, MASSES, assert_mujoco_agrees, bullet, mujoco_model, yourdf
 from tests.urdf_sample import made, put, read, sample, without, write

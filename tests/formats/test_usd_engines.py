@@ -7,9 +7,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from meshforge.asset import Asset, Geom
 from meshforge.formats import read, save
 from meshforge.geometry import Box, Capsule, Cylinder, Shape, Sphere
+from meshforge.symbolic import Asset, Geom
 from tests.corpus_path import corpus
 from tests.usd_stages import complaints, physics_shapes
 
@@ -69,7 +69,7 @@ def test_usd_tells_engines_the_hulls_of_a_converted_asset(tmp_path: Path, name: 
 def test_usd_tells_engines_the_hulls_of_an_edited_stage(tmp_path: Path, name: str, suffix: str) -> None:
     asset = agrees(save(read(corpus() / name), tmp_path / f"a{suffix}").path)
     first, second, *rest = asset.geoms
-    made = Geom(f"{second.name}~1", second.body, Box.filling(second.shape.aabb), parent=second.name)
+    made = Geom(f"{second.name}~1", second.body, Box.of_bounds(second.shape.aabb), parent=second.name)
     edited = agrees(save(asset.with_geoms([*rest, made]), tmp_path / "out" / f"a{suffix}").path)
     assert len(edited.geoms) == len(asset.geoms) - 1
     assert first.name not in {geom.name for geom in edited.geoms}

@@ -9,7 +9,7 @@ import argparse
 import sys
 from pathlib import Path
 
-from meshforge.batch import Lost, isolated
+from meshforge.batch import ExecutionOptions, WorkerFailure, run_isolated
 from tests.fuzz.inputs import KINDS, Tried, changed, tried
 
 _CHUNK = 250
@@ -43,11 +43,15 @@ def _kind(kind: str, start: int, count: int) -> list[tuple[int, str]]:
     """What went wrong with a kind, by seed."""
     work = [(kind, first, min(first + _CHUNK, start + count)) for first in range(start, start + count, _CHUNK)]
     rows, wrong = [], list[tuple[int, str]]()
-    for (_, first, last), row in zip(work, isolated(tried, work, timeout=_SECONDS, memory=_MEMORY), strict=True):
-        if isinstance(row, Lost):  # one of them broke the worker: each by itself
+    for (_, first, last), row in zip(
+        work, run_isolated(tried, work, ExecutionOptions(timeout=_SECONDS, memory=_MEMORY)), strict=True
+    ):
+        if isinstance(row, WorkerFailure):  # one of them broke the worker: each by itself
             alone = [(kind, seed, seed + 1) for seed in range(first, last)]
-            for (_, seed, _), single in zip(alone, isolated(tried, alone, timeout=20.0, memory=_MEMORY), strict=True):
-                if isinstance(single, Lost):
+            for (_, seed, _), single in zip(
+                alone, run_isolated(tried, alone, ExecutionOptions(timeout=20.0, memory=_MEMORY)), strict=True
+            ):
+                if isinstance(single, WorkerFailure):
                     wrong.append((seed, single.why))
                 else:
                     rows.append(single)

@@ -14,11 +14,11 @@ from pathlib import Path
 
 import numpy as np
 
-from meshforge.errors import MeshForgeError
-from meshforge.formats.segmented import read_segmented
+from meshforge.common import MeshForgeError
+from meshforge.formats.segmentation.reader import read_segmentation
 from meshforge.language import Program
-from meshforge.project.demonstrating import steps
-from meshforge.project.settings import read_settings
+from meshforge.store.settings import read_settings
+from meshforge.store.steps import read_steps
 from meshforge.symbolic import read_labels
 from tests.corpus_case import ROOT
 from tests.damage import damaged
@@ -39,9 +39,9 @@ KINDS = {
 """Whole inputs of each kind: files of the corpus, and segmented points and crates, which are made."""
 _OF_PROJECTS: dict[str, Callable[[Path], object]] = {
     "labels": read_labels,
-    "steps": steps,
+    "steps": read_steps,
     "settings": lambda path: read_settings(path.parent),
-    "points": read_segmented,
+    "points": read_segmentation,
 }
 
 

@@ -14,16 +14,16 @@ import trimesh
 from hypothesis import given
 from hypothesis import strategies as st
 
-from meshforge.asset import Asset, Surface, unique_names
-from meshforge.formats import Names, Saved, read, save
+from meshforge.formats import EngineName, SaveResult, read, save
 from meshforge.geometry import Pose
+from meshforge.symbolic import Asset, Surface, unique_names
 from tests.conversion_samples import foreign
 from tests.engine_rules import godot_word, looks_like_collision_to_fbx, unreal_target
 from tests.examples import examples
 from tests.gltf_files import tree_of
 from tests.shape_strategies import KINDS, generators, rotation, shape
 
-MADE: list[tuple[Names, str]] = [("unreal", ".glb"), ("unreal", ".obj"), ("godot", ".gltf"), ("unity", ".glb")]
+MADE: list[tuple[EngineName, str]] = [("unreal", ".glb"), ("unreal", ".obj"), ("godot", ".gltf"), ("unity", ".glb")]
 FITTED = 0.005  # share of its size by which the smallest capsule about an inscribed mesh differs from the capsule
 WORDS = [
     *("leg", "Leg", "leg_1", "leg_1_2", "leg1", "_01", "UCX_leg", "ucx_leg_00", "top UCP", "a/b", "a_b", "a.b:c@d"),
@@ -47,7 +47,7 @@ def assets(draw: st.DrawFn) -> Asset:
 
 
 @contextmanager
-def named(asset: Asset, names: Names, suffix: str) -> Iterator[Saved]:
+def named(asset: Asset, names: EngineName, suffix: str) -> Iterator[SaveResult]:
     with TemporaryDirectory() as folder:
         yield save(asset, Path(folder) / f"thing_01{suffix}", names=names)
 
@@ -56,7 +56,7 @@ def named(asset: Asset, names: Names, suffix: str) -> Iterator[Saved]:
 @examples(20)
 @given(asset=assets())
 def test_hulls_read_back_in_their_places_each_under_the_name_that_is_told(
-    names: Names, suffix: str, asset: Asset
+    names: EngineName, suffix: str, asset: Asset
 ) -> None:
     with named(asset, names, suffix) as saved:
         after = {geom.name: geom.shape for geom in read(saved.path).geoms}
@@ -66,7 +66,7 @@ def test_hulls_read_back_in_their_places_each_under_the_name_that_is_told(
     assert asset.aabb is not None
     for geom in asset.geoms:
         now = after.pop(saved.names.get(geom.name, geom.name))
-        was = geom.shape if now.kind == geom.shape.kind else geom.shape.tessellated()
+        was = geom.shape if now.kind == geom.shape.kind else geom.shape.tessellate()
         near = FITTED if now.kind == "capsule" else 1e-6
         slack = 1e-6 * (1 + asset.aabb.diagonal) + near * geom.shape.aabb.diagonal
         np.testing.assert_allclose(now.aabb.min, was.aabb.min, atol=slack, err_msg=geom.name)

@@ -34,7 +34,7 @@ def test_shapes_moved_to_a_gap_have_that_distance(a: Shape, b: Shape, share: flo
     below, above, way = distance_bracket(a, b)
     assume(above - below < 1e-9 and below > 1e-3)
     gap = share * diagonal(a, b)
-    moved = b.moved(Pose.of_translation(way * (gap / above - 1)))
+    moved = b.move(Pose.of_translation(way * (gap / above - 1)))
     assert distance(a, moved) == pytest.approx(gap, abs=RIGHT * diagonal(a, moved))
 
 
@@ -57,7 +57,7 @@ def test_hulls_of_hard_points_have_the_distance_of_the_reference(points: Floats,
 def test_a_distance_moves_and_scales_along(a: Shape, b: Shape, pose: Pose, exponent: int) -> None:
     factor = 10.0**exponent
     linear, offset = pose.rotation * factor, pose.translation * factor
-    image = distance(a.mapped(linear, offset), b.mapped(linear, offset))
+    image = distance(a.transform(linear, offset), b.transform(linear, offset))
     assert image == pytest.approx(factor * distance(a, b), abs=2 * RIGHT * factor * diagonal(a, b))
     assert distance(b, a) == pytest.approx(distance(a, b), abs=2 * RIGHT * diagonal(a, b))
 
@@ -65,7 +65,7 @@ def test_a_distance_moves_and_scales_along(a: Shape, b: Shape, pose: Pose, expon
 @LAW
 @given(a=shapes())
 def test_a_shape_is_at_distance_zero_of_itself_and_of_what_it_holds(a: Shape) -> None:
-    inner = a.mapped(np.eye(3) / 2, a.centroid / 2)
+    inner = a.transform(np.eye(3) / 2, a.centroid / 2)
     assert distance(a, a) <= 1e-9
     assert distance(a, inner) <= 1e-9
 
@@ -79,7 +79,7 @@ def test_upright_boxes_have_the_distance_of_their_corners_to_the_last_digits(rng
         low = rng.integers(-4, 5, size=3) * step
         size = rng.integers(1, 4, size=3) * step * rng.choice([1.0, 1.0, 1.0, 0.01], size=3)
         boxes.append(Aabb(low, low + size))
-        shapes_made.append(Box.filling(boxes[-1]) if rng.random() < 0.5 else convex_hull(boxes[-1].corners))
+        shapes_made.append(Box.of_bounds(boxes[-1]) if rng.random() < 0.5 else convex_hull(boxes[-1].corners))
     found = close_pairs(shapes_made, 100.0)
     for (i, j), gap in found.items():
         apart = np.maximum(boxes[i].min - boxes[j].max, boxes[j].min - boxes[i].max).clip(0)

@@ -9,20 +9,20 @@ from hypothesis import strategies as st
 from scipy.optimize import nnls
 
 from meshforge.geometry import (
-    Budget,
     Floats,
+    HullBudget,
     Polytope,
     convex_hull,
-    enclosing,
+    enclose,
     is_closed,
     is_convex,
-    outward,
+    is_outward,
     polygon_sizes,
 )
 from tests.examples import examples
 from tests.shape_strategies import clouds, generators
 
-_BUDGETS = st.builds(Budget, st.integers(8, 64), st.integers(6, 64), st.integers(4, 32))
+_BUDGETS = st.builds(HullBudget, st.integers(8, 64), st.integers(6, 64), st.integers(4, 32))
 
 
 def heights(points: Floats, hull: Polytope) -> Floats:
@@ -47,13 +47,15 @@ def distance_to(point: Floats, vertices: Floats) -> float:
 @pytest.mark.slow
 @examples(80)
 @given(clouds(), _BUDGETS)
-def test_a_simpler_hull_is_convex_holds_the_old_one_and_keeps_to_its_budget(cloud: Floats, budget: Budget) -> None:
+def test_a_simpler_hull_is_convex_holds_the_old_one_and_keeps_to_its_budget(cloud: Floats, budget: HullBudget) -> None:
     hull = convex_hull(cloud)
-    found = enclosing(hull, budget)
+    found = enclose(hull, budget)
     if found is None:
         return
     made, size = found.hull, float(np.ptp(hull.vertices, axis=0).max())
-    assert is_closed(made.faces) and outward(made.vertices, made.faces) and is_convex(made.vertices, made.faces, 1e-7)
+    assert (
+        is_closed(made.faces) and is_outward(made.vertices, made.faces) and is_convex(made.vertices, made.faces, 1e-7)
+    )
     assert heights(hull.vertices, made).max() <= 1e-9 * size + 1e-13 * np.abs(hull.vertices).max()
     assert len(made.vertices) <= budget.vertices
     sizes = polygon_sizes(made)
@@ -65,7 +67,7 @@ def test_a_simpler_hull_is_convex_holds_the_old_one_and_keeps_to_its_budget(clou
 @given(generators(), st.integers(8, 40))
 def test_the_error_is_the_distance_of_the_farthest_vertex(rng: np.random.Generator, vertices: int) -> None:
     hull = convex_hull(rng.normal(size=(60, 3)) * 10.0 ** rng.uniform(-1, 0, size=3))
-    found = enclosing(hull, Budget(vertices))
+    found = enclose(hull, HullBudget(vertices))
     assert found is not None
     farthest = max(distance_to(vertex, hull.vertices) for vertex in found.hull.vertices)
     assert found.error == pytest.approx(farthest, rel=1e-4, abs=1e-5)
@@ -75,13 +77,13 @@ def test_the_error_is_the_distance_of_the_farthest_vertex(rng: np.random.Generat
 @given(generators())
 def test_there_is_always_a_box(rng: np.random.Generator) -> None:
     hull = convex_hull(rng.normal(size=(30, 3)) * 10.0 ** rng.uniform(-3, 3, size=3))
-    found = enclosing(hull, Budget(8, 6, 4))
+    found = enclose(hull, HullBudget(8, 6, 4))
     assert found is not None and len(found.hull.vertices) <= 8 and len(polygon_sizes(found.hull)) <= 6
 
 
 def test_a_budget_that_no_hull_keeps_to_is_refused() -> None:
     cube = convex_hull(np.array([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)], dtype=float))
-    assert enclosing(cube, Budget(vertices=3)) is None and enclosing(cube, Budget(polygons=3)) is None
+    assert enclose(cube, HullBudget(vertices=3)) is None and enclose(cube, HullBudget(polygons=3)) is None
 
 
 @pytest.mark.slow
@@ -89,7 +91,7 @@ def test_a_budget_that_no_hull_keeps_to_is_refused() -> None:
 def test_a_hull_of_a_few_vertices_too_many_hardly_grows(count: int, share: float) -> None:
     points = np.random.default_rng(count).normal(size=(count, 3))
     ball = convex_hull(points / np.linalg.norm(points, axis=1, keepdims=True))
-    found = enclosing(ball, Budget(vertices=64))
+    found = enclose(ball, HullBudget(vertices=64))
     assert found is not None and found.error < share * ball.aabb.diagonal
 
 
@@ -98,7 +100,7 @@ def test_a_hull_of_a_few_vertices_too_many_hardly_grows(count: int, share: float
 def test_a_ball_of_many_vertices_is_met_well(vertices: int, share: float) -> None:
     points = np.random.default_rng(1).normal(size=(2000, 3))
     ball = convex_hull(points / np.linalg.norm(points, axis=1, keepdims=True))
-    found = enclosing(ball, Budget(vertices))
+    found = enclose(ball, HullBudget(vertices))
     assert found is not None and found.error < share * ball.aabb.diagonal
 
 
@@ -106,11 +108,11 @@ def test_a_ball_of_many_vertices_is_met_well(vertices: int, share: float) -> Non
 def test_more_vertices_never_stick_out_more_by_much() -> None:
     points = np.random.default_rng(2).normal(size=(120, 3))
     hull = convex_hull(points / np.linalg.norm(points, axis=1, keepdims=True))
-    errors = [found.error for n in (16, 32, 64) if (found := enclosing(hull, Budget(n)))]
+    errors = [found.error for n in (16, 32, 64) if (found := enclose(hull, HullBudget(n)))]
     assert errors[0] > errors[1] > errors[2] >= 0
 
 
 def test_the_same_hull_gives_the_same_bytes() -> None:
     points = np.random.default_rng(3).normal(size=(200, 3))
-    first, second = (enclosing(convex_hull(points), Budget(24)) for _ in range(2))
+    first, second = (enclose(convex_hull(points), HullBudget(24)) for _ in range(2))
     assert first and second and first.hull.vertices.tobytes() == second.hull.vertices.tobytes()

@@ -26,9 +26,9 @@ from meshforge.geometry import (
     cut,
     is_closed,
     is_convex,
+    is_outward,
     longest_axis,
-    mapped_to,
-    outward,
+    map_to_box,
     overlap_volume,
     tight_box,
     tight_capsule,
@@ -87,7 +87,7 @@ def test_a_tight_box_is_no_larger_than_the_upright_one(points: Floats) -> None:
 @given(rng=generators())
 def test_a_turned_cylinder_is_found_again(rng: np.random.Generator) -> None:
     cylinder = Cylinder(Pose(rotation(rng), rng.normal(size=3)), *10.0 ** rng.uniform(-1, 0, size=2))
-    hull = cylinder.tessellated()
+    hull = cylinder.tessellate()
     assert hull.volume < tight_cylinder(hull.vertices).volume <= cylinder.volume * (1 + 1e-3)
 
 
@@ -95,7 +95,7 @@ def test_a_turned_cylinder_is_found_again(rng: np.random.Generator) -> None:
 @given(rng=generators())
 def test_a_turned_capsule_is_found_again(rng: np.random.Generator) -> None:
     capsule = Capsule(Pose(rotation(rng), rng.normal(size=3)), *10.0 ** rng.uniform(-1, 0, size=2))
-    hull = capsule.tessellated()
+    hull = capsule.tessellate()
     assert hull.volume < tight_capsule(hull.vertices).volume <= capsule.volume * (1 + 1e-2)
 
 
@@ -119,11 +119,11 @@ def test_a_shape_that_fills_a_box_has_that_box(bounds: Aabb, fill: Callable[[Aab
     slack = 1e-12 if shape.kind == "polytope" else 0.005 * bounds.size.max() + 1e-12  # half of 1%, for the mean
     assert np.allclose(shape.aabb.min, bounds.min, rtol=0, atol=slack)
     assert np.allclose(shape.aabb.max, bounds.max, rtol=0, atol=slack)
-    hull = shape.tessellated()
+    hull = shape.tessellate()
     assert len(hull.vertices) <= 64
     assert is_closed(hull.faces)
     assert is_convex(hull.vertices, hull.faces)
-    assert outward(hull.vertices, hull.faces)
+    assert is_outward(hull.vertices, hull.faces)
 
 
 @examples(200)
@@ -142,8 +142,8 @@ def test_round_shapes_are_native_where_their_sides_agree_within_one_percent(boun
 @LAW
 @given(a=shapes(), b=shapes(), target=boxes())
 def test_mapped_shapes_together_have_the_target_box(a: Shape, b: Shape, target: Aabb) -> None:
-    hulls = [a.tessellated(), b.tessellated()]
-    made = mapped_to(hulls, Aabb.union(h.aabb for h in hulls), target)
+    hulls = [a.tessellate(), b.tessellate()]
+    made = map_to_box(hulls, Aabb.union(h.aabb for h in hulls), target)
     box = Aabb.union(shape.aabb for shape in made)
     assert np.allclose(box.min, target.min, rtol=0, atol=1e-9)
     assert np.allclose(box.max, target.max, rtol=0, atol=1e-9)
@@ -154,7 +154,7 @@ def test_mapped_shapes_together_have_the_target_box(a: Shape, b: Shape, target: 
 def test_the_parts_of_a_cut_are_hulls_that_make_up_the_whole(
     shape: Shape, point: np.random.Generator, normal: Floats
 ) -> None:
-    whole = shape.tessellated()
+    whole = shape.tessellate()
     at = shape.centroid + point.normal(size=3) * 0.2 * whole.aabb.size
     parts = cut(shape, at, normal)
     assert sum(part.volume for part in parts if part) == pytest.approx(whole.volume, rel=1e-6)
@@ -186,7 +186,7 @@ def test_an_overlap_with_a_part_is_that_part(shape: Shape, normal: Floats) -> No
 @LAW
 @given(shape=shapes(), pose=generators())
 def test_an_overlap_of_round_shapes_is_right_to_a_thousandth(shape: Shape, pose: np.random.Generator) -> None:
-    half = shape.mapped(np.eye(3) / 2, shape.centroid / 2)
+    half = shape.transform(np.eye(3) / 2, shape.centroid / 2)
     assert overlap_volume(shape, half) == pytest.approx(half.volume, rel=1e-3)
 
 

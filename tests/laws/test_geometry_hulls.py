@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 
-from meshforge.geometry import Floats, Polytope, convex_hull, is_closed, is_convex, outward, principal_extents
+from meshforge.geometry import Floats, Polytope, convex_hull, is_closed, is_convex, is_outward, principal_extents
 from tests.examples import examples
 from tests.shape_strategies import clouds, directions, generators
 
@@ -38,7 +38,7 @@ def test_a_hull_is_closed_convex_outward_and_has_a_volume(points: Floats) -> Non
     hull = convex_hull(points)
     assert is_closed(hull.faces)
     assert is_convex(hull.vertices, hull.faces, 1e-7)
-    assert outward(hull.vertices, hull.faces)
+    assert is_outward(hull.vertices, hull.faces)
     assert hull.volume > 0
     assert len(hull.vertices) - len(hull.faces) // 2 == 2
     assert np.array_equal(np.unique(hull.faces), np.arange(len(hull.vertices)))

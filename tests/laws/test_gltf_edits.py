@@ -9,10 +9,10 @@ import numpy as np
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from meshforge.asset import Asset, Geom
 from meshforge.formats import read, save
 from meshforge.formats.gltf.document import GltfDocument
-from meshforge.geometry import Box, Capsule, Pose, Shape, Sphere, convex_hull, same_shape
+from meshforge.geometry import Box, Capsule, Pose, Shape, Sphere, convex_hull, is_same_shape
+from meshforge.symbolic import Asset, Geom
 from tests.examples import examples
 from tests.gltf_files import KHR, SceneFile, Tree, tree_of
 from tests.soups import angle, box, together
@@ -126,7 +126,7 @@ def _assert_has(after: Asset, wanted: Asset, names: object) -> None:
         now = back[names.get(geom.name, geom.name)]
         assert now.body == geom.body
         if geom.parent is None:
-            assert same_shape(now.shape, geom.shape, 1e-9)
+            assert is_same_shape(now.shape, geom.shape, 1e-9)
         else:
             size = geom.shape.aabb.diagonal
             np.testing.assert_allclose(now.shape.aabb.min, geom.shape.aabb.min, atol=0.02 * size)

@@ -10,20 +10,9 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 from scipy.spatial import ConvexHull
 
-from meshforge.errors import ProgramError
+from meshforge.common import ProgramError
 from meshforge.geometry import Floats, Pose
-from meshforge.language import (
-    DIRECTIONS,
-    All,
-    Direction,
-    Is,
-    LandmarkPair,
-    Orient,
-    Program,
-    Replace,
-    Rule,
-    orient_mesh,
-)
+from meshforge.language import DIRECTIONS, All, Direction, Is, LandmarkPair, Orient, Program, Replace, Rule, orient_mesh
 from meshforge.symbolic import Hull, Label, SymbolicMesh
 from tests.examples import examples
 from tests.laws.test_language_run import alike
@@ -44,7 +33,7 @@ def landmarked(draw: st.DrawFn) -> SymbolicMesh:
 
 def turned(mesh: SymbolicMesh, rotation: Floats) -> SymbolicMesh:
     pose = Pose(rotation, np.zeros(3))
-    return mesh.with_hulls(hull.moved(pose) for hull in mesh.hulls)
+    return mesh.with_hulls(hull.move(pose) for hull in mesh.hulls)
 
 
 def two_pairs() -> Orient:
@@ -69,7 +58,7 @@ def test_with_two_landmark_pairs_the_outcome_does_not_depend_on_the_incoming_fra
     back = turned(again.mesh, rotation.T)
     for a, b in zip(result.mesh.hulls, back.hulls, strict=True):
         assert a.name == b.name
-        assert alike(a.shape.tessellated(), b.shape.tessellated(), 1e-6 * mesh.diagonal)
+        assert alike(a.shape.tessellate(), b.shape.tessellate(), 1e-6 * mesh.diagonal)
 
 
 @given(landmarked(), rotations, st.sampled_from(("box", "cylinder", "capsule")))

@@ -12,7 +12,7 @@ from scipy.spatial import ConvexHull
 
 from meshforge.geometry import Shape
 from meshforge.language import All, Delete, Each, Is, Merge, Program, Rule, Scale, apply_action, select_mask
-from meshforge.language.actions.arguments import Axis
+from meshforge.language.actions.base import Axis
 from meshforge.symbolic import Hull, SymbolicMesh
 from tests.examples import examples
 from tests.strategies import TEMPLATES, VOCABULARY, meshes, programs, rules, seeds, shape_of
@@ -35,7 +35,7 @@ def assert_sound(shape: Shape) -> None:
     assert np.isfinite(vertices).all() and shape.volume > 0
     edges = Counter((int(a), int(b)) for f in faces for a, b in zip(f, np.roll(f, -1), strict=True))
     assert set(edges.values()) == {1} and all((b, a) in edges for a, b in edges)
-    polytope = shape.tessellated()
+    polytope = shape.tessellate()
     size = float(np.ptp(vertices, axis=0).max())
     hull = ConvexHull(vertices / size, qhull_options="QJ Pp" if np.ptp(vertices, axis=0).min() < 1e-3 * size else "")
     assert np.isclose(hull.volume, polytope.volume / size**3, rtol=1e-6, atol=1e-6)
@@ -46,7 +46,7 @@ def assert_sound(shape: Shape) -> None:
 def test_every_hull_of_an_edited_mesh_is_convex_closed_and_of_positive_volume(
     mesh: SymbolicMesh, program: Program
 ) -> None:
-    if program.asked_labels and not mesh.labels:
+    if program.labels_asked and not mesh.labels:
         return
     result = program.run(mesh, TEMPLATES)
     for hull in result.mesh.hulls:
@@ -57,7 +57,7 @@ def test_every_hull_of_an_edited_mesh_is_convex_closed_and_of_positive_volume(
 @given(meshes(), programs(VOCABULARY, st.none()))
 @examples(60)
 def test_a_hull_that_no_rule_touches_is_the_very_same_object(mesh: SymbolicMesh, program: Program) -> None:
-    if program.asked_labels and not mesh.labels:
+    if program.labels_asked and not mesh.labels:
         return
     result = program.run(mesh, TEMPLATES)
     selected = {name for rule in result.trace for name in rule.selected}
@@ -79,7 +79,7 @@ def test_a_hull_that_no_rule_touches_is_the_very_same_object(mesh: SymbolicMesh,
 def test_a_program_is_its_rules_one_after_the_other(mesh: SymbolicMesh, given_rules: list[Rule]) -> None:
     """Names of made hulls follow each other, so that later rules may count on them."""
     program = Program(VOCABULARY, None, tuple(given_rules))
-    if program.asked_labels and not mesh.labels:
+    if program.labels_asked and not mesh.labels:
         return
     trace = program.run(mesh, TEMPLATES).trace
     made = [name for rule in trace for name in rule.made]
@@ -132,7 +132,7 @@ def test_scaling_by_a_factor_and_back_is_the_identity(scene: tuple[SymbolicMesh,
     result = Program(rules=there_and_back).run(mesh)
     for before, after in zip(mesh.hulls, result.mesh.hulls, strict=True):
         same_kind = before.shape.kind == after.shape.kind
-        one, two = (hull.shape if same_kind else hull.shape.tessellated() for hull in (before, after))
+        one, two = (hull.shape if same_kind else hull.shape.tessellate() for hull in (before, after))
         assert alike(one, two, tolerance=1e-9 * mesh.diagonal * max(factor, 1 / factor))
         assert (after.label, after.body, after.parent) == (before.label, before.body, before.name)
 
@@ -147,10 +147,10 @@ def test_merging_each_component_covers_it_and_no_more(mesh: SymbolicMesh) -> Non
     several = [group for group in groups if len(group) > 1]
     assert len(applied.made) == len(several) and len(applied.mesh.hulls) == len(groups)
     for name, group in zip(applied.made, several, strict=True):
-        assert_hull_of(applied.mesh.named(name), group, mesh.diagonal)
+        assert_hull_of(applied.mesh.hull_of(name), group, mesh.diagonal)
 
 
 def assert_hull_of(made: Hull, group: list[Hull], diagonal: float) -> None:
-    reach = [supports(hull.shape.tessellated()) for hull in group]
+    reach = [supports(hull.shape.tessellate()) for hull in group]
     assert np.abs(np.max(reach, axis=0) - supports(made.shape)).max() <= 2e-4 * diagonal
     assert made.body == group[0].body

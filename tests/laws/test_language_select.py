@@ -23,9 +23,9 @@ from meshforge.language import (
     Merge,
     Union,
     select,
-    size,
+    size_of,
 )
-from meshforge.symbolic import SymbolicMesh, bits, components, mask_of
+from meshforge.symbolic import SymbolicMesh, bits_of, mask_of, split_by_contact
 from tests.examples import examples
 from tests.strategies import extractors, meshes
 
@@ -78,7 +78,7 @@ def test_extractors_select_what_their_set_builder_definitions_say(mesh: Symbolic
 @examples(60)
 def test_components_partition_a_selection_into_chains_of_contacts(mesh: SymbolicMesh, extractor: Extractor) -> None:
     chosen = select(extractor, mesh)
-    parts = [bits(part) for part in components(mesh, mask_of(chosen))]
+    parts = [bits_of(part) for part in split_by_contact(mesh, mask_of(chosen))]
     assert sorted(g for part in parts for g in part) == sorted(chosen)
     of = {g: k for k, part in enumerate(parts) for g in part}
     for u, v in itertools.combinations(sorted(chosen), 2):
@@ -86,7 +86,7 @@ def test_components_partition_a_selection_into_chains_of_contacts(mesh: Symbolic
         assert not (one_body and touching(mesh, u, v)) or of[u] == of[v]
         assert one_body or of[u] != of[v]
     assert all(connected(mesh, part) for part in parts)
-    assert Each(Merge()).groups(mesh, mask_of(chosen)) == components(mesh, mask_of(chosen))
+    assert Each(Merge()).groups(mesh, mask_of(chosen)) == split_by_contact(mesh, mask_of(chosen))
 
 
 def connected(mesh: SymbolicMesh, part: frozenset[int]) -> bool:
@@ -103,4 +103,4 @@ def connected(mesh: SymbolicMesh, part: frozenset[int]) -> bool:
 def test_the_size_counts_the_words_of_the_printed_extractor(extractor: Extractor) -> None:
     text = str(extractor)  # the dataclass form names every node once
     nodes = sum(text.count(f"{word}(") for word in ("All", "Is", "Attach", "Geo", "Union", "Intersect", "Diff"))
-    assert size(extractor) == nodes
+    assert size_of(extractor) == nodes

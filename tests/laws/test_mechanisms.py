@@ -10,9 +10,9 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
-from meshforge.asset import Asset, Body, Document, Geom, Inertial, Joint, JointKind, Mechanism
 from meshforge.formats import read, save
 from meshforge.geometry import Pose
+from meshforge.symbolic import Asset, Body, Document, Geom, Inertial, Joint, JointKind, Mechanism
 from tests.examples import examples
 from tests.shape_strategies import generators, rotation, shape
 
@@ -135,6 +135,6 @@ def test_from_sdf_to_urdf_and_back_all_is_what_it_was(asset: Asset) -> None:
 @given(mechanisms())
 def test_a_turn_of_the_root_frame_and_back_leaves_a_mechanism_as_it_was(asset: Asset) -> None:
     turn = Pose.from_rpy([1, 2, 3], [0.4, -1.1, 2.0])
-    moved = replace(asset, mechanism=asset.mechanism.moved(turn).moved(turn.inverse()))
+    moved = replace(asset, mechanism=asset.mechanism.move(turn).move(turn.inverse()))
     assert_same_joints(asset, moved)
     assert_same_masses(asset, moved)

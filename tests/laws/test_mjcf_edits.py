@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from meshforge.asset import Asset, Geom
+from meshforge.symbolic import Asset, Geom
 from tests.mjcf_engines import TETRAHEDRON, model, put, read
 from tests.mjcf_models import Pair, compiled, hull, replaced, write
 from tests.strategies import shapes

@@ -11,9 +11,9 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
-from meshforge.asset import Asset, Geom
 from meshforge.formats import read, save
 from meshforge.geometry import convex_hull
+from meshforge.symbolic import Asset, Geom
 from tests.examples import examples
 from tests.mesh_files import ply, stl_ascii, stl_binary
 from tests.soups import Soup, box, together

@@ -12,7 +12,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from meshforge.errors import MeshForgeError
+from meshforge.common import MeshForgeError
 from meshforge.formats import read
 from meshforge.symbolic import SymbolicMesh, read_labels
 from tests.corpus_case import ROOT

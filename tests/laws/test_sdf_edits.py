@@ -10,7 +10,7 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
-from meshforge.asset import Asset, Geom
+from meshforge.symbolic import Asset, Geom
 from tests.sdf_sample import put_text, read, write
 from tests.strategies import shapes
 from tests.urdf_sample import THREE, put
@@ -113,7 +113,7 @@ def test_an_edit_changes_what_it_says_and_nothing_else(data: st.DataObject) -> N
         assert [piece.name for piece in again.opaque] == [piece.name for piece in edit.opaque]
         for key, geom in was.items():
             native = geom.shape.kind == now[key].shape.kind
-            box = (geom.shape if native else geom.shape.tessellated()).aabb
+            box = (geom.shape if native else geom.shape.tessellate()).aabb
             slack = 1e-6 * (box.diagonal + float(np.abs(box.center).max()))
             np.testing.assert_allclose(now[key].shape.aabb.min, box.min, atol=slack, err_msg=key)
             np.testing.assert_allclose(now[key].shape.aabb.max, box.max, atol=slack, err_msg=key)

@@ -8,30 +8,27 @@ from itertools import combinations, product
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from meshforge.language import All, Attach, Base, Extractor, Geo, Is, labels_used, select_mask, size
-from meshforge.symbolic import Label, SymbolicMesh, bits
-from meshforge.synthesis.correction import Correction
-from meshforge.synthesis.example import Example
-from meshforge.synthesis.options import LAYERS, Layers, Options
-from meshforge.synthesis.paper import Explained, paper_search
-from meshforge.synthesis.paper.abduction import Abduction
-from meshforge.synthesis.paper.bounds import bounds, feasible
-from meshforge.synthesis.paper.demo import Demo
+from meshforge.language import All, Attach, BaseExtractor, Extractor, Geo, Is, labels_of, select_mask, size_of
+from meshforge.symbolic import Label, SymbolicMesh, bits_of
+from meshforge.synthesis.demonstration import Example
+from meshforge.synthesis.options import LAYERS, Layers, Options, TimeBudget
+from meshforge.synthesis.paper.evaluate import ExampleMasks, bounds, is_feasible
 from meshforge.synthesis.paper.partial import (
     BaseHole,
-    Grammar,
     Hole,
+    HoleGrammar,
     Open,
     OpenAttach,
     OpenGeo,
-    OpenJoint,
+    OpenOperator,
     Partial,
-    attach,
-    join,
-    nodes,
+    count_nodes,
+    make_attach,
+    make_operator,
 )
-from meshforge.synthesis.search import Hit, Miss, Search
-from meshforge.synthesis.watch import Watch
+from meshforge.synthesis.paper.search import Abduction, HitWithCorrections, PaperSearch
+from meshforge.synthesis.questions import LabelCorrection
+from meshforge.synthesis.search.smallest import Hit, Miss, Search
 from tests.examples import examples
 from tests.strategies import extractors, grid_boxes, meshes
 
@@ -54,12 +51,12 @@ def shown(batch: Sequence[SymbolicMesh], extractor: Extractor) -> list[Example]:
 def test_the_size_is_that_of_the_other_strategy(batch: list[SymbolicMesh], hidden: Extractor, layers: Layers) -> None:
     examples = shown(batch, hidden)
     options = Options(layers=layers, repair=False, max_size=5)
-    answer = paper_search(examples, LABELS, Watch(600), options)
-    other = Search(examples, LABELS, Watch(600), options).run()
+    answer = PaperSearch(examples, LABELS, TimeBudget(600), options).run()
+    other = Search(examples, LABELS, TimeBudget(600), options).run()
     assert isinstance(answer, Hit | Miss) and isinstance(other, Hit | Miss)
     assert isinstance(answer, Hit) == isinstance(other, Hit)
     if isinstance(answer, Hit) and isinstance(other, Hit):
-        assert size(answer.extractor) == size(other.extractor)
+        assert size_of(answer.extractor) == size_of(other.extractor)
         assert [select_mask(answer.extractor, e.mesh) for e in examples] == [e.selection for e in examples]
 
 
@@ -67,7 +64,7 @@ def test_the_size_is_that_of_the_other_strategy(batch: list[SymbolicMesh], hidde
 def with_holes(draw: st.DrawFn, extractor: Extractor) -> Partial:
     """The extractor with parts of it put out."""
 
-    def base(node: Base) -> Base | BaseHole:
+    def base(node: BaseExtractor) -> BaseExtractor | BaseHole:
         return BaseHole() if draw(st.booleans()) else node
 
     def part(node: Extractor) -> Partial:
@@ -77,11 +74,11 @@ def with_holes(draw: st.DrawFn, extractor: Extractor) -> Partial:
             case All() | Is():
                 return node
             case Attach(selected, anchor):
-                return attach(base(selected), base(anchor))
+                return make_attach(base(selected), base(anchor))
             case Geo(_, direction):
                 return OpenGeo(direction) if draw(st.booleans()) else node
             case joint:
-                return join(type(joint), part(joint.left), part(joint.right))
+                return make_operator(type(joint), part(joint.left), part(joint.right))
 
     return part(extractor)
 
@@ -90,7 +87,7 @@ def with_holes(draw: st.DrawFn, extractor: Extractor) -> Partial:
 @given(meshes(grid_boxes(), vocabulary=LABELS), extractors(LABELS), st.data())
 def test_a_completion_selects_within_the_bounds(mesh: SymbolicMesh, extractor: Extractor, data: st.DataObject) -> None:
     partial = data.draw(with_holes(extractor))
-    low, high = bounds(partial, Demo(Example("mesh", mesh, 0)))
+    low, high = bounds(partial, ExampleMasks(Example("mesh", mesh, 0)))
     selection = select_mask(extractor, mesh)
     assert not low & ~selection
     assert not selection & ~high
@@ -109,7 +106,7 @@ def completes(extractor: Extractor, partial: Partial) -> bool:
                 isinstance(base, BaseHole) or base == wanted
                 for base, wanted in ((selected, extractor.selected), (anchor, extractor.anchor))
             )
-        case OpenJoint(joint, left, right):
+        case OpenOperator(joint, left, right):
             if isinstance(extractor, All | Is | Attach | Geo) or not isinstance(extractor, joint):
                 return False
             return completes(extractor.left, left) and completes(extractor.right, right)
@@ -122,37 +119,39 @@ def completes(extractor: Extractor, partial: Partial) -> bool:
 def test_one_way_leads_to_every_extractor_and_what_it_selects_never_cuts_it(
     mesh: SymbolicMesh, hidden: Extractor
 ) -> None:
-    demo, grammar = Demo(Example("mesh", mesh, select_mask(hidden, mesh))), Grammar(LABELS, "S+T+G")
+    demo, grammar = ExampleMasks(Example("mesh", mesh, select_mask(hidden, mesh))), HoleGrammar(LABELS, "S+T+G")
     partial: Partial = Hole()
     while isinstance(partial, Open):
-        assert feasible(partial, demo)
-        (following,) = [candidate for candidate in grammar.filled(partial) if completes(hidden, candidate)]
-        assert nodes(partial) <= nodes(following) <= size(hidden)
+        assert is_feasible(partial, demo)
+        (following,) = [candidate for candidate in grammar.fill(partial) if completes(hidden, candidate)]
+        assert count_nodes(partial) <= count_nodes(following) <= size_of(hidden)
         partial = following
     assert partial == hidden
 
 
-def corrected(example: Example, corrections: Sequence[Correction]) -> Example:
+def corrected(example: Example, corrections: Sequence[LabelCorrection]) -> Example:
     example.mesh.contacts  # noqa: B018 (measured now, and taken over by the relabelled mesh)
     labels = {c.hull: Label(c.to, 1.0, "repair") for c in corrections if c.asset == example.name}
-    return Example(example.name, example.mesh.labelled(labels), example.selection)
+    return Example(example.name, example.mesh.with_labels(labels), example.selection)
 
 
 def matches(extractor: Extractor, examples: Sequence[Example]) -> bool:
     return all(select_mask(extractor, example.mesh) == example.selection for example in examples)
 
 
-def naive_repairs(extractor: Extractor, examples: Sequence[Example], eta: int) -> Iterator[tuple[Correction, ...]]:
+def naive_repairs(extractor: Extractor, examples: Sequence[Example], eta: int) -> Iterator[tuple[LabelCorrection, ...]]:
     """All relabelings of at most eta suspects a mesh by labels relevant to the extractor, over all meshes at once."""
-    mentioned = labels_used(extractor)
+    mentioned = labels_of(extractor)
     labels = [hull.label for example in examples for hull in example.mesh.hulls]
     outside = sorted((label for label in LABELS if label not in mentioned), key=lambda label: -labels.count(label))
     relevant = (*mentioned, *outside[:1])
     ways = []
     for example in examples:
-        wrong = bits(select_mask(extractor, example.mesh) ^ example.selection)
+        wrong = bits_of(select_mask(extractor, example.mesh) ^ example.selection)
         suspects = [example.mesh.hulls[index] for index in sorted(wrong)]
-        one = [[Correction(example.name, h.name, h.label, to) for to in relevant if to != h.label] for h in suspects]
+        one = [
+            [LabelCorrection(example.name, h.name, h.label, to) for to in relevant if to != h.label] for h in suspects
+        ]
         ways.append([way for k in range(eta + 1) for chosen in combinations(one, k) for way in product(*chosen)])
     for parts in product(*ways):
         yield tuple(correction for part in parts for correction in part)
@@ -165,7 +164,9 @@ def test_a_repair_is_the_smallest_of_all_relabelings_of_suspects(
 ) -> None:
     examples = examples_of(batch, [(selections >> 3 * k) % (1 << len(mesh.hulls)) for k, mesh in enumerate(batch)])
     allowed = {example.name: eta for example in examples}
-    found = Abduction([Demo(example) for example in examples], LABELS, allowed, Watch(600)).infer(extractor)
+    found = Abduction([ExampleMasks(example) for example in examples], LABELS, allowed, TimeBudget(600)).infer(
+        extractor
+    )
     sizes = [
         len(repair)
         for repair in naive_repairs(extractor, examples, eta)
@@ -182,9 +183,9 @@ def test_what_is_explained_matches_once_corrected_and_keeps_the_allowance(
     batch: list[SymbolicMesh], selections: int, eta: int
 ) -> None:
     examples = examples_of(batch, [(selections >> 8 * k) % (1 << len(mesh.hulls)) for k, mesh in enumerate(batch)])
-    answer = paper_search(examples, LABELS, Watch(600), Options(max_size=3, eta=eta))
-    assume(isinstance(answer, Explained))
-    assert isinstance(answer, Explained)
+    answer = PaperSearch(examples, LABELS, TimeBudget(600), Options(max_size=3, eta=eta)).run()
+    assume(isinstance(answer, HitWithCorrections))
+    assert isinstance(answer, HitWithCorrections)
     assert matches(answer.extractor, [corrected(example, answer.corrections) for example in examples])
     for example in examples:
         assert sum(correction.asset == example.name for correction in answer.corrections) <= eta

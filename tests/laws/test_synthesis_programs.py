@@ -12,8 +12,8 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from meshforge.errors import MeshForgeError
-from meshforge.language import Program, Rule, size
+from meshforge.common import MeshForgeError
+from meshforge.language import Program, Rule, size_of
 from meshforge.symbolic import SymbolicMesh
 from meshforge.synthesis import Ambiguous, Demonstration, Found, Options, synthesize
 from tests.examples import examples
@@ -40,9 +40,7 @@ def learned(program: Program, demos: list[Demonstration]) -> Found | Ambiguous:
         demos,
         templates=TEMPLATES,
         vocabulary=LABELS,
-        contact=program.contact,
-        extremity=program.extremity,
-        options=Options(repair=False),
+        options=Options(repair=False, contact=program.contact, extremity=program.extremity),
     )
     assert isinstance(outcome, Found | Ambiguous)
     return outcome
@@ -56,7 +54,7 @@ def test_the_learned_program_does_what_was_shown_and_is_not_larger(hidden: Progr
     program = learned(hidden, demos).program
     assert [(rule.action, rule.label) for rule in program.rules] == [(rule.action, rule.label) for rule in rules]
     for mine, theirs in zip(program.rules, rules, strict=True):
-        assert size(mine.extractor) <= size(theirs.extractor)
+        assert size_of(mine.extractor) <= size_of(theirs.extractor)
     for mesh in batch:
         names = [{hull.name for hull in p.run(mesh, TEMPLATES).mesh.hulls} for p in (program, hidden)]
         assert names[0] == names[1]
@@ -89,7 +87,7 @@ import json
 from benchmark.learning.families import VOCABULARIES, family
 from meshforge.language import Delete, Program, select
 from meshforge.symbolic import Label
-from meshforge.synthesis import Demonstration, Step, outcome_json, synthesize
+from meshforge.synthesis import Demonstration, Step, outcome_to_json, synthesize
 from tests.unit.synthesis.test_running_example import learned
 
 def ambiguous(mislabelled):
@@ -100,12 +98,12 @@ def ambiguous(mislabelled):
     mesh = meshes[name]
     shown = {mesh.hulls[k].name for k in chosen[name]}
     if mislabelled:
-        mesh = mesh.labelled({min(shown): Label("leg", 0.5, "vlm")})
+        mesh = mesh.with_labels({min(shown): Label("leg", 0.5, "vlm")})
     demo = Demonstration(mesh, [Step(1, shown, Delete())], name)
     return synthesize([demo], {**meshes, name: mesh}, vocabulary=VOCABULARIES["table"])
 
 for outcome in (learned(), ambiguous(False), ambiguous(True)):
-    out = outcome_json(outcome)
+    out = outcome_to_json(outcome)
     del out["seconds"]
     print(json.dumps(out))
 """

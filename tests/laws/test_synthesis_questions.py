@@ -12,7 +12,7 @@ from benchmark.learning.families import FAMILIES, VOCABULARIES, family
 from benchmark.learning.hidden import hidden
 from meshforge.language import Delete, Extractor, Program, select
 from meshforge.symbolic import Label, SymbolicMesh
-from meshforge.synthesis import Ambiguous, Answer, Demonstration, Found, Outcome, Repair, Step, synthesize
+from meshforge.synthesis import Ambiguous, Answer, Demonstration, Found, LearningOutcome, Repair, Step, synthesize
 from tests.examples import examples
 from tests.synthesis_boxes import Piece, boxes
 
@@ -54,7 +54,7 @@ def taught(
     meant: Extractor,
     vocabulary: Sequence[str],
     given: Sequence[Answer] = (),
-) -> tuple[Outcome, list[Answer]]:
+) -> tuple[LearningOutcome, list[Answer]]:
     """What is learned once no question is left; questions are answered from what is meant, and all labels are right."""
     demos, answers = shown(meshes, names, meant), list(given)
     while True:
@@ -63,7 +63,7 @@ def taught(
             return outcome, answers
         truth = selected(meshes[outcome.question.asset], meant)
         offered = [frozenset(choice.select) for choice in outcome.question.choices]
-        answers.append(outcome.question.answered(offered.index(truth) if truth in offered else None))
+        answers.append(outcome.question.answer_with(offered.index(truth) if truth in offered else None))
 
 
 @pytest.mark.parametrize("text", ["Is(base)", "Geo(Is(base), -Z)"])
@@ -133,7 +133,7 @@ def test_a_wrong_label_is_found_out_confirmed_and_forgotten(name: str, text: str
     found = 0
     for mislabelled in [h for h in meshes[names[0]].hulls if h.label == hull]:
         label = Label(wrong, 0.6, "vlm")
-        mesh = meshes[names[0]].labelled({mislabelled.name: label})
+        mesh = meshes[names[0]].with_labels({mislabelled.name: label})
         asked: list[Repair] = []
 
         def confirm(repair: Repair, asked: list[Repair] = asked, name: str = mislabelled.name) -> bool:

@@ -9,14 +9,13 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from meshforge.language import Extractor, select_mask, size
+from meshforge.language import Extractor, select_mask, size_of
 from meshforge.symbolic import SymbolicMesh
-from meshforge.synthesis.example import Example
-from meshforge.synthesis.options import Options, Shortcuts
-from meshforge.synthesis.readings import Weighed, every
-from meshforge.synthesis.readings.every import Consistent
-from meshforge.synthesis.search import Hit, Search
-from meshforge.synthesis.watch import Watch
+from meshforge.synthesis.demonstration import Example
+from meshforge.synthesis.options import Options, Shortcuts, TimeBudget
+from meshforge.synthesis.readings.enumeration import ConsistentTerms, enumerate_consistent
+from meshforge.synthesis.readings.rank import RankedReadings
+from meshforge.synthesis.search.smallest import Hit, Search
 from tests.examples import examples
 from tests.strategies import extractors, grid_boxes, meshes
 from tests.synthesis_naive import naive_behaviours
@@ -43,13 +42,13 @@ def searched(
     """A finished search with the first meshes demonstrated, and its answer."""
     examples = [Example(f"mesh {k}", mesh, select_mask(hidden, mesh)) for k, mesh in enumerate(batch[:shown])]
     assume(any(example.selection for example in examples))
-    search = Search(examples, labels, Watch(600), options, batch=batch[shown:])
+    search = Search(examples, labels, TimeBudget(600), options, batch=batch[shown:])
     answer = search.run()
     assert isinstance(answer, Hit)
     return search, answer.extractor
 
 
-def behaviours(search: Search, found: Consistent) -> dict[Behaviour, int]:
+def behaviours(search: Search, found: ConsistentTerms) -> dict[Behaviour, int]:
     """What each reading selects on every mesh, with its size."""
     count = range(len(search.field.meshes))
     return {tuple(search.field.on(term.bits, k) for k in count): term.size for term in found.terms}
@@ -59,10 +58,10 @@ def behaviours(search: Search, found: Consistent) -> dict[Behaviour, int]:
 @given(batches, shown_on, extractors(TWO, max_leaves=2))
 def test_no_reading_is_missing_and_none_is_too_much(batch: list[SymbolicMesh], shown: int, hidden: Extractor) -> None:
     search, answer = searched(batch, shown, hidden, TWO, Options())
-    above = max(0, min(3, 6 - size(answer)))
-    found = every(search, answer, above)
+    above = max(0, min(3, 6 - size_of(answer)))
+    found = enumerate_consistent(search, answer, above)
     assert found.complete
-    naive = naive_behaviours(batch, search.selections, TWO, size(answer) + above)
+    naive = naive_behaviours(batch, search.selections, TWO, size_of(answer) + above)
     assert behaviours(search, found) == naive
 
 
@@ -72,13 +71,13 @@ def test_every_reading_selects_what_was_shown_and_what_it_says(
     batch: list[SymbolicMesh], shown: int, hidden: Extractor
 ) -> None:
     search, answer = searched(batch, shown, hidden, LABELS, Options())
-    weighed = Weighed(search, every(search, answer, 2))
+    weighed = RankedReadings(search, enumerate_consistent(search, answer, 2))
     seen = set()
     for term in weighed.terms:
         chosen = tuple(select_mask(term.extractor, mesh) for mesh in batch)
         assert chosen[:shown] == search.selections
         assert chosen == tuple(search.field.on(term.bits, k) for k in range(len(batch)))
-        assert size(term.extractor) == term.size
+        assert size_of(term.extractor) == term.size
         seen.add(chosen)
     assert len(seen) == len(weighed.terms)
     assert sum(weighed.beliefs) == pytest.approx(1.0)
@@ -88,8 +87,8 @@ def test_every_reading_selects_what_was_shown_and_what_it_says(
 @given(batches, shown_on, extractors(LABELS, max_leaves=4))
 def test_what_was_meant_is_among_the_readings(batch: list[SymbolicMesh], shown: int, hidden: Extractor) -> None:
     search, answer = searched(batch, shown, hidden, LABELS, Options())
-    assume(size(hidden) <= size(answer) + 3)
-    found = every(search, answer, 3)
+    assume(size_of(hidden) <= size_of(answer) + 3)
+    found = enumerate_consistent(search, answer, 3)
     assume(found.complete)
     assert tuple(select_mask(hidden, mesh) for mesh in batch) in behaviours(search, found)
 
@@ -101,17 +100,19 @@ def test_every_shortcut_can_be_switched_off_and_the_readings_stay(
     switched: str, batch: list[SymbolicMesh], shown: int, hidden: Extractor
 ) -> None:
     search, answer = searched(batch, shown, hidden, TWO, Options())
-    above = max(0, min(3, 6 - size(answer)))
+    above = max(0, min(3, 6 - size_of(answer)))
     other, again = searched(batch, shown, hidden, TWO, Options(shortcuts=OTHERWISE[switched]))
     assert again == answer
-    assert behaviours(other, every(other, again, above)) == behaviours(search, every(search, answer, above))
+    assert behaviours(other, enumerate_consistent(other, again, above)) == behaviours(
+        search, enumerate_consistent(search, answer, above)
+    )
 
 
 @examples(40)
 @given(batches, shown_on, extractors(LABELS, max_leaves=3))
 def test_without_a_batch_the_smallest_is_taken(batch: list[SymbolicMesh], shown: int, hidden: Extractor) -> None:
     search, answer = searched(batch[:shown], shown, hidden, LABELS, Options())
-    weighed = Weighed(search, every(search, answer, 2))
+    weighed = RankedReadings(search, enumerate_consistent(search, answer, 2))
     assert weighed.extractor == answer
     assert weighed.settled
 
@@ -120,8 +121,8 @@ def test_without_a_batch_the_smallest_is_taken(batch: list[SymbolicMesh], shown:
 @given(batches, extractors(LABELS, max_leaves=4), st.integers(0, 40))
 def test_effort_that_is_cut_short_leaves_whole_sizes(batch: list[SymbolicMesh], hidden: Extractor, effort: int) -> None:
     search, answer = searched(batch, 1, hidden, LABELS, Options(effort=effort))
-    found = every(search, answer, 3)
+    found = enumerate_consistent(search, answer, 3)
     whole, _ = searched(batch, 1, hidden, LABELS, Options())
-    below = {b: n for b, n in behaviours(whole, every(whole, answer, 3)).items() if n <= found.size}
+    below = {b: n for b, n in behaviours(whole, enumerate_consistent(whole, answer, 3)).items() if n <= found.size}
     assert below.items() <= behaviours(search, found).items()
-    assert found.complete or found.size < size(answer) + 3
+    assert found.complete or found.size < size_of(answer) + 3

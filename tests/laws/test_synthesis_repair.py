@@ -14,25 +14,24 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from meshforge.language import Extractor, select_mask, size
+from meshforge.label_model.odds import LabelBeliefs
+from meshforge.language import Extractor, select_mask, size_of
 from meshforge.symbolic import Label, SymbolicMesh
-from meshforge.synthesis.correction import Correction
-from meshforge.synthesis.example import Example
-from meshforge.synthesis.options import Options
-from meshforge.synthesis.repair import Explanation, Labels, explain
-from meshforge.synthesis.repair.relabelings import Relabeling, relabelled
-from meshforge.synthesis.repair.variants import RelabelledHulls
-from meshforge.synthesis.search import Hit, Search
-from meshforge.synthesis.search.arrays import Hulls
-from meshforge.synthesis.search.leaves import leaves
-from meshforge.synthesis.watch import Watch
+from meshforge.synthesis.demonstration import Example
+from meshforge.synthesis.options import Options, TimeBudget
+from meshforge.synthesis.questions import LabelCorrection
+from meshforge.synthesis.repair.explain import CorrectionSearch, Explanation
+from meshforge.synthesis.repair.relabelings import Relabeling, build_hull_table, relabel
+from meshforge.synthesis.search.observation_table import HullTable
+from meshforge.synthesis.search.smallest import Hit, Search
+from meshforge.synthesis.search.terms import enumerate_leaves
 from tests.examples import examples
 from tests.strategies import extractors, grid_boxes, meshes
 
 LABELS = ("a", "b", "c")
 batches = st.lists(meshes(grid_boxes(), vocabulary=LABELS, max_size=6), min_size=1, max_size=3)
 OPTIONS = Options(max_size=6)
-Shown = tuple[list[Example], Labels]
+Shown = tuple[list[Example], LabelBeliefs]
 
 
 @st.composite
@@ -44,27 +43,29 @@ def spoilt(draw: st.DrawFn) -> Shown:
         wrong = draw(st.lists(st.sampled_from(mesh.hulls), max_size=2))
         names: list[str | None] = [draw(st.sampled_from((*LABELS, None))) for _ in wrong]
         labels = {hull.name: Label(to, 0.5, "vlm") if to else None for hull, to in zip(wrong, names, strict=True)}
-        examples.append(Example(f"mesh {k}", mesh.labelled(labels), select_mask(hidden, mesh)))
+        examples.append(Example(f"mesh {k}", mesh.with_labels(labels), select_mask(hidden, mesh)))
     assume(any(example.selection for example in examples))
     shown, rest = {one.name: one.mesh for one in examples}, {f"other {k}": mesh for k, mesh in enumerate(true)}
-    return examples, Labels(shown, rest, LABELS)
+    return examples, LabelBeliefs(shown, rest, LABELS)
 
 
 def proposed(
     shown: Shown,
     exact: Extractor | None = None,
     spent: dict[str, int] | None = None,
-    rejected: frozenset[Correction] = frozenset(),
+    rejected: frozenset[LabelCorrection] = frozenset(),
 ) -> Explanation | None:
     examples, labels = shown
-    return explain(examples, LABELS, labels, OPTIONS, Watch(600), exact=exact, spent=spent or {}, rejected=rejected)
+    return CorrectionSearch(
+        examples, LABELS, labels, OPTIONS, TimeBudget(600), exact=exact, spent=spent or {}, rejected=rejected
+    ).run()
 
 
-def corrected(example: Example, rows: list[Correction]) -> SymbolicMesh:
-    return example.mesh.labelled({row.hull: Label(row.to) for row in rows if row.asset == example.name})
+def corrected(example: Example, rows: list[LabelCorrection]) -> SymbolicMesh:
+    return example.mesh.with_labels({row.hull: Label(row.to) for row in rows if row.asset == example.name})
 
 
-def matches(extractor: Extractor, examples: list[Example], rows: list[Correction]) -> bool:
+def matches(extractor: Extractor, examples: list[Example], rows: list[LabelCorrection]) -> bool:
     return all(select_mask(extractor, corrected(example, rows)) == example.selection for example in examples)
 
 
@@ -95,14 +96,14 @@ def test_a_proposal_is_in_order_and_within_its_limits(shown: Shown, before: int)
     assert all(0 < belief <= 1 for belief in said.beliefs)
     by_name = {example.name: example for example in shown[0]}
     for row in said.corrections:
-        assert by_name[row.asset].mesh.named(row.hull).label == row.was != row.to
+        assert by_name[row.asset].mesh.hull_of(row.hull).label == row.was != row.to
         assert row.to in LABELS
 
 
 @examples(60)
 @given(spoilt())
 def test_what_was_rejected_is_never_proposed_again(shown: Shown) -> None:
-    rejected: frozenset[Correction] = frozenset()
+    rejected: frozenset[LabelCorrection] = frozenset()
     for _ in range(4):
         said = proposed(shown, rejected=rejected)
         if said is None:
@@ -114,10 +115,10 @@ def test_what_was_rejected_is_never_proposed_again(shown: Shown) -> None:
 @examples(60)
 @given(spoilt())
 def test_beside_an_exact_extractor_only_smaller_ones_are_proposed(shown: Shown) -> None:
-    answer = Search(shown[0], LABELS, Watch(600), OPTIONS).run()
+    answer = Search(shown[0], LABELS, TimeBudget(600), OPTIONS).run()
     exact = answer.extractor if isinstance(answer, Hit) else None
     said = proposed(shown, exact)
-    assert said is None or exact is None or size(said.extractor) < size(exact)
+    assert said is None or exact is None or size_of(said.extractor) < size_of(exact)
 
 
 @examples(60)
@@ -130,9 +131,9 @@ def test_relabelled_hulls_are_selected_as_on_relabelled_meshes(shown: Shown, dat
         changes = st.lists(st.tuples(hulls, st.sampled_from(LABELS)), max_size=2, unique_by=lambda change: change[0])
         some = data.draw(st.lists(changes, min_size=1, max_size=3))
         ways.append([Relabeling(changes=tuple(sorted(one))) for one in some])
-    made = [relabelled(e, way.changes).mesh for e, some in zip(examples, ways, strict=True) for way in some]
-    chosen = leaves(LABELS)
-    assert np.array_equal(RelabelledHulls(examples, ways).table(chosen, 0.05), Hulls(made).table(chosen, 0.05))
+    made = [relabel(e, way.changes).mesh for e, some in zip(examples, ways, strict=True) for way in some]
+    chosen = enumerate_leaves(LABELS)
+    assert np.array_equal(build_hull_table(examples, ways).table(chosen, 0.05), HullTable(made).table(chosen, 0.05))
 
 
 @pytest.mark.slow

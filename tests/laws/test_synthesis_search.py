@@ -11,11 +11,10 @@ from hypothesis import strategies as st
 
 from meshforge.language import Extractor, select_mask
 from meshforge.symbolic import SymbolicMesh
-from meshforge.synthesis.example import Example
-from meshforge.synthesis.options import Options, Shortcuts
-from meshforge.synthesis.search import Hit, Miss, Search
-from meshforge.synthesis.search.order import Key, order
-from meshforge.synthesis.watch import Watch
+from meshforge.synthesis.demonstration import Example
+from meshforge.synthesis.options import Options, Shortcuts, TimeBudget
+from meshforge.synthesis.search.smallest import Hit, Miss, Search
+from meshforge.synthesis.search.terms import Key, order_key
 from tests.examples import examples
 from tests.strategies import extractors, grid_boxes, meshes
 from tests.synthesis_naive import naive_search
@@ -45,14 +44,14 @@ def examples_of(batch: Sequence[SymbolicMesh], extractor: Extractor) -> list[Exa
 def found(
     examples: Sequence[Example], max_size: int, shortcuts: Shortcuts = ON, labels: Sequence[str] = TWO
 ) -> Extractor | None:
-    answer = Search(examples, labels, Watch(600), Options(max_size=max_size, shortcuts=shortcuts)).run()
+    answer = Search(examples, labels, TimeBudget(600), Options(max_size=max_size, shortcuts=shortcuts)).run()
     assert isinstance(answer, Hit | Miss)
     return answer.extractor if isinstance(answer, Hit) else None
 
 
 def key(extractor: Extractor | None) -> Key | None:
     """The place in the order: the same for two extractors that differ by the order of operands only."""
-    return order(extractor, {label: place for place, label in enumerate(LABELS)}) if extractor else None
+    return order_key(extractor, {label: place for place, label in enumerate(LABELS)}) if extractor else None
 
 
 @examples(100)

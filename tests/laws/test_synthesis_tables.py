@@ -8,15 +8,14 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from meshforge.formats import load
-from meshforge.language import Extractor, Program, select_mask, size, stage
+from meshforge.language import Extractor, Program, select_mask, size_of, to_canonical_frame
 from meshforge.samples import TABLES
 from meshforge.symbolic import SymbolicMesh
-from meshforge.synthesis.example import Example
-from meshforge.synthesis.options import Options
-from meshforge.synthesis.paper import paper_search
-from meshforge.synthesis.readings import every
-from meshforge.synthesis.search import Hit, Search
-from meshforge.synthesis.watch import Watch
+from meshforge.synthesis.demonstration import Example
+from meshforge.synthesis.options import Options, TimeBudget
+from meshforge.synthesis.paper.search import PaperSearch
+from meshforge.synthesis.readings.enumeration import enumerate_consistent
+from meshforge.synthesis.search.smallest import Hit, Search
 from tests.examples import examples
 from tests.strategies import extractors
 
@@ -29,7 +28,7 @@ def tables() -> tuple[SymbolicMesh, ...]:
     """The bundled tables with their labels, upright."""
     orient = Program.read(TABLES / "tables.mf").orient
     paths = sorted(TABLES.glob("table_*.obj"))
-    return tuple(stage(load(path, path.with_suffix(".labels.json")), orient)[0] for path in paths)
+    return tuple(to_canonical_frame(load(path, path.with_suffix(".labels.json")), orient)[0] for path in paths)
 
 
 def examples_from(hidden: Extractor, shown: tuple[int, int]) -> list[Example]:
@@ -43,13 +42,13 @@ def examples_from(hidden: Extractor, shown: tuple[int, int]) -> list[Example]:
 def test_what_is_found_is_no_larger_and_what_was_meant_is_a_reading(hidden: Extractor, shown: tuple[int, int]) -> None:
     known = examples_from(hidden, shown)
     rest = [table for k, table in enumerate(tables()) if k not in shown]
-    search = Search(known, LABELS, Watch(600), Options(max_size=19), batch=rest)
+    search = Search(known, LABELS, TimeBudget(600), Options(max_size=19), batch=rest)
     answer = search.run()
     assert isinstance(answer, Hit)
     assert [select_mask(answer.extractor, e.mesh) for e in known] == [e.selection for e in known]
-    assert size(answer.extractor) <= size(hidden)
-    found = every(search, answer.extractor, 3)
-    if found.complete and size(hidden) <= size(answer.extractor) + 3:
+    assert size_of(answer.extractor) <= size_of(hidden)
+    found = enumerate_consistent(search, answer.extractor, 3)
+    if found.complete and size_of(hidden) <= size_of(answer.extractor) + 3:
         assert search.field.bits(hidden) in {term.bits for term in found.terms}
 
 
@@ -57,9 +56,9 @@ def test_what_is_found_is_no_larger_and_what_was_meant_is_a_reading(hidden: Extr
 @given(extractors(LABELS, max_leaves=2), st.tuples(places, places))
 def test_the_strategy_of_the_paper_finds_nothing_smaller(hidden: Extractor, shown: tuple[int, int]) -> None:
     known = examples_from(hidden, shown)
-    answer = Search(known, LABELS, Watch(600), Options()).run()
+    answer = Search(known, LABELS, TimeBudget(600), Options()).run()
     assert isinstance(answer, Hit)
-    assume(size(answer.extractor) <= 5)
-    paper = paper_search(known, LABELS, Watch(600), Options(strategy="paper", repair=False, max_size=5))
+    assume(size_of(answer.extractor) <= 5)
+    paper = PaperSearch(known, LABELS, TimeBudget(600), Options(strategy="paper", repair=False, max_size=5)).run()
     assert isinstance(paper, Hit)
-    assert size(paper.extractor) == size(answer.extractor)
+    assert size_of(paper.extractor) == size_of(answer.extractor)

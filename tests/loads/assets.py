@@ -7,14 +7,13 @@ from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 
-from meshforge.asset import Asset
-from meshforge.errors import MeshForgeError
+from meshforge.common import MeshForgeError
 from meshforge.formats import FORMATS, read, save
+from meshforge.formats.conversion import turn_upright
 from meshforge.formats.registry import format_for
-from meshforge.formats.turning import stood_up
 from meshforge.language import Program, Template
 from meshforge.samples import TABLES
-from meshforge.symbolic import SymbolicMesh
+from meshforge.symbolic import Asset, SymbolicMesh
 from tests import sdf_sample, urdf_sample, usd_stages
 from tests.conversion_samples import SAMPLES, wedge
 from tests.loads.comparing import shapes_of
@@ -120,7 +119,7 @@ def _written(asset: Asset, path: Path, name: str, *, shows: bool, edited: bool =
     """An asset in a file; what this is to hold stands upright in it."""
     target = format_for(path, asset.format)
     source = next((known for known in FORMATS if known.name == asset.format), None)
-    meant = asset if source is target else stood_up(asset, source, target)[0]
+    meant = asset if source is target else turn_upright(asset, source, target)[0]
     try:
         save(asset, path)
     except MeshForgeError as error:
@@ -131,14 +130,14 @@ def _written(asset: Asset, path: Path, name: str, *, shows: bool, edited: bool =
 
 def _edited(before: Made) -> Made | Refused:
     mesh = SymbolicMesh.of(read(before.path))
-    edited = EDIT.run(mesh, {"block.obj": Template((wedge(0.0),), "block.obj")}).mesh.lowered()
+    edited = EDIT.run(mesh, {"block.obj": Template((wedge(0.0),), "block.obj")}).mesh.to_asset()
     path = before.path.parent / "edited" / before.path.name
     return _written(edited, path, before.asset, shows=before.shows, edited=True)
 
 
 def _one_hull(path: Path) -> Path:
     """A sample whose mesh has one piece, and no side like another: engines make one hull of a mesh file."""
-    hull = wedge(0.5).tessellated()
+    hull = wedge(0.5).tessellate()
     lines = [f"v {x!r} {y!r} {z!r}" for x, y, z in hull.vertices.tolist()]
     lines += [f"f {a + 1} {b + 1} {c + 1}" for a, b, c in hull.faces.tolist()]
     (path.parent / "meshes" / "three.obj").write_text("\n".join(lines))

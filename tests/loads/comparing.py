@@ -8,7 +8,7 @@ import numpy as np
 from scipy.optimize import linear_sum_assignment
 from scipy.spatial.distance import cdist
 
-from meshforge.asset import Asset
+from meshforge.symbolic import Asset
 from tests.loads.readers import DIRECTIONS, Reader, Seen
 
 TOLERANCE = 2e-5

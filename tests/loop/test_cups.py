@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from meshforge.formats import load
-from meshforge.geometry import same_shape
+from meshforge.geometry import is_same_shape
 from tests.corpus_path import corpus
 from tests.loop.command import meshforge_here as meshforge
 from tests.loop.labels import write_labels
@@ -58,7 +58,7 @@ def test_every_cup_comes_back_with_one_base_and_one_grip(cups: Path) -> None:
         assert len(after.hulls) == len(before.hulls) - len(parts["base"]) + 1 - grip
         kept = [hull for hull in after.hulls if hull.source != "edit"]
         near = 1e-9 * before.diagonal
-        assert all(same_shape(hull.shape, before.named(hull.name).shape, near) for hull in kept)
+        assert all(is_same_shape(hull.shape, before.hull_of(hull.name).shape, near) for hull in kept)
 
 
 def test_a_second_run_has_nothing_to_do_and_the_status_says_so(cups: Path) -> None:

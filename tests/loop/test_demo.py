@@ -11,7 +11,7 @@ from lxml import html
 from meshforge.formats import load
 from meshforge.language import Program
 from meshforge.samples import TABLES
-from meshforge.symbolic import components, mask_of
+from meshforge.symbolic import mask_of, split_by_contact
 from tests.loop.command import Done, meshforge, meshforge_here
 
 
@@ -44,9 +44,9 @@ def test_every_table_comes_back_mended(shown: tuple[Path, Done]) -> None:
         assert count["misc"] == 0
         assert count["drawer"] % 5 == 0  # every tray is a floor and four walls
         assert [h.volume for h in after.hulls if h.source != "edit"] == [
-            before.named(h.name).volume for h in after.hulls if h.source != "edit"
+            before.hull_of(h.name).volume for h in after.hulls if h.source != "edit"
         ]
-        legs = components(before, mask_of(k for k, hull in enumerate(before.hulls) if hull.label == "leg"))
+        legs = split_by_contact(before, mask_of(k for k, hull in enumerate(before.hulls) if hull.label == "leg"))
         assert count["leg"] == len(legs)
 
 

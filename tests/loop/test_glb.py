@@ -10,7 +10,7 @@ import pytest
 import trimesh
 
 from meshforge.formats import load
-from meshforge.geometry import same_shape
+from meshforge.geometry import is_same_shape
 from tests.corpus_path import corpus
 from tests.gltf_validation import errors
 from tests.loop.command import meshforge_here as meshforge
@@ -74,7 +74,7 @@ def test_every_chair_comes_back_with_four_boxes_one_back_and_its_seat(chairs: Pa
     labels = [str(hull.label) for hull in after.hulls]
     assert sorted(labels) == ["back"] * back + ["leg"] * 4 + ["seat"]
     seat = next(hull for hull in after.hulls if hull.label == "seat")
-    assert same_shape(seat.shape, before.named(seat.name).shape, 1e-9)
+    assert is_same_shape(seat.shape, before.hull_of(seat.name).shape, 1e-9)
     assert sum(len(hull.vertices) == 8 for hull in after.hulls) == 4
 
 

@@ -10,10 +10,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from meshforge.batch import status as word
+from meshforge.batch import IN_PROCESS
+from meshforge.batch import status_of as word
 from meshforge.formats import load
 from meshforge.geometry import Floats, is_convex
-from meshforge.geometry.decompose import VhacdSettings
+from meshforge.geometry.decomposition.settings import VhacdSettings
 from meshforge.language import Each, Merge, Replace
 from meshforge.project import Project
 from meshforge.synthesis import Step
@@ -102,14 +103,14 @@ def test_the_example_in_python_runs(folder: Path, monkeypatch: pytest.MonkeyPatc
 def test_a_stool_that_is_only_there_to_be_seen_gets_hulls_and_is_edited(tmp_path: Path) -> None:
     shutil.copytree(corpus("chairs", "KayKit-Restaurant-Bits-1.0"), tmp_path / "assets")
     project = Project.create(tmp_path / "p", [tmp_path / "assets/chair_stool.gltf"], vocabulary=["seat", "leg"])
-    (done,) = project.decompose(settings=COARSE, workers=0)
+    (done,) = project.decompose(settings=COARSE, execution=IN_PROCESS)
     assert not done.problems and len(done.hulls) > 1
     mesh = project.mesh("chair_stool.gltf")
     top = max(mesh.hulls, key=lambda hull: hull.shape.centroid[1]).name
     project.set_labels("chair_stool.gltf", {h.name: "seat" if h.name == top else "leg" for h in mesh.hulls})
     project.demonstrate("chair_stool.gltf", [Step(1, {top}, Replace("box"))])
     project.synthesize()
-    (outcome,) = project.apply(workers=0)
+    (outcome,) = project.apply(execution=IN_PROCESS)
     assert word(outcome) == "edited"
     after = load(project.folder / "edited/chair_stool.gltf")
     assert {hull.label for hull in after.hulls} == {"seat", "leg"} and len(after.hulls) == len(mesh.hulls)
@@ -122,14 +123,14 @@ def test_bodies_of_an_mjcf_that_only_show_something_get_hulls_and_keep_their_mas
     source = tmp_path / "furniture_sim/lightButtons.xml"
     project = Project.create(tmp_path / "p", [source], vocabulary=["button", "frame"])
     before = project.mesh("lightButtons.xml")
-    (done,) = project.decompose(settings=COARSE, workers=0)
+    (done,) = project.decompose(settings=COARSE, execution=IN_PROCESS)
     bodies = [entry.what for entry in done.made]
     assert len(bodies) == 3
     labels = {hull.name: "frame" for hull in before.hulls} | dict.fromkeys(done.hulls, "button")
     project.set_labels("lightButtons.xml", labels)
     project.demonstrate("lightButtons.xml", [Step(1, set(done.hulls), Each(Merge()))])
     project.synthesize()
-    (outcome,) = project.apply(workers=0)
+    (outcome,) = project.apply(execution=IN_PROCESS)
     assert word(outcome) == "edited"
     edited = project.folder / "edited" / "lightButtons.xml"
     path = edited if edited.is_file() else next((project.folder / "edited").rglob("lightButtons.xml"))

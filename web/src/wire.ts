@@ -133,7 +133,7 @@ export interface Everything {
   WriteProgram: WriteProgram;
 }
 /**
- * An action as a form; usage: how it is written; makes: whether `as LABEL` may follow.
+ * An action as a form; usage: its syntax; makes: whether `as LABEL` may follow.
  */
 export interface ActionForm {
   name: string;
@@ -143,8 +143,8 @@ export interface ActionForm {
   arguments: Argument[];
 }
 /**
- * One argument of an action. kind: `words` are chosen from, a `flag` is there or not, a `file` is a template,
- * `shape` is a primitive or a template, a `factor` a number above 0.
+ * One argument of an action. kind: one of some `words`, a `flag` that is there or not, the `file` of a template, a
+ * `shape` (a primitive or a template), or a `factor` above 0.
  */
 export interface Argument {
   name: string;
@@ -301,8 +301,8 @@ export interface ReviewAssets {
  * Add an edit by hand, on hulls by the names they have after the program and the edits before.
  */
 export interface CorrectByHand {
-  kind: "correct";
   asset: string;
+  kind: "correct";
   select: string[];
   action: string;
 }
@@ -310,8 +310,8 @@ export interface CorrectByHand {
  * Take all edits by hand away from an asset, so that it is what the program makes of it.
  */
 export interface DropCorrections {
-  kind: "drop-corrections";
   asset: string;
+  kind: "drop-corrections";
 }
 /**
  * Run the program on all assets, or on some.
@@ -321,7 +321,7 @@ export interface ApplyJob {
   assets?: string[] | null;
 }
 /**
- * Ask the model that meshforge.toml names for labels. max_cost: dollars it may spend, null as that says.
+ * Ask the model that meshforge.toml names for labels. max_cost: dollars to spend, null for the amount set there.
  */
 export interface AskJob {
   kind: "ask";
@@ -331,9 +331,9 @@ export interface AskJob {
 /**
  * An asset as it is prepared, in the frame it comes in.
  *
- * upright: the 16 numbers (row by row) of canonical_T_incoming, null where nothing turns it; unturned: why it cannot
- * be turned though an orientation is set. version: of steps, to be given back with an edit of them.
- * contacts: pairs of names. diagonal, contact_distance: [m].
+ * upright: the 16 numbers (row by row) of canonical_T_incoming, null for the identity; unturned: why the orientation
+ * cannot turn it; version: of the steps, to be sent back with an edit of them; contacts: pairs of names of hulls;
+ * diagonal, contact_distance: [m].
  */
 export interface AssetView {
   asset: string;
@@ -358,8 +358,8 @@ export interface AssetView {
   notes: string[];
 }
 /**
- * A hull. vertices, faces: how many; primitive: its kind where it is one; source: who gave the label;
- * parent: the hull of the file that a made hull inherits from.
+ * A hull. vertices, faces: how many; primitive: its kind if it is one; source: who gave the label; parent: the hull
+ * of the file that a new hull inherits from.
  */
 export interface HullView {
   name: string;
@@ -374,7 +374,7 @@ export interface HullView {
   parent: string | null;
 }
 /**
- * Collision geometry that is no hull, and why; `surface`: whether the packet has triangles of it.
+ * A non-convex piece of collision geometry. reason: why it is no hull; surface: whether the packet has it.
  */
 export interface OpaqueView {
   name: string;
@@ -383,7 +383,7 @@ export interface OpaqueView {
   surface: boolean;
 }
 /**
- * Two hulls, by name, that are apart, yet by less than three times the contact distance; gap [m].
+ * Two hulls, by name, with a gap [m] between them of less than three times the contact distance.
  */
 export interface NearMiss {
   a: string;
@@ -391,10 +391,10 @@ export interface NearMiss {
   gap: number;
 }
 /**
- * What the asset says about a rule. select: names, [] for nothing here, null for open.
+ * One step of a demonstration. rule: its number; select: names of hulls, [] for none, null where it is left open.
  *
- * action: in the language's own text, with `as LABEL` where what is made gets one; error: why it cannot be replayed.
- * made, removed: names of hulls, where it can.
+ * action: in the language, with `as LABEL` where new hulls get a label; error: why the step cannot be replayed; made,
+ * removed: names of hulls, where it can.
  */
 export interface StepView {
   rule: number;
@@ -412,7 +412,7 @@ export interface CorrectionView {
   action: string;
 }
 /**
- * Assets of which something changed: an open page fetches them anew. shapes: their hulls are others, too.
+ * Assets that changed, for open pages to fetch anew; shapes: whether their hulls changed, too.
  */
 export interface AssetsChanged {
   kind: "assets";
@@ -422,15 +422,15 @@ export interface AssetsChanged {
 /**
  * One asset in the gallery.
  *
- * hulls: how many, null while it is not read yet or where it cannot be read. labels: of each hull, in the order of
- * the asset, its place in the vocabulary or -1 for none; unsure: positions of hulls whose label is not sure; given:
- * how many have one that a person or a file gave.
- * after: hulls of the output; after_labels: of each of them, as `labels`, empty where that is not known; stale: what
- * changed since the output was made; corrections: edits by hand, a number.
- * sources: pieces and bodies without hulls, which can be decomposed; prepared: what was done before the program.
+ * hulls: how many, null until the asset is read or where it cannot be read. labels: for each hull, in order, its
+ * place in the vocabulary or -1 for none; unsure: positions of hulls whose label is not sure; given: how many labels
+ * a person or a file gave.
+ * after: how many hulls the output has; after_labels: like `labels`, empty where they are not known; stale: what
+ * changed since the output was made; corrections: how many edits by hand.
+ * sources: how many pieces and bodies have no hulls and can be decomposed; prepared: what was done before the program.
  * picture, edited_picture: the digest that the address of the thumbnail takes, null where there is none yet.
- * check: the digest of the output and of what it was made from, null where there is no output; faults: what checks
- * found of it, null where it was not checked.
+ * check: the digest of the output and of its inputs, null where there is no output; faults: what checks found, null
+ * where it was not checked.
  */
 export interface Card {
   asset: string;
@@ -456,7 +456,7 @@ export interface Card {
   faults: Fault[] | null;
 }
 /**
- * A rule that does not hold. engine: whose limit it is, null for none; new: whether that came with the edit.
+ * A rule of a check that does not hold. engine: whose limit it is, or null; new: whether the edit caused it.
  */
 export interface Fault {
   rule: string;
@@ -465,7 +465,7 @@ export interface Fault {
   new: boolean;
 }
 /**
- * Cards that are other now; gone: ids of assets that are no more.
+ * New and changed cards; gone: ids of assets that no longer exist.
  */
 export interface CardsChanged {
   kind: "cards";
@@ -473,15 +473,15 @@ export interface CardsChanged {
   gone: string[];
 }
 /**
- * Labels were carried over. unused: how many labels people and files gave since; next: the asset that would help
- * most if it were labelled, null where its hulls are, or where all are.
+ * The last propagation of labels. unused: how many labels people and files gave since; next: the asset that would
+ * help most if it were labelled, null where it is labelled by now, or where all are.
  */
 export interface CarriedOver {
   unused: number;
   next: string | null;
 }
 /**
- * The same with the hulls that it concerns, by the names they have in the output.
+ * A fault with its text. hulls: those that it concerns, by their names in the output.
  */
 export interface CheckFinding {
   rule: string;
@@ -493,13 +493,13 @@ export interface CheckFinding {
   remedy: string;
 }
 /**
- * Measure the outputs of all assets in every way.
+ * Run all checks on the outputs of all assets.
  */
 export interface CheckJob {
   kind: "check";
 }
 /**
- * A picture that is drawn: the name that its address takes, and what it shows.
+ * A picture. name: the one that its address takes; text: what it shows.
  */
 export interface CheckPicture {
   name: string;
@@ -512,8 +512,8 @@ export interface CheckRequest {
   text: string;
 }
 /**
- * What was measured. gone: how many findings about the asset are none of the output any more; notes: what could
- * not be told, and why; cell: what is smaller is not seen [m]; pictured: whether pictures can be drawn of it.
+ * The result of one part of a check. gone: how many findings about the asset the output no longer has; notes: what
+ * could not be measured, and why; cell: the resolution [m]; pictured: whether there are pictures of it.
  */
 export interface Checked {
   part: "engines" | "physics" | "clearance" | "fit";
@@ -525,7 +525,7 @@ export interface Checked {
   pictured: boolean;
 }
 /**
- * A figure before and after the edit; null where it cannot be told.
+ * A figure before and after the edit; null where it is not known.
  */
 export interface Figure {
   what: string;
@@ -534,7 +534,7 @@ export interface Figure {
   after: number | null;
 }
 /**
- * One way to go on; select: names of hulls as the rule meets them.
+ * One answer to a question; select: names of hulls as they are before the rule.
  */
 export interface ChoiceView {
   reading: string;
@@ -543,7 +543,7 @@ export interface ChoiceView {
   select: string[];
 }
 /**
- * Make hulls of what has none; method: the tool that does it.
+ * Make hulls for pieces and bodies that have none; method: the tool that makes them.
  */
 export interface DecomposeJob {
   kind: "decompose";
@@ -551,17 +551,17 @@ export interface DecomposeJob {
   method?: "coacd" | "vhacd";
 }
 /**
- * An edit that is on disk; said: what was done, in words. nothing: there was nothing to do.
+ * An edit is on disk. said: what was done, in words; nothing: whether there was nothing to do.
  */
 export interface Done {
   said: string;
   nothing?: boolean;
 }
 /**
- * What a packet of an edited asset holds: all hulls there are then, with shapes of those that the asset has not.
+ * The header of a packet of an edited asset: all of its hulls, with the shapes of those that the asset has not.
  *
- * made, removed: names, against the asset as it comes; trace: rule by rule; findings: of the check of legality.
- * volume: the sum over hulls before and after [m^3].
+ * made, removed: names of hulls, compared with the asset as it comes; trace: what each rule did; findings: of the
+ * check of legality; volume: the sum over hulls before and after [m^3].
  */
 export interface EditedHeader {
   rows: ShapeRow[];
@@ -580,7 +580,7 @@ export interface EditedHeader {
   contacts: [string, string][];
 }
 /**
- * One shape of a packet: how many vertices and triangles it has; opacity pieces and visuals have such rows, too.
+ * One shape of a packet, a hull, a non-convex piece or a visual surface; vertices, faces: how many.
  */
 export interface ShapeRow {
   name: string;
@@ -589,7 +589,7 @@ export interface ShapeRow {
   rgba: [number, number, number, number] | null;
 }
 /**
- * What one rule did: names selected and made; note: what a user should know.
+ * What one rule did. selected, made: names of hulls; note: what a user should know.
  */
 export interface TraceLine {
   rule: number;
@@ -598,7 +598,7 @@ export interface TraceLine {
   note: string | null;
 }
 /**
- * Something that a check has to say about a hull, or, without one, about the mesh.
+ * A finding of a check about a hull, or, without one, about the whole mesh.
  */
 export interface FindingView {
   severity: "error" | "warning" | "note";
@@ -606,16 +606,15 @@ export interface FindingView {
   hull: string | null;
 }
 /**
- * An engine whose limits are known; title: as its makers write it.
+ * An engine whose limits can be checked; title: its name as its makers write it.
  */
 export interface EngineView {
   name: string;
   title: string;
 }
 /**
- * Everything that is known, on connecting.
- *
- * tour: whether the page is to show the guided tour; engines: whose limits can be checked.
+ * The whole state, sent when a page connects. tour: whether the page shows the guided tour; engines: those whose
+ * limits can be checked.
  */
 export interface Hello {
   kind: "hello";
@@ -633,11 +632,11 @@ export interface Hello {
   engines: EngineView[];
 }
 /**
- * The project. orient: the directive's text, empty for none; orient_sentence: the same in words.
+ * The project. orient: the text of the directive, empty for none; orient_sentence: that in words.
  *
- * rules: what is demonstrated, by rule; templates: hull templates that actions can name; carried: how it stands with
- * labels that were carried over, null where none were; problem: why the program cannot be applied; lost: ids that
- * something is kept for, though there is no such asset.
+ * rules: what is demonstrated, by rule; templates: hull templates that actions can name; carried: the last propagation
+ * of labels, null where there was none; problem: why the program cannot be applied; lost: ids that files are kept for
+ * though there is no such asset.
  */
 export interface ProjectView {
   name: string;
@@ -656,7 +655,7 @@ export interface ProjectView {
   lost: string[];
 }
 /**
- * A label of the vocabulary. color: `#rrggbb`, given by its place; used: hulls of the family that have it.
+ * A label of the vocabulary. color: `#rrggbb`, by its place; used: how many hulls of the family have it.
  */
 export interface VocabularyLabel {
   name: string;
@@ -664,7 +663,7 @@ export interface VocabularyLabel {
   used: number;
 }
 /**
- * A rule as the demonstrations have it: the action that is shown first, and the assets that say something.
+ * A rule in the demonstrations. action: the first one; shown, nothing: assets where it selects hulls, or none.
  */
 export interface RuleLine {
   rule: number;
@@ -673,7 +672,7 @@ export interface RuleLine {
   nothing: string[];
 }
 /**
- * An answer or a repair of a label that was confirmed or refused; id: by which it is taken back.
+ * An answer, or a repair of a label that was confirmed or refused; id: to take it back.
  */
 export interface Said {
   id: string;
@@ -682,7 +681,7 @@ export interface Said {
   text: string;
 }
 /**
- * The next sensible step: the stage it belongs to, in words, and the asset to go to.
+ * The next sensible step. say: the step in words; asset: the one to open.
  */
 export interface Next {
   stage: "label" | "demonstrate" | "learn" | "review";
@@ -699,9 +698,8 @@ export interface HistoryView {
   redoable: number;
 }
 /**
- * What the last edit did, where that was one of all labels. entry: its number in the history; way: what it was.
- *
- * settled: how many labels are sure since, which were not before.
+ * What the last edit did, if it changed the labels of all assets. entry: its number in the history; way: its kind;
+ * settled: how many labels it made sure.
  */
 export interface Relabelled {
   entry: number;
@@ -710,8 +708,8 @@ export interface Relabelled {
   settled: number;
 }
 /**
- * Hulls of an asset that got another label, by their positions. new: those that had none; changed: those that had
- * another one; was: the label that each of these had.
+ * Hulls of an asset that got a new label, by position. new: those that had none; changed: those that had another;
+ * was: the label that each of the changed ones had.
  */
 export interface RelabelledAsset {
   asset: string;
@@ -720,9 +718,8 @@ export interface RelabelledAsset {
   was: string[];
 }
 /**
- * The accepted program. by_hand: a person wrote or changed it; outdated: what it was learned from changed since.
- *
- * version: to be given back with an edit of the text. error: why the file does not parse.
+ * The accepted program. by_hand: a person wrote or changed it; outdated: what it was learned from changed since;
+ * version: to be sent back with an edit of the text; error: why the file does not parse.
  */
 export interface ProgramView {
   text: string;
@@ -735,7 +732,7 @@ export interface ProgramView {
   error: string | null;
 }
 /**
- * A rule of a program: its text and a sentence about it; readings: how many agree with all demonstrations.
+ * A rule of a program, as text and as a sentence; readings: how many extractors agree with all demonstrations.
  */
 export interface RuleView {
   rule: number;
@@ -744,12 +741,12 @@ export interface RuleView {
   readings: number;
 }
 /**
- * What a lesson came to. number: counts lessons; program: its text, null where there is none; looked_at: how many
- * assets were looked at, of very many not all.
+ * The outcome of a learning run. number: counts the runs; program: its text, null where there is none; looked_at:
+ * how many assets the run looked at; settled: whether the program is unambiguous.
  *
- * error: a message in place of an outcome; seconds: the time it took. why, advice, suggested_orientation, nearest:
- * where a rule has no extractor. stale: ids of answers that no longer fit. sample: the assets whose results tell best
- * whether the program is what is meant, most telling first; overruled: those whose accepted result no program keeps.
+ * error: a message in place of an outcome; seconds: the time it took. why, advice, suggested_orientation, nearest: for
+ * a rule without an extractor. stale: ids of answers that no longer fit. sample: the assets whose results show best
+ * whether the program is right, best first; overruled: those whose accepted result no program keeps.
  */
 export interface LessonView {
   number: number;
@@ -786,7 +783,7 @@ export interface ReadingView {
   differs_on: string[];
 }
 /**
- * A label that is probably wrong; was: null for none.
+ * A label that is probably wrong. was: the present label, null for none; to: the probable one.
  */
 export interface RepairView {
   id: string;
@@ -799,7 +796,7 @@ export interface RepairView {
   why: string;
 }
 /**
- * Which hulls should a rule select on an asset? harm: share of the assets edited wrongly as things stand.
+ * A question: which hulls does a rule select on an asset? harm: expected share of assets edited wrongly.
  */
 export interface QuestionView {
   id: string;
@@ -810,7 +807,7 @@ export interface QuestionView {
   left: number;
 }
 /**
- * The extractor that came nearest for a rule that has none, and how it differs on one asset.
+ * The extractor that comes nearest, for a rule without any that fits, and how it differs on one asset.
  */
 export interface NearestView {
   rule: number;
@@ -820,15 +817,15 @@ export interface NearestView {
   missing: string[];
 }
 /**
- * The asset that is best demonstrated next, and why.
+ * The asset to demonstrate next, and why.
  */
 export interface HintView {
   asset: string;
   why: string;
 }
 /**
- * What a program does on one asset: of each rule the positions of the asset's own hulls that it selects, or that
- * what it selects was made of; and hulls before and after. error: why it does not run there.
+ * What a program does on one asset. rules: for each rule the positions of the asset's own hulls that it selects, or
+ * that the hulls it selects were made of; before, after: how many hulls; error: why it does not run there.
  */
 export interface Reach {
   asset: string;
@@ -838,7 +835,7 @@ export interface Reach {
   error: string | null;
 }
 /**
- * Work that takes long. state: how it stands; lines: what became of assets, those that failed first, at most 200.
+ * Work that takes long. lines: what became of assets, those that failed first, at most 200.
  *
  * message: its result in a sentence; out: the folder that was written.
  */
@@ -869,8 +866,8 @@ export interface ProjectChanged {
   project: ProjectView;
 }
 /**
- * What can be undone now; said: what was just done, undone or redone, in words, by which page. Other settings and
- * the names of changed assets are told before, their cards after it.
+ * What can be undone now; said: what was just done, undone or redone, in words; by: the page that did it. Changed
+ * settings and the names of changed assets are sent before, their cards after it.
  */
 export interface HistoryChanged {
   kind: "history";
@@ -880,14 +877,14 @@ export interface HistoryChanged {
   by: string | null;
 }
 /**
- * What the last edit did to all labels, told after the cards; null as soon as another one was made.
+ * What the last edit did to all labels, sent after the cards; null as soon as there is another edit.
  */
 export interface RelabelledChanged {
   kind: "relabelled";
   relabelled: Relabelled | null;
 }
 /**
- * A lesson has begun (`learning`), or its outcome is there.
+ * A learning run has started (`learning`), or its outcome is there.
  */
 export interface LessonChanged {
   kind: "lesson";
@@ -895,7 +892,7 @@ export interface LessonChanged {
   learning: boolean;
 }
 /**
- * What the program does on all assets; lesson: the number of the lesson it belongs to.
+ * What the program does on all assets; lesson: the number of the learning run that it belongs to.
  */
 export interface ReachChanged {
   kind: "reach";
@@ -917,7 +914,7 @@ export interface JobChanged {
   job: Job;
 }
 /**
- * Copy outputs into a folder: those that were accepted, or all. folder: below the project, or absolute.
+ * Copy outputs into a folder: the accepted ones, or all. folder: below the project, or absolute.
  */
 export interface ExportJob {
   kind: "export";
@@ -925,22 +922,22 @@ export interface ExportJob {
   folder?: string;
 }
 /**
- * Find out what asking a model for labels would send and cost; nothing is sent.
+ * Work out what asking a model for labels would send and cost, without sending anything.
  */
 export interface ForecastJob {
   kind: "forecast";
   mode: "cheap" | "balanced" | "exact";
 }
 /**
- * What does an extractor select on all assets, as a rule of that number meets them?
+ * What does an extractor select on all assets, before the rule of that number?
  */
 export interface GeneraliseRequest {
   extractor: string;
   rule?: number;
 }
 /**
- * What an extractor selects on every asset, of very large families on those that are looked at while learning:
- * positions of the asset's own hulls.
+ * What an extractor selects on every asset, by positions of the asset's own hulls; in very large families on those
+ * assets that learning looks at.
  */
 export interface Generalised {
   assets: {
@@ -948,7 +945,7 @@ export interface Generalised {
   };
 }
 /**
- * What the program would select for a rule on an asset, given the steps that were shown before it.
+ * What the program would select for a rule on an asset, after the steps demonstrated before it.
  */
 export interface Guess {
   rule: number;
@@ -971,14 +968,14 @@ export interface JobCancel {
   id: string;
 }
 /**
- * Carry the labels that people and files gave over to all other hulls of the family.
+ * Propagate the labels of people and files to all other hulls of the family.
  */
 export interface PropagateJob {
   kind: "propagate";
 }
 /**
- * Where labels could come from. files: assets whose labels file says something that is not taken yet; names: hulls
- * without a label whose names say one; model: what can be asked, null where none is named.
+ * Where labels could come from. files: how many assets have a labels file with new labels; names: how many hulls
+ * without a label have one in their name; model: the one that can be asked, null for none.
  */
 export interface LabelSources {
   files: number;
@@ -986,8 +983,8 @@ export interface LabelSources {
   model: Model | null;
 }
 /**
- * The model that can be asked for labels. host: where it is; mode, max_cost: as meshforge.toml has them; why: what
- * is in the way of asking it, null where nothing is.
+ * The model that can be asked for labels. mode, max_cost: as set in meshforge.toml; why: the reason that it cannot
+ * be asked, null where it can.
  */
 export interface Model {
   name: string;
@@ -997,7 +994,7 @@ export interface Model {
   why?: string | null;
 }
 /**
- * The language: actions (all but Each, which is a switch), operators, directions.
+ * The language: actions (without Each, a switch in the page), operators, directions.
  */
 export interface LanguageView {
   actions: ActionForm[];
@@ -1013,7 +1010,7 @@ export interface Operator {
   summary: string;
 }
 /**
- * A place in a text, lines and columns from 1, and what is wrong there.
+ * An error at a place in a text; line, column: from 1.
  */
 export interface Mark {
   line: number;
@@ -1021,8 +1018,8 @@ export interface Mark {
   message: string;
 }
 /**
- * What would an action do? steps: how many of the asset's own steps go before it; result: of the program's output
- * in place of steps, for edits by hand.
+ * What would an action do? steps: how many of the asset's own steps come before it; result: apply it to what the
+ * program makes of the asset instead, as an edit by hand.
  */
 export interface PreviewRequest {
   asset: string;
@@ -1032,9 +1029,8 @@ export interface PreviewRequest {
   result?: boolean;
 }
 /**
- * What went wrong: the message, what it is about, and the remedy.
- *
- * conflict: the change was made on a state that is no more; the page shows the present one and asks again.
+ * An error. where: what it is about; conflict: the change was based on an old state; the page shows the present one
+ * and asks again.
  */
 export interface Problem {
   message: string;
@@ -1051,7 +1047,7 @@ export interface ProgramCheck {
   orient_sentence: string;
 }
 /**
- * What does an extractor select on an asset, after so many of its steps, or as a rule of the program meets it?
+ * What does an extractor select on an asset, after some of its steps, or before a rule of the program?
  */
 export interface SelectRequest {
   asset: string;
@@ -1060,7 +1056,7 @@ export interface SelectRequest {
   extractor: string;
 }
 /**
- * What an extractor selects on an asset (names), or what is wrong with its text.
+ * The names of the hulls that an extractor selects on an asset; mark: what is wrong with its text.
  */
 export interface Selected {
   select: string[];
@@ -1068,7 +1064,7 @@ export interface Selected {
   mark: Mark | null;
 }
 /**
- * What a packet of the asset's own shapes holds: hulls first, then opaque pieces (or the visual surfaces).
+ * The header of a packet of the asset's own shapes: hulls first, then non-convex pieces; or the visual surfaces.
  *
  * A packet is: length of the header as uint32; the header as UTF-8 JSON, padded with spaces to a multiple of four;
  * vertices of all rows as float32 (x, y, z) [m]; triangles of all rows as uint32 (three each, counted in their row).
@@ -1078,7 +1074,7 @@ export interface ShapesHeader {
   rows: ShapeRow[];
 }
 /**
- * A template that was taken: the name that actions write; or the paths of asset files that were taken.
+ * An upload is stored. names: of a template, as actions write it; or the paths of asset files.
  */
 export interface Uploaded {
   names: string[];

@@ -6,9 +6,9 @@ from benchmark.baselines.blender.process import Blender
 from benchmark.baselines.blender.scene import mesh_of, scene_of
 from benchmark.baselines.blender.shapes import Illegal
 from benchmark.tasks import Edited, Task
-from meshforge.errors import MeshForgeError
+from meshforge.common import MeshForgeError
 from meshforge.geometry import Pose
-from meshforge.language import stage, unstage
+from meshforge.language import from_canonical_frame, to_canonical_frame
 from meshforge.symbolic import SymbolicMesh
 
 
@@ -19,7 +19,7 @@ def edited(blender: Blender, script: str, task: Task, mesh: SymbolicMesh) -> Edi
     """
     staged, pose = _staged(task, mesh)
     done = ran(blender, script, task, staged)
-    return done if done.mesh is None else Edited(unstage(mesh, done.mesh, pose), named=done.named)
+    return done if done.mesh is None else Edited(from_canonical_frame(mesh, done.mesh, pose), named=done.named)
 
 
 def ran(blender: Blender, script: str, task: Task, staged: SymbolicMesh) -> Edited:
@@ -37,6 +37,6 @@ def ran(blender: Blender, script: str, task: Task, staged: SymbolicMesh) -> Edit
 def _staged(task: Task, mesh: SymbolicMesh) -> tuple[SymbolicMesh, Pose]:
     """The mesh in the frame of the rules; where its landmarks are missing, as it lies."""
     try:
-        return stage(mesh, task.program.orient, task.program.contact)
+        return to_canonical_frame(mesh, task.program.orient, task.program.contact)
     except MeshForgeError:
-        return stage(mesh, None, task.program.contact)
+        return to_canonical_frame(mesh, None, task.program.contact)

@@ -29,7 +29,7 @@ from typing import Any
 
 from benchmark.baselines.blender.apart import alone, environment
 from benchmark.baselines.blender.exchanging import exchanged
-from meshforge.errors import UsageError
+from meshforge.common import UsageError
 
 _INSIDE = "benchmark.baselines.blender.inside"
 _INSTALL = (

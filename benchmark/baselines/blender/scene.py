@@ -11,7 +11,7 @@ from pydantic import BaseModel, ConfigDict, ValidationError
 
 from benchmark.baselines.blender.shapes import Body, Illegal
 from meshforge.checks import check
-from meshforge.errors import complaint
+from meshforge.common import first_validation_error
 from meshforge.geometry import Shape
 from meshforge.language import Template
 from meshforge.symbolic import Hull, Label, SymbolicMesh
@@ -53,14 +53,14 @@ def mesh_of(objects: Iterable[Any], before: SymbolicMesh) -> tuple[SymbolicMesh,
     try:
         rows = [_Object.model_validate(one) for one in objects]
     except ValidationError as error:
-        raise Illegal(f"an object cannot be read: {complaint(error)}") from error
+        raise Illegal(f"an object cannot be read: {first_validation_error(error)}") from error
     if len(rows) > _MOST:
         raise Illegal(f"{len(rows)} objects, {_MOST} at most may be left")
     mesh = replace(before, hulls=tuple(_hulls(rows, before)))
     wrong = [found.message for found in check(mesh) if found.severity == "error"]
     if wrong:
         raise Illegal("; ".join(wrong))
-    named = frozenset(r.name for r in rows if r.name not in before.index or before.named(r.name).label != r.label)
+    named = frozenset(r.name for r in rows if r.name not in before.index or before.hull_of(r.name).label != r.label)
     return mesh, named
 
 
@@ -75,9 +75,9 @@ def _mesh(shape: Shape) -> dict[str, Any]:
 def _hulls(rows: Iterable[_Object], before: SymbolicMesh) -> Iterator[Hull]:
     for row in rows:
         label = Label(row.label, 1.0, "edit") if row.label else None
-        known = before.named(row.name) if row.same and row.name in before.index else None
+        known = before.hull_of(row.name) if row.same and row.name in before.index else None
         if known and row.primitive is None:
-            yield known if known.label == row.label else known.labelled(label)
+            yield known if known.label == row.label else known.with_label(label)
         else:
             body = _body(row, known)
             yield Hull(row.name, before.hulls[0].body if before.hulls else _BODY, body.shape(row.primitive), label)

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from meshforge.errors import GeometryError
+from meshforge.common import GeometryError
 from meshforge.geometry import (
     Aabb,
     Floats,
@@ -92,7 +92,7 @@ class Body:
         if np.linalg.det(rotation) < 0:
             rotation, scales = -rotation, -scales
         local = self.points * scales
-        shape = fill(Aabb.of_points(local)).moved(Pose(rotation, self.offset))
+        shape = fill(Aabb.of_points(local)).move(Pose(rotation, self.offset))
         if not shape.is_primitive:
             return None
         filled = abs(Polytope(local, self.faces).volume) / max(shape.volume, np.finfo(float).tiny)

@@ -1,108 +1,189 @@
-"""Programs run over many assets: which assets, in worker processes, with outcomes, resuming and outputs in place."""
+"""Work on many assets: which they are, preparations, programs and checks run in worker processes, outcomes, outputs
+in place, and the report."""
 
-from meshforge.batch.apply import apply
-from meshforge.batch.assets.digests import (
+from meshforge.batch.apply import apply, inputs_of
+from meshforge.batch.check import CheckJournal, CheckOutcome, CheckTask, check_asset, check_assets, open_journal
+from meshforge.batch.corrections import Correction, replay_corrections
+from meshforge.batch.discovery import (
+    OWN_FOLDERS,
+    SETTINGS,
+    STATE,
+    AssetSet,
+    asset_id,
+    common_folder,
+    expand,
+    find_assets_in,
+)
+from meshforge.batch.execution import execute
+from meshforge.batch.jobs import (
+    APPLY_DEFAULTS,
+    ApplyOptions,
+    ApplyTask,
+    AssetJob,
+    load_named_templates,
+    load_templates,
+    make_jobs,
+    read_template,
+    template_folders,
+)
+from meshforge.batch.lock import hold_lock
+from meshforge.batch.outcome import (
+    AssetOutcome,
+    Edited,
+    Failed,
+    RuleEffect,
+    RunSummary,
+    Skipped,
+    Unchanged,
+    status_of,
+    to_json_line,
+)
+from meshforge.batch.plan import plan_run
+from meshforge.batch.preparation.decompose import DecompositionResult, decompose_asset
+from meshforge.batch.preparation.record import (
+    Preparation,
+    Replacement,
+    apply_preparation,
+    find_sources,
+    replay_preparation,
+)
+from meshforge.batch.preparation.split import cut_hull, split_hull
+from meshforge.batch.preparation.storage import (
+    RECORD_FILE,
+    read_preparation,
+    read_prepared,
+    record_digest,
+    remove_preparation,
+    write_preparation,
+)
+from meshforge.batch.provenance import (
+    Stamp,
     asset_digests,
     file_digest,
+    has_same_files,
     program_digest,
-    same_files,
-    software,
+    read_stamp,
+    software_version,
     source_files,
+    stamp_path,
+    template_digests,
     text_digest,
 )
-from meshforge.batch.assets.expand import Found, asset_id, common_folder, expand
-from meshforge.batch.assets.folder import OWN_FOLDERS, SETTINGS, STATE
-from meshforge.batch.assets.job import AssetJob, Task, jobs, labels_for
-from meshforge.batch.assets.plan import Plan, plan, size_text
-from meshforge.batch.checking.examination import Examined, Wanted, examine, examine_all
-from meshforge.batch.checking.journal import Journal, journal
-from meshforge.batch.correction import Correction, replay
-from meshforge.batch.edit import inputs_of
-from meshforge.batch.outcome import Edited, Failed, Outcome, RuleLine, Skipped, Unchanged, json_line, status
-from meshforge.batch.outputs.lock import locked
-from meshforge.batch.outputs.stamp import Inputs, Stamp, read_stamp
-from meshforge.batch.report import (
-    PATIENCE,
-    Chosen,
-    Figures,
-    Kept,
-    Labelling,
-    Reader,
+from meshforge.batch.report.contents import (
+    READ_TIMEOUT,
+    EarlierExamination,
+    LabelStatus,
+    MeshReader,
     ReportAsset,
-    Status,
+    ReportStatus,
+    RunFigures,
+    TopItems,
     read_again,
     read_job,
-    write_report,
 )
-from meshforge.batch.summary import Summary
-from meshforge.batch.templates import load_templates, named_templates, read_template, template_folders
-from meshforge.batch.workers.pool import Lost, isolated
-from meshforge.batch.workers.spread import HERE, TIMEOUT, Backend, Spread
+from meshforge.batch.report.page import MOST_PICTURED, REPORT_DEFAULTS, ReportHeader, ReportOptions, write_report
+from meshforge.batch.workers import (
+    EXECUTION_DEFAULTS,
+    IN_PROCESS,
+    TIMEOUT,
+    ExecutionOptions,
+    WorkerFailure,
+    count_processors,
+    memory_share,
+    raise_if_stopped,
+    run_isolated,
+    worker_context,
+)
 
 __all__ = [
-    "HERE",
+    "APPLY_DEFAULTS",
+    "EXECUTION_DEFAULTS",
+    "IN_PROCESS",
+    "MOST_PICTURED",
     "OWN_FOLDERS",
-    "PATIENCE",
+    "READ_TIMEOUT",
+    "RECORD_FILE",
+    "REPORT_DEFAULTS",
     "SETTINGS",
     "STATE",
     "TIMEOUT",
+    "ApplyOptions",
+    "ApplyTask",
     "AssetJob",
-    "Backend",
-    "Chosen",
+    "AssetOutcome",
+    "AssetSet",
+    "CheckJournal",
+    "CheckOutcome",
+    "CheckTask",
     "Correction",
+    "DecompositionResult",
+    "EarlierExamination",
     "Edited",
-    "Examined",
+    "ExecutionOptions",
     "Failed",
-    "Figures",
-    "Found",
-    "Inputs",
-    "Journal",
-    "Kept",
-    "Labelling",
-    "Lost",
-    "Outcome",
-    "Plan",
-    "Reader",
+    "LabelStatus",
+    "MeshReader",
+    "Preparation",
+    "Replacement",
     "ReportAsset",
-    "RuleLine",
+    "ReportHeader",
+    "ReportOptions",
+    "ReportStatus",
+    "RuleEffect",
+    "RunFigures",
+    "RunSummary",
     "Skipped",
-    "Spread",
     "Stamp",
-    "Status",
-    "Summary",
-    "Task",
+    "TopItems",
     "Unchanged",
-    "Wanted",
+    "WorkerFailure",
     "apply",
+    "apply_preparation",
     "asset_digests",
     "asset_id",
+    "check_asset",
+    "check_assets",
     "common_folder",
-    "examine",
-    "examine_all",
+    "count_processors",
+    "cut_hull",
+    "decompose_asset",
+    "execute",
     "expand",
     "file_digest",
+    "find_assets_in",
+    "find_sources",
+    "has_same_files",
+    "hold_lock",
     "inputs_of",
-    "isolated",
-    "jobs",
-    "journal",
-    "json_line",
-    "labels_for",
+    "load_named_templates",
     "load_templates",
-    "locked",
-    "named_templates",
-    "plan",
+    "make_jobs",
+    "memory_share",
+    "open_journal",
+    "plan_run",
     "program_digest",
+    "raise_if_stopped",
     "read_again",
     "read_job",
+    "read_preparation",
+    "read_prepared",
     "read_stamp",
     "read_template",
-    "replay",
-    "same_files",
-    "size_text",
-    "software",
+    "record_digest",
+    "remove_preparation",
+    "replay_corrections",
+    "replay_preparation",
+    "run_isolated",
+    "software_version",
     "source_files",
-    "status",
+    "split_hull",
+    "stamp_path",
+    "status_of",
+    "template_digests",
     "template_folders",
     "text_digest",
+    "to_json_line",
+    "worker_context",
+    "write_preparation",
     "write_report",
 ]

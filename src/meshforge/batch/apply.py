@@ -1,25 +1,49 @@
-"""Running a program over many assets."""
+"""A program run over many assets: each becomes a draft of its output in a worker process, and is then put in place."""
 
 from __future__ import annotations
 
 import shutil
-from collections.abc import Callable, Iterable, Iterator, Mapping
+import time
+from collections.abc import Iterable, Iterator, Mapping
 from contextlib import ExitStack
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 
-from meshforge.batch.assets.folder import STATE
-from meshforge.batch.assets.job import AssetJob, Task
-from meshforge.batch.edit import Worked, edit
-from meshforge.batch.outcome import Failed, Outcome
-from meshforge.batch.outputs.draft import drafts
-from meshforge.batch.outputs.ledger import Ledger
-from meshforge.batch.outputs.lock import locked
-from meshforge.batch.workers.pool import Lost
-from meshforge.batch.workers.spread import TIMEOUT, Backend, Spread
-from meshforge.errors import UsageError
-from meshforge.formats import Mass, Names, format_for, with_names
+from meshforge.batch.corrections import corrections_digest, replay_corrections
+from meshforge.batch.discovery import STATE
+from meshforge.batch.execution import execute
+from meshforge.batch.jobs import APPLY_DEFAULTS, ApplyOptions, ApplyTask, AssetJob
+from meshforge.batch.lock import hold_lock
+from meshforge.batch.outcome import AssetOutcome, Edited, Failed, RuleEffect, Unchanged
+from meshforge.batch.outputs import (
+    DISK_ERRORS,
+    DRAFT_STAMP,
+    OutputFolder,
+    WorkerResult,
+    drafts_folder,
+    plan_draft,
+    write_draft,
+)
+from meshforge.batch.preparation.storage import prepare_from_folder, record_digest
+from meshforge.batch.provenance import (
+    OutputInputs,
+    Stamp,
+    asset_digests,
+    file_digest,
+    has_same_files,
+    program_digest,
+    read_stamp,
+    software_version,
+    template_digests,
+)
+from meshforge.batch.workers import EXECUTION_DEFAULTS, ExecutionOptions, WorkerFailure
+from meshforge.common import UsageError, describe_error, join_names
+from meshforge.formats import format_for, format_with_names, read
 from meshforge.language import Program, Template
+from meshforge.symbolic import Asset, LabelFile, LabelTransfer, SymbolicMesh, read_labels, transfer_labels
+
+_MEMORY = "More for one asset: --memory, or fewer --workers. The other assets are not affected."
 
 
 def apply(
@@ -28,65 +52,44 @@ def apply(
     out: Path,
     *,
     templates: Mapping[str, Template] | None = None,
-    workers: int | None = None,
-    mass: Mass = "keep",
-    link: bool = False,
-    dry_run: bool = False,
-    resume: bool = True,
-    to: str | None = None,
-    names: Names | None = None,
-    timeout: float | None = TIMEOUT,
-    memory: int | None = None,
-    backend: Backend = "local",
-    progress: Callable[[], None] | None = None,
-    stop: Callable[[], bool] | None = None,
-) -> Iterator[Outcome]:
+    options: ApplyOptions = APPLY_DEFAULTS,
+    execution: ExecutionOptions = EXECUTION_DEFAULTS,
+) -> Iterator[AssetOutcome]:
     """Run a program on assets and write each into `out`; one outcome an asset, in the order given.
 
     The outcomes come as the work goes on; an asset is in place when its outcome is there. What one asset does wrong
     is its own outcome. Outcomes and files do not depend on the number of workers, nor on where they are.
 
-    workers: processes, None takes one a processor, 0 works in this process (no bounds, no protection against crashes of
-    native code); mass: whether bodies keep their masses where a format derives them from geometry;
-    link: files that are only copied become hard links; dry_run: nothing is written; resume: an output that is whole
-    and was made from the same is skipped; to: the suffix of the format that all are written in, each one's own when
-    None; names: the engine by whose names for collision they are made; timeout: seconds for one asset; memory: bytes
-    for one, an even share of the machine's when None; backend: the workers of this machine, or those of a Ray cluster,
-    as of `on_cluster`;
-    progress: called for each finished asset; stop: as of `isolated`.
     Raises UsageError for arguments that do not fit, MeshForgeError when another run is writing into `out`,
-    StoppedError when it was told to stop: what is in place by then stays.
+    StoppedError when `execution.stop` said so: what is in place by then stays.
     """
     jobs = tuple(assets)
-    task = Task(program, dict(templates or {}), Path(out).absolute(), mass, link, dry_run, resume, to, names)
-    _check(jobs, task)
-    return _run(jobs, task, Spread(workers, timeout, memory, stop, backend), progress)
+    task = ApplyTask(program, dict(templates or {}), Path(out).absolute(), options)
+    _check_arguments(jobs, task)
+    return _run_task(jobs, task, execution)
 
 
-def _run(
-    jobs: tuple[AssetJob, ...], task: Task, spread: Spread, progress: Callable[[], None] | None
-) -> Iterator[Outcome]:
+def _run_task(jobs: tuple[AssetJob, ...], task: ApplyTask, execution: ExecutionOptions) -> Iterator[AssetOutcome]:
     with ExitStack() as stack:
         ledger = None
-        if not task.dry_run:
-            stack.enter_context(locked(task.out / STATE / "lock", str(task.out), wait=0))
-            stack.callback(shutil.rmtree, drafts(task.out), ignore_errors=True)
-            shutil.rmtree(drafts(task.out), ignore_errors=True)
-            ledger = Ledger(task.out, (job.id for job in jobs))
-        results = spread.over(partial(edit, task), jobs, progress)
+        if not task.options.dry_run:
+            stack.enter_context(hold_lock(task.out / STATE / "lock", str(task.out), wait=0))
+            stack.callback(shutil.rmtree, drafts_folder(task.out), ignore_errors=True)
+            shutil.rmtree(drafts_folder(task.out), ignore_errors=True)
+            ledger = OutputFolder(task.out, (job.id for job in jobs))
+        results = execute(partial(edit_asset, task), jobs, execution)
         stack.callback(results.close)  # the workers stop first, so that none writes a draft any more
         for job, result in zip(jobs, results, strict=True):
-            worked = _lost(job, result) if isinstance(result, Lost) else result
-            yield ledger.settle(worked) if ledger else worked.outcome
+            if isinstance(result, WorkerFailure):
+                why = f"{job.path}: {result.why}\n  The other assets are not affected."
+                result = WorkerResult(Failed(job.id, why, result.seconds))
+            yield ledger.commit(result) if ledger else result.outcome
 
 
-def _lost(job: AssetJob, lost: Lost) -> Worked:
-    return Worked(Failed(job.id, f"{job.path}: {lost.why}\n  The other assets are not affected.", lost.seconds))
-
-
-def _check(jobs: tuple[AssetJob, ...], task: Task) -> None:
-    if task.names:
-        with_names(format_for(Path(f"asset{task.to or ''}"), ""), task.names)
+def _check_arguments(jobs: tuple[AssetJob, ...], task: ApplyTask) -> None:
+    options = task.options
+    if options.names:
+        format_with_names(format_for(Path(f"asset{options.to or ''}"), ""), options.names)
     seen: dict[str, Path] = {}
     for job in jobs:
         if job.id in seen:
@@ -96,3 +99,98 @@ def _check(jobs: tuple[AssetJob, ...], task: Task) -> None:
             raise UsageError(
                 "the output folder is the folder of the assets", where=str(task.out), remedy="Choose another --out."
             )
+
+
+def edit_asset(task: ApplyTask, job: AssetJob) -> WorkerResult:
+    """Run a task on one asset. Never raises: whatever goes wrong is the asset's outcome."""
+    started, inputs = time.perf_counter(), None
+    try:
+        skipped = _find_up_to_date(task, job)
+        if skipped:
+            return skipped
+        asset = read(job.path)
+        inputs = inputs_of(task, job, asset_digests(job.path, asset.files, job.base))
+        ready = prepare_from_folder(asset, job.preparation) if job.preparation else asset
+        return _run_program(task, job, ready, inputs, started)
+    except MemoryError:
+        why = f"{job.path}: there is not enough memory for it\n  {_MEMORY}"
+        return WorkerResult(Failed(job.id, why, time.perf_counter() - started), inputs)
+    except Exception as error:  # a failed asset never stops the others
+        failed = Failed(job.id, describe_error(error, str(job.path)), time.perf_counter() - started)
+        disk = error.strerror if isinstance(error, OSError) and error.errno in DISK_ERRORS else None
+        return WorkerResult(failed, inputs, disk=disk)
+
+
+def inputs_of(task: ApplyTask, job: AssetJob, files: dict[str, str]) -> OutputInputs:
+    """The digests of all that decides the output of a job; files: those of the asset."""
+    to, names = task.options.to, task.options.names
+    return OutputInputs(
+        asset=files,
+        preparation=record_digest(job.preparation) if job.preparation else None,
+        labels=file_digest(job.labels) if job.labels else None,
+        program=program_digest(task.program),
+        templates=template_digests(task.templates),
+        corrections=corrections_digest(job.corrections),
+        settings=f"mass={task.options.mass}{f' to={to}' if to else ''}{f' names={names}' if names else ''}",
+        software=software_version(),
+    )
+
+
+def _find_up_to_date(task: ApplyTask, job: AssetJob) -> WorkerResult | None:
+    """The outcome `skipped`, where the output of an earlier run is whole and made from the same."""
+    stamp = read_stamp(task.out, job.id) if task.options.resume else None
+    if not stamp or not stamp.inputs or inputs_of(task, job, stamp.inputs.asset) != stamp.inputs:
+        return None
+    if not has_same_files(stamp.inputs.asset, job.path, job.base) or not stamp.is_whole(task.out):
+        return None
+    return WorkerResult(stamp.to_skipped(task.out))
+
+
+def _run_program(task: ApplyTask, job: AssetJob, asset: Asset, inputs: OutputInputs, started: float) -> WorkerResult:
+    labels = read_labels(job.labels) if job.labels else LabelFile()
+    followed = transfer_labels(labels, SymbolicMesh.of(asset))
+    source = followed.mesh
+    result = task.program.run(source, task.templates)
+    mesh, flags = replay_corrections(job.corrections, source, result.mesh, task.program, task.templates)
+    draft = plan_draft(task, job, asset)
+    if not task.options.dry_run:
+        known = labels.vocabulary or task.program.labels
+        draft = write_draft(draft, mesh, known, task.options)
+    outcome = (Unchanged if _has_same_hulls(source, mesh) and not job.preparation else Edited)(
+        asset=job.id,
+        out=str(task.out / draft.main),
+        rules=tuple(RuleEffect(line.rule, line.selected, line.made, line.note) for line in result.trace),
+        before=len(source.hulls),
+        after=len(mesh.hulls),
+        seconds=time.perf_counter() - started,
+        notes=(*asset.notes, *_opaque_notes(asset), *_label_notes(followed), *draft.notes),
+        flags=flags,
+    )
+    if task.options.dry_run:
+        return WorkerResult(outcome)
+    Stamp.of(outcome, inputs, draft).write(draft.root / DRAFT_STAMP)
+    return WorkerResult(replace(outcome, seconds=time.perf_counter() - started), draft=draft)
+
+
+def _opaque_notes(asset: Asset) -> tuple[str, ...]:
+    """What the program cannot have seen."""
+    names = [piece.name for piece in asset.opaque]
+    return (f"no convex hulls, so left as they are: {join_names(names)} ({asset.opaque[0].reason})",) if names else ()
+
+
+def _label_notes(followed: LabelTransfer) -> tuple[str, ...]:
+    """What a person should know about labels that were given to another state of the asset."""
+    renamed = [f"{old} to {new}" for old, new in followed.renamed]
+    kinds = (
+        ("labels followed renamed hulls", renamed),
+        ("hulls changed since they were labelled", followed.changed),
+        ("labels of hulls that are gone were left out", followed.gone),
+    )
+    return tuple(f"{what}: {join_names(names)}" for what, names in kinds if names)
+
+
+def _has_same_hulls(before: SymbolicMesh, after: SymbolicMesh) -> bool:
+    """Whether no hull was removed, made or reshaped."""
+    return len(before.hulls) == len(after.hulls) and all(
+        a.name == b.name and a.shape is b.shape for a, b in zip(before.hulls, after.hulls, strict=True)
+    )

@@ -1,13 +1,23 @@
-"""What became of one asset in a batch: a closed union of plain data, which pickles and prints as one JSON line."""
+"""What became of each asset: a closed union of plain data, which pickles and prints as one JSON line; and the sums
+of a run, counted as outcomes come."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections import Counter
+from dataclasses import dataclass, field
 from typing import Any, Literal, assert_never
+
+from meshforge.common import pluralize
+
+StatusWord = Literal["edited", "unchanged", "failed", "skipped"]
+
+MOST_SHOWN = 120
+"""Outcomes of either kind that are kept for a report."""
+_MOST_NAMED = 20
 
 
 @dataclass(frozen=True, slots=True)
-class RuleLine:
+class RuleEffect:
     """What one rule did on one asset: names of the hulls it selected and made; rule counts from 1."""
 
     rule: int
@@ -17,7 +27,7 @@ class RuleLine:
 
 
 @dataclass(frozen=True, slots=True)
-class Ran:
+class RunOutcome:
     """What the outcomes of a run that came to its end have in common.
 
     out: the file that was written, or that would be on a dry run; before, after: numbers of hulls;
@@ -26,7 +36,7 @@ class Ran:
 
     asset: str
     out: str
-    rules: tuple[RuleLine, ...]
+    rules: tuple[RuleEffect, ...]
     before: int
     after: int
     seconds: float
@@ -35,17 +45,17 @@ class Ran:
 
 
 @dataclass(frozen=True, slots=True)
-class Edited(Ran):
+class Edited(RunOutcome):
     """The program changed the hulls of the asset."""
 
 
 @dataclass(frozen=True, slots=True)
-class Unchanged(Ran):
+class Unchanged(RunOutcome):
     """The program ran and changed nothing; the asset is written as it was."""
 
 
 @dataclass(frozen=True, slots=True)
-class Skipped(Ran):
+class Skipped(RunOutcome):
     """The output of an earlier run is up to date; rules, counts and notes are those of that run."""
 
 
@@ -58,13 +68,10 @@ class Failed:
     seconds: float
 
 
-Outcome = Edited | Unchanged | Failed | Skipped
+AssetOutcome = Edited | Unchanged | Failed | Skipped
 
 
-Word = Literal["edited", "unchanged", "failed", "skipped"]
-
-
-def status(outcome: Outcome) -> Word:
+def status_of(outcome: AssetOutcome) -> StatusWord:
     """The word for an outcome: `edited`, `unchanged`, `failed` or `skipped`."""
     match outcome:
         case Edited():
@@ -79,19 +86,61 @@ def status(outcome: Outcome) -> Word:
             assert_never(outcome)
 
 
-def json_line(outcome: Outcome) -> dict[str, Any]:
+def to_json_line(outcome: AssetOutcome) -> dict[str, Any]:
     """The line of `apply --json` for an outcome; what a failed asset has not is null or empty."""
     ran = None if isinstance(outcome, Failed) else outcome
     return {
         "asset": outcome.asset,
-        "status": status(outcome),
+        "status": status_of(outcome),
         "out": ran.out if ran else None,
         "error": outcome.error if isinstance(outcome, Failed) else None,
-        "rules": [_rule(line) for line in ran.rules] if ran else [],
+        "rules": [_rule_to_json(line) for line in ran.rules] if ran else [],
         "hulls": {"before": ran.before if ran else None, "after": ran.after if ran else None},
         "seconds": round(outcome.seconds, 3),
     }
 
 
-def _rule(line: RuleLine) -> dict[str, Any]:
+def _rule_to_json(line: RuleEffect) -> dict[str, Any]:
     return {"rule": line.rule, "selected": list(line.selected), "made": list(line.made), "note": line.note}
+
+
+@dataclass(eq=False, slots=True)
+class RunSummary:
+    """counts: by status; before, after: hulls of all that ran; failed, ran: the first outcomes of either kind."""
+
+    counts: Counter[StatusWord] = field(default_factory=Counter)
+    before: int = 0
+    after: int = 0
+    failed: list[Failed] = field(default_factory=list)
+    ran: list[Edited | Unchanged | Skipped] = field(default_factory=list)
+
+    def add(self, outcome: AssetOutcome) -> None:
+        """Count one more."""
+        self.counts[status_of(outcome)] += 1
+        if isinstance(outcome, Failed):
+            if len(self.failed) < MOST_SHOWN:
+                self.failed.append(outcome)
+            return
+        self.before += outcome.before
+        self.after += outcome.after
+        if len(self.ran) < MOST_SHOWN:
+            self.ran.append(outcome)
+
+    @property
+    def total(self) -> int:
+        """How many assets there were."""
+        return self.counts.total()
+
+    @property
+    def outcomes_to_show(self) -> tuple[AssetOutcome, ...]:
+        """Those that a report shows: failed ones first, then the first of the others."""
+        return (*self.failed, *self.ran)[:MOST_SHOWN]
+
+    def __str__(self) -> str:
+        counts = ", ".join(f"{n:,} {word}" for word, n in self.counts.items()) or "nothing to do"
+        text = f"{pluralize(self.total, 'asset')}: {counts}; hulls {self.before:,} -> {self.after:,}"
+        more = self.counts["failed"] - len(self.failed[:_MOST_NAMED])
+        names = [outcome.asset for outcome in self.failed[:_MOST_NAMED]]
+        if self.total <= _MOST_NAMED or not names:  # they are on the screen
+            return text
+        return f"{text}\nfailed: {', '.join(names)}{f' and {more:,} more' if more else ''}"

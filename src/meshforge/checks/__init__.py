@@ -1,22 +1,23 @@
-"""Whether hulls are legal, within the limits of an engine, fit, leave free what is free, and rest; and mending."""
+"""Whether hulls are legal, within the limits of an engine, fit, leave free what is free, and rest; and fixes."""
 
-from meshforge.checks.check import check, engine_named
-from meshforge.checks.engines import ENGINES
-from meshforge.checks.examination import Examination, Measures, examine_mesh
-from meshforge.checks.finding import Finding, Severity
-from meshforge.checks.fixing import Fixed, fix
-from meshforge.checks.pictures import pictures
+from meshforge.checks.engines import ENGINES, find_engine
+from meshforge.checks.examination import CheckOptions, Examination, check, examine_mesh
+from meshforge.checks.fix import FixResult, fix
+from meshforge.checks.legality import Finding, Severity
+from meshforge.checks.physics.simulation import Physics
+from meshforge.checks.pictures import draw_examination
 
 __all__ = [
     "ENGINES",
+    "CheckOptions",
     "Examination",
     "Finding",
-    "Fixed",
-    "Measures",
+    "FixResult",
+    "Physics",
     "Severity",
     "check",
-    "engine_named",
+    "draw_examination",
     "examine_mesh",
+    "find_engine",
     "fix",
-    "pictures",
 ]

@@ -1,23 +1,24 @@
-"""All that can be measured of one mesh, as far as it is asked for."""
+"""All checks of one mesh: `check`, which costs little, and all else that can be measured, as far as it is asked for."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from typing import Any
 
-from meshforge.checks.check import check
-from meshforge.checks.clearance import Clearance, clearance
-from meshforge.checks.finding import Finding
-from meshforge.checks.fit import Fit, fit, oddities
-from meshforge.checks.legality import legality
-from meshforge.checks.physics import Physics, physics
+from meshforge.checks.clearance import Clearance, measure_clearance
+from meshforge.checks.engines import find_engine
+from meshforge.checks.fit import MeshFit, measure_fit
+from meshforge.checks.legality import Finding, check_legality
+from meshforge.checks.limits import check_limits
+from meshforge.checks.oddities import find_oddities
+from meshforge.checks.physics.simulation import Physics, simulate
 from meshforge.symbolic import SymbolicMesh
 
-NOTHING_SHOWN = "nothing is shown (no visual mesh), so clearance and fit have nothing to be measured against"
+NO_VISUAL_MESH = "nothing is shown (no visual mesh), so clearance and fit have nothing to be measured against"
 
 
 @dataclass(frozen=True, slots=True)
-class Measures:
+class CheckOptions:
     """What is measured besides legality; engine: whose limits; cell: of the grids of clearance and fit [m]."""
 
     engine: str | None = None
@@ -27,7 +28,7 @@ class Measures:
     cell: float | None = None
 
     @property
-    def any_costly(self) -> bool:
+    def is_costly(self) -> bool:
         """Whether anything is measured that takes its time."""
         return self.fit or self.clearance or self.physics
 
@@ -40,7 +41,7 @@ class Examination:
     """
 
     findings: tuple[Finding, ...]
-    fit: Fit | None = None
+    fit: MeshFit | None = None
     clearance: Clearance | None = None
     changed: Clearance | None = None
     physics: Physics | None = None
@@ -48,12 +49,12 @@ class Examination:
     notes: tuple[str, ...] = ()
 
     @property
-    def told(self) -> tuple[str, ...]:
+    def descriptions(self) -> tuple[str, ...]:
         """What was measured, a sentence each."""
-        found = [f"fit: {self.fit.told}"] if self.fit and self.fit.hulls else []
-        found += [f"clearance: {c.told}" for c in (self.clearance, self.changed) if c]
-        found += [f"physics: {self.physics.told}"] if self.physics else []
-        found += [f"physics before: {self.earlier.told}"] if self.earlier else []
+        found = [f"fit: {self.fit.description}"] if self.fit and self.fit.hulls else []
+        found += [f"clearance: {c.description}" for c in (self.clearance, self.changed) if c]
+        found += [f"physics: {self.physics.description}"] if self.physics else []
+        found += [f"physics before: {self.earlier.description}"] if self.earlier else []
         return (*found, *(f"note: {note}" for note in self.notes))
 
     def to_json(self) -> dict[str, Any]:
@@ -69,38 +70,51 @@ class Examination:
         return {name: part.to_json() for name, part in parts.items() if part is not None} | notes
 
 
-def examine_mesh(mesh: SymbolicMesh, wanted: Measures, before: SymbolicMesh | None = None) -> Examination:
+def examine_mesh(mesh: SymbolicMesh, wanted: CheckOptions, before: SymbolicMesh | None = None) -> Examination:
     """Measure a mesh; before: the mesh that it was edited from, whose visual mesh counts then.
 
     Hulls that are not legal are left out of all but the first findings. Raises UsageError for an unknown engine.
     """
     findings = list(check(mesh, wanted.engine))
-    if not wanted.any_costly:
+    if not wanted.is_costly:
         return Examination(tuple(findings))
-    sound, was = _sound(_shown_as(mesh, before)), _sound(before) if before else None
+    sound, was = (
+        _without_illegal_hulls(_with_visuals_of(mesh, before)),
+        _without_illegal_hulls(before) if before else None,
+    )
     notes = []
-    found = fit(sound, cell=wanted.cell) if wanted.fit else None
-    space = clearance(sound, cell=wanted.cell) if wanted.clearance else None
-    edit = clearance(sound, was, cell=wanted.cell) if wanted.clearance and was and was.hulls else None
+    found = measure_fit(sound, cell=wanted.cell) if wanted.fit else None
+    space = measure_clearance(sound, cell=wanted.cell) if wanted.clearance else None
+    edit = measure_clearance(sound, was, cell=wanted.cell) if wanted.clearance and was and was.hulls else None
     if (found is not None and not found.hulls) or (wanted.clearance and space is None):
-        notes.append(NOTHING_SHOWN)
+        notes.append(NO_VISUAL_MESH)
     elif found is not None and found.silent:
         notes.append(f"bodies that show nothing, so their fit was not measured: {', '.join(found.silent)}")
-    rested = physics(mesh) if wanted.physics else None
-    earlier = physics(before) if wanted.physics and before else None
-    findings += oddities(sound) if wanted.fit else ()
+    rested = simulate(mesh) if wanted.physics else None
+    earlier = simulate(before) if wanted.physics and before else None
+    findings += find_oddities(sound) if wanted.fit else ()
     for part in (found, space, edit, rested):
         findings += part.findings if part else ()
     return Examination(tuple(findings), found, space, edit, rested, earlier, tuple(notes))
 
 
-def _shown_as(mesh: SymbolicMesh, before: SymbolicMesh | None) -> SymbolicMesh:
+def _with_visuals_of(mesh: SymbolicMesh, before: SymbolicMesh | None) -> SymbolicMesh:
     """The mesh with what was shown before: where collision geometry is what is shown, an edit changes that, too."""
     if before is None or before.asset is None or mesh.asset is None:
         return mesh
     return replace(mesh, asset=replace(mesh.asset, visuals=before.asset.visuals))
 
 
-def _sound(mesh: SymbolicMesh) -> SymbolicMesh:
-    faulty, _ = legality(mesh)
+def _without_illegal_hulls(mesh: SymbolicMesh) -> SymbolicMesh:
+    faulty, _ = check_legality(mesh)
     return mesh.with_hulls(hull for hull in mesh.hulls if hull.name not in faulty) if faulty else mesh
+
+
+def check(mesh: SymbolicMesh, engine: str | None = None) -> tuple[Finding, ...]:
+    """What is not legal in a mesh, and with an engine, what is beyond its limits; empty where all is well.
+
+    Raises UsageError for an engine that is not known.
+    """
+    known = None if engine is None else find_engine(engine)
+    faulty, findings = check_legality(mesh)
+    return findings if known is None else (*findings, *check_limits(known, mesh, faulty))

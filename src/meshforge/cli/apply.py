@@ -2,185 +2,186 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Literal
+from time import perf_counter
+from typing import Annotated, Literal
 
 import typer
 
-from meshforge.cli.options import Backend, DryRun, Json, Labels, Memory, Report, Timeout, Workers
+from meshforge.batch import (
+    ApplyOptions,
+    AssetJob,
+    AssetOutcome,
+    Failed,
+    MeshReader,
+    ReportHeader,
+    RunFigures,
+    RunSummary,
+    expand,
+    load_templates,
+    make_jobs,
+    plan_run,
+    read_job,
+    status_of,
+    template_folders,
+    to_json_line,
+)
+from meshforge.batch import apply as run_program
+from meshforge.checks import ENGINES, CheckOptions
+from meshforge.cli.console import progress
+from meshforge.cli.options import (
+    NOTHING_TO_SHOW,
+    Backend,
+    DryRun,
+    Json,
+    LabelsPath,
+    Memory,
+    ReportPath,
+    Timeout,
+    Workers,
+    takes,
+    to_execution_options,
+)
+from meshforge.cli.report import NOTHING_WRITTEN, compare_outcomes, describe_failure, write_report_page
+from meshforge.cli.terminal import print_json, remark
+from meshforge.common import UsageError, pluralize
+from meshforge.language import Program, Template
 
-if TYPE_CHECKING:
-    from meshforge.batch import AssetJob, Failed, Outcome, Reader, Summary
-    from meshforge.checks import Measures
-    from meshforge.language import Program
 
-NOTHING = " (nothing was written)"
-NOTHING_TO_SHOW = "with --dry-run there is nothing to show"
+@dataclass(frozen=True, slots=True)
+class ApplyArguments:
+    """What is typed after `meshforge apply`."""
 
-
-def apply(
-    program: Annotated[Path, typer.Argument(help="A program file (*.mf) or a project folder.")],
-    assets: Annotated[list[str] | None, typer.Argument(help="Files, folders or globs; not with a project.")] = None,
+    program: Annotated[Path, typer.Argument(help="A program file (*.mf) or a project folder.")]
+    assets: Annotated[list[str] | None, typer.Argument(help="Files, folders or globs; not with a project.")] = None
     out: Annotated[
         Path | None, typer.Option("-o", "--out", help="Folder for the edited assets; a project has its own, edited/.")
-    ] = None,
-    labels: Labels = None,
-    workers: Workers = None,
-    backend: Backend = "local",
-    timeout: Timeout = None,
-    memory: Memory = None,
+    ] = None
+    labels: LabelsPath = None
+    workers: Workers = None
+    backend: Backend = "local"
+    timeout: Timeout = None
+    memory: Memory = None
     mass: Annotated[
         Literal["keep", "recompute"], typer.Option("--mass", help="Masses that a format derives from geometry.")
-    ] = "keep",
-    link: Annotated[bool, typer.Option("--link", help="Hard-link files that are only copied.")] = False,
-    dry_run: DryRun = False,
-    fresh: Annotated[bool, typer.Option("--fresh", help="Do again what an earlier run has done.")] = False,
-    report: Report = None,
+    ] = "keep"
+    link: Annotated[bool, typer.Option("--link", help="Hard-link files that are only copied.")] = False
+    dry_run: DryRun = False
+    fresh: Annotated[bool, typer.Option("--fresh", help="Do again what an earlier run has done.")] = False
+    report: ReportPath = None
     check: Annotated[
         list[str] | None,
         typer.Option(
             "--check",
             help="fit, clearance, physics or an engine: checks for the report, of what it shows. May be repeated.",
         ),
-    ] = None,
-    json: Json = False,
-) -> None:
+    ] = None
+    json: Json = False
+
+
+@takes(ApplyArguments)
+def apply(given: ApplyArguments) -> None:
     """Run a program on assets; each goes back into its own format below --out, labels beside it.
 
     A run that was stopped or killed goes on where it was: the same command again. Exit code 1 when some assets failed:
     they are named, and the others are done.
     """
-    from time import perf_counter
-
-    from meshforge.batch import TIMEOUT, Summary, json_line, plan
-    from meshforge.cli.output import print_json, progress, remark
-    from meshforge.errors import UsageError
-
-    measures = _measures(check) if check else None
-    if measures and not report:
+    measures = _parse_measures(given.check) if given.check else None
+    if measures and not given.report:
         raise UsageError("--check says nothing without --report", remedy="Give it too, or: meshforge check OUT")
-    if report and dry_run:
+    if given.report and given.dry_run:
         raise UsageError(NOTHING_TO_SHOW, remedy="Leave out --report.")
-    work = _of_project(program, assets, labels, out) if program.is_dir() else _of_program(program, assets, out, labels)
+    work = _work_of_project(given) if given.program.is_dir() else _work_of_program(given)
     if len(work.jobs) > 1:
-        remark(str(plan(work.jobs, work.out)))
-    summary, started = Summary(), perf_counter()
-    bounds = {"timeout": TIMEOUT if timeout is None else timeout or None, "memory": memory}
-    options = {"workers": workers, "backend": backend, "mass": mass, "link": link, "dry_run": dry_run}
+        remark(str(plan_run(work.jobs, work.out)))
+    summary, started = RunSummary(), perf_counter()
+    options = ApplyOptions(given.mass, given.link, given.dry_run, resume=not given.fresh)
+    bounds = to_execution_options(given.workers, given.timeout, given.memory, given.backend)
     with progress(len(work.jobs), "editing") as advance:
-        for outcome in work.run(out=work.out, resume=not fresh, progress=advance, **options, **bounds):
+        execution = replace(bounds, progress=advance)
+        for outcome in run_program(
+            work.program, work.jobs, work.out, templates=work.templates, options=options, execution=execution
+        ):
             summary.add(outcome)
-            if json:
-                print_json(json_line(outcome), compact=True)
+            if given.json:
+                print_json(to_json_line(outcome), compact=True)
             else:
-                typer.echo(told(outcome))
-    if not json:
-        typer.echo(f"{summary}{NOTHING if dry_run else ''}")
-    if report:
-        _write_report(report, work, summary, perf_counter() - started, measures)
+                typer.echo(_describe_outcome(outcome))
+    if not given.json:
+        typer.echo(f"{summary}{NOTHING_WRITTEN if given.dry_run else ''}")
+    if given.report:
+        _write_report(given.report, work, summary, perf_counter() - started, measures)
     raise typer.Exit(int(summary.counts["failed"] > 0))
 
 
-def _measures(names: Sequence[str]) -> Measures:
-    from meshforge.checks import ENGINES, Measures
-    from meshforge.errors import UsageError
-
+def _parse_measures(names: Sequence[str]) -> CheckOptions:
     known = ("fit", "clearance", "physics", *ENGINES)
     if odd := [name for name in names if name not in known]:
         raise UsageError(f"there is no check {odd[0]!r}", remedy=f"There are {', '.join(known)}.")
     engines = [name for name in names if name in ENGINES]
     if len(engines) > 1:
         raise UsageError(f"two engines for one report: {', '.join(engines)}", remedy="Choose one of them.")
-    return Measures(next(iter(engines), None), "fit" in names, "clearance" in names, "physics" in names)
+    return CheckOptions(next(iter(engines), None), "fit" in names, "clearance" in names, "physics" in names)
 
 
 @dataclass(frozen=True, slots=True)
-class _Work:
+class _ApplyWork:
     """What is to be run on what. readers: of assets before the run, by id; demonstrated: those that somebody edited."""
 
     program: Program
     jobs: Sequence[AssetJob]
     out: Path
-    run: Callable[..., Iterator[Outcome]]
-    readers: Callable[[Iterable[str]], Sequence[Reader]]
+    templates: Mapping[str, Template]
+    readers: Callable[[Iterable[str]], Sequence[MeshReader]]
     demonstrated: Collection[str] = ()
 
 
-def _of_project(folder: Path, assets: list[str] | None, labels: Path | None, out: Path | None) -> _Work:
-    from meshforge.batch import apply as run
-    from meshforge.errors import UsageError
-    from meshforge.project import Project
-
-    if assets or labels:
+def _work_of_project(given: ApplyArguments) -> _ApplyWork:
+    if given.assets or given.labels:
         raise UsageError(
             "a project has its own assets and labels",
-            remedy=f"For other assets: meshforge apply {folder / 'program.mf'} ASSETS... --out DIR",
+            remedy=f"For other assets: meshforge apply {given.program / 'program.mf'} ASSETS... --out DIR",
         )
-    project = Project.open(folder)
+    from meshforge.project import Project  # lazy: 170 modules that a program file does not need
+
+    project = Project.open(given.program)
     program, jobs, templates = project.work()
-    return _Work(
-        program,
-        jobs,
-        out or project.layout.edited,
-        partial(run, program, jobs, templates=templates),
-        project.readers,
-        frozenset(project.layout.kept_for("demonstrations")),
-    )
+    demonstrated = frozenset(project.layout.ids_with("demonstrations"))
+    return _ApplyWork(program, jobs, given.out or project.layout.edited, templates, project.readers, demonstrated)
 
 
-def _of_program(path: Path, assets: list[str] | None, out: Path | None, labels: Path | None) -> _Work:
-    from meshforge.batch import apply as run
-    from meshforge.batch import expand, jobs, load_templates, read_job, template_folders
-    from meshforge.errors import UsageError
-    from meshforge.language import Program
-
-    if not assets or out is None:
-        lacking = "assets" if not assets else "--out DIR"
+def _work_of_program(given: ApplyArguments) -> _ApplyWork:
+    if not given.assets or given.out is None:
+        lacking = "assets" if not given.assets else "--out DIR"
         raise UsageError(f"{lacking} is missing", remedy="meshforge apply PROGRAM ASSETS... --out DIR")
-    program = Program.read(path)
-    templates = load_templates(program, template_folders(path))
-    work = jobs(expand(assets), labels)
-    known = {job.id: job for job in work}
-    return _Work(
-        program,
-        work,
-        out,
-        partial(run, program, work, templates=templates),
-        lambda assets: [partial(read_job, known[asset]) for asset in assets],
+    program = Program.read(given.program)
+    templates = load_templates(program, template_folders(given.program))
+    jobs = make_jobs(expand(given.assets), given.labels)
+    by_id = {job.id: job for job in jobs}
+    return _ApplyWork(
+        program, jobs, given.out, templates, lambda assets: [partial(read_job, by_id[asset]) for asset in assets]
     )
 
 
-def told(outcome: Outcome) -> str:
+def _describe_outcome(outcome: AssetOutcome) -> str:
     """What became of an asset: a line, and its notes below it."""
-    from meshforge.batch import Failed, status
-    from meshforge.words import counted
-
     if isinstance(outcome, Failed):
-        return told_failed(outcome)
+        return describe_failure(outcome)
     notes = (*(f"rule {r.rule}: {r.note}" for r in outcome.rules if r.note), *outcome.notes, *outcome.flags)
-    line = f"{status(outcome):10} {outcome.asset}: {outcome.before} -> {counted(outcome.after, 'hull')}"
+    line = f"{status_of(outcome):10} {outcome.asset}: {outcome.before} -> {pluralize(outcome.after, 'hull')}"
     return "\n".join([line, *(f"    note: {note}" for note in notes)])
 
 
-def told_failed(outcome: Failed) -> str:
-    """That an asset failed, and why."""
-    return f"failed     {outcome.asset}\n    " + outcome.error.replace("\n", "\n    ")
-
-
-def _write_report(path: Path, work: _Work, summary: Summary, seconds: float, measures: Measures | None) -> None:
-    from meshforge.batch import Figures
-    from meshforge.cli.compared import compared
-    from meshforge.cli.report import report
-
-    readers = work.readers(outcome.asset for outcome in summary.shown)
-    report(
+def _write_report(
+    path: Path, work: _ApplyWork, summary: RunSummary, seconds: float, measures: CheckOptions | None
+) -> None:
+    readers = work.readers(outcome.asset for outcome in summary.outcomes_to_show)
+    write_report_page(
         path,
-        list(compared(summary.shown, work.program, readers, work.demonstrated, measures)),
-        title=work.out.resolve().name,
-        program=work.program,
-        figures=Figures.of_run(summary),
-        seconds=seconds,
+        ReportHeader(work.out.resolve().name, seconds=seconds, figures=RunFigures.of_run(summary)),
+        list(compare_outcomes(summary.outcomes_to_show, work.program, readers, work.demonstrated, measures)),
+        work.program,
     )

@@ -3,156 +3,184 @@
 from __future__ import annotations
 
 from contextlib import nullcontext
+from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, Literal
+from time import perf_counter
+from typing import Annotated, Any, Literal
 
 import typer
 
-from meshforge.cli.check_report import CheckReport, told_changes
-from meshforge.cli.options import AssetFiles, Backend, Json, Labels, Memory, Report, Timeout, Workers, spread_of
-
-if TYPE_CHECKING:
-    from meshforge.batch import Examined, Journal
+from meshforge.batch import (
+    CheckJournal,
+    CheckOutcome,
+    CheckTask,
+    check_assets,
+    expand,
+    make_jobs,
+    open_journal,
+    plan_run,
+)
+from meshforge.checks import CheckOptions
+from meshforge.cli.check_report import CheckReport, describe_changes
+from meshforge.cli.console import progress
+from meshforge.cli.options import (
+    AssetFiles,
+    Backend,
+    Json,
+    LabelsPath,
+    Memory,
+    ReportPath,
+    Timeout,
+    Workers,
+    takes,
+    to_execution_options,
+)
+from meshforge.cli.terminal import print_json, remark
+from meshforge.common import UsageError, pluralize
 
 EngineName = Literal["mujoco", "physx-cpu", "physx-gpu", "unreal", "unity", "bullet", "godot"]
 _FEW = 5  # assets whose results one sees at a glance
 
 
-def check(
-    assets: AssetFiles,
-    engine: Annotated[EngineName | None, typer.Option("--engine", help="Also check the limits of this engine.")] = None,
+@dataclass(frozen=True, slots=True)
+class CheckArguments:
+    """What is typed after `meshforge check`."""
+
+    assets: AssetFiles
+    engine: Annotated[EngineName | None, typer.Option("--engine", help="Also check the limits of this engine.")] = None
     fit: Annotated[
         bool, typer.Option("--fit", help="Measure how far hulls stick out of the visual mesh, and what lies bare.")
-    ] = False,
+    ] = False
     clearance: Annotated[
         bool, typer.Option("--clearance", help="Measure what hulls close and open of the space that can be reached.")
-    ] = False,
-    physics: Annotated[bool, typer.Option("--physics", help="Rest each asset on a plane in MuJoCo.")] = False,
+    ] = False
+    physics: Annotated[bool, typer.Option("--physics", help="Rest each asset on a plane in MuJoCo.")] = False
     against: Annotated[
         Path | None, typer.Option("--against", help="The asset before an edit, or a folder that mirrors the assets'.")
-    ] = None,
+    ] = None
     cell: Annotated[
         float | None,
         typer.Option(
             "--cell", min=1e-9, help="Side of the cells of --fit and --clearance [m]; default diagonal / 112."
         ),
-    ] = None,
+    ] = None
     pictures: Annotated[
         Path | None, typer.Option("--pictures", help="Folder for heat maps and pictures of what is closed.")
-    ] = None,
-    mend: Annotated[
-        bool, typer.Option("--fix", help="Mend what is beyond the engine's limits, as far as safe; write to --out.")
-    ] = False,
-    out: Annotated[Path | None, typer.Option("-o", "--out", help="Folder for the mended assets.")] = None,
+    ] = None
+    fix: Annotated[
+        bool, typer.Option("--fix", help="Fix what is beyond the engine's limits, as far as safe; write to --out.")
+    ] = False
+    out: Annotated[Path | None, typer.Option("-o", "--out", help="Folder for the fixed assets.")] = None
     tolerance: Annotated[
         float | None,
         typer.Option(
             "--tolerance",
             min=0.0,
-            help="How far a mended hull may stick out of the old one [m]; default 1% of the diagonal.",
+            help="How far a fixed hull may stick out of the old one [m]; default 1% of the diagonal.",
         ),
-    ] = None,
-    overwrite: Annotated[bool, typer.Option("--overwrite", help="Replace files in --out.")] = False,
-    kept: Annotated[
+    ] = None
+    overwrite: Annotated[bool, typer.Option("--overwrite", help="Replace files in --out.")] = False
+    journal: Annotated[
         Path | None,
         typer.Option(
             "--journal",
             help="Keep what is found in this file as it comes: the same command again checks only what is not in it or "
             "has changed.",
         ),
-    ] = None,
-    report: Report = None,
-    labels: Labels = None,
-    workers: Workers = None,
-    backend: Backend = "local",
-    timeout: Timeout = None,
-    memory: Memory = None,
-    json: Json = False,
-) -> None:
+    ] = None
+    report: ReportPath = None
+    labels: LabelsPath = None
+    workers: Workers = None
+    backend: Backend = "local"
+    timeout: Timeout = None
+    memory: Memory = None
+    json: Json = False
+
+
+@takes(CheckArguments)
+def check(given: CheckArguments) -> None:
     """Check that every hull is convex, closed and solid, and keeps to the limits of an engine.
 
     --fit, --clearance and --physics measure more, in seconds an asset. Exit code 1 when a check does not hold or a
     file cannot be read.
     """
-    from time import perf_counter
-
-    from meshforge.batch import Wanted, examine_all, expand, jobs, journal, plan
-    from meshforge.checks import Measures
-    from meshforge.cli.output import print_json, progress, remark
-    from meshforge.errors import UsageError
-    from meshforge.words import counted
-
-    if mend and not (engine and out):
-        lacking = "--fix needs --engine and --out"
-        raise UsageError(lacking, remedy="meshforge check ASSETS... --engine NAME --fix --out DIR")
-    _refuse({"--out": out, "--tolerance": tolerance, "--overwrite": overwrite or None}, mend, "--fix")
-    _refuse({"--cell": cell, "--pictures": pictures}, fit or clearance, "--fit or --clearance")
-    _refuse({"--against": against}, clearance or physics, "--clearance or --physics")
-    wanted = Wanted(Measures(engine, fit, clearance, physics, cell), out, tolerance, overwrite, against, pictures)
-    work = jobs(expand(assets), labels)
-    if len(work) > _FEW:
-        remark(str(plan(work, out)))
-    if len(work) == 1 and not wanted.measures.any_costly and timeout is None and memory is None:
-        workers = 0  # starting a process would take longer than the work
-    failed, page, started = 0, CheckReport() if report else None, perf_counter()
-    spread = spread_of(workers, timeout, memory, backend)
-    with journal(kept) if kept else nullcontext() as book, progress(len(work), "checking") as advance:
-        known = book.seen if book else {}
-        results = examine_all(work, wanted, spread, known=known, done=advance)
-        for job, examined in zip(work, results, strict=True):
-            row = _row(book, job.id, examined)
+    _refuse_stray_options(given)
+    measures = CheckOptions(given.engine, given.fit, given.clearance, given.physics, given.cell)
+    task = CheckTask(measures, given.out, given.tolerance, given.overwrite, given.against, given.pictures)
+    jobs = make_jobs(expand(given.assets), given.labels)
+    if len(jobs) > _FEW:
+        remark(str(plan_run(jobs, given.out)))
+    # of one asset, starting a process would take longer than the work
+    in_process = len(jobs) == 1 and not measures.is_costly and given.timeout is None and given.memory is None
+    workers = 0 if in_process else given.workers
+    execution = to_execution_options(workers, given.timeout, given.memory, given.backend)
+    failed, page, started = 0, CheckReport() if given.report else None, perf_counter()
+    journal_file = open_journal(given.journal) if given.journal else nullcontext()
+    with journal_file as journal, progress(len(jobs), "checking") as advance:
+        known = journal.inputs if journal else {}
+        results = check_assets(jobs, task, replace(execution, progress=advance), known=known)
+        for job, outcome in zip(jobs, results, strict=True):
+            row = _to_row(journal, job.id, outcome)
             failed += row["failed"]
             if page:
-                page.add(job, examined, row)
-            if json:
+                page.add(job, outcome, row)
+            if given.json:
                 print_json(row["found"], compact=True)
             else:
                 typer.echo(row["said"])
-    if not json and len(work) > _FEW:
-        typer.echo(f"{counted(len(work), 'asset')}, {failed:,} with errors")
-    if report and page:
-        name = work[0].id if len(work) == 1 else work[0].base.name
-        page.write(report, f"Checks of {name}", wanted.measures, perf_counter() - started)
+    if not given.json and len(jobs) > _FEW:
+        typer.echo(f"{pluralize(len(jobs), 'asset')}, {failed:,} with errors")
+    if given.report and page:
+        name = jobs[0].id if len(jobs) == 1 else jobs[0].base.name
+        page.write(given.report, f"Checks of {name}", measures, perf_counter() - started)
     raise typer.Exit(int(failed > 0))
 
 
-def _refuse(given: dict[str, object], allowed: bool, without: str) -> None:
+def _refuse_stray_options(given: CheckArguments) -> None:
     """Raise UsageError for an option that was given without the one that it belongs to."""
-    from meshforge.errors import UsageError
+    if given.fix and not (given.engine and given.out):
+        remedy = "meshforge check ASSETS... --engine NAME --fix --out DIR"
+        raise UsageError("--fix needs --engine and --out", remedy=remedy)
+    overwrite = given.overwrite or None
+    _refuse({"--out": given.out, "--tolerance": given.tolerance, "--overwrite": overwrite}, given.fix, "--fix")
+    _refuse({"--cell": given.cell, "--pictures": given.pictures}, given.fit or given.clearance, "--fit or --clearance")
+    _refuse({"--against": given.against}, given.clearance or given.physics, "--clearance or --physics")
 
-    for option, value in given.items():
-        if value is not None and not allowed:
+
+def _refuse(options: dict[str, object], is_allowed: bool, without: str) -> None:
+    for option, value in options.items():
+        if value is not None and not is_allowed:
             raise UsageError(f"{option} says nothing without {without}", remedy="Give it too, or leave this one out.")
 
 
-def _row(book: Journal | None, asset: str, examined: Examined | None) -> dict[str, Any]:
+def _to_row(journal: CheckJournal | None, asset: str, outcome: CheckOutcome | None) -> dict[str, Any]:
     """What is to be printed about an asset: out of the journal where nothing changed, else kept there from now on."""
-    if examined is None:
-        assert book is not None
-        return book.row(asset)
+    if outcome is None:
+        assert journal is not None
+        return journal.read_row(asset)
     row = {
-        "failed": examined.failed,
-        "found": examined.to_json(),
-        "said": _said(examined),
-        "told": list(_told(examined)),
+        "failed": outcome.has_failed,
+        "found": outcome.to_json(),
+        "said": _describe_check(outcome),
+        "told": list(_describe_work(outcome)),
     }
-    if book and examined.seen:
-        book.add(asset, examined.seen, row)
+    if journal and outcome.inputs:
+        journal.add(asset, outcome.inputs, row)
     return row
 
 
-def _said(examined: Examined) -> str:
-    path, found = examined.path, examined.found
+def _describe_check(outcome: CheckOutcome) -> str:
+    path, found = outcome.path, outcome.examination
     if found is None:
-        return f"{path}: cannot be read\n  " + (examined.error or "").replace("\n", "\n  ")
-    lines = [*_told(examined)]
+        return f"{path}: cannot be read\n  " + (outcome.error or "").replace("\n", "\n  ")
+    lines = [*_describe_work(outcome)]
     for finding in found.findings:
         lines.append(f"{finding.severity}: {finding.message}")
         lines += [f"  {finding.remedy}"] if finding.remedy else []
     return "\n  ".join([f"{path}:", *lines]) if lines else f"{path}: legal"
 
 
-def _told(examined: Examined) -> tuple[str, ...]:
-    """What was mended, measured and written, a sentence each."""
-    measured = examined.found.told if examined.found else ()
-    return (*told_changes(examined), *measured, *(f"wrote {picture}" for picture in examined.pictures))
+def _describe_work(outcome: CheckOutcome) -> tuple[str, ...]:
+    """What was fixed, measured and written, a sentence each."""
+    measured = outcome.examination.descriptions if outcome.examination else ()
+    return (*describe_changes(outcome), *measured, *(f"wrote {picture}" for picture in outcome.pictures))

@@ -7,93 +7,96 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-if TYPE_CHECKING:
-    from meshforge.batch import AssetJob, Examined, Kept, Reader, ReportAsset, Status
-    from meshforge.checks import Examination, Measures, Severity
+from meshforge.batch import (
+    AssetJob,
+    CheckOutcome,
+    EarlierExamination,
+    MeshReader,
+    ReportAsset,
+    ReportHeader,
+    ReportStatus,
+    RunFigures,
+    TopItems,
+    read_again,
+    read_job,
+)
+from meshforge.checks import CheckOptions, Examination, Finding, Severity
+from meshforge.cli.report import write_report_page
+from meshforge.formats import load
 
-_KEPT = "kept in the journal from an earlier run"
+_FROM_JOURNAL = "kept in the journal from an earlier run"
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class _Line:
-    """What there is to show of one asset; mended: its file where anything was mended."""
+class _ReportLine:
+    """What there is to show of one asset; fixed: its file where anything was fixed."""
 
     job: AssetJob
-    status: Status
+    status: ReportStatus
     error: str | None
     notes: tuple[str, ...]
-    checked: Examination | Kept | None
-    mended: Path | None
+    checked: Examination | EarlierExamination | None
+    fixed: Path | None
 
 
 class CheckReport:
     """Takes what was found as it comes, keeps the assets that are to be shown, and writes the page."""
 
     def __init__(self) -> None:
-        from meshforge.batch import Chosen
+        self._counts: Counter[ReportStatus] = Counter()
+        self._lines: TopItems[_ReportLine] = TopItems()
 
-        self._counts: Counter[Status] = Counter()
-        self._lines: Chosen[_Line] = Chosen()
-
-    def add(self, job: AssetJob, examined: Examined | None, row: Mapping[str, Any]) -> None:
+    def add(self, job: AssetJob, examined: CheckOutcome | None, row: Mapping[str, Any]) -> None:
         """One asset more; row: as the journal keeps it, which is all there is where nothing was examined anew."""
-        line = _new(job, examined) if examined else _kept(job, row)
+        line = _line_of_examined(job, examined) if examined else _line_of_journal(job, row)
         self._counts[line.status] += 1
         self._lines.add(("failed", "errors", "warnings", "clean").index(line.status), line)
 
-    def write(self, path: Path, title: str, measures: Measures, seconds: float) -> None:
+    def write(self, path: Path, title: str, measures: CheckOptions, seconds: float) -> None:
         """Write the page; of very many assets it shows some, those with errors first."""
-        from meshforge.batch import Figures
-        from meshforge.cli.report import report
-
-        figures = Figures(self._counts, {}, "those that failed or have errors")
-        report(path, _shown(list(self._lines)), title=title, about=_about(measures), figures=figures, seconds=seconds)
+        figures = RunFigures(self._counts, {}, "those that failed or have errors")
+        header = ReportHeader(title, _describe_measures(measures), seconds, figures)
+        write_report_page(path, header, _to_report_assets(list(self._lines)))
 
 
-def _new(job: AssetJob, examined: Examined) -> _Line:
-    notes = (*told_changes(examined), *(f"wrote {picture}" for picture in examined.pictures))
-    if examined.found is None:
-        return _Line(job, "failed", examined.error, notes, None, None)
-    status = _status(finding.severity for finding in examined.found.findings)
-    mended = examined.written if examined.fixed and examined.fixed.changes else None
-    return _Line(job, status, None, notes, examined.found, mended)
+def _line_of_examined(job: AssetJob, examined: CheckOutcome) -> _ReportLine:
+    notes = (*describe_changes(examined), *(f"wrote {picture}" for picture in examined.pictures))
+    if examined.examination is None:
+        return _ReportLine(job, "failed", examined.error, notes, None, None)
+    status = _status(finding.severity for finding in examined.examination.findings)
+    fixed = examined.output if examined.fix_result and examined.fix_result.changes else None
+    return _ReportLine(job, status, None, notes, examined.examination, fixed)
 
 
-def _kept(job: AssetJob, row: Mapping[str, Any]) -> _Line:
+def _line_of_journal(job: AssetJob, row: Mapping[str, Any]) -> _ReportLine:
     """What the journal has of an asset; its heat maps are not measured anew."""
-    from meshforge.batch import Kept
-    from meshforge.checks import Finding
-
     found = row["found"]
     findings = tuple(Finding(**{**finding, "hulls": tuple(finding["hulls"])}) for finding in found["findings"])
-    fixed = found.get("fixed")
-    kept = Kept(findings, tuple(row.get("told", ())))
-    mended = Path(fixed["out"]) if fixed and fixed["changes"] else None
-    return _Line(job, _status(finding.severity for finding in findings), None, (_KEPT,), kept, mended)
+    fix = found.get("fixed")
+    kept = EarlierExamination(findings, tuple(row.get("told", ())))
+    fixed = Path(fix["out"]) if fix and fix["changes"] else None
+    return _ReportLine(job, _status(finding.severity for finding in findings), None, (_FROM_JOURNAL,), kept, fixed)
 
 
-def _status(severities: Iterable[Severity]) -> Status:
+def _status(severities: Iterable[Severity]) -> ReportStatus:
     found = set(severities)
     return "errors" if "error" in found else "warnings" if found else "clean"
 
 
-def told_changes(examined: Examined) -> tuple[str, ...]:
-    """What was mended, what was left, and where it was written, a sentence each."""
-    fixed = examined.fixed
+def describe_changes(examined: CheckOutcome) -> tuple[str, ...]:
+    """What was fixed, what was left, and where it was written, a sentence each."""
+    fixed = examined.fix_result
     if fixed is None:
         return ()
-    return (*(f"fixed: {change.told}" for change in fixed.changes), *fixed.left, f"wrote {examined.written}")
+    return (*(f"fixed: {change.description}" for change in fixed.changes), *fixed.left, f"wrote {examined.output}")
 
 
-def _shown(lines: Sequence[_Line]) -> list[ReportAsset]:
-    """The assets with their meshes, mended ones before and after."""
-    from meshforge.batch import ReportAsset, read_again, read_job
-    from meshforge.formats import load
-
-    before: list[Reader | None] = [None if line.error else partial(read_job, line.job) for line in lines]
-    after: list[Reader | None] = [partial(load, line.mended) if line.mended else None for line in lines]
+def _to_report_assets(lines: Sequence[_ReportLine]) -> list[ReportAsset]:
+    """The assets with their meshes, fixed ones before and after."""
+    before: list[MeshReader | None] = [None if line.error else partial(read_job, line.job) for line in lines]
+    after: list[MeshReader | None] = [partial(load, line.fixed) if line.fixed else None for line in lines]
     meshes = read_again([*before, *after])
     shown = []
     for line, was, now in zip(lines, meshes[: len(lines)], meshes[len(lines) :], strict=True):
@@ -112,7 +115,7 @@ def _shown(lines: Sequence[_Line]) -> list[ReportAsset]:
     return shown
 
 
-def _about(measures: Measures) -> str:
+def _describe_measures(measures: CheckOptions) -> str:
     """What was looked at."""
     parts = ["legality"]
     parts += [f"limits of {measures.engine}"] if measures.engine else []

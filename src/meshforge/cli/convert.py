@@ -2,84 +2,97 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, Literal
+from typing import Annotated, Any, Literal
 
 import typer
 
-from meshforge.cli.apply import NOTHING, NOTHING_TO_SHOW, told_failed
-from meshforge.cli.convert_report import write_convert_report
-from meshforge.cli.options import Backend, DryRun, Json, Labels, Memory, Report, Timeout, Workers
+from meshforge.cli.options import (
+    NOTHING_TO_SHOW,
+    Backend,
+    DryRun,
+    Json,
+    LabelsPath,
+    Memory,
+    ReportPath,
+    Timeout,
+    Workers,
+    takes,
+    to_execution_options,
+)
+from meshforge.cli.terminal import print_json, remark
+from meshforge.common import UsageError, pluralize
+from meshforge.formats import FORMATS, Loss, SaveResult, labels_beside, load, save
+from meshforge.symbolic import Feature, SymbolicMesh, write_labels
 
-if TYPE_CHECKING:
-    from meshforge.asset import Feature
-    from meshforge.batch import Outcome
-    from meshforge.formats import Loss, Names, Saved
-    from meshforge.symbolic import SymbolicMesh
 
+@dataclass(frozen=True, slots=True)
+class ConvertArguments:
+    """What is typed after `meshforge convert`."""
 
-def convert(
     paths: Annotated[
         list[str],
         typer.Argument(
             metavar="ASSET... OUT",
             help="An asset and the file to write, whose suffix names the format; with --to, many and a folder.",
         ),
-    ],
+    ]
     to: Annotated[
         str | None, typer.Option("--to", metavar="SUFFIX", help="Write all assets in this format, as .usda, below OUT.")
-    ] = None,
+    ] = None
     names: Annotated[
         Literal["unreal", "godot", "unity"] | None,
         typer.Option("--names", help="Call what collides as this engine knows it: glTF for all, OBJ for unreal."),
-    ] = None,
-    labels: Labels = None,
-    link: Annotated[bool, typer.Option("--link", help="Hard-link files that are only copied.")] = False,
-    overwrite: Annotated[bool, typer.Option("--overwrite", help="Replace files that are there already.")] = False,
-    dry_run: DryRun = False,
-    report: Report = None,
-    workers: Workers = None,
-    backend: Backend = "local",
-    timeout: Timeout = None,
-    memory: Memory = None,
-    json: Json = False,
-) -> None:
+    ] = None
+    labels: LabelsPath = None
+    link: Annotated[bool, typer.Option("--link", help="Hard-link files that are only copied.")] = False
+    overwrite: Annotated[bool, typer.Option("--overwrite", help="Replace files that are there already.")] = False
+    dry_run: DryRun = False
+    report: ReportPath = None
+    workers: Workers = None
+    backend: Backend = "local"
+    timeout: Timeout = None
+    memory: Memory = None
+    json: Json = False
+
+
+@takes(ConvertArguments)
+def convert(given: ConvertArguments) -> None:
     """Write an asset in another format, or unchanged in its own; says what the target cannot hold.
 
-    Bodies, joints, masses and visuals are carried over where the format has them. Labels go beside the file, under the
+    Bodies, joints, masses and visuals are kept where the format has them. Labels go beside the file, under the
     names that the hulls have there. With --to, folders and globs are taken, too, OUT mirrors their tree, a run that was
     stopped goes on where it was, and the exit code is 1 when some failed.
     """
-    from meshforge.batch import TIMEOUT
-    from meshforge.errors import UsageError
-
-    if len(paths) < 2:
+    if len(given.paths) < 2:
         raise UsageError("there is nothing to write to", remedy="meshforge convert ASSET OUT")
-    *sources, out = paths
-    if to is None:
-        if dry_run:
+    *sources, out = given.paths
+    if given.to is None:
+        if given.dry_run:
             raise UsageError("--dry-run is for --to", remedy="meshforge convert ASSETS... OUT --to SUFFIX --dry-run")
-        if report:
+        if given.report:
             raise UsageError("--report is for --to", remedy="meshforge convert ASSETS... OUT --to SUFFIX --report FILE")
         if len(sources) > 1:
             raise UsageError("several assets and no format", remedy="meshforge convert ASSETS... OUT --to SUFFIX")
-        return _one(Path(sources[0]), Path(out), labels, names, link=link, overwrite=overwrite, json=json)
-    if report and dry_run:
+        _convert_one(Path(sources[0]), Path(out), given)
+        return
+    if given.report and given.dry_run:
         raise UsageError(NOTHING_TO_SHOW, remedy="Leave out --report.")
-    if overwrite:
+    if given.overwrite:
         raise UsageError("--overwrite is for one asset", remedy="Outputs of an earlier run are replaced as it is.")
-    options = {"names": names, "link": link, "dry_run": dry_run, "workers": workers, "backend": backend}
-    bounds = {"timeout": TIMEOUT if timeout is None else timeout or None, "memory": memory}
-    _many(sources, Path(out), _suffix(to), labels, {**options, **bounds}, report, json=json)
-    return None
+    suffix = _parse_suffix(given.to)
+    from meshforge.batch import ApplyOptions  # lazy: 250 modules that only --to needs
+    from meshforge.cli.convert_many import convert_many  # lazy: 250 modules that only --to needs
+
+    options = ApplyOptions(link=given.link, dry_run=given.dry_run, to=suffix, names=given.names)
+    execution = to_execution_options(given.workers, given.timeout, given.memory, given.backend)
+    convert_many(sources, Path(out), given.labels, options, execution, given.report, json=given.json)
 
 
-def _suffix(to: str) -> str:
+def _parse_suffix(to: str) -> str:
     """The suffix of a format that can be written. Raises UsageError."""
-    from meshforge.errors import UsageError
-    from meshforge.formats import FORMATS
-
     suffix = f".{to.lower().lstrip('.')}"
     known = [own for found in FORMATS if found.writable for own in found.suffixes]
     if suffix not in known:
@@ -87,96 +100,39 @@ def _suffix(to: str) -> str:
     return suffix
 
 
-def _many(
-    sources: Sequence[str],
-    out: Path,
-    suffix: str,
-    labels: Path | None,
-    options: Mapping[str, Any],
-    report: Path | None,
-    *,
-    json: bool,
-) -> None:
-    from time import perf_counter
-
-    from meshforge.batch import Summary, apply, expand, json_line, plan
-    from meshforge.batch import jobs as jobs_of
-    from meshforge.cli.output import print_json, progress, remark
-    from meshforge.language import Program
-
-    jobs, summary, started = jobs_of(expand(sources), labels), Summary(), perf_counter()
-    if len(jobs) > 1:
-        remark(str(plan(jobs, out)))
-    with progress(len(jobs), "converting") as advance:
-        for outcome in apply(Program(), jobs, out, to=suffix, progress=advance, **options):
-            summary.add(outcome)
-            if json:
-                print_json(json_line(outcome), compact=True)
-            else:
-                typer.echo(_told(outcome))
-    if not json:
-        typer.echo(str(summary).replace("unchanged", "written", 1) + NOTHING * options["dry_run"])
-    if report:
-        write_convert_report(report, out, suffix, jobs, summary, perf_counter() - started)
-    raise typer.Exit(int(summary.counts["failed"] > 0))
-
-
-def _told(outcome: Outcome) -> str:
-    from meshforge.batch import Failed, Skipped
-    from meshforge.words import counted
-
-    if isinstance(outcome, Failed):
-        return told_failed(outcome)
-    word = "skipped" if isinstance(outcome, Skipped) else "written"
-    line = f"{word:10} {outcome.out}: {counted(outcome.after, 'hull')}"
-    return "\n".join([line, *(f"    note: {note}" for note in outcome.notes)])
-
-
-def _one(
-    source: Path, out: Path, labels: Path | None, names: Names | None, *, link: bool, overwrite: bool, json: bool
-) -> None:
-    from meshforge.cli.output import print_json, remark
-    from meshforge.formats import load, save
-    from meshforge.words import counted
-
-    mesh = load(source, labels=labels)
-    saved = save(mesh, out, link=link, overwrite=overwrite, names=names)
+def _convert_one(source: Path, out: Path, given: ConvertArguments) -> None:
+    mesh = load(source, labels=given.labels)
+    saved = save(mesh, out, link=given.link, overwrite=given.overwrite, names=given.names)
     read_notes = mesh.asset.notes if mesh.asset else ()
     if mesh.labels:
-        _write_labels(mesh, saved, overwrite)
-    if json:
-        return print_json(_as_data(source, saved, len(mesh.hulls), read_notes))
+        _write_labels(mesh, saved, given.overwrite)
+    if given.json:
+        print_json(_to_json(source, saved, len(mesh.hulls), read_notes))
+        return
     for note in (*read_notes, *saved.notes):
         remark(f"note: {note}")
-    held = [counted(feature.count, feature.what.one, feature.what.many) for feature in saved.report.held]
-    remark(f"wrote {saved.path}: {', '.join([counted(len(mesh.hulls), 'hull'), *held])}")
-    return None
+    held = [pluralize(feature.count, feature.kind.one, feature.kind.many) for feature in saved.report.held]
+    remark(f"wrote {saved.path}: {', '.join([pluralize(len(mesh.hulls), 'hull'), *held])}")
 
 
-def _as_data(source: Path, saved: Saved, hulls: int, notes: Sequence[str]) -> dict[str, Any]:
+def _to_json(source: Path, saved: SaveResult, hulls: int, notes: Sequence[str]) -> dict[str, Any]:
     """The report as JSON has it."""
     report = saved.report
     return {
         "asset": str(source),
         "out": str(saved.path),
         "hulls": hulls,
-        "held": [_row(feature) for feature in report.held],
-        "lost": [{**_row(loss), "why": loss.why, "instead": loss.instead} for loss in report.lost],
+        "held": [_to_row(feature) for feature in report.held],
+        "lost": [{**_to_row(loss), "why": loss.why, "instead": loss.instead} for loss in report.lost],
         "notes": [*notes, *report.remarks],
     }
 
 
-def _row(thing: Feature | Loss) -> dict[str, Any]:
-    return {"what": thing.what.many, "count": thing.count, "names": list(thing.names)}
+def _to_row(thing: Feature | Loss) -> dict[str, Any]:
+    return {"what": thing.kind.many, "count": thing.count, "names": list(thing.names)}
 
 
-def _write_labels(mesh: SymbolicMesh, saved: Saved, overwrite: bool) -> None:
-    from dataclasses import replace
-
-    from meshforge.cli.output import remark
-    from meshforge.formats import labels_beside
-    from meshforge.symbolic import write_labels
-
+def _write_labels(mesh: SymbolicMesh, saved: SaveResult, overwrite: bool) -> None:
     path = labels_beside(saved.path)
     if path.exists() and not overwrite:
         remark(f"note: {path} is there already and was left as it is")

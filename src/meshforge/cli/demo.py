@@ -1,22 +1,33 @@
-"""`meshforge demo`: the whole loop on the bundled family of tables."""
+"""`meshforge demo`: the whole loop on the bundled family of tables, as a project in a folder of its own."""
 
 from __future__ import annotations
 
+import shutil
 from collections.abc import Sequence
 from pathlib import Path
 from textwrap import indent
-from typing import TYPE_CHECKING, Annotated
+from time import perf_counter
+from typing import Annotated
 
 import typer
 
-from meshforge.cli.options import Workers
-from meshforge.cli.studio import Browser, Port
-
-if TYPE_CHECKING:
-    from meshforge.batch.report import ReportAsset
-    from meshforge.project import Project
+from meshforge.batch import ExecutionOptions, ReportAsset, ReportHeader, ReportOptions, write_report
+from meshforge.checks import check
+from meshforge.cli.console import progress
+from meshforge.cli.options import Browser, Port, Workers
+from meshforge.cli.report import compare_outcomes
+from meshforge.cli.terminal import remark
+from meshforge.common import UsageError
+from meshforge.project import Project
+from meshforge.samples import TABLES
 
 _OUT, _STUDIO = Path("meshforge-demo"), Path("meshforge-demo-studio")
+
+DEMO_MARK = ".meshforge-demo"
+"""The mark of a folder that an earlier demo made, and that the next one may therefore replace."""
+STUDIO_MARK = ".meshforge-demo-studio"
+"""The mark of a folder that a demo in the studio made; what a person did there stays."""
+TABLE_LABELS, TABLE_ORIENT = ("panel", "leg", "handle", "drawer", "misc"), "+Z: Is(leg) -> Is(panel)"
 
 
 def demo(
@@ -36,75 +47,109 @@ def demo(
     With --studio you show the steps yourself; what you did is there again when you come back.
     """
     if studio:
-        _in_browser(out or _STUDIO, port, browser)
-        return
-    _run_through(out or _OUT, workers)
+        _open_in_browser(out or _STUDIO, port, browser)
+    else:
+        _run_all(out or _OUT, workers)
 
 
-def _run_through(out: Path, workers: int | None) -> None:
+def _run_all(out: Path, workers: int | None) -> None:
     """Everything at once, with what happened in a few lines."""
-    from time import perf_counter
-
-    from meshforge.batch.report import write_report
-    from meshforge.cli.compared import compared
-    from meshforge.cli.output import progress, remark
-    from meshforge.cli.tables import demonstrated_tables
-
-    project = demonstrated_tables(out)
+    project = create_tables(out)
     shown = project.demonstrations()
-    _say(f"{len(project.assets())} tables, each cut into convex hulls by CoACD, every hull labelled: {out / 'assets'}")
-    _say(f"Two of them show what to do, in {max(len(d.steps) for d in shown.values())} steps: {' and '.join(shown)}")
-    lesson = project.synthesize()
+    typer.echo(
+        f"{len(project.assets())} tables, each cut into convex hulls by CoACD, every hull labelled: {out / 'assets'}"
+    )
+    typer.echo(
+        f"Two of them show what to do, in {max(len(d.steps) for d in shown.values())} steps: {' and '.join(shown)}"
+    )
+    outcome = project.synthesize()
     program = project.program()
     if program is None:  # the bundled demonstrations always have a program; a changed install might not
         remark("no program was found; see: meshforge synthesize " + str(project.folder))
         raise typer.Exit(1)
-    _say(f"From these two, MeshForge learned a program in {sum(lesson.seconds.values()):.2f} s:\n")
+    typer.echo(f"From these two, MeshForge learned a program in {sum(outcome.seconds.values()):.2f} s:\n")
     typer.echo(indent(str(program), "    "))
     started = perf_counter()
     with progress(len(project.assets()), "editing") as advance:
-        outcomes = list(project.apply(workers=workers, progress=advance))
+        outcomes = list(project.apply(execution=ExecutionOptions(workers, progress=advance)))
     seconds = perf_counter() - started
-    assets = list(compared(outcomes, program, project.readers(o.asset for o in outcomes), shown))
+    assets = list(compare_outcomes(outcomes, program, project.readers(o.asset for o in outcomes), shown))
     with progress(len(assets), "drawing") as advance:
         report = out / "report.html"
         about = "Pictures show every table upright, as the program sees it; the files keep the frame they came in."
-        write_report(
-            report, title="Tables", program=program, assets=assets, seconds=seconds, about=about, progress=advance
-        )
-    _told(assets, seconds, project, report)
+        header = ReportHeader("Tables", about, seconds)
+        write_report(report, header, assets, program=program, options=ReportOptions(progress=advance))
+    _print_result(assets, seconds, project, report)
     raise typer.Exit(int(any(asset.status == "failed" for asset in assets)))
 
 
-def _in_browser(out: Path, port: int, browser: bool) -> None:
+def _open_in_browser(out: Path, port: int, browser: bool) -> None:
     """The tables in the studio; those of an earlier time with all that was done there."""
-    from meshforge.cli.studio import opened
-    from meshforge.cli.tables import kept_tables
-    from meshforge.studio.serving import Opening
+    from meshforge.cli.studio import open_studio  # lazy: 330 modules that only --studio needs
+    from meshforge.studio.session.session import StudioOptions  # lazy: 330 modules that only --studio needs
 
-    opened(Opening(kept_tables(out).folder, tour=True), port=port, browser=browser)
+    open_studio(StudioOptions(open_tables(out).folder, tour=True), port=port, browser=browser)
 
 
-def _told(assets: Sequence[ReportAsset], seconds: float, project: Project, report: Path) -> None:
-    from meshforge.checks import check
-
+def _print_result(assets: Sequence[ReportAsset], seconds: float, project: Project, report: Path) -> None:
     edited = [asset for asset in assets if asset.after and asset.counts]
     before, after = (sum(asset.counts[k] for asset in edited if asset.counts) for k in (0, 1))
     wrong = sum(any(f.severity == "error" for f in check(asset.after)) for asset in edited if asset.after)
     legal = "every hull legal" if not wrong else f"{wrong} with illegal hulls"
-    _say(f"It ran on all {len(assets)} in {seconds:.1f} s: {before} hulls became {after}, {legal}.")
+    typer.echo(f"It ran on all {len(assets)} in {seconds:.1f} s: {before} hulls became {after}, {legal}.")
     if len(edited) < len(assets):
-        _say(f"{len(assets) - len(edited)} failed; the report says why.")
-    _say(f"Edited tables, each in the file format it came in: {_short(project.folder / 'edited')}")
-    _say(f"Before, after, and what each rule did: {_short(report)}")
-    _say(f"Look around: meshforge status {_short(project.folder)}")
+        typer.echo(f"{len(assets) - len(edited)} failed; the report says why.")
+    typer.echo(f"Edited tables, each in the file format it came in: {_relative_path(project.folder / 'edited')}")
+    typer.echo(f"Before, after, and what each rule did: {_relative_path(report)}")
+    typer.echo(f"Look around: meshforge status {_relative_path(project.folder)}")
 
 
-def _short(path: Path) -> Path:
+def _relative_path(path: Path) -> Path:
     """A path as a person here would type it."""
     path, here = path.absolute(), Path.cwd()
     return path.relative_to(here) if path.is_relative_to(here) else path
 
 
-def _say(text: str) -> None:
-    typer.echo(text)
+def create_tables(out: Path) -> Project:
+    """A fresh project of the tables below `out`, labelled and demonstrated.
+
+    Raises UsageError where the folder holds something else.
+    """
+    _empty_folder(out, DEMO_MARK)
+    project = _create_project(out)
+    shutil.copytree(TABLES / "demonstrations", project.folder / "demonstrations")
+    return project
+
+
+def open_tables(out: Path) -> Project:
+    """The project that an earlier demo in the studio made below `out`, or a fresh one, labelled.
+
+    Raises UsageError where the folder holds something else.
+    """
+    whole = out / STUDIO_MARK
+    if whole.exists() and whole.read_text(encoding="utf-8"):
+        return Project.open(out / "project")
+    _empty_folder(out, STUDIO_MARK)
+    project = _create_project(out)
+    whole.write_text("whole\n", encoding="utf-8")  # from now on it is a person's
+    return project
+
+
+def _empty_folder(out: Path, mark: str) -> None:
+    """An empty folder with a mark. Raises UsageError where it holds what no demo of that kind made."""
+    if out.exists() and any(out.iterdir()) and not (out / mark).exists():
+        raise UsageError("this folder holds something else", where=str(out), remedy="Choose another: demo --out DIR")
+    shutil.rmtree(out, ignore_errors=True)
+    out.mkdir(parents=True)
+    (out / mark).touch()
+
+
+def _create_project(out: Path) -> Project:
+    (out / "assets").mkdir()
+    for source in sorted(TABLES.glob("table_*")):
+        shutil.copyfile(source, out / "assets" / source.name)
+    pattern = out / "assets" / "*.obj"
+    project = Project.create(out / "project", [pattern], name="tables", vocabulary=TABLE_LABELS, orient=TABLE_ORIENT)
+    shutil.copytree(TABLES / "templates", project.folder / "templates")
+    project.label_from_files()
+    return project

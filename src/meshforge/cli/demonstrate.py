@@ -2,18 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from fnmatch import fnmatchcase
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 import typer
 
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from meshforge.project import Project
-    from meshforge.symbolic import SymbolicMesh
-    from meshforge.synthesis import Step
+from meshforge.cli.terminal import remark
+from meshforge.common import UsageError, nearest_name
+from meshforge.language import Program, apply_action, to_canonical_frame
+from meshforge.project import Project
+from meshforge.symbolic import SymbolicMesh, mask_of
+from meshforge.synthesis import Step
 
 
 def demonstrate(
@@ -30,34 +31,29 @@ def demonstrate(
     HULLS are names as `info` lists them (patterns as in a shell: 'leg_*'), or `nothing` where this asset has nothing to
     select, or `open` where it says nothing about that rule. Step by step, what earlier steps made can be named, too.
     """
-    from meshforge.cli.output import remark
-    from meshforge.project import Project
-
     opened = Project.open(project)
     if clear:
         opened.demonstrate(asset, ())
         remark(f"{asset}: nothing is demonstrated any more")
         return
     if steps:
-        opened.demonstrate(asset, _recorded(opened, asset, steps))
+        opened.demonstrate(asset, _record_steps(opened, asset, steps))
     for step in opened.steps(asset):
-        typer.echo(f"{step.rule}. {_selection(step)} => {step.action}{f' as {step.label}' if step.label else ''}")
+        typer.echo(
+            f"{step.rule}. {_format_selection(step)} => {step.action}{f' as {step.label}' if step.label else ''}"
+        )
     if steps:
         remark(f"Next: meshforge synthesize {project}")
 
 
-def _recorded(project: Project, asset: str, texts: Sequence[str]) -> list[Step]:
-    from meshforge.language import Program, apply_action, stage
-    from meshforge.symbolic import mask_of
-    from meshforge.synthesis import Step
-
-    mesh = stage(project.mesh(asset), project.orientation, project.settings.thresholds.contact)[0]
+def _record_steps(project: Project, asset: str, texts: Sequence[str]) -> list[Step]:
+    mesh = to_canonical_frame(project.mesh(asset), project.orientation, project.settings.thresholds.contact)[0]
     recorded, used = [], frozenset[str]()
     for number, text in enumerate(texts, 1):
         hulls, _, done_to_them = text.partition("=>")
         (rule,) = Program.parse(f"All => {done_to_them.strip()}", f"step {number}").rules
         action, label = rule.action, rule.label
-        select = _hulls(hulls, mesh, number)
+        select = _parse_hulls(hulls, mesh, number)
         recorded.append(Step(number, select, action, label))
         if select:
             templates = project.templates(action.templates)
@@ -67,10 +63,8 @@ def _recorded(project: Project, asset: str, texts: Sequence[str]) -> list[Step]:
     return recorded
 
 
-def _hulls(text: str, mesh: SymbolicMesh, number: int) -> frozenset[str] | None:
+def _parse_hulls(text: str, mesh: SymbolicMesh, number: int) -> frozenset[str] | None:
     """The hulls that the left side of a step names; None for `open`."""
-    from meshforge.errors import UsageError, nearest
-
     text = text.strip()
     if text in ("open", "nothing"):
         return None if text == "open" else frozenset()
@@ -78,7 +72,7 @@ def _hulls(text: str, mesh: SymbolicMesh, number: int) -> frozenset[str] | None:
     for pattern in (part.strip() for part in text.split(",")):
         hits = {pattern} & mesh.index.keys() or {name for name in mesh.index if fnmatchcase(name, pattern)}
         if not hits:
-            like = nearest(pattern, mesh.index)
+            like = nearest_name(pattern, mesh.index)
             raise UsageError(
                 f"step {number}: no hull is named {pattern!r}",
                 remedy=f"Did you mean {like!r}?" if like else "See the names with: meshforge info ASSET",
@@ -87,7 +81,7 @@ def _hulls(text: str, mesh: SymbolicMesh, number: int) -> frozenset[str] | None:
     return frozenset(found)
 
 
-def _selection(step: Step) -> str:
+def _format_selection(step: Step) -> str:
     if step.select is None:
         return "open"
     return ", ".join(sorted(step.select)) or "nothing"

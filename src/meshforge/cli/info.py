@@ -2,36 +2,33 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import Annotated, Any
 
 import typer
 
-from meshforge.cli.opening import opened
-from meshforge.cli.options import AssetFile, InProject, Json, Labels
-
-if TYPE_CHECKING:
-    from meshforge.geometry import Shape
-    from meshforge.symbolic import Hull, SymbolicMesh
+from meshforge.cli.options import AssetFile, InProject, Json, LabelsPath, open_asset
+from meshforge.cli.terminal import print_json
+from meshforge.common import pluralize
+from meshforge.geometry import Box, Capsule, Cylinder, Ellipsoid, Shape, Sphere
+from meshforge.symbolic import Hull, SymbolicMesh
 
 
 def info(
     asset: AssetFile,
-    labels: Labels = None,
+    labels: LabelsPath = None,
     project: InProject = None,
     json: Json = False,
     geometry: Annotated[bool, typer.Option("--geometry", help="With --json: the points of every hull.")] = False,
 ) -> None:
     """Show hulls, labels, bodies, contacts and near misses of an asset, in the frame it comes in."""
-    from meshforge.cli.output import print_json
-
-    mesh = opened(asset, labels, project)
+    mesh = open_asset(asset, labels, project)
     if json:
-        print_json(described(mesh, str(asset), geometry=geometry))
+        print_json(describe_asset(mesh, str(asset), geometry=geometry))
     else:
-        _print(mesh, str(asset))
+        _print_asset(mesh, str(asset))
 
 
-def described(mesh: SymbolicMesh, asset: str, *, geometry: bool = False) -> dict[str, Any]:
+def describe_asset(mesh: SymbolicMesh, asset: str, *, geometry: bool = False) -> dict[str, Any]:
     """The JSON shape of `info`."""
     names = [hull.name for hull in mesh.hulls]
     source = mesh.asset
@@ -39,14 +36,14 @@ def described(mesh: SymbolicMesh, asset: str, *, geometry: bool = False) -> dict
         "asset": asset,
         "format": source.format if source else None,
         "diagonal": mesh.diagonal,
-        "hulls": [_hull(hull, geometry) for hull in mesh.hulls],
+        "hulls": [_describe_hull(hull, geometry) for hull in mesh.hulls],
         "opaque": [{"name": o.name, "body": o.body, "reason": o.reason} for o in (source.opaque if source else ())],
         "contacts": [[names[i], names[j]] for i, j in sorted(mesh.contacts)],
         "near_misses": [[names[i], names[j], gap] for i, j, gap in mesh.near_misses],
     }
 
 
-def _hull(hull: Hull, geometry: bool) -> dict[str, Any]:
+def _describe_hull(hull: Hull, geometry: bool) -> dict[str, Any]:
     bounds = hull.aabb
     row = {
         "name": hull.name,
@@ -58,14 +55,12 @@ def _hull(hull: Hull, geometry: bool) -> dict[str, Any]:
         "volume": hull.volume,
         "vertices": len(hull.vertices),
         "faces": len(hull.faces),
-        "primitive": _primitive(hull.primitive),
+        "primitive": _describe_primitive(hull.primitive),
     }
     return row | {"points": hull.vertices.tolist()} if geometry else row
 
 
-def _primitive(shape: Shape | None) -> dict[str, Any] | None:
-    from meshforge.geometry import Box, Capsule, Cylinder, Ellipsoid, Sphere
-
+def _describe_primitive(shape: Shape | None) -> dict[str, Any] | None:
     match shape:
         case Box():
             size: dict[str, Any] = {"size": (2 * shape.half).tolist()}
@@ -81,16 +76,15 @@ def _primitive(shape: Shape | None) -> dict[str, Any] | None:
     return {"kind": shape.kind, **size, **pose}
 
 
-def _print(mesh: SymbolicMesh, asset: str) -> None:
-    from meshforge.cli.output import table
-    from meshforge.words import counted
-
+def _print_asset(mesh: SymbolicMesh, asset: str) -> None:
     source = mesh.asset
     opaque = source.opaque if source else ()
     bodies = len({h.body for h in mesh.hulls} | {o.body for o in opaque})
-    head = [source.format if source else "", counted(len(mesh.hulls), "hull"), counted(bodies, "body", "bodies")]
-    head += [counted(len(opaque), "opaque piece")] if opaque else []
-    typer.echo(f"{asset}: {', '.join(head)}, {counted(len(mesh.contacts), 'contact')}, diagonal {mesh.diagonal:.4g} m")
+    head = [source.format if source else "", pluralize(len(mesh.hulls), "hull"), pluralize(bodies, "body", "bodies")]
+    head += [pluralize(len(opaque), "non-convex piece")] if opaque else []
+    typer.echo(
+        f"{asset}: {', '.join(head)}, {pluralize(len(mesh.contacts), 'contact')}, diagonal {mesh.diagonal:.4g} m"
+    )
     for note in source.notes if source else ():
         typer.echo(f"  note: {note}")
     if mesh.hulls:
@@ -99,10 +93,12 @@ def _print(mesh: SymbolicMesh, asset: str) -> None:
             (h.name, h.body, h.label, h.shape.kind, len(h.vertices), f"{h.volume:.3g}", len(mesh.neighbours(k)))
             for k, h in enumerate(mesh.hulls)
         )
+        from meshforge.cli.console import print_table  # lazy: 50 modules of rich that --json does not need
+
         columns = ("hull", "body", "label", "kind", "vertices", "volume", "touches")
-        table(columns, rows, right=("vertices", "volume", "touches"))
+        print_table(columns, rows, right=("vertices", "volume", "touches"))
     if opaque:
-        typer.echo("\nOpaque (never selected, written back untouched; `meshforge prepare` makes hulls of it):")
+        typer.echo("\nNon-convex (never selected, written back untouched; `meshforge prepare` makes hulls of it):")
         for piece in opaque:
             typer.echo(f"  {piece.name}: {piece.reason}")
     if mesh.near_misses:

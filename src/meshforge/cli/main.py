@@ -17,7 +17,7 @@ import meshforge
 COMMANDS = {
     "demo": "The whole loop on the bundled tables",
     "new": "Make a project folder",
-    "prepare": "Decompose opaque pieces, and what bodies without collision geometry show, into convex hulls",
+    "prepare": "Decompose non-convex pieces, and what bodies without collision geometry show, into convex hulls",
     "split": "Split a hull",
     "status": "Show what is labelled, demonstrated, learned, applied, stale and flagged, and the next sensible step",
     "label": "Give labels to hulls",
@@ -64,19 +64,19 @@ def load_command(name: str) -> TyperCommand:
     return cast(TyperCommand, typer.main.get_command(app))
 
 
-def application() -> typer.Typer:
+def build_application() -> typer.Typer:
     """The command-line application with all commands."""
     app = typer.Typer(
         name="meshforge",
         cls=CommandGroup,
-        help="Teach one collision mesh, mend the whole family.",
+        help="Teach one collision mesh, fix the whole family.",
         epilog="Start with: meshforge demo",
         no_args_is_help=True,
         pretty_exceptions_enable=False,
         rich_markup_mode=None,  # rich's help page alone costs a tenth of a second
         context_settings=_HELP_OPTIONS,
     )
-    app.callback()(_root)
+    app.callback()(_read_root_options)
     return app
 
 
@@ -86,7 +86,7 @@ def _print_version(wanted: bool) -> None:
         raise typer.Exit
 
 
-def _root(
+def _read_root_options(
     version: bool = typer.Option(
         False, "--version", help="Print the version and leave.", is_eager=True, callback=_print_version
     ),
@@ -102,7 +102,7 @@ def main() -> None:
         if isinstance(stream, io.TextIOWrapper):
             stream.reconfigure(errors="backslashreplace")
     try:
-        application()(prog_name="meshforge")
+        build_application()(prog_name="meshforge")
     except KeyboardInterrupt:
         print("stopped", file=sys.stderr)
         sys.exit(130)
@@ -112,7 +112,7 @@ def main() -> None:
     except Exception as error:  # no traceback reaches a user who did not ask for it
         if debug:
             raise
-        from meshforge.errors import told
+        from meshforge.common import describe_error  # lazy: only an error needs it
 
-        print(f"error: {told(error, fault='--debug shows where it came from')}", file=sys.stderr)
+        print(f"error: {describe_error(error, fault='--debug shows where it came from')}", file=sys.stderr)
         sys.exit(2)

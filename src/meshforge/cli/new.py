@@ -2,49 +2,66 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any
+from dataclasses import dataclass
+from typing import Annotated
 
 import typer
 
-from meshforge.cli.engines import Hollow, Method, Set, engine_settings, refuse_given
-from meshforge.cli.options import AssetFiles, Workers
-from meshforge.cli.prepare import AssetTimeout, decomposed
+from meshforge.cli.options import (
+    AssetFiles,
+    AssetTimeout,
+    EngineMethod,
+    EngineOptions,
+    Hollow,
+    Workers,
+    parse_engine_settings,
+    refuse_options,
+    split_words,
+    takes,
+)
+from meshforge.cli.prepare import decompose_assets
+from meshforge.common import pluralize
+from meshforge.project import Project
 
 
-def new(
-    context: typer.Context,
-    project: Annotated[str, typer.Argument(help="The folder to make.")],
-    assets: AssetFiles,
-    vocabulary: Annotated[str, typer.Option("--vocabulary", help="Labels that hulls can have: a,b,c.")] = "",
+@dataclass(frozen=True, slots=True)
+class NewArguments:
+    """What is typed after `meshforge new`."""
+
+    context: typer.Context
+    project: Annotated[str, typer.Argument(help="The folder to make.")]
+    assets: AssetFiles
+    vocabulary: Annotated[str, typer.Option("--vocabulary", help="Labels that hulls can have: a,b,c.")] = ""
     orient: Annotated[
         str, typer.Option("--orient", help="How assets are turned first: '+Z: Is(leg) -> Is(panel)'.")
-    ] = "",
+    ] = ""
     method: Annotated[
-        Method | None,
-        typer.Option("--decompose", help="Make hulls of opaque pieces, and of bodies without collision geometry."),
-    ] = None,
-    option: Set = None,
-    hollow: Hollow = False,
-    workers: Workers = None,
-    timeout: AssetTimeout = 600.0,
-) -> None:
+        EngineMethod | None,
+        typer.Option("--decompose", help="Make hulls of non-convex pieces, and of bodies without collision geometry."),
+    ] = None
+    option: EngineOptions = None
+    hollow: Hollow = False
+    workers: Workers = None
+    timeout: AssetTimeout = 600.0
+
+
+@takes(NewArguments)
+def new(given: NewArguments) -> None:
     """Make a project folder; the assets stay where they are and are never written to.
 
     With --decompose, exit code 1 when some pieces could not be decomposed (each named); the project is there.
     """
-    from meshforge.project import Project
-    from meshforge.words import counted
-
-    if method is None:
-        refuse_given(context, ("option", "hollow", "workers", "timeout"), "--decompose METHOD")
-    settings = engine_settings(method, option) if method else None
-    made = Project.create(project, assets, vocabulary=_words(vocabulary), orient=orient)
-    typer.echo(f"{project}: a project of {counted(len(made.assets()), 'asset')}")
-    options: dict[str, Any] = {"hollow": hollow, "workers": workers, "timeout": timeout}
-    failed = decomposed(made, made.assets(), settings, **options) if settings else 0
-    typer.echo(f"Next: meshforge status {project}")
+    if given.method is None:
+        refuse_options(given.context, ("option", "hollow", "workers", "timeout"), "--decompose METHOD")
+    settings = parse_engine_settings(given.method, given.option) if given.method else None
+    vocabulary = split_words(given.vocabulary)
+    project = Project.create(given.project, given.assets, vocabulary=vocabulary, orient=given.orient)
+    assets = project.assets()
+    typer.echo(f"{given.project}: a project of {pluralize(len(assets), 'asset')}")
+    failed = 0
+    if settings:
+        failed = decompose_assets(
+            project, assets, settings, hollow=given.hollow, workers=given.workers, timeout=given.timeout
+        )
+    typer.echo(f"Next: meshforge status {given.project}")
     raise typer.Exit(failed)
-
-
-def _words(text: str) -> list[str]:
-    return [word.strip() for word in text.split(",") if word.strip()]

@@ -1,17 +1,72 @@
-"""Options that several commands share, so that they read alike everywhere."""
+"""Options that several commands share, so that they read alike everywhere, and what is made of them: the execution
+options, the settings of a decomposition engine, the mesh of an asset."""
 
 from __future__ import annotations
 
+from collections.abc import Callable, Collection
+from dataclasses import MISSING, fields
+from enum import StrEnum
+from functools import wraps
+from inspect import Parameter, Signature
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Literal
+from typing import TYPE_CHECKING, Annotated, Any, Literal, TypeVar, get_type_hints
 
 import typer
 
+from meshforge.common import UsageError, plain_path
+from meshforge.formats import load
+from meshforge.geometry import CoacdSettings, DecomposeSettings, VhacdSettings
+from meshforge.symbolic import SymbolicMesh
+
 if TYPE_CHECKING:
-    from meshforge.batch import Spread
+    from meshforge.batch import ExecutionOptions
+
+Arguments = TypeVar("Arguments")
+
+Json = Annotated[bool, typer.Option("--json", help="Print JSON for scripts.")]
+LabelsPath = Annotated[
+    Path | None,
+    typer.Option("--labels", help="Labels file; for several assets a folder that mirrors theirs.", show_default=False),
+]
+Workers = Annotated[int | None, typer.Option("--workers", min=1, help="Processes; default one a core.")]
+DryRun = Annotated[bool, typer.Option("--dry-run", help="Say what would be done, write nothing.")]
+ReportPath = Annotated[
+    Path | None, typer.Option("--report", help="An HTML page with pictures of each asset, failures first.")
+]
+Backend = Annotated[
+    Literal["local", "ray"], typer.Option("--backend", help="Where the work is done: here, or on a Ray cluster.")
+]
+Timeout = Annotated[
+    float | None,
+    typer.Option("--timeout", min=0, help="Seconds for one asset, 0 for no bound; default 600.", show_default=False),
+]
+
+InProject = Annotated[
+    Path | None,
+    typer.Option("--project", help="Show ASSET as this project prepares and labels it; ASSET may be its id there."),
+]
+AssetFile = Annotated[Path, typer.Argument(help="A file with collision hulls, or a folder of mesh files.")]
+AssetFiles = Annotated[list[str], typer.Argument(help="Files, folders or globs of assets.")]
+
+EngineOptions = Annotated[
+    list[str] | None,
+    typer.Option("--set", metavar="NAME=VALUE", help="An option of the engine, such as threshold=0.1; repeatable."),
+]
+Hollow = Annotated[
+    bool,
+    typer.Option("--hollow", help="Leave planar holes open, so that shells of one sheet are not filled."),
+]
+Seconds = Annotated[float | None, typer.Option("--timeout", min=0.1, help="Seconds to try.")]
+
+NOTHING_TO_SHOW = "with --dry-run there is nothing to show"
+
+AssetTimeout = Annotated[float, typer.Option("--timeout", min=0.1, help="Seconds for one asset.")]
+
+Browser = Annotated[bool, typer.Option("--browser/--no-browser", help="Open the page in the browser.")]
+Port = Annotated[int, typer.Option("--port", min=0, max=65535, help="Port on this machine; 0 takes a free one.")]
 
 
-def _gibibytes(text: str) -> int:
+def _parse_gibibytes(text: str) -> int:
     """Bytes of a number of GiB."""
     try:
         number = float(text)
@@ -22,48 +77,110 @@ def _gibibytes(text: str) -> int:
     return int(number * (1 << 30))
 
 
-Json = Annotated[bool, typer.Option("--json", help="Print JSON for scripts.")]
-Labels = Annotated[
-    Path | None,
-    typer.Option("--labels", help="Labels file; for several assets a folder that mirrors theirs.", show_default=False),
-]
-Workers = Annotated[int | None, typer.Option("--workers", min=1, help="Processes; default one a core.")]
-DryRun = Annotated[bool, typer.Option("--dry-run", help="Say what would be done, write nothing.")]
-Report = Annotated[
-    Path | None, typer.Option("--report", help="An HTML page with pictures of each asset, failures first.")
-]
-Backend = Annotated[
-    Literal["local", "ray"], typer.Option("--backend", help="Where the work is done: here, or on a Ray cluster.")
-]
-Timeout = Annotated[
-    float | None,
-    typer.Option("--timeout", min=0, help="Seconds for one asset, 0 for no bound; default 600.", show_default=False),
-]
 Memory = Annotated[
     int | None,
     typer.Option(
         "--memory",
         metavar="GIB",
-        parser=_gibibytes,
+        parser=_parse_gibibytes,
         help="Memory for one asset; default an even share of the machine's.",
         show_default=False,
     ),
 ]
-InProject = Annotated[
-    Path | None,
-    typer.Option("--project", help="Show ASSET as this project prepares and labels it; ASSET may be its id there."),
-]
-AssetFile = Annotated[Path, typer.Argument(help="A file with collision hulls, or a folder of mesh files.")]
-AssetFiles = Annotated[list[str], typer.Argument(help="Files, folders or globs of assets.")]
 
 
-def spread_of(
+def takes(kind: type[Arguments]) -> Callable[[Callable[[Arguments], None]], Callable[..., None]]:
+    """A command of Typer's out of a function of one dataclass, whose fields are the command's parameters."""
+    hints = get_type_hints(kind, include_extras=True)
+
+    def decorate(function: Callable[[Arguments], None]) -> Callable[..., None]:
+        @wraps(function)
+        def command(**values: Any) -> None:
+            function(kind(**values))
+
+        command.__annotations__ = hints
+        command.__signature__ = Signature(  # type: ignore[attr-defined]
+            [
+                Parameter(
+                    field.name,
+                    Parameter.KEYWORD_ONLY,
+                    default=Parameter.empty if field.default is MISSING else field.default,
+                    annotation=hints[field.name],
+                )
+                for field in fields(kind)  # type: ignore[arg-type]
+            ]
+        )
+        return command
+
+    return decorate
+
+
+def to_execution_options(
     workers: int | None = None,
     timeout: float | None = None,
     memory: int | None = None,
     backend: Literal["local", "ray"] = "local",
-) -> Spread:
-    """How work is spread by these options."""
-    from meshforge.batch import TIMEOUT, Spread
+) -> ExecutionOptions:
+    """The options of the workers; a timeout of None is the default one, of 0 none."""
+    from meshforge.batch import TIMEOUT, ExecutionOptions  # lazy: 200 modules that info, select and convert do not need
 
-    return Spread(workers, TIMEOUT if timeout is None else timeout or None, memory, backend=backend)
+    return ExecutionOptions(workers, TIMEOUT if timeout is None else timeout or None, memory, backend=backend)
+
+
+class EngineMethod(StrEnum):
+    """The decomposition engines."""
+
+    COACD = "coacd"
+    VHACD = "vhacd"
+
+
+def parse_engine_settings(method: EngineMethod, given: list[str] | None) -> DecomposeSettings:
+    """The settings of an engine with some given as `NAME=VALUE`. Raises UsageError, listing what there is to set."""
+    kind = CoacdSettings if method is EngineMethod.COACD else VhacdSettings
+    known = {f.name: f for f in fields(kind)}
+    values: dict[str, Any] = {}
+    for text in given or []:
+        name, _, value = text.partition("=")
+        if name not in known:
+            listed = "\n".join(f"    {f.name}={f.default}  {f.metadata['help']}" for f in known.values())
+            raise UsageError(f"--set {text}: {method.value} has no option {name!r}", remedy=f"Its options:\n{listed}")
+        values[name] = _parse_value(text, value, type(known[name].default))
+    return kind(**values)
+
+
+def split_words(text: str) -> list[str]:
+    """The words of a list with commas between."""
+    return [word.strip() for word in text.split(",") if word.strip()]
+
+
+def refuse_options(context: typer.Context, names: Collection[str], without: str) -> None:
+    """Raise UsageError for a parameter among some that was typed, though it says nothing `without` another option."""
+    for parameter in context.command.params:
+        source = context.get_parameter_source(parameter.name or "")
+        if parameter.name in names and source is not None and source.name == "COMMANDLINE":
+            option = parameter.opts[0]
+            raise UsageError(f"{option} says nothing without {without}", remedy=f"Give {without} too, or leave it out.")
+
+
+def _parse_value(text: str, value: str, kind: type) -> Any:
+    words = {"true": True, "yes": True, "on": True, "false": False, "no": False, "off": False}
+    try:
+        return words[value.lower()] if kind is bool else kind(value)
+    except (KeyError, ValueError):
+        raise UsageError(f"--set {text}: {value!r} is not {'yes or no' if kind is bool else 'a number'}") from None
+
+
+def open_asset(asset: Path, labels: Path | None, project: Path | None) -> SymbolicMesh:
+    """The mesh of a file with its labels; with a project, that of an asset given by its file or by its id there.
+
+    Raises UsageError for labels beside a project, which has its own.
+    """
+    if project is None:
+        return load(asset, labels=labels)
+    if labels:
+        raise UsageError("a project has its own labels", remedy="Leave --labels out, or --project.")
+    from meshforge.project import Project  # lazy: 500 modules that only --project needs
+
+    home = Project.open(project)
+    by_path = {plain_path(path): key for key, path in home.found.ids.items()}
+    return home.mesh(by_path.get(plain_path(asset), asset.as_posix()))

@@ -3,120 +3,146 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from dataclasses import asdict
+from dataclasses import asdict, dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import Annotated, Any
 
 import typer
 
-from meshforge.cli.engines import Hollow, Method, Set, engine_settings, refuse_given
-from meshforge.cli.options import Json, Workers
+from meshforge.batch import ExecutionOptions
+from meshforge.cli.console import progress
+from meshforge.cli.options import (
+    AssetTimeout,
+    EngineMethod,
+    EngineOptions,
+    Hollow,
+    Json,
+    Workers,
+    parse_engine_settings,
+    refuse_options,
+    takes,
+)
+from meshforge.cli.terminal import print_json
+from meshforge.common import UsageError, describe_error, pluralize
+from meshforge.geometry import DecomposeSettings
+from meshforge.project import PreparationResult, Project
 
-if TYPE_CHECKING:
-    from meshforge.project import Prepared, Project
 
-AssetTimeout = Annotated[float, typer.Option("--timeout", min=0.1, help="Seconds for one asset.")]
+@dataclass(frozen=True, slots=True)
+class PrepareArguments:
+    """What is typed after `meshforge prepare`."""
 
-
-def prepare(
-    context: typer.Context,
-    project: Annotated[Path, typer.Argument(help="A project folder.")],
-    assets: Annotated[list[str] | None, typer.Argument(help="Ids of assets, as `status` lists them; all.")] = None,
+    context: typer.Context
+    project: Annotated[Path, typer.Argument(help="A project folder.")]
+    assets: Annotated[list[str] | None, typer.Argument(help="Ids of assets, as `status` lists them; all.")] = None
     method: Annotated[
-        Method | None, typer.Option("--decompose", help="Make hulls of what has none, by this engine.")
-    ] = None,
-    option: Set = None,
+        EngineMethod | None, typer.Option("--decompose", help="Make hulls of what has none, by this engine.")
+    ] = None
+    option: EngineOptions = None
     only: Annotated[
         list[str] | None, typer.Option("--only", help="Only pieces and bodies of this name or pattern; repeatable.")
-    ] = None,
-    again: Annotated[bool, typer.Option("--again", help="Decompose anew what is decomposed already.")] = False,
-    hollow: Hollow = False,
-    undo: Annotated[bool, typer.Option("--undo", help="Take back the last thing that was done to each.")] = False,
-    remove: Annotated[bool, typer.Option("--remove", help="Take back all that was done to each.")] = False,
-    workers: Workers = None,
-    timeout: AssetTimeout = 600.0,
-    json: Json = False,
-) -> None:
-    """Decompose opaque pieces, and what bodies without collision geometry show, into convex hulls.
+    ] = None
+    again: Annotated[bool, typer.Option("--again", help="Decompose anew what is decomposed already.")] = False
+    hollow: Hollow = False
+    undo: Annotated[bool, typer.Option("--undo", help="Take back the last thing that was done to each.")] = False
+    remove: Annotated[bool, typer.Option("--remove", help="Take back all that was done to each.")] = False
+    workers: Workers = None
+    timeout: AssetTimeout = 600.0
+    json: Json = False
+
+
+@takes(PrepareArguments)
+def prepare(given: PrepareArguments) -> None:
+    """Decompose non-convex pieces, and what bodies without collision geometry show, into convex hulls.
 
     The hulls are kept in the project, in prepared/, and take the place of the piece whenever the project reads the
     asset; the asset's own files stay as they are. To split one hull: meshforge split.
     Exit code 1 when some pieces could not be decomposed, or something could not be taken back (each named).
     """
-    from meshforge.errors import UsageError
-    from meshforge.project import Project
-
-    if (method is not None) + undo + remove != 1:
+    if (given.method is not None) + given.undo + given.remove != 1:
         raise UsageError("say what to do: --decompose METHOD, --undo or --remove")
-    if undo and not assets:
+    if given.undo and not given.assets:
         raise UsageError("--undo of which asset?", remedy="Name it; --remove takes back everything, of all assets too.")
-    opened = Project.open(project)
-    if method is None:
-        refuse_given(context, ("option", "only", "again", "hollow", "workers", "timeout"), "--decompose METHOD")
-        raise typer.Exit(show(_taken_back(opened, _named(opened, assets), everything=remove), json))
-    settings = engine_settings(method, option)
-    options = {"only": only or (), "again": again, "hollow": hollow, "workers": workers, "timeout": timeout}
-    raise typer.Exit(decomposed(opened, assets or opened.assets(), settings, json=json, **options))
+    project = Project.open(given.project)
+    if given.method is None:
+        only_with_method = ("option", "only", "again", "hollow", "workers", "timeout")
+        refuse_options(given.context, only_with_method, "--decompose METHOD")
+        results = _undo_preparation(project, _select_assets(project, given.assets), everything=given.remove)
+        raise typer.Exit(print_results(results, given.json))
+    settings = parse_engine_settings(given.method, given.option)
+    raise typer.Exit(
+        decompose_assets(
+            project,
+            given.assets or project.assets(),
+            settings,
+            only=given.only or (),
+            again=given.again,
+            hollow=given.hollow,
+            workers=given.workers,
+            timeout=given.timeout,
+            json=given.json,
+        )
+    )
 
 
-def decomposed(project: Project, assets: Iterable[str], settings: Any, *, json: bool = False, **options: Any) -> int:
-    """Decompose assets of a project and show what became of each; the exit code."""
-    from meshforge.cli.output import progress
-
+def decompose_assets(
+    project: Project,
+    assets: Iterable[str],
+    settings: DecomposeSettings,
+    *,
+    workers: int | None,
+    timeout: float,
+    json: bool = False,
+    **options: Any,
+) -> int:
+    """Decompose assets of a project and print what became of each; the exit code. options: of `Project.decompose`."""
     ids = tuple(dict.fromkeys(assets))
     with progress(len(ids), "decomposing") as advance:
-        found = project.decompose(ids, settings, progress=advance, **options)
-        return show(found, json)
+        execution = ExecutionOptions(workers=workers, timeout=timeout, progress=advance)
+        return print_results(project.decompose(ids, settings, execution=execution, **options), json)
 
 
-def show(found: Iterable[Prepared], json: bool = False) -> int:
+def print_results(results: Iterable[PreparationResult], json: bool = False) -> int:
     """Print what became of assets; 1 where one has a problem, else 0."""
-    from meshforge.cli.output import print_json
-
-    failed = 0
-    for done in found:
-        failed |= bool(done.problems)
+    failed = False
+    for result in results:
+        failed |= bool(result.problems)
         if json:
-            print_json(asdict(done) | {"hulls": list(done.hulls)}, compact=True)
+            print_json(asdict(result) | {"hulls": list(result.hulls)}, compact=True)
         else:
-            _print(done)
+            _print_one(result)
     return int(failed)
 
 
-def _print(done: Prepared) -> None:
-    from meshforge.words import counted
-
-    pieces = f"{counted(len(done.made), 'piece')} into {counted(len(done.hulls), 'hull')}"
-    typer.echo(f"{done.asset}: {pieces if done.made else 'taken back' if done.undone else 'nothing new'}")
-    for step in done.undone:
+def _print_one(result: PreparationResult) -> None:
+    pieces = f"{pluralize(len(result.made), 'piece')} into {pluralize(len(result.hulls), 'hull')}"
+    typer.echo(f"{result.asset}: {pieces if result.made else 'taken back' if result.undone else 'nothing new'}")
+    for step in result.undone:
         typer.echo(f"    {step}")
-    for entry in done.made:
+    for entry in result.made:
         typer.echo(f"    {entry.what}: {entry.told}")
-    for note in done.notes:
+    for note in result.notes:
         typer.echo(f"    note: {note}")
-    for problem in done.problems:
+    for problem in result.problems:
         typer.echo("    failed: " + problem.replace("\n", "\n    "))
 
 
-def _named(project: Project, assets: list[str] | None) -> tuple[str, ...]:
+def _select_assets(project: Project, assets: list[str] | None) -> tuple[str, ...]:
     """The assets that were named, each once; without names all that something was done to, those that are gone too.
 
     Raises ProjectError for a name that nothing has.
     """
-    kept = project.layout.prepared()
+    kept = project.layout.ids_with_preparation()
     for asset in assets or ():
         if asset not in kept:
             project.path(asset)
     return tuple(dict.fromkeys(assets or kept))
 
 
-def _taken_back(project: Project, assets: Iterable[str], *, everything: bool) -> Iterator[Prepared]:
-    """What became of assets whose preparation is taken back; one that fails never stops the others."""
-    from meshforge.errors import told
-    from meshforge.project import Prepared
-
+def _undo_preparation(project: Project, assets: Iterable[str], *, everything: bool) -> Iterator[PreparationResult]:
+    """What became of assets whose preparation is taken back."""
     for asset in assets:
         try:
             yield project.unprepare(asset, everything=everything)
         except Exception as error:  # one asset never stops the others
-            yield Prepared(asset, problems=(told(error, asset),))
+            yield PreparationResult(asset, problems=(describe_error(error, asset),))

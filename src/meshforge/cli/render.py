@@ -1,33 +1,40 @@
-"""`meshforge render`: a picture of an asset's hulls."""
+"""`meshforge render`: a picture of an asset's hulls, or numbered pictures in which a person or a model names its
+parts."""
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Literal
+from typing import Annotated, Literal
 
 import typer
 
-from meshforge.cli.opening import opened
-from meshforge.cli.options import AssetFile, InProject, Labels
-from meshforge.cli.part_pictures import write_part_pictures
-
-if TYPE_CHECKING:
-    from meshforge.views import View
+from meshforge.cli.options import AssetFile, InProject, LabelsPath, open_asset, takes
+from meshforge.cli.terminal import remark
+from meshforge.common import UsageError, pluralize
+from meshforge.rendering import VIEWS, View, draw_labeling_pictures, make_contact_sheet, write_png
+from meshforge.rendering import render as draw
+from meshforge.symbolic import SymbolicMesh
 
 _LABELLING = "labelling"
 
+_SHEET_COLUMNS = 4  # a numbered picture and its plain one, twice
 
-def render(
-    asset: AssetFile,
+
+@dataclass(frozen=True, slots=True)
+class RenderArguments:
+    """What is typed after `meshforge render`."""
+
+    asset: AssetFile
     out: Annotated[
         Path, typer.Option("-o", "--out", help="The PNG to write; for `--views labelling` it may be a folder.")
-    ],
-    labels: Labels = None,
-    project: InProject = None,
+    ]
+    labels: LabelsPath = None
+    project: InProject = None
     color_by: Annotated[
         Literal["hull", "label", "body", "confidence"] | None,
         typer.Option("--color-by", help="Default: label where there are labels, else hull."),
-    ] = None,
+    ] = None
     views: Annotated[
         str,
         typer.Option(
@@ -36,62 +43,56 @@ def render(
             "front-right-above, back-left-below and so on; or `labelling`: views chosen so that each hull is seen and "
             "numbered in one, each beside the asset as it looks.",
         ),
-    ] = "iso",
+    ] = "iso"
     size: Annotated[
         str | None,
         typer.Option("--size", help="Pixels of the picture, by default 900x700; for labelling of each, 1024x1024."),
-    ] = None,
-    ghost: Annotated[bool, typer.Option("--ghost", help="Show the visual mesh as a ghost.")] = False,
-    names: Annotated[bool, typer.Option("--names", help="Number the hulls.")] = False,
-) -> None:
+    ] = None
+    ghost: Annotated[bool, typer.Option("--ghost", help="Show the visual mesh as a ghost.")] = False
+    names: Annotated[bool, typer.Option("--names", help="Number the hulls.")] = False
+
+
+@takes(RenderArguments)
+def render(given: RenderArguments) -> None:
     """Draw an asset as a PNG, one colour a hull or a label; needs no display."""
-    from meshforge.cli.output import remark
-    from meshforge.views import render as picture
-    from meshforge.views import write_png
-
-    if views.strip() == _LABELLING:
-        _check_labelling(color_by, ghost, names)
-        side = _side(size or "1024x1024")
-        remark(f"wrote {write_part_pictures(opened(asset, labels, project), out, side)}")
+    if given.views.strip() == _LABELLING:
+        _refuse_looks(given)
+        side = _parse_side(given.size or "1024x1024")
+        mesh = open_asset(given.asset, given.labels, given.project)
+        remark(f"wrote {write_part_pictures(mesh, given.out, side)}")
         return
-    mesh = opened(asset, labels, project)
-    visuals = tuple(mesh.asset.visuals) if ghost and mesh.asset else None
-    image = picture(
+    mesh = open_asset(given.asset, given.labels, given.project)
+    image = draw(
         mesh,
-        views=_views(views),
-        color_by=color_by or ("label" if mesh.labels else "hull"),
-        size=_pixels(size or "900x700"),
-        ghost=visuals,
-        labels=names,
+        views=_parse_views(given.views),
+        color_by=given.color_by or ("label" if mesh.labels else "hull"),
+        size=_parse_pixels(given.size or "900x700"),
+        ghost=tuple(mesh.asset.visuals) if given.ghost and mesh.asset else None,
+        labels=given.names,
     )
-    write_png(out, image)
-    remark(f"wrote {out}")
+    write_png(given.out, image)
+    remark(f"wrote {given.out}")
 
 
-def _check_labelling(color_by: str | None, ghost: bool, names: bool) -> None:
-    from meshforge.errors import UsageError
-
-    for given, option in ((color_by, "--color-by"), (ghost, "--ghost"), (names, "--names")):
-        if given:
+def _refuse_looks(given: RenderArguments) -> None:
+    """Raise UsageError for an option that pictures for labelling have no use for."""
+    options = {"--color-by": given.color_by, "--ghost": given.ghost, "--names": given.names}
+    for option, value in options.items():
+        if value:
             raise UsageError(
                 f"{option} does not go with --views {_LABELLING}, which has its own colours and numbers",
                 remedy="Leave it out.",
             )
 
 
-def _side(text: str) -> int:
-    from meshforge.errors import UsageError
-
-    width, height = _pixels(text)
+def _parse_side(text: str) -> int:
+    width, height = _parse_pixels(text)
     if width != height:
         raise UsageError(f"pictures for labelling are square, {text} is not", remedy=f"Give --size {width}x{width}.")
     return width
 
 
-def _views(text: str) -> list[View]:
-    from meshforge.errors import UsageError
-    from meshforge.views import VIEWS
-
+def _parse_views(text: str) -> list[View]:
     known: dict[str, View] = {view: view for view in VIEWS}
     names = [name.strip() for name in text.split(",")]
     for name in names:
@@ -100,10 +101,38 @@ def _views(text: str) -> list[View]:
     return [known[name] for name in names]
 
 
-def _pixels(text: str) -> tuple[int, int]:
-    from meshforge.errors import UsageError
-
+def _parse_pixels(text: str) -> tuple[int, int]:
     width, cross, height = text.lower().partition("x")
     if not (cross and width.isdigit() and height.isdigit() and 16 <= int(width) <= 8192 and 16 <= int(height) <= 8192):
         raise UsageError(f"--size {text} is not a size", remedy="Give it as WIDTHxHEIGHT, for example 900x700.")
     return int(width), int(height)
+
+
+def write_part_pictures(mesh: SymbolicMesh, out: Path, size: int) -> str:
+    """Writes what `shots` shows, on one sheet, or one by one where `out` is a folder or has no suffix.
+
+    size: pixels along each picture's sides. Returns what is written, in words. Raises UsageError for a mesh without
+    hulls, and where it cannot be written.
+    """
+    taken = draw_labeling_pictures(mesh, size=size)
+    if not taken:
+        raise UsageError(
+            "there are no hulls to be named", remedy="`meshforge decompose` makes hulls, and `new --decompose` too."
+        )
+    if out.suffix and not out.is_dir():
+        write_png(
+            out,
+            make_contact_sheet(
+                [image for shot in taken for image in (shot.marked, shot.plain)], columns=_SHEET_COLUMNS
+            ),
+        )
+        return f"{out}: {pluralize(len(taken), 'picture')}, each with its plain one"
+    for k, shot in enumerate(taken, 1):
+        stem = f"{k:02}-{_file_name(shot.name)}"
+        write_png(out / f"{stem}.png", shot.marked)
+        write_png(out / f"{stem}-plain.png", shot.plain)
+    return f"{pluralize(len(taken), 'picture')} to {out}, each with its plain one"
+
+
+def _file_name(name: str) -> str:
+    return "-".join(name.replace(",", " ").split())

@@ -3,37 +3,34 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 import typer
 
-from meshforge.cli.opening import opened
-from meshforge.cli.options import AssetFile, InProject, Json, Labels
-
-if TYPE_CHECKING:
-    from meshforge.symbolic import SymbolicMesh
+from meshforge.cli.options import AssetFile, InProject, Json, LabelsPath, open_asset
+from meshforge.cli.terminal import print_json, remark
+from meshforge.language import labels_of, parse_extractor
+from meshforge.symbolic import SymbolicMesh
 
 
 def select(
     expression: Annotated[str, typer.Argument(help="An extractor, for example 'Attach(Is(handle), Is(drawer))'.")],
     asset: AssetFile,
-    labels: Labels = None,
+    labels: LabelsPath = None,
     project: InProject = None,
     json: Json = False,
     picture: Annotated[Path | None, typer.Option("-o", "--out", help="A PNG with the selection lit.")] = None,
 ) -> None:
     """List the hulls that an extractor selects, in the frame the asset comes in."""
-    from meshforge.cli.output import print_json, remark
-    from meshforge.language import labels_used, parse_extractor
-    from meshforge.views import render, write_png
-
-    mesh = opened(asset, labels, project)
+    mesh = open_asset(asset, labels, project)
     extractor = parse_extractor(expression)
-    for label in labels_used(extractor):
-        _warn(label, mesh)
+    for label in labels_of(extractor):
+        _warn_of_label(label, mesh)
     chosen = sorted(extractor.select(mesh))
     names = [mesh.hulls[k].name for k in chosen]
     if picture:
+        from meshforge.rendering import render, write_png  # lazy: 40 modules that only a picture needs
+
         write_png(picture, render(mesh, highlight=frozenset(names)))
     if json:
         print_json({"hulls": names})
@@ -43,10 +40,8 @@ def select(
         remark(f"{len(names)} of {len(mesh.hulls)} hulls")
 
 
-def _warn(label: str, mesh: SymbolicMesh) -> None:
+def _warn_of_label(label: str, mesh: SymbolicMesh) -> None:
     """An asset need not have every label of its family, so one that is missing here is a remark, not an error."""
-    from meshforge.cli.output import remark
-
     here = sorted({hull.label for hull in mesh.hulls if hull.label})
     if label not in here:
         remark(f"no hull here is labelled {label!r}; labels here: {', '.join(here) or 'none'}")

@@ -2,57 +2,70 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from math import isfinite
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
-from meshforge.cli.engines import Hollow, Method, Set, engine_settings, refuse_given
-from meshforge.cli.options import Json
-from meshforge.cli.prepare import show
+from meshforge.cli.options import (
+    EngineMethod,
+    EngineOptions,
+    Hollow,
+    Json,
+    parse_engine_settings,
+    refuse_options,
+    takes,
+)
+from meshforge.cli.prepare import print_results
+from meshforge.common import UsageError
+from meshforge.project import Project
 
 
-def split(
-    context: typer.Context,
-    project: Annotated[Path, typer.Argument(help="A project folder.")],
-    asset: Annotated[str, typer.Argument(help="The id of an asset, as `status` lists it.")],
-    hull: Annotated[str, typer.Argument(help="The name of a hull, as `info ASSET --project PROJECT` lists it.")],
+@dataclass(frozen=True, slots=True)
+class SplitArguments:
+    """What is typed after `meshforge split`."""
+
+    context: typer.Context
+    project: Annotated[Path, typer.Argument(help="A project folder.")]
+    asset: Annotated[str, typer.Argument(help="The id of an asset, as `status` lists it.")]
+    hull: Annotated[str, typer.Argument(help="The name of a hull, as `info ASSET --project PROJECT` lists it.")]
     at: Annotated[
         str, typer.Option("--at", metavar="X,Y,Z", help="A point of the cutting plane [m], in the asset's own frame.")
-    ] = "",
+    ] = ""
     across: Annotated[
         str, typer.Option("--across", metavar="X,Y,Z", help="The direction across the plane; part #1 is on that side.")
-    ] = "",
+    ] = ""
     method: Annotated[
-        Method | None, typer.Option("--decompose", help="Split it by decomposing what its body shows.")
-    ] = None,
-    option: Set = None,
-    hollow: Hollow = False,
-    json: Json = False,
-) -> None:
+        EngineMethod | None, typer.Option("--decompose", help="Split it by decomposing what its body shows.")
+    ] = None
+    option: EngineOptions = None
+    hollow: Hollow = False
+    json: Json = False
+
+
+@takes(SplitArguments)
+def split(given: SplitArguments) -> None:
     """Split a hull: along a plane, or by a decomposition of the visual mesh of its body.
 
     The plane is given in metres in the frame that the asset comes in (root frame, joints at zero), as `info` shows it.
     The parts are called HULL#0, HULL#1, ... and take over its label. Take it back with: meshforge prepare --undo.
     """
-    from meshforge.errors import UsageError
-    from meshforge.project import Project
-
+    at, across, method = given.at, given.across, given.method
     if bool(at or across) == (method is not None) or bool(at) != bool(across):
         raise UsageError("say how: --at X,Y,Z --across X,Y,Z, or --decompose METHOD")
-    opened = Project.open(project)
+    project = Project.open(given.project)
     if method is None:
-        refuse_given(context, ("option", "hollow"), "--decompose METHOD")
-        done = opened.cut(asset, hull, _vector(at, "--at"), _direction(across, "--across"))
+        refuse_options(given.context, ("option", "hollow"), "--decompose METHOD")
+        result = project.cut(given.asset, given.hull, _parse_vector(at, "--at"), _parse_direction(across, "--across"))
     else:
-        done = opened.split(asset, hull, engine_settings(method, option), hollow=hollow)
-    show([done], json)
+        settings = parse_engine_settings(method, given.option)
+        result = project.split(given.asset, given.hull, settings, hollow=given.hollow)
+    print_results([result], given.json)
 
 
-def _vector(text: str, option: str) -> tuple[float, float, float]:
-    from meshforge.errors import UsageError
-
+def _parse_vector(text: str, option: str) -> tuple[float, float, float]:
     try:
         x, y, z = map(float, text.split(","))
     except ValueError:
@@ -62,10 +75,8 @@ def _vector(text: str, option: str) -> tuple[float, float, float]:
     return x, y, z
 
 
-def _direction(text: str, option: str) -> tuple[float, float, float]:
-    from meshforge.errors import UsageError
-
-    vector = _vector(text, option)
+def _parse_direction(text: str, option: str) -> tuple[float, float, float]:
+    vector = _parse_vector(text, option)
     if not any(vector):
         raise UsageError(f"{option} {text}: a direction is needed, so one of the numbers is not zero")
     return vector

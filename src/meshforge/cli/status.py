@@ -3,46 +3,43 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 import typer
 
+from meshforge.cli.console import print_table, progress
 from meshforge.cli.options import Json
-
-if TYPE_CHECKING:
-    from meshforge.project import AssetStatus, Status
+from meshforge.cli.terminal import print_json
+from meshforge.common import pluralize
+from meshforge.project import AssetStatus, Project, Status
 
 
 def status(project: Annotated[Path, typer.Argument(help="A project folder.")], json: Json = False) -> None:
     """Show what is labelled, demonstrated, learned, applied, stale and flagged, and the next sensible step."""
-    from meshforge.cli.output import print_json, progress
-    from meshforge.project import Project
-
     opened = Project.open(project)
     with progress(len(opened.assets()), "reading") as advance:
         found = opened.status(progress=advance)
     if json:
         print_json(found.to_json())
     else:
-        _print(found)
+        _print_status(found)
 
 
-def _print(found: Status) -> None:
-    from meshforge.cli.output import table
-    from meshforge.words import counted
-
-    rules = "no program yet" if found.rules is None else f"a program of {counted(found.rules, 'rule')}"
-    typer.echo(f"{found.name}: {counted(len(found.assets), 'asset')}, {rules}{' (outdated)' * found.outdated}")
+def _print_status(found: Status) -> None:
+    rules = "no program yet" if found.rules is None else f"a program of {pluralize(found.rules, 'rule')}"
+    typer.echo(f"{found.name}: {pluralize(len(found.assets), 'asset')}, {rules}{' (outdated)' * found.outdated}")
     typer.echo(f"vocabulary: {', '.join(found.vocabulary) or 'none'}\n")
-    table(
-        ("asset", "hulls", "labelled", "demonstrated", "output", "remarks"), map(_row, found.assets), right=("hulls",)
+    print_table(
+        ("asset", "hulls", "labelled", "demonstrated", "output", "remarks"),
+        map(_to_row, found.assets),
+        right=("hulls",),
     )
     for asset in found.lost:
         typer.echo(f"kept for an asset that is not there: {asset}")
     typer.echo(f"\nNext: {found.next.say}" + (f"\n  {found.next.command}" if found.next.command else ""))
 
 
-def _row(asset: AssetStatus) -> tuple[object, ...]:
+def _to_row(asset: AssetStatus) -> tuple[object, ...]:
     stale = f"stale: {', '.join(asset.stale)} changed" if asset.stale else None
     bare = f"{asset.sources} without hulls (meshforge prepare)" if asset.sources else None
     remarks = [text for text in (asset.error, stale, asset.review, bare, *asset.prepared, *asset.flags) if text]

@@ -3,15 +3,13 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 import typer
 
-if TYPE_CHECKING:
-    from meshforge.studio.serving import Opening
-
-Browser = Annotated[bool, typer.Option("--browser/--no-browser", help="Open the page in the browser.")]
-Port = Annotated[int, typer.Option("--port", min=0, max=65535, help="Port on this machine; 0 takes a free one.")]
+from meshforge.cli.options import Browser, Port
+from meshforge.studio.api.server import PAGE_FOLDER, serve
+from meshforge.studio.session.session import StudioOptions
 
 
 def studio(
@@ -28,16 +26,12 @@ def studio(
 
     The studio answers on this machine only, to the address with its token that is printed.
     """
-    from meshforge.studio.serving import Opening
-
-    opened(Opening(project, export), port=port, browser=browser, page=page)
+    open_studio(StudioOptions(project, export), port=port, browser=browser, page=page)
 
 
-def opened(opening: Opening, *, port: int, browser: bool, page: Path | None = None) -> None:
+def open_studio(options: StudioOptions, *, port: int, browser: bool, page: Path | None = None) -> None:
     """Serve a studio, and say where."""
-    from meshforge.studio.serving import BUILT, serve
-
-    serve(opening, _say, port=port, browser=browser, page=page or BUILT)
+    serve(options, _say, port=port, browser=browser, page=page or PAGE_FOLDER)
 
 
 def _say(address: str) -> None:

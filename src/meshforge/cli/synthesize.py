@@ -1,129 +1,187 @@
-"""`meshforge synthesize`: learn the program of a project from its demonstrations, asking where they leave it open."""
+"""`meshforge synthesize`: learn the program of a project from its demonstrations; list and take back earlier
+answers."""
 
 from __future__ import annotations
 
+import shlex
 import sys
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Literal
+from typing import Annotated, Literal
 
 import typer
 
-from meshforge.cli.options import Json
+from meshforge.cli.options import Json, takes
+from meshforge.cli.synthesize_script import check_all_asked, read_answers, run_script
+from meshforge.cli.synthesize_session import LearningSession
+from meshforge.cli.synthesize_text import (
+    LearningContext,
+    format_answer_help,
+    format_choices,
+    format_remarks,
+    format_result,
+)
+from meshforge.cli.terminal import print_json, remark
+from meshforge.common import UsageError, join_names, pluralize
+from meshforge.language import Program
+from meshforge.project import Project
+from meshforge.store import AnswersFile, RepairLine
+from meshforge.synthesis import LearningOutcome, Options, outcome_to_json
 
-if TYPE_CHECKING:
-    from meshforge.cli.lessons import Lessons
-    from meshforge.cli.outcome_text import About
-    from meshforge.synthesis import Outcome
 
+@dataclass(frozen=True, slots=True)
+class SynthesizeArguments:
+    """What is typed after `meshforge synthesize`."""
 
-def synthesize(
-    project: Annotated[Path, typer.Argument(help="A project folder.")],
+    project: Annotated[Path, typer.Argument(help="A project folder.")]
     answers: Annotated[
         Path | None, typer.Option("--answers", help="A JSON file that answers questions, in place of a person.")
-    ] = None,
+    ] = None
     accept_repairs: Annotated[
-        bool, typer.Option("--accept-repairs", help="Mend every label that is probably wrong, without asking.")
-    ] = False,
+        bool, typer.Option("--accept-repairs", help="Repair every label that is probably wrong, without asking.")
+    ] = False
     reject_repairs: Annotated[
         bool, typer.Option("--reject-repairs", help="Leave labels as they are, now and later, without asking.")
-    ] = False,
+    ] = False
     list_answers: Annotated[
-        bool, typer.Option("--list-answers", help="Only list what was answered, mended and refused so far.")
-    ] = False,
+        bool, typer.Option("--list-answers", help="Only list what was answered, repaired and refused so far.")
+    ] = False
     forget: Annotated[
         list[str] | None,
         typer.Option("--forget", help="Only take back what has this id in that list, or `all`.", metavar="ID"),
-    ] = None,
+    ] = None
     strategy: Annotated[
         Literal["default", "paper"], typer.Option("--strategy", help="paper: by the algorithms of the paper.")
-    ] = "default",
+    ] = "default"
     layers: Annotated[
         Literal["S", "S+T", "S+G", "S+T+G"],
         typer.Option("--layers", help="What rules may ask for: labels (S), touching (T), directions (G)."),
-    ] = "S+T+G",
+    ] = "S+T+G"
     follow: Annotated[
         Path | None,
         typer.Option("--follow", help="A program you had in mind: say of each rule why it was learned or not."),
-    ] = None,
-    no_repair: Annotated[bool, typer.Option("--no-repair", help="Take all labels for right.")] = False,
-    budget: Annotated[float, typer.Option("--budget", min=0.1, help="Seconds to search.")] = 120.0,
-    dry_run: Annotated[
-        bool, typer.Option("--dry-run", help="Show what is learned; keep nothing and ask nothing.")
-    ] = False,
-    json: Json = False,
-) -> None:
+    ] = None
+    no_repair: Annotated[bool, typer.Option("--no-repair", help="Take all labels for right.")] = False
+    budget: Annotated[float, typer.Option("--budget", min=0.1, help="Seconds to search.")] = 120.0
+    dry_run: Annotated[bool, typer.Option("--dry-run", help="Show what is learned; keep nothing and ask nothing.")] = (
+        False
+    )
+    json: Json = False
+
+
+@takes(SynthesizeArguments)
+def synthesize(given: SynthesizeArguments) -> None:
     """Learn the smallest program that does on every demonstrated asset what was shown there.
 
     In a terminal it asks where the demonstrations leave a rule open, or where a label is probably wrong; Ctrl-C ends
     the search. Exit code 1 when no program was found; then the nearest one is named, and where it differs.
     """
-    from meshforge.cli import said
-    from meshforge.cli.conversation import Conversation
-    from meshforge.cli.given_answers import read_given
-    from meshforge.cli.lessons import Lessons
-    from meshforge.cli.output import print_json
-    from meshforge.cli.scripted import check_all_asked, scripted
-    from meshforge.errors import UsageError
-    from meshforge.language import Program
-    from meshforge.project import Project
-    from meshforge.synthesis import Options, outcome_json
-
-    if accept_repairs and reject_repairs:
+    if given.accept_repairs and given.reject_repairs:
         raise UsageError("--accept-repairs and --reject-repairs exclude each other")
-    opened = Project.open(project)
-    if forget:
-        said.forget(opened, project, forget)
+    project = Project.open(given.project)
+    if given.forget:
+        _forget_answers(project, given.project, given.forget)
         return
-    if list_answers:
-        said.list_answers(opened, project, json)
+    if given.list_answers:
+        _print_answers(project, given.project, given.json)
         return
-    options = Options(strategy=strategy, layers=layers, repair=not no_repair, budget=budget)
-    lessons = Lessons(opened, options, keep=not dry_run, follow=Program.read(follow) if follow else None)
-    given = read_given(answers, opened) if answers else None
-    verdict = accept_repairs if accept_repairs or reject_repairs else None
-    asks = is_interactive() and not (json or dry_run) and given is None and verdict is None
-    outcome = Conversation(lessons, input, typer.echo).run() if asks else scripted(lessons, given, verdict)
-    if json:
-        print_json(outcome_json(outcome))
+    options = Options(
+        strategy=given.strategy,
+        layers=given.layers,
+        repair=not given.no_repair,
+        budget=given.budget,
+        follow=Program.read(given.follow) if given.follow else None,
+    )
+    session = LearningSession(project, options, keep=not given.dry_run)
+    answers = read_answers(given.answers, project) if given.answers else None
+    verdict = given.accept_repairs if given.accept_repairs or given.reject_repairs else None
+    asks = _is_interactive() and not (given.json or given.dry_run) and answers is None and verdict is None
+    if asks:
+        from meshforge.cli.synthesize_dialog import Conversation  # lazy: 50 modules of rich that a script does not need
+
+        outcome = Conversation(session, input, typer.echo).run()
     else:
-        _print(outcome, lessons, project, asks)
-    check_all_asked(opened, given, outcome)
+        outcome = run_script(session, answers, verdict)
+    if given.json:
+        print_json(outcome_to_json(outcome))
+    else:
+        _print_outcome(outcome, session, given.project, asks)
+    check_all_asked(project, answers, outcome)
     raise typer.Exit(int(outcome.program is None))
 
 
-def is_interactive() -> bool:
+def _is_interactive() -> bool:
     """Whether a person sits at both ends."""
     return sys.stdin.isatty() and sys.stdout.isatty()
 
 
-def _print(outcome: Outcome, lessons: Lessons, folder: Path, asked: bool) -> None:
+def _print_outcome(outcome: LearningOutcome, session: LearningSession, folder: Path, asked: bool) -> None:
     """The result to stdout, remarks to stderr, with the open question unless a person was asked it."""
-    from meshforge.cli.cards import answer_help, choices_card
-    from meshforge.cli.outcome_text import remarks, result
-    from meshforge.cli.output import remark
-
-    about = _about(lessons, folder, outcome)
-    typer.echo(result(outcome, about))
+    about = _context_of(session, folder, outcome)
+    typer.echo(format_result(outcome, about))
     if outcome.followed:
         typer.echo("\n" + "\n".join(outcome.followed))
-    more = remarks(outcome, about)
+    more = format_remarks(outcome, about)
     if more:
         remark(f"\n{more}")
     if outcome.question and not asked:
-        remark(f"\n{choices_card(outcome.question)}\n{answer_help(outcome.question, about.word)}")
+        remark(f"\n{format_choices(outcome.question)}\n{format_answer_help(outcome.question, about.folder_word)}")
 
 
-def _about(lessons: Lessons, folder: Path, outcome: Outcome) -> About:
-    from meshforge.cli.outcome_text import About
-
-    said = lessons.project.answers()
-    return About(
+def _context_of(session: LearningSession, folder: Path, outcome: LearningOutcome) -> LearningContext:
+    answers = session.project.answers()
+    return LearningContext(
         folder,
-        assets=len(lessons.project.assets()),
-        looked_at=len(lessons.looked_at),
-        readable=len(lessons.meshes()),
-        answers=len(said.answers) + len(lessons.given) - len(outcome.stale),
-        repairs=len(said.confirmed),
-        kept=lessons.keep,
-        stopped=lessons.stopped,
+        assets=len(session.project.assets()),
+        in_use=len(session.ids_in_use),
+        readable=len(session.meshes()),
+        answers=len(answers.answers) + len(session.given) - len(outcome.stale),
+        repairs=len(answers.confirmed),
+        kept=session.keep,
+        stopped=session.stopped,
     )
+
+
+def _print_answers(project: Project, folder: Path, json: bool) -> None:
+    """List all answers and repairs by their ids."""
+    answers = project.answers()
+    if json:
+        print_json(answers.model_dump(mode="json", by_alias=True))
+        return
+    for line in _answer_lines(answers):
+        typer.echo(line)
+    if answers.ids:
+        command = f"meshforge synthesize {shlex.quote(str(folder))} --forget {shlex.quote(answers.ids[0])}"
+        remark(f"To take one back: {command}")
+    else:
+        remark("nothing was answered, repaired or refused yet")
+
+
+def _answer_lines(answers: AnswersFile) -> Iterator[str]:
+    for line in answers.answers:
+        hulls = f"{pluralize(len(line.select), 'hull')}: {join_names(line.select)}" if line.select else "nothing"
+        yield f"{line.id}  {'neither of the choices' if line.select is None else hulls}"
+    yield from (f"{line.id}  repaired, was {_describe_before(line)}" for line in answers.confirmed)
+    yield from (f"{line.id}  refused, stays {_describe_before(line)}" for line in answers.rejected)
+
+
+def _describe_before(line: RepairLine) -> str:
+    return line.was or "without a label"
+
+
+def _forget_answers(project: Project, folder: Path, ids: Sequence[str]) -> None:
+    """Take back what has one of these ids, or everything by `all`."""
+    if "all" in ids:
+        count = len(project.answers().ids)
+        notes = list(project.forget_answers())
+        typer.echo(f"taken back: {pluralize(count, 'answer or repair', 'answers and repairs')}")
+    else:
+        notes = []
+        for answer_id in ids:
+            note = project.take_back(answer_id)
+            notes += [note] if note else []
+            typer.echo(f"taken back: {answer_id}")
+    for note in notes:
+        remark(note)
+    remark(f"Next: meshforge synthesize {shlex.quote(str(folder))}")

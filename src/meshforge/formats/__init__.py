@@ -1,56 +1,64 @@
 """Files: a reader and a writer for each format, and the door to them all."""
 
-from meshforge.formats.base import Format, Mass, Output, ReadOptions
-from meshforge.formats.loading import NO_GEOMETRY, labels_beside, load, load_many, read
-from meshforge.formats.losses import Loss
-from meshforge.formats.meshfile import RawSurface
-from meshforge.formats.naming import Names
-from meshforge.formats.placing import placed
-from meshforge.formats.plain.obj_text import parts_text as obj_parts
-from meshforge.formats.plain.parts import Part
+from meshforge.formats.base import Format, Loss, Mass, Output
+from meshforge.formats.engine_names.base import EngineName
+from meshforge.formats.loader import NO_GEOMETRY, labels_beside, load, load_many, read
+from meshforge.formats.mesh_reader import read_triangles, split_into_pieces
+from meshforge.formats.meshfile.surface import RawSurface
+from meshforge.formats.output_tree import SaveResult, output_path_of, save
+from meshforge.formats.plain.obj_text import format_obj
+from meshforge.formats.plain.parts import MeshPart
 from meshforge.formats.registry import (
     DESCRIPTION_SUFFIXES,
+    ENGINE_FORMATS,
     FORMATS,
     MESH_SUFFIXES,
-    NAMED,
     SUFFIXES,
     format_for,
     format_of,
+    format_with_names,
     is_asset,
-    with_names,
 )
-from meshforge.formats.reporting import Report
-from meshforge.formats.saving import Saved, save
-from meshforge.formats.triangles import pieces_of, read_triangles
+from meshforge.formats.segmentation.base import POINTS_SUFFIXES, Segmentation, points_beside
+from meshforge.formats.segmentation.class_names import SEMANTICS_FILE, read_class_names, read_semantics
+from meshforge.formats.segmentation.reader import attach_own_mesh, read_segmentation
+from meshforge.formats.visuals import VisualSurfaces
 
 __all__ = [
     "DESCRIPTION_SUFFIXES",
+    "ENGINE_FORMATS",
     "FORMATS",
     "MESH_SUFFIXES",
-    "NAMED",
     "NO_GEOMETRY",
+    "POINTS_SUFFIXES",
+    "SEMANTICS_FILE",
     "SUFFIXES",
+    "EngineName",
     "Format",
     "Loss",
     "Mass",
-    "Names",
+    "MeshPart",
     "Output",
-    "Part",
     "RawSurface",
-    "ReadOptions",
-    "Report",
-    "Saved",
+    "SaveResult",
+    "Segmentation",
+    "VisualSurfaces",
+    "attach_own_mesh",
     "format_for",
+    "format_obj",
     "format_of",
+    "format_with_names",
     "is_asset",
     "labels_beside",
     "load",
     "load_many",
-    "obj_parts",
-    "pieces_of",
-    "placed",
+    "output_path_of",
+    "points_beside",
     "read",
+    "read_class_names",
+    "read_segmentation",
+    "read_semantics",
     "read_triangles",
     "save",
-    "with_names",
+    "split_into_pieces",
 ]

@@ -1,4 +1,4 @@
-"""What a format is: a reader and a writer of assets, registered by one line in `registry`."""
+"""What a format is: a reader and a writer of assets, the output it makes, and what that output loses."""
 
 from __future__ import annotations
 
@@ -9,8 +9,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import ClassVar, Literal
 
-from meshforge.asset import Asset, Feature, What
-from meshforge.formats.losses import Loss
+from meshforge.common import AssetError, join_names, pluralize
+from meshforge.symbolic import Asset, Feature, FeatureKind
 
 _PATHS = (
     "ROS_PACKAGE_PATH",
@@ -20,8 +20,44 @@ _PATHS = (
     "GAZEBO_MODEL_PATH",
     "GAZEBO_RESOURCE_PATH",
 )
+BODY_FEATURES = frozenset(
+    {
+        *(FeatureKind.NAMES, FeatureKind.BODIES, FeatureKind.BOXES, FeatureKind.SPHERES, FeatureKind.CYLINDERS),
+        *(FeatureKind.MASSES, FeatureKind.VISUALS, FeatureKind.COLORS),
+    }
+)
+"""What every format with bodies holds."""
+SCENE_FEATURES = frozenset(
+    {FeatureKind.MATERIALS, FeatureKind.TEXTURES, FeatureKind.CONTACT, FeatureKind.CAMERAS, FeatureKind.LIGHTS}
+)
+"""What every format of scenes could hold besides, and `create` leaves out."""
 Mass = Literal["keep", "recompute"]
 """Whether an edited body keeps the mass and inertia it had, or has those of its hulls, where a format derives them."""
+
+
+@dataclass(frozen=True, slots=True)
+class Loss:
+    """Things of one kind that are not in the output as they were.
+
+    why: the reason, a clause; instead: how they are there all the same (`written as triangles`), None where they are
+    not; unnamed: how many there are that have no name.
+    """
+
+    kind: FeatureKind
+    names: tuple[str, ...]
+    why: str
+    instead: str | None = None
+    unnamed: int = 0
+
+    @property
+    def count(self) -> int:
+        return len(self.names) + self.unnamed
+
+    def __str__(self) -> str:
+        named = f" ({join_names(self.names, 3)})" if self.names else ""
+        verb = "is" if self.count == 1 else "are"
+        head = f"{pluralize(self.count, self.kind.one, self.kind.many)}{named}"
+        return f"{head} {verb} {self.instead or 'left out'}: {self.why}"
 
 
 @dataclass(frozen=True, slots=True)
@@ -75,9 +111,9 @@ class Format(ABC):
     writable: ClassVar[bool] = True
     title: ClassVar[str]
     up: ClassVar[Literal["y", "z"] | None] = None
-    holds: ClassVar[frozenset[What]] = frozenset()
-    could: ClassVar[frozenset[What]] = frozenset()
-    instead: ClassVar[Mapping[What, str]] = {}
+    holds: ClassVar[frozenset[FeatureKind]] = frozenset()
+    could: ClassVar[frozenset[FeatureKind]] = frozenset()
+    instead: ClassVar[Mapping[FeatureKind, str]] = {}
     shown_files: ClassVar[tuple[str, ...]] = ()
 
     @abstractmethod
@@ -94,17 +130,15 @@ class Format(ABC):
         Raises AssetError where the file cannot hold the edit.
         """
 
-    def takes_back(self, asset: Asset) -> bool:
+    def can_write_back(self, asset: Asset) -> bool:
         """Whether an asset was read from a file of this kind, so that `write` writes it back."""
         return asset.format == self.name
 
     def create(self, asset: Asset, name: str) -> Output:
         """The files of an asset that came from another format: geometry and bodies, as far as the format holds them."""
-        raise self._cannot_create(asset)
+        raise self._creation_error(asset)
 
-    def _cannot_create(self, asset: Asset) -> Exception:
-        from meshforge.errors import AssetError
-
+    def _creation_error(self, asset: Asset) -> Exception:
         return AssetError(f"{self.name} files cannot be made from {asset.format} files", where=str(asset.path))
 
     def features(self, asset: Asset) -> Iterable[Feature]:
@@ -119,6 +153,27 @@ class Format(ABC):
         """Whether a file of this format is an asset of its own, and not what stands in for one in older programs."""
         return True
 
-    def sniffs(self, head: bytes) -> bool:
+    def matches_head(self, head: bytes) -> bool:
         """Whether a file of one of the suffixes may be an asset of this format; head: its first kilobytes."""
         return True
+
+
+def feature_of(kind: FeatureKind, names: Iterable[str]) -> Feature:
+    """A feature of things by their names, empty for those that have none."""
+    each = list(names)
+    return Feature(kind, tuple(name for name in each if name), sum(not name for name in each))
+
+
+def feature_of_tags(kind: FeatureKind, tags: Iterable[str]) -> Feature:
+    """A feature of things that are told apart by their tags only: each tag is named once."""
+    each = list(tags)
+    names = tuple(dict.fromkeys(each))
+    return Feature(kind, names, len(each) - len(names))
+
+
+def note_renames(names: Mapping[str, str]) -> tuple[str, ...]:
+    """A note on hulls that the file holds under other names."""
+    if not names:
+        return ()
+    shown = join_names([f"{old} is now {new}" for old, new in names.items()], 3)
+    return (f"hulls are called otherwise in what is written: {shown}",)

@@ -10,8 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from urllib.parse import unquote, urlsplit
 
-from meshforge.errors import nearest
-from meshforge.files import is_file
+from meshforge.common import is_file, nearest_name
 
 _PACKAGE = re.compile(r"(?:package|model)://+([^/]+)/(.*)", re.S)
 _FILE = re.compile(r"file:(?://[^/]*(?=/)|//)?(.*)", re.S)
@@ -36,11 +35,11 @@ class Resolver:
         if package := _PACKAGE.fullmatch(reference):
             yield from self._in_package(package[1], package[2])
         elif file := _FILE.fullmatch(reference):
-            yield self._joined(self.folder, unquote(file[1]))
+            yield self._join(self.folder, unquote(file[1]))
         elif reference and not is_address(reference):
-            yield self._joined(self.folder, reference)
+            yield self._join(self.folder, reference)
             if "\\" in reference:
-                yield self._joined(self.folder, reference.replace("\\", "/"))
+                yield self._join(self.folder, reference.replace("\\", "/"))
 
     def place(self, reference: str) -> str | None:
         """Where the file of a reference goes in an output: `placement`."""
@@ -48,17 +47,17 @@ class Resolver:
 
     def _in_package(self, package: str, rest: str) -> Iterator[Path]:
         for home in self._homes(package):
-            yield self._joined(home, rest)
+            yield self._join(home, rest)
 
     def _homes(self, package: str) -> Iterator[Path]:
         """Where a package may be, in the given roots, then upwards: by a folder's name, or by its package.xml."""
         for root in (*self.roots, self.folder, *self.folder.parents):
             yield root / package
-            if root.name == package or _package_name(root) == package:
+            if root.name == package or _read_package_name(root) == package:
                 yield root
 
     @staticmethod
-    def _joined(folder: Path, rest: str) -> Path:
+    def _join(folder: Path, rest: str) -> Path:
         return Path(os.path.normpath(folder / rest))
 
     def advice(self, reference: str) -> str:
@@ -71,7 +70,7 @@ class Resolver:
         if reference.startswith(("package:", "model:")) and not _PACKAGE.fullmatch(reference):
             return "Write package://NAME/PATH."
         looked = list(self.candidates(reference))
-        like = next((near for path in looked if (near := _similar(path))), None)
+        like = next((near for path in looked if (near := _find_similar(path))), None)
         hint = f" A file of a similar name is there: {like}." if like else ""
         if package := _PACKAGE.fullmatch(reference):
             homes = [home for home in self._homes(package[1]) if home.is_dir()]
@@ -85,10 +84,10 @@ class Resolver:
             )
         if odd := next((path for path in looked if os.path.lexists(path)), None):
             return f"{odd} is no file, or a link that leads nowhere."
-        return f"Looked for {' and '.join(map(_shown, looked))}.{hint} Put it there, or correct the reference."
+        return f"Looked for {' and '.join(map(_shorten_path, looked))}.{hint} Put it there, or correct the reference."
 
 
-def _shown(path: Path) -> str:
+def _shorten_path(path: Path) -> str:
     """A path as messages show it, of long names the beginning."""
     return str(Path(*(name if len(name) <= _LONG else f"{name[:_LONG]}..." for name in path.parts)))
 
@@ -111,7 +110,7 @@ def placement(reference: str) -> str | None:
     return posixpath.normpath(reference.replace("\\", "/"))
 
 
-def _package_name(folder: Path) -> str | None:
+def _read_package_name(folder: Path) -> str | None:
     """The name that a folder's package.xml gives it."""
     try:
         found = _NAME.search((folder / "package.xml").read_bytes()[:10_000])
@@ -120,7 +119,7 @@ def _package_name(folder: Path) -> str | None:
     return found[1].decode("utf-8", "replace") if found else None
 
 
-def _similar(path: Path) -> Path | None:
+def _find_similar(path: Path) -> Path | None:
     """A file in the same folder whose name is nearly that of `path`."""
     try:
         entries = [entry for entry in path.parent.iterdir() if entry.suffix.lower() == path.suffix.lower()]
@@ -128,5 +127,5 @@ def _similar(path: Path) -> Path | None:
     except (OSError, ValueError):
         return None
     cased = next((name for name in names if name.lower() == path.name.lower()), None)
-    like = cased or nearest(path.name, names)
+    like = cased or nearest_name(path.name, names)
     return path.parent / like if like else None

@@ -5,22 +5,26 @@ from __future__ import annotations
 from collections.abc import Mapping
 from pathlib import Path
 
-from meshforge.errors import AssetError, UsageError, nearest
+from meshforge.common import AssetError, UsageError, nearest_name
 from meshforge.formats.base import Format
-from meshforge.formats.gltf import GltfForGodot, GltfFormat, GltfForUnity, GltfForUnreal
-from meshforge.formats.mjcf import MjcfFormat
-from meshforge.formats.naming import Names
-from meshforge.formats.plain import Folder, Obj, ObjForUnreal, Ply, Stl, Wrl
-from meshforge.formats.sdf import SdfFormat
-from meshforge.formats.sdf.files.config import CONFIG, main_file
-from meshforge.formats.segmented.places import is_segmented
-from meshforge.formats.urdf import UrdfFormat
-from meshforge.formats.usd import UsdFormat
+from meshforge.formats.engine_names.base import EngineName
+from meshforge.formats.gltf.format import GltfForGodot, GltfFormat, GltfForUnity, GltfForUnreal
+from meshforge.formats.mjcf.format import MjcfFormat
+from meshforge.formats.plain.folder import FolderFormat
+from meshforge.formats.plain.obj import ObjFormat, ObjForUnreal
+from meshforge.formats.plain.ply import PlyFormat
+from meshforge.formats.plain.stl import StlFormat
+from meshforge.formats.plain.wrl import WrlFormat
+from meshforge.formats.sdf.document import CONFIG, find_main_file
+from meshforge.formats.sdf.format import SdfFormat
+from meshforge.formats.segmentation.base import is_segmentation
+from meshforge.formats.urdf.format import UrdfFormat
+from meshforge.formats.usd.format import UsdFormat
 
 _HEAD = 4096  # bytes by which a format tells its assets from other files of its suffix
 _UNREAD = {".mjb": "is a model compiled for one version of MuJoCo: open the XML it was made from"}
 
-FOLDER = Folder((Obj(), Stl(), Ply(), Wrl()))
+FOLDER = FolderFormat((ObjFormat(), StlFormat(), PlyFormat(), WrlFormat()))
 FORMATS: tuple[Format, ...] = (
     UrdfFormat(),
     MjcfFormat(),
@@ -30,7 +34,7 @@ FORMATS: tuple[Format, ...] = (
     *FOLDER.members,
     FOLDER,
 )
-NAMED: Mapping[Names, tuple[Format, ...]] = {
+ENGINE_FORMATS: Mapping[EngineName, tuple[Format, ...]] = {
     "unreal": (GltfForUnreal(), ObjForUnreal()),
     "godot": (GltfForGodot(),),
     "unity": (GltfForUnity(),),
@@ -39,18 +43,18 @@ NAMED: Mapping[Names, tuple[Format, ...]] = {
 SUFFIXES: tuple[str, ...] = tuple(dict.fromkeys(s for f in FORMATS for s in f.suffixes))
 """The suffixes of all files that can be read, lower case, with the dot; folders have none."""
 MESH_SUFFIXES: tuple[str, ...] = tuple(s for f in FOLDER.members for s in f.suffixes)
-"""Those of plain mesh files, which may be pieces of a folder."""
+"""The suffixes of plain mesh files, which may be pieces of a folder."""
 DESCRIPTION_SUFFIXES: tuple[str, ...] = tuple(s for f in FORMATS if f.is_description for s in f.suffixes)
-"""Those of files that name mesh files as their parts."""
+"""The suffixes of files that name mesh files as their parts."""
 
 
-def asset_at(path: Path) -> Path:
+def resolve_asset_path(path: Path) -> Path:
     """The file or folder that is meant: the folder of a Gazebo model (one with a `model.config`) stands for its SDF.
 
     Raises AssetError: its `model.config` is no XML.
     """
     is_model = path.is_dir() and (path / CONFIG).is_file()
-    return (main_file(path) if is_model else None) or path
+    return (find_main_file(path) if is_model else None) or path
 
 
 def format_of(path: Path) -> Format:
@@ -64,9 +68,9 @@ def format_of(path: Path) -> Format:
         raise AssetError("there is no such file", where=str(path))
     if not path.is_file():  # reading a pipe would wait, a device may never end
         raise AssetError("cannot be read: it is a pipe or a device", where=str(path))
-    found = _of_suffix(path)
+    found = _formats_of_suffix(path)
     if not found:
-        raise _unknown(path)
+        raise _unknown_format_error(path)
     return found[0]
 
 
@@ -76,9 +80,9 @@ def is_asset(path: Path) -> bool:
     `package.xml` of ROS is none, nor an MJCF that other ones include, nor an SDF for older versions of Gazebo than that
     beside it, nor segmented points of an asset, `table.points.ply`; named outright, they say what they are.
     """
-    if not path.is_file() or is_segmented(path):
+    if not path.is_file() or is_segmentation(path):
         return False
-    return any(known.sniffs(_head(path)) and known.is_main(path) for known in _of_suffix(path))
+    return any(known.matches_head(_read_head(path)) and known.is_main(path) for known in _formats_of_suffix(path))
 
 
 def format_for(path: Path, own: str) -> Format:
@@ -86,33 +90,30 @@ def format_for(path: Path, own: str) -> Format:
 
     A path without a suffix is a folder. Raises AssetError: a suffix of no known format.
     """
-    found = _of_suffix(path)
-    for known in found:
-        if known.name == own:
-            return known
+    found = _formats_of_suffix(path)
     if found:
-        return found[0]
+        return next((known for known in found if known.name == own), found[0])
     if own == FOLDER.name or path.is_dir() or not path.suffix:
         return FOLDER
-    raise _unknown(path)
+    raise _unknown_format_error(path)
 
 
-def with_names(known: Format, names: Names) -> Format:
+def format_with_names(known: Format, names: EngineName) -> Format:
     """A format with the names of an engine. Raises UsageError: the engine knows no collision by name in its files."""
-    for named in NAMED[names]:
+    for named in ENGINE_FORMATS[names]:
         if named.name == known.name:
             return named
     files = known.title if known.is_folder else f"{known.title} files"
-    can = ", ".join(suffix for named in NAMED[names] for suffix in named.suffixes)
+    can = ", ".join(suffix for named in ENGINE_FORMATS[names] for suffix in named.suffixes)
     raise UsageError(f"{files} cannot be named for {names.title()}", remedy=f"Formats that can: {can}.")
 
 
-def _of_suffix(path: Path) -> list[Format]:
+def _formats_of_suffix(path: Path) -> list[Format]:
     suffix = path.suffix.lower()
     return [known for known in FORMATS if suffix in known.suffixes]
 
 
-def _head(path: Path) -> bytes:
+def _read_head(path: Path) -> bytes:
     """The start of a file; nothing of one that cannot be read, which its reader will say."""
     try:
         with path.open("rb") as stream:
@@ -121,9 +122,9 @@ def _head(path: Path) -> bytes:
         return b""
 
 
-def _unknown(path: Path) -> AssetError:
-    if told := _UNREAD.get(path.suffix.lower()):
-        return AssetError(told, where=str(path))
-    guess = nearest(path.suffix.lower(), SUFFIXES)
+def _unknown_format_error(path: Path) -> AssetError:
+    if reason := _UNREAD.get(path.suffix.lower()):
+        return AssetError(reason, where=str(path))
+    guess = nearest_name(path.suffix.lower(), SUFFIXES)
     remedy = f"Known suffixes: {', '.join(SUFFIXES)}" + (f"; did you mean {guess}?" if guess else ".")
     return AssetError(f"{path.suffix or path.name} is no format that MeshForge knows", where=str(path), remedy=remedy)

@@ -1,21 +1,27 @@
-"""Elements of an edited description before they are text, authored, copied or new, and where they go."""
+"""The collision elements of an edited description before they are text, authored, copied or new: what an edit makes
+of each (left alone, removed, split, joined by new ones), what they are called, and where they go."""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from typing import Protocol
 
+from meshforge.common import AssetError, nearest_name
+from meshforge.formats.collision_pieces import CollisionElement, name_pieces, names_to_keep, new_hulls
 from meshforge.formats.xml import (
     Element,
     Splice,
-    attribute,
-    indent,
-    newline,
-    removed,
-    spliced,
-    without_comments,
+    apply_splices,
+    indent_of,
+    newline_of,
+    remove_element,
+    set_attribute,
+    strip_comments,
 )
+from meshforge.geometry import Pose
+from meshforge.symbolic import Asset, Geom, unique_names
 
 _TAG = re.compile(rb"<([^\s/>]+)")
 
@@ -37,63 +43,211 @@ class Slot:
     text: bytes = b""
 
     @property
-    def untouched(self) -> bool:
+    def is_untouched(self) -> bool:
         """Whether it is an element of the file to which nothing is done."""
         same_name = self.source is not None and self.name == self.source.attributes.get("name")
         return same_name and not self.edits and not self.copy
 
-    def written(self, data: bytes) -> bytes:
+    def to_bytes(self, data: bytes) -> bytes:
         """Its text; data: the authored document."""
         if self.source is None:
-            return spliced(self.text, [attribute(self.text, _new(self.text), "name", self.name)])
+            return apply_splices(self.text, [set_attribute(self.text, _parse_element(self.text), "name", self.name)])
         edits = self.edits
         if self.name != self.source.attributes.get("name"):
-            edits = (attribute(data, self.source, "name", self.name), *edits)
-        text = spliced(data, edits, self.source.start, self.source.end)
-        return without_comments(text) if self.copy else text
+            edits = (set_attribute(data, self.source, "name", self.name), *edits)
+        text = apply_splices(data, edits, self.source.start, self.source.end)
+        return strip_comments(text) if self.copy else text
 
 
-def in_place(data: bytes, element: Element, slots: Sequence[Slot]) -> Splice:
+class ElementMaker(Protocol):
+    """Makes elements for one document of a format; data: its text."""
+
+    @property
+    def data(self) -> bytes: ...
+
+    def make_slot(self, geom: Geom, root_t_link: Pose, template: Element | None, lead: bytes) -> Slot:
+        """The element of a hull; template: that of its parent, all but pose and geometry of which is inherited.
+
+        lead: the blanks before an element without a template.
+        """
+
+    def extract_piece(self, element: Element, name: str, k: int) -> tuple[Splice, ...]:
+        """The edits that leave of an element its k-th piece alone, triangles as authored; name: of that piece."""
+
+
+class ElementPlan:
+    """The collision elements of the output.
+
+    places: each authored element, with what stands in its place; ends: what is added at the end of a link that has
+    no collision element.
+    """
+
+    def __init__(
+        self,
+        asset: Asset,
+        authored: Sequence[CollisionElement],
+        elements: Sequence[Element],
+        links: Mapping[str, Element],
+        maker: ElementMaker,
+    ) -> None:
+        self.asset, self.authored, self.links, self.maker = asset, authored, links, maker
+        self.places: list[tuple[Element, list[Slot]]] = []
+        self.ends: dict[str, list[Slot]] = {}
+        self._owner = {name: k for k, one in enumerate(authored) for name in one.names}
+        self._elements = elements
+        self._poses = asset.body_poses
+        self._place_authored()
+        for geom in new_hulls(asset, self._owner):
+            self._place_made(geom)
+
+    @property
+    def slots(self) -> list[Slot]:
+        """All collision elements in the order of the output."""
+        by_link: dict[str, list[Slot]] = {name: [] for name in self.links}
+        for (_, slots), authored in zip(self.places, self.authored, strict=True):
+            by_link[authored.link] += slots
+        for link, slots in self.ends.items():
+            by_link[link] += slots
+        return [slot for slots in by_link.values() for slot in slots]
+
+    @property
+    def splices(self) -> list[Splice]:
+        """The edits of the document's text."""
+        data = self.maker.data
+        edited = (place for place in self.places if not (len(place[1]) == 1 and place[1][0].is_untouched))
+        edits = [replace_element(data, element, slots) for element, slots in edited]
+        return edits + [append_elements(data, self.links[link], slots) for link, slots in self.ends.items()]
+
+    def _place_authored(self) -> None:
+        kept = names_to_keep(self.asset)
+        for element, authored in zip(self._elements, self.authored, strict=True):
+            staying = {k: name for k, name in enumerate(authored.names) if name in kept}
+            if len(staying) == len(authored.names):
+                slots = [Slot(authored.link, authored.names, element.attributes.get("name"), element)]
+            else:
+                slots = [self._split_element(element, authored.link, name, k) for k, name in staying.items()]
+                for slot in slots[1:]:
+                    slot.copy = True
+            self.places.append((element, slots))
+
+    def _split_element(self, element: Element, link: str, name: str, k: int) -> Slot:
+        """An element for one piece of a mesh, its triangles as authored in a file of their own."""
+        edits = self.maker.extract_piece(element, name, k)
+        return Slot(link, (name,), element.attributes.get("name"), element, edits)
+
+    def _place_made(self, geom: Geom) -> None:
+        """A new element after that of its parent, or else after the last one of its link."""
+        link = self._link_of(geom)
+        own = [k for k, authored in enumerate(self.authored) if authored.link == geom.body]
+        parent = self._owner.get(geom.parent or "")
+        template = self._elements[parent] if parent is not None else None
+        lead = child_indent_of(self.maker.data, link)
+        slot = self.maker.make_slot(geom, self._poses[geom.body], template, lead)
+        if not own:
+            self.ends.setdefault(geom.body, []).append(slot)
+        else:
+            self.places[parent if parent in own else own[-1]][1].append(slot)
+
+    def _link_of(self, geom: Geom) -> Element:
+        if geom.body in self.links:
+            return self.links[geom.body]
+        like = nearest_name(geom.body, self.links)
+        raise AssetError(
+            f"hull {geom.name!r} is on link {geom.body!r}, which is not there",
+            where=str(self.asset.path),
+            remedy=f"The nearest name of a link is {like!r}." if like else None,
+        )
+
+
+def replace_element(data: bytes, element: Element, slots: Sequence[Slot]) -> Splice:
     """What stands in the place of an authored element; nothing takes its line away."""
     if not slots:
-        return removed(data, element)
-    return Splice(element.start, element.end, _joined(data, slots, indent(data, element.start)))
+        return remove_element(data, element)
+    return Splice(element.start, element.end, _join_slots(data, slots, indent_of(data, element.start)))
 
 
-def at_end(data: bytes, parent: Element, slots: Sequence[Slot]) -> Splice:
+def append_elements(data: bytes, parent: Element, slots: Sequence[Slot]) -> Splice:
     """What is added at the end of an element."""
-    line_end, before = newline(data), indent(data, parent.start) or b""
+    line_end, before = newline_of(data), indent_of(data, parent.start) or b""
     if parent.children:
         last = parent.children[-1]
-        lead = indent(data, last.start)
-        return Splice(last.end, last.end, (b"" if lead is None else line_end + lead) + _joined(data, slots, lead))
+        lead = indent_of(data, last.start)
+        return Splice(last.end, last.end, (b"" if lead is None else line_end + lead) + _join_slots(data, slots, lead))
     lead = before + b"  "
-    added = lead + _joined(data, slots, lead) + line_end
+    added = lead + _join_slots(data, slots, lead) + line_end
     if data[parent.inside - 2 : parent.inside] == b"/>":
         closing_tag = b"</%s>" % parent.tag.encode()
         return Splice(parent.inside - 2, parent.inside, b">" + line_end + added + before + closing_tag)
     closing = data.rfind(b"</", parent.inside, parent.end)
-    blanks = indent(data, closing)
+    blanks = indent_of(data, closing)
     if blanks is None:
         return Splice(closing, closing, line_end + added + before)
     return Splice(closing - len(blanks), closing - len(blanks), added)
 
 
-def lead_inside(data: bytes, parent: Element) -> bytes:
+def child_indent_of(data: bytes, parent: Element) -> bytes:
     """The blanks before the children of an element."""
     if parent.children:
-        return indent(data, parent.children[-1].start) or b""
-    return (indent(data, parent.start) or b"") + b"  "
+        return indent_of(data, parent.children[-1].start) or b""
+    return (indent_of(data, parent.start) or b"") + b"  "
 
 
-def _joined(data: bytes, slots: Iterable[Slot], lead: bytes | None) -> bytes:
+def _join_slots(data: bytes, slots: Iterable[Slot], lead: bytes | None) -> bytes:
     """Elements one after another, each on lines of its own where the first is."""
-    gap = b"" if lead is None else newline(data) + lead
-    return gap.join(slot.written(data) for slot in slots)
+    gap = b"" if lead is None else newline_of(data) + lead
+    return gap.join(slot.to_bytes(data) for slot in slots)
 
 
-def _new(text: bytes) -> Element:
+def _parse_element(text: bytes) -> Element:
     """The element of a text that has no name attribute."""
     found = _TAG.match(text)
     assert found is not None  # a text is an element
     return Element(found[1].decode(), {}, line=0, start=0, inside=found.end())
+
+
+def name_element_pieces(elements: Sequence[tuple[str | None, str | None, int]]) -> list[tuple[str, ...]]:
+    """The names that the pieces of collision elements read as; for each element its link, own name and pieces.
+
+    `link/name`, without a link for None; `geomK` for the K-th element of a link where it has no name; `#k` for one of
+    several pieces.
+    """
+    count: dict[str | None, int] = {}
+    bases = []
+    for link, name, _ in elements:
+        own = name or f"geom{count.get(link, 0)}"
+        bases.append(own if link is None else f"{link}/{own}")
+        count[link] = count.get(link, 0) + 1
+    return name_pieces(zip(unique_names(bases), (pieces for _, _, pieces in elements), strict=True))
+
+
+def name_elements(found: Iterable[tuple[str, Element]], pieces: Iterable[int]) -> tuple[CollisionElement, ...]:
+    """Collisions with the names of their pieces; found: of each its link and its element; pieces: how many it has."""
+    own = [(link, e.attributes.get("name"), count) for (link, e), count in zip(found, pieces, strict=True)]
+    named = zip(own, name_element_pieces(own), strict=True)
+    return tuple(CollisionElement(link, names) for (link, _, _), names in named)
+
+
+def assign_names(slots: Sequence[Slot]) -> dict[str, str]:
+    """Name the elements, given in the order of the output, that would else read back under other names.
+
+    Returns the names that cannot be had all the same, with what they read back as: a hull of a format whose names do
+    not begin with the body, or an element that its author called like a piece of another.
+    """
+    for _ in range(4):
+        for slot, _names in _find_misread(slots):
+            slot.name = name_attribute_of(slot)
+    return {
+        wanted: name for slot, names in _find_misread(slots) for wanted, name in zip(slot.names, names, strict=True)
+    }
+
+
+def _find_misread(slots: Sequence[Slot]) -> list[tuple[Slot, tuple[str, ...]]]:
+    """The elements that read back under other names, with the names that they get."""
+    read = name_element_pieces([(slot.body, slot.name, len(slot.names)) for slot in slots])
+    return [(slot, names) for slot, names in zip(slots, read, strict=True) if names != slot.names]
+
+
+def name_attribute_of(slot: Slot) -> str:
+    """The name attribute under which a slot's pieces have their names: that of the first, without link and `#0`."""
+    name = slot.names[0].removeprefix(f"{slot.body}/")
+    return name if len(slot.names) == 1 else name.removesuffix("#0")

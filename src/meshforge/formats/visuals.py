@@ -8,11 +8,17 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, overload
 
-from meshforge.asset import Asset, Surface
-from meshforge.errors import MeshForgeError
-from meshforge.formats.mesh_parts import placed
-from meshforge.formats.triangles import read_triangles
+import numpy as np
+
+from meshforge.common import MeshForgeError
+from meshforge.formats.base import Loss
+from meshforge.formats.collision_pieces import place_surface
+from meshforge.formats.mesh_reader import read_triangles
 from meshforge.geometry import Floats, Pose, Shape
+from meshforge.symbolic import Asset, FeatureKind, Surface
+
+GAMMA = 2.2
+"""Colours of glTF and USD are linear, those of other formats are as screens show them."""
 
 Rgba = tuple[float, float, float, float]
 
@@ -30,10 +36,10 @@ class Visual:
     offset: Floats
     rgba: Rgba | None = None
 
-    def moved(self, pose: Pose) -> Visual:
+    def move(self, pose: Pose) -> Visual:
         """The visual in another root frame; pose: new_T_old."""
         if isinstance(self.what, Shape):
-            return replace(self, what=self.what.moved(pose))
+            return replace(self, what=self.what.move(pose))
         offset = pose.rotation @ self.offset + pose.translation
         return replace(self, linear=pose.rotation @ self.linear, offset=offset)
 
@@ -45,7 +51,7 @@ class Visual:
             read = read_triangles(self.what)
         except MeshForgeError:
             return []
-        found = [placed(s.vertices, s.faces, self.linear, self.offset, self.body) for s in read]
+        found = [place_surface(s.vertices, s.faces, self.linear, self.offset, self.body) for s in read]
         return [replace(surface, rgba=self.rgba) for surface in found]
 
 
@@ -94,3 +100,26 @@ def visuals_of(asset: Asset) -> list[tuple[str, Visual | Surface]]:
     first = asset.bodies[0].name if asset.bodies else ""
     found = asset.visuals.visuals if isinstance(asset.visuals, VisualSurfaces) else asset.visuals
     return [(visual.body or first, visual) for visual in found]
+
+
+def read_visual_surfaces(asset: Asset) -> tuple[list[tuple[str, Surface]], list[Loss]]:
+    """The surfaces of visuals with their bodies and colours, and what cannot be read."""
+    found: list[tuple[str, Surface]] = []
+    refused: list[str] = []
+    for body, visual in visuals_of(asset):
+        surfaces = visual.surfaces() if isinstance(visual, Visual) else [visual]
+        found += [(body, replace(surface, rgba=visual.rgba)) for surface in surfaces if len(surface.faces)]
+        if not surfaces:
+            refused.append(body)
+    return found, unreadable_visuals(refused)
+
+
+def unreadable_visuals(bodies: Sequence[str]) -> list[Loss]:
+    """The loss of the visuals of some bodies, named once each; none where there are no such bodies."""
+    names = tuple(dict.fromkeys(bodies))
+    return [Loss(FeatureKind.VISUALS, names, "their files cannot be read")] if names else []
+
+
+def linear_color(rgba: Rgba) -> list[float]:
+    """Red, green and blue of a colour as glTF and USD have them."""
+    return [round(float(share), 6) for share in np.clip(rgba[:3], 0, 1) ** GAMMA]

@@ -1,83 +1,111 @@
 """Pure shapes: hulls, native primitives, poses, and what can be measured and made of them."""
 
 from meshforge.geometry.aabb import Aabb, bounds
-from meshforge.geometry.arrays import Floats, Ints, frozen_floats, frozen_ints
-from meshforge.geometry.common import Parting, common, parted
+from meshforge.geometry.arrays import Floats, Ints, freeze_floats, freeze_ints, nearest_on_triangles
 from meshforge.geometry.convex import FLATNESS, convex_hull, principal_extents, spans_volume
-from meshforge.geometry.cut import cut
-from meshforge.geometry.digest import digest, same_shape
+from meshforge.geometry.cut import cut, intersect, partition
+from meshforge.geometry.decomposition.process import EngineControl
+from meshforge.geometry.decomposition.run import cache_folder, decompose
+from meshforge.geometry.decomposition.settings import CoacdSettings, DecomposeSettings, VhacdSettings
+from meshforge.geometry.decomposition.triangles import is_line, is_sheet, sheet_hulls, volume_inside
 from meshforge.geometry.distance import close_pairs, distance
-from meshforge.geometry.enclose import Budget, Enclosure, enclosing
-from meshforge.geometry.fit import (
-    aabb_box,
-    aabb_capsule,
-    aabb_cylinder,
-    aabb_sphere,
-    longest_axis,
-    mapped_to,
-    tight_box,
-    tight_capsule,
-    tight_cylinder,
+from meshforge.geometry.fill import aabb_box, aabb_capsule, aabb_cylinder, aabb_sphere, longest_axis, map_to_box
+from meshforge.geometry.fit_box import tight_box
+from meshforge.geometry.fit_round import tight_capsule, tight_cylinder
+from meshforge.geometry.measure import inertia, overlap_volume, principal_axes, volume_of_union
+from meshforge.geometry.pieces import Piece, split_pieces
+from meshforge.geometry.pose import (
+    Pose,
+    nearest_aligned_rotation,
+    nearest_aligned_rotation_between,
+    rotation_about,
+    rotation_of_quaternion,
+    smallest_rotation,
+    snap_rotation,
 )
-from meshforge.geometry.inertia import inertia
-from meshforge.geometry.nearest import nearest_on_triangles
-from meshforge.geometry.overlap import overlap_volume, volume_of_union
-from meshforge.geometry.pieces import Piece, pieces
-from meshforge.geometry.polygons import LEVEL, normals_of, polygon_sizes
-from meshforge.geometry.pose import Pose
-from meshforge.geometry.shapes import Box, Capsule, Cylinder, Ellipsoid, Polytope, Shape, Sphere
-from meshforge.geometry.surface import is_closed, is_convex, neighbours, outward
+from meshforge.geometry.round_shapes import Capsule, Cylinder, Ellipsoid, Sphere
+from meshforge.geometry.shape import Box, Polytope, Shape, digest, is_same_shape
+from meshforge.geometry.simplify import Enclosure, HullBudget, enclose
+from meshforge.geometry.surface import (
+    LEVEL,
+    is_closed,
+    is_convex,
+    is_outward,
+    neighbour_faces,
+    normals_of,
+    planes_of,
+    polygon_sizes,
+    rises_above,
+)
 
 __all__ = [
     "FLATNESS",
     "LEVEL",
     "Aabb",
     "Box",
-    "Budget",
     "Capsule",
+    "CoacdSettings",
     "Cylinder",
+    "DecomposeSettings",
     "Ellipsoid",
     "Enclosure",
+    "EngineControl",
     "Floats",
+    "HullBudget",
     "Ints",
-    "Parting",
     "Piece",
     "Polytope",
     "Pose",
     "Shape",
     "Sphere",
+    "VhacdSettings",
     "aabb_box",
     "aabb_capsule",
     "aabb_cylinder",
     "aabb_sphere",
     "bounds",
+    "cache_folder",
     "close_pairs",
-    "common",
     "convex_hull",
     "cut",
+    "decompose",
     "digest",
     "distance",
-    "enclosing",
-    "frozen_floats",
-    "frozen_ints",
+    "enclose",
+    "freeze_floats",
+    "freeze_ints",
     "inertia",
+    "intersect",
     "is_closed",
     "is_convex",
+    "is_line",
+    "is_outward",
+    "is_same_shape",
+    "is_sheet",
     "longest_axis",
-    "mapped_to",
+    "map_to_box",
+    "nearest_aligned_rotation",
+    "nearest_aligned_rotation_between",
     "nearest_on_triangles",
-    "neighbours",
+    "neighbour_faces",
     "normals_of",
-    "outward",
     "overlap_volume",
-    "parted",
-    "pieces",
+    "partition",
+    "planes_of",
     "polygon_sizes",
+    "principal_axes",
     "principal_extents",
-    "same_shape",
+    "rises_above",
+    "rotation_about",
+    "rotation_of_quaternion",
+    "sheet_hulls",
+    "smallest_rotation",
+    "snap_rotation",
     "spans_volume",
+    "split_pieces",
     "tight_box",
     "tight_capsule",
     "tight_cylinder",
+    "volume_inside",
     "volume_of_union",
 ]

@@ -1,15 +1,16 @@
-"""The convex hull of any points, verified after it is made."""
+"""The convex hull of any points, made by manifold3d or Qhull and verified afterwards."""
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
+import manifold3d
 import numpy as np
 
-from meshforge.errors import GeometryError
-from meshforge.geometry.arrays import Floats, Ints
-from meshforge.geometry.corners import by_manifold, by_qhull, pruned
-from meshforge.geometry.heights import rises_above
-from meshforge.geometry.shapes.polytope import Polytope
-from meshforge.geometry.surface import is_closed, is_convex, outward
+from meshforge.common import GeometryError
+from meshforge.geometry.arrays import Floats, Ints, cross
+from meshforge.geometry.shape import Polytope
+from meshforge.geometry.surface import is_closed, is_convex, is_outward, lowest_altitudes, rises_above
 
 FLATNESS = 1e-4
 """Degenerate input is thickened to this share of the reference diagonal."""
@@ -17,6 +18,10 @@ _RANK = 1e-6  # extents below this share of the largest count as none: single pr
 _CONVEXITY = 1e-8  # verified in coordinates where the hull is one long, wide and high
 _SLIVERS = (1e-7, 1e-6, 1e-5, 1e-4)  # altitudes of triangles given up in turn; the first is manifold's own precision
 _FARTHEST, _SMALLEST = 1e50, 1e-100  # [m] beyond, volumes are no floating point numbers any more
+
+HullIndices = tuple[Ints, Ints]
+"""Indices of the points that are vertices of their hull, and triangles (m, 3) of these vertices."""
+_ROUNDS = 40
 
 
 def convex_hull(points: Floats, *, name: str = "points", thicken: float | None = None) -> Polytope:
@@ -31,22 +36,19 @@ def convex_hull(points: Floats, *, name: str = "points", thicken: float | None =
     if len(points) == 0:
         raise GeometryError("a convex hull needs points, there are none", where=name)
     if not (np.abs(points) < _FARTHEST).all():
-        raise GeometryError("a coordinate is not a finite number", where=name, remedy="Mend the file's vertices.")
+        raise GeometryError("a coordinate is not a finite number", where=name, remedy="Fix the file's vertices.")
     center, axes, extents = principal_extents(points)
     flat = extents <= _least_extent(points, extents)
     if thicken is not None and thicken > 0:
         flat = flat | (extents < thicken * 0.5)
         if flat.any():
-            points = _thickened(points, center, axes[flat], thicken)
+            points = _thicken(points, center, axes[flat], thicken)
     elif flat.any():
-        raise GeometryError(
-            f"its points span no volume (extents {', '.join(f'{e:.3g}' for e in extents)} m)",
-            where=name,
-            remedy="Give the piece a thickness, or delete it.",
-        )
-    made = _verified(points, name)
+        problem = f"its points span no volume (extents {', '.join(f'{e:.3g}' for e in extents)} m)"
+        raise GeometryError(problem, where=name, remedy="Give the piece a thickness, or delete it.")
+    made = _make_verified_hull(points, name)
     while len(made.vertices) < len(points):  # until nothing more goes: the hull of a hull is that hull
-        points, made = made.vertices, _verified(made.vertices, name)
+        points, made = made.vertices, _make_verified_hull(made.vertices, name)
     return made
 
 
@@ -70,28 +72,28 @@ def _least_extent(points: Floats, extents: Floats) -> float:
     return max(_RANK * float(extents.max()), rounding, _SMALLEST)
 
 
-def _thickened(points: Floats, center: Floats, axes: Floats, thickness: float) -> Floats:
+def _thicken(points: Floats, center: Floats, axes: Floats, thickness: float) -> Floats:
     for axis in axes:
         flat = points - np.outer((points - center) @ axis, axis)
         points = np.concatenate([flat - axis * (thickness / 2), flat + axis * (thickness / 2)])
     return points
 
 
-def _verified(points: Floats, name: str) -> Polytope:
+def _make_verified_hull(points: Floats, name: str) -> Polytope:
     """The hull of points (n, 3), made and verified on their affine image that is one long, wide and high.
 
     Hulls are affinely invariant; in the image a thin plate or a needle is as well conditioned as a cube.
     """
-    unit = _evened(points)
-    for attempt in (by_manifold, by_qhull):
+    unit = _normalize(points)
+    for attempt in (hull_by_manifold, hull_by_qhull):
         for altitude in _SLIVERS:
-            made = pruned(unit, attempt, altitude)
-            if made is not None and _holds(unit, *made, max(10 * altitude, 1e-6)):
+            made = prune_vertices(unit, attempt, altitude)
+            if made is not None and _is_valid_hull(unit, *made, max(10 * altitude, 1e-6)):
                 return Polytope(points[made[0]], made[1])
     raise GeometryError("no convex hull of its points could be made", where=name)
 
 
-def _evened(points: Floats) -> Floats:
+def _normalize(points: Floats) -> Floats:
     """Points (n, 3) that span a volume, in an affine image in which none of their directions is much shorter.
 
     By Gram-Schmidt, twice, without linear algebra: that rounds otherwise on another processor, and which way a level
@@ -107,12 +109,89 @@ def _evened(points: Floats) -> Floats:
     return evened
 
 
-def _holds(unit: Floats, kept: Ints, faces: Ints, reach: float) -> bool:
+def _is_valid_hull(unit: Floats, kept: Ints, faces: Ints, reach: float) -> bool:
     """Whether the hull is what it should be, with all points inside to `reach`."""
     vertices = unit[kept]
     return (
         is_closed(faces)
-        and outward(vertices, faces)
+        and is_outward(vertices, faces)
         and is_convex(vertices, faces, _CONVEXITY)
         and (len(kept) == len(unit) or not rises_above(np.delete(unit, kept, axis=0), vertices, faces, reach))
     )
+
+
+def prune_vertices(
+    unit: Floats, attempt: Callable[[Floats], HullIndices | None], altitude: float
+) -> HullIndices | None:
+    """The hull without vertices that are none: within `altitude` of an edge between two others, or inside a face."""
+    kept = np.arange(len(unit))
+    for _ in range(_ROUNDS):
+        made = attempt(unit[kept])
+        if made is None:
+            return None
+        vertices, faces = kept[made[0]], made[1]
+        spare = _find_spare_vertices(unit[vertices], faces, altitude) or _find_flat_vertices(
+            unit[vertices], faces, altitude
+        )
+        if len(spare) == 0:
+            return vertices, faces
+        kept = np.delete(vertices, spare)
+    return None
+
+
+def _find_flat_vertices(vertices: Floats, faces: Ints, angle: float) -> list[int]:
+    """Vertices whose faces lie in one plane or two, to `angle` [rad]: no corners, they can all go at once."""
+    a, b, c = (vertices[faces[:, k]] for k in range(3))
+    normals = cross(b - a, c - a)
+    normals /= np.linalg.norm(normals, axis=1, keepdims=True)
+    spread = np.zeros((len(vertices), 3, 3))
+    np.add.at(spread, faces.ravel(), np.repeat(normals[:, :, None] * normals[:, None, :], 3, axis=0))
+    return [int(k) for k in np.flatnonzero(np.linalg.eigvalsh(spread)[:, 0] < angle * angle)]
+
+
+def _find_spare_vertices(vertices: Floats, faces: Ints, altitude: float) -> list[int]:
+    """Vertices that can go at once, each next to an edge whose ends stay."""
+    heights, apex = lowest_altitudes(vertices, faces)
+    spare: list[int] = []
+    staying: set[int] = set()
+    for k in np.flatnonzero(heights < altitude)[np.argsort(heights[heights < altitude], kind="stable")]:
+        corner = int(faces[k, apex[k]])
+        ends = {int(faces[k, (apex[k] + 1) % 3]), int(faces[k, (apex[k] + 2) % 3])}
+        if corner not in staying and corner not in spare and ends.isdisjoint(spare):
+            spare.append(corner)
+            staying |= ends
+    return spare
+
+
+def hull_by_manifold(points: Floats) -> HullIndices | None:
+    """The hull by manifold3d; it leaves out points within 1e-7 of it. None where it finds none."""
+    points = points + 0.0  # no negative zeros: vertices are found again by their bytes
+    mesh = manifold3d.Manifold.hull_points(points).to_mesh64()
+    faces = np.asarray(mesh.tri_verts, dtype=np.int64)
+    if len(faces) < 4:
+        return None
+    index = dict(zip(_bytes_of_rows(points)[::-1], range(len(points) - 1, -1, -1), strict=True))
+    vertices = np.asarray(mesh.vert_properties, dtype=np.float64)[:, :3] + 0.0
+    return np.array([index[row] for row in _bytes_of_rows(vertices)]), faces
+
+
+def _bytes_of_rows(points: Floats) -> list[bytes]:
+    """The bytes of each of points (n, 3)."""
+    rows: list[bytes] = np.ascontiguousarray(points).view("V24").ravel().tolist()
+    return rows
+
+
+def hull_by_qhull(points: Floats) -> HullIndices | None:
+    """The hull by Qhull; None where it finds none."""
+    from scipy.spatial import ConvexHull, QhullError  # lazy: half of the import time of geometry, hardly ever needed
+
+    try:
+        hull = ConvexHull(points)
+    except (QhullError, ValueError):
+        return None
+    used, faces = np.unique(hull.simplices, return_inverse=True)
+    vertices, faces = points[used], faces.reshape(-1, 3).copy()
+    a, b, c = (vertices[faces[:, k]] for k in range(3))
+    inward = np.einsum("ij,ij->i", np.cross(b - a, c - a), a - vertices.mean(axis=0)) < 0
+    faces[inward] = faces[inward][:, ::-1]
+    return used.astype(np.int64), faces

@@ -1,14 +1,19 @@
-"""Rigid transforms: where a shape or a body is."""
+"""Rigid transforms, and rotations: the 24 axis-aligned ones, the smallest between two directions, quaternions."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import itertools
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import cache
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
-from meshforge.geometry.arrays import Floats, frozen_floats
+from meshforge.geometry.arrays import Floats, freeze_floats
+
+_ROUNDING = 1e-9  # an entry this near -1, 0 or 1 is one of them
 
 
 @dataclass(frozen=True, eq=False, slots=True, init=False)
@@ -22,8 +27,8 @@ class Pose:
     translation: Floats
 
     def __init__(self, rotation: npt.ArrayLike, translation: npt.ArrayLike) -> None:
-        object.__setattr__(self, "rotation", frozen_floats(rotation, (3, 3)))
-        object.__setattr__(self, "translation", frozen_floats(translation, (3,)))
+        object.__setattr__(self, "rotation", freeze_floats(rotation, (3, 3)))
+        object.__setattr__(self, "translation", freeze_floats(translation, (3,)))
 
     @staticmethod
     def identity() -> Pose:
@@ -81,3 +86,94 @@ class Pose:
     def apply(self, points: Floats) -> Floats:
         """Points (n, 3) in b to points (n, 3) in a."""
         return points @ self.rotation.T + self.translation
+
+
+@cache
+def axis_aligned_rotations() -> tuple[Floats, ...]:
+    """The 24 rotations that take axes to axes, (3, 3) each, in a fixed order with the identity first."""
+    turns = []
+    for order in itertools.permutations(range(3)):
+        for signs in itertools.product((1.0, -1.0), repeat=3):
+            matrix = np.zeros((3, 3))
+            matrix[range(3), order] = signs
+            if np.linalg.det(matrix) > 0:
+                turns.append(matrix)
+    return tuple(turns)
+
+
+def snap_rotation(rotation: Floats) -> Floats:
+    """The rotation itself, or the axis-aligned one that it is but for rounding."""
+    rounded = np.rint(rotation) + 0.0
+    return rounded if np.abs(rotation - rounded).max() <= _ROUNDING else rotation
+
+
+def rotation_about(axis: Floats, angle: float) -> Floats:
+    """The rotation by an angle [rad] about a unit vector (3,), by the right-hand rule."""
+    x, y, z = axis
+    cross = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
+    turn: Floats = np.eye(3) + np.sin(angle) * cross + (1.0 - np.cos(angle)) * (cross @ cross)
+    return turn
+
+
+def smallest_rotation(start: Floats, end: Floats) -> Floats:
+    """The smallest rotation that takes the unit vector `start` to the axis `end` (3,).
+
+    For opposite ones it is the half turn about the axis that follows `end` in the order X, Y, Z, X.
+    """
+    normal = np.cross(start, end)
+    sine, cosine = float(np.linalg.norm(normal)), float(start @ end)
+    if sine > _ROUNDING:
+        return rotation_about(normal / sine, float(np.arctan2(sine, cosine)))
+    if cosine > 0:
+        return np.eye(3)
+    return np.diag(np.where(np.roll(np.abs(np.rint(end)), 1) > 0, 1.0, -1.0))
+
+
+def nearest_aligned_rotation(rotation: Floats) -> Floats:
+    """The axis-aligned rotation nearest to another; of equally near ones the nearest to the identity."""
+    return _best_aligned(lambda turn: float(np.trace(turn.T @ rotation)))
+
+
+def nearest_aligned_rotation_between(start: Floats, end: Floats) -> Floats:
+    """The axis-aligned rotation that takes `start` nearest to `end` (3,); of these the nearest to the identity."""
+    return _best_aligned(lambda turn: float(end @ turn @ start))
+
+
+def _best_aligned(likeness: Callable[[Floats], float]) -> Floats:
+    best = max(map(likeness, axis_aligned_rotations()))
+    tied = [turn for turn in axis_aligned_rotations() if likeness(turn) >= best - _ROUNDING]
+    return max(tied, key=lambda turn: float(np.trace(turn)))
+
+
+def rotation_of_quaternion(quaternion: npt.ArrayLike) -> Floats:
+    """The rotation (3, 3) of a quaternion (4,), w x y z, of any length but zero."""
+    return np.array(_rotation_rows(np.asarray(quaternion) / np.linalg.norm(quaternion)))
+
+
+def rotations_of_quaternions(quaternions: Floats) -> Floats:
+    """Rotations (k, 3, 3) of quaternions (k, 4), scalar first, of any length."""
+    rows = _rotation_rows((quaternions / np.linalg.norm(quaternions, axis=1, keepdims=True)).T)
+    return np.moveaxis(np.array(rows), 2, 0)
+
+
+def _rotation_rows(unit: Floats) -> list[list[Any]]:
+    """The rows of the rotation of a unit quaternion (4,), or of many at once (4, k)."""
+    w, x, y, z = unit
+    return [
+        [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
+        [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
+        [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
+    ]
+
+
+def quaternions_of_rotations(rotations: Floats) -> Floats:
+    """Quaternions (k, 4) of rotations (k, 3, 3), as eigenvectors of a symmetric matrix of each (Bar-Itzhack)."""
+    r = np.moveaxis(rotations, 0, 2)
+    form = np.zeros((len(rotations), 4, 4))
+    form[:, 0, 0] = np.trace(r)
+    for k in range(3):
+        i, j = (k + 1) % 3, (k + 2) % 3
+        form[:, k + 1, k + 1] = r[k, k] - r[i, i] - r[j, j]
+        form[:, i + 1, j + 1] = form[:, j + 1, i + 1] = r[i, j] + r[j, i]
+        form[:, 0, k + 1] = form[:, k + 1, 0] = r[j, i] - r[i, j]
+    return np.linalg.eigh(form)[1][:, :, -1]

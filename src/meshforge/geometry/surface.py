@@ -1,13 +1,21 @@
-"""What can be told of a triangle surface: closed, outward, convex, slivers."""
+"""Properties of triangle surfaces: closed, convex, facing outwards, planes of faces, flat polygons."""
 
 from __future__ import annotations
+
+from dataclasses import dataclass
 
 import numpy as np
 
 from meshforge.geometry.arrays import Floats, Ints, cross
-from meshforge.geometry.heights import planes_of, rises_above
+from meshforge.geometry.connectivity import edges_of
+from meshforge.geometry.shape import Polytope
 
-_ALL_PAIRS = 50_000_000  # vertices times faces
+_MOST_PAIRS_CHECKED = 50_000_000  # vertices times faces
+_MOST_PAIRS_AT_ONCE = 1_000_000  # points times planes; beyond, most are ruled out by the boxes of groups of points
+_GROUP = 128
+
+LEVEL = 1e-5
+"""Neighbouring triangles that are bent by no more than this [rad] lie in one plane."""
 
 
 def is_closed(faces: Ints) -> bool:
@@ -27,15 +35,15 @@ def is_convex(vertices: Floats, faces: Ints, tolerance: float = 1e-9) -> bool:
     many faces each is held against its neighbours only: a closed surface like a sphere that bends outward at every
     edge is convex (Tietze, Nakajima), and all pairs would take minutes.
     """
-    if len(vertices) * len(faces) <= _ALL_PAIRS or not is_closed(faces):
+    if len(vertices) * len(faces) <= _MOST_PAIRS_CHECKED or not is_closed(faces):
         return not rises_above(vertices, vertices, faces, tolerance * _size(vertices))
     is_sphere = len(np.unique(faces)) - len(faces) // 2 == 2
     return is_sphere and _highest_neighbour(vertices, faces) <= tolerance * _size(vertices)
 
 
-def neighbours(faces: Ints) -> Ints:
+def neighbour_faces(faces: Ints) -> Ints:
     """The pairs (k, 2) of faces (m, 3) that share an edge."""
-    edges = np.sort(np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]]), axis=1)
+    edges, _ = edges_of(faces)
     order = np.lexsort((edges[:, 1], edges[:, 0]))
     owners = np.tile(np.arange(len(faces)), 3)[order]
     same = (edges[order][1:] == edges[order][:-1]).all(axis=1)
@@ -46,8 +54,8 @@ def _highest_neighbour(vertices: Floats, faces: Ints) -> float:
     """How far [m] any corner lies above the plane of a face that shares an edge with its own."""
     planes = planes_of(vertices, faces)
     place = np.full(len(faces), -1)
-    place[planes.kept] = np.arange(len(planes.kept))
-    pairs = neighbours(faces)
+    place[planes.face_indices] = np.arange(len(planes.face_indices))
+    pairs = neighbour_faces(faces)
     pairs = np.concatenate([pairs, pairs[:, ::-1]])
     pairs = pairs[place[pairs[:, 0]] >= 0]
     plane = place[pairs[:, 0]]
@@ -56,7 +64,7 @@ def _highest_neighbour(vertices: Floats, faces: Ints) -> float:
     return float(heights.max(initial=-np.inf))
 
 
-def outward(vertices: Floats, faces: Ints) -> bool:
+def is_outward(vertices: Floats, faces: Ints) -> bool:
     """Whether the faces (m, 3) of a convex surface all show their front to the outside: none faces its middle."""
     return bool((planes_of(vertices, faces).offsets > 0).all())
 
@@ -74,3 +82,71 @@ def lowest_altitudes(vertices: Floats, faces: Ints) -> tuple[Floats, Ints]:
 
 def _size(vertices: Floats) -> float:
     return float(np.ptp(vertices, axis=0).max())
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Planes:
+    """Planes of faces: unit normals (k, 3), offsets (k,) from the middle (3,), and the numbers (k,) of the faces."""
+
+    normals: Floats
+    offsets: Floats
+    middle: Floats
+    face_indices: Ints
+
+
+def planes_of(vertices: Floats, faces: Ints) -> Planes:
+    """The planes of the faces (m, 3) that are no needles: of these the plane is noise."""
+    middle = vertices.mean(axis=0)
+    around = vertices - middle
+    a, b, c = (around[faces[:, k]] for k in range(3))
+    normals = cross(b - a, c - a)
+    lengths = np.sqrt(np.einsum("ij,ij->i", normals, normals))
+    kept = np.flatnonzero(lengths > 1e-10 * _size(vertices) ** 2)
+    normals = normals[kept] / lengths[kept, None]
+    return Planes(normals, np.einsum("ij,ij->i", normals, a[kept]), middle, kept)
+
+
+def rises_above(points: Floats, vertices: Floats, faces: Ints, height: float) -> bool:
+    """Whether any of points (n, 3) lies more than `height` [m] above a face plane of a convex surface."""
+    planes = planes_of(vertices, faces)
+    points = points - planes.middle
+    limits = planes.offsets + height
+    if len(points) * len(limits) > _MOST_PAIRS_AT_ONCE:
+        return _some_group_rises(points, planes.normals, limits)
+    return bool((points @ planes.normals.T > limits).any())
+
+
+def _some_group_rises(points: Floats, normals: Floats, limits: Floats) -> bool:
+    """Whether any of many points rises above a plane: by groups that lie together, whose box bounds the reach."""
+    from scipy.spatial import cKDTree  # lazy: slow to import, only very large surfaces need it
+
+    slopes = np.abs(normals)
+    for group in np.array_split(points[cKDTree(points).indices], len(points) // _GROUP + 1):
+        low, high = group.min(axis=0), group.max(axis=0)
+        reach = normals @ ((low + high) / 2) + slopes @ ((high - low) / 2)
+        near = np.flatnonzero(reach * (1 + 1e-12) > limits)
+        if len(near) and (group @ normals[near].T > limits[near]).any():
+            return True
+    return False
+
+
+def polygon_sizes(hull: Polytope) -> tuple[int, ...]:
+    """The number of vertices of each flat polygon of a hull."""
+    from scipy.sparse import coo_array  # lazy: slow to import, only engine limits and simplifying need it
+    from scipy.sparse.csgraph import connected_components  # lazy: as coo_array
+
+    pairs = neighbour_faces(hull.faces)
+    normals = normals_of(hull)
+    bend = np.linalg.norm(np.cross(normals[pairs[:, 0]], normals[pairs[:, 1]]), axis=1)
+    level = pairs[bend <= LEVEL]
+    links = coo_array((np.ones(len(level)), (level[:, 0], level[:, 1])), shape=(len(hull.faces),) * 2)
+    count, polygon = connected_components(links, directed=False)
+    corners = np.unique(np.column_stack([np.repeat(polygon, 3), hull.faces.ravel()]), axis=0)
+    return tuple(np.bincount(corners[:, 0], minlength=count).tolist())
+
+
+def normals_of(hull: Polytope) -> Floats:
+    """The unit normals (m, 3) of a hull's triangles; of a needle, something shorter."""
+    a, b, c = (hull.vertices[hull.faces[:, k]] for k in range(3))
+    normals = np.cross(b - a, c - a)
+    return np.asarray(normals / np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), np.finfo(float).tiny))

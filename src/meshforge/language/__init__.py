@@ -1,43 +1,40 @@
 """The language of programs: extractors, actions, orientation; parsing, printing, evaluating and running them."""
 
-from meshforge.language.actions import (
-    ACTIONS,
+from meshforge.language.actions.base import (
     AXES,
     PRIMITIVES,
     Action,
-    Add,
-    Delete,
-    Each,
-    Merge,
-    Replace,
-    Scale,
+    ArgumentType,
+    FactorArgument,
+    FileArgument,
+    FlagArgument,
+    PrimitiveOrFileArgument,
+    WordArgument,
 )
-from meshforge.language.apply import Applied, apply_action
-from meshforge.language.evaluate import (
-    SLACK,
-    attach_mask,
-    geo_mask,
-    label_mask,
-    labels_used,
-    length,
-    select,
-    select_mask,
-    size,
+from meshforge.language.actions.basic import ACTIONS, Delete, Each, Merge, Scale
+from meshforge.language.actions.edit import Template
+from meshforge.language.actions.insert import Add, Replace
+from meshforge.language.apply import (
+    ActionResult,
+    RuleTrace,
+    apply_action,
+    apply_rule,
+    from_canonical_frame,
+    to_canonical_frame,
 )
 from meshforge.language.explain import explain
 from meshforge.language.orient import orient_mesh
 from meshforge.language.parse import parse_action, parse_extractor, parse_orient
-from meshforge.language.print import show, show_label
-from meshforge.language.program import Comments, HeaderComments, Program, Rule
-from meshforge.language.rename import rename_in_orient, rename_in_program
-from meshforge.language.run import RuleTrace, RunResult, apply_rule, stage, unstage
+from meshforge.language.print import Comments, Rule, show, show_label
+from meshforge.language.program import HeaderComments, Program, RunResult, rename_in_program
 from meshforge.language.syntax import (
     DIRECTIONS,
     EXTREMITY,
     OPERATORS,
+    SLACK,
     All,
     Attach,
-    Base,
+    BaseExtractor,
     Diff,
     Direction,
     Extractor,
@@ -47,8 +44,16 @@ from meshforge.language.syntax import (
     LandmarkPair,
     Orient,
     Union,
+    attach_mask,
+    check_declared,
+    geo_mask,
+    labels_of,
+    reference_length,
+    rename_in_orient,
+    select,
+    select_mask,
+    size_of,
 )
-from meshforge.language.template import Template
 
 __all__ = [
     "ACTIONS",
@@ -59,17 +64,21 @@ __all__ = [
     "PRIMITIVES",
     "SLACK",
     "Action",
+    "ActionResult",
     "Add",
     "All",
-    "Applied",
+    "ArgumentType",
     "Attach",
-    "Base",
+    "BaseExtractor",
     "Comments",
     "Delete",
     "Diff",
     "Direction",
     "Each",
     "Extractor",
+    "FactorArgument",
+    "FileArgument",
+    "FlagArgument",
     "Geo",
     "HeaderComments",
     "Intersect",
@@ -77,6 +86,7 @@ __all__ = [
     "LandmarkPair",
     "Merge",
     "Orient",
+    "PrimitiveOrFileArgument",
     "Program",
     "Replace",
     "Rule",
@@ -85,25 +95,26 @@ __all__ = [
     "Scale",
     "Template",
     "Union",
+    "WordArgument",
     "apply_action",
     "apply_rule",
     "attach_mask",
+    "check_declared",
     "explain",
+    "from_canonical_frame",
     "geo_mask",
-    "label_mask",
-    "labels_used",
-    "length",
+    "labels_of",
     "orient_mesh",
     "parse_action",
     "parse_extractor",
     "parse_orient",
+    "reference_length",
     "rename_in_orient",
     "rename_in_program",
     "select",
     "select_mask",
     "show",
     "show_label",
-    "size",
-    "stage",
-    "unstage",
+    "size_of",
+    "to_canonical_frame",
 ]

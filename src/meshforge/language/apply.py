@@ -1,24 +1,40 @@
-"""One action on one selection: the edited mesh, and what was made of what."""
+"""One action on one selection, every new shape verified; one rule on one mesh in the canonical frame; and the way into
+that frame and back."""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, replace
+from typing import Any
 
-from meshforge.geometry import FLATNESS
-from meshforge.language.actions import Action, Edit, Group, Made
-from meshforge.language.evaluate import length
-from meshforge.language.inheritance import inheritance_notes
-from meshforge.language.sound import sound
-from meshforge.language.template import Template, check_templates
-from meshforge.symbolic import Hull, Label, SymbolicMesh, bits
+import numpy as np
 
-_MADE = re.compile(r"~\d+$")
+from meshforge.common import join_names
+from meshforge.geometry import (
+    FLATNESS,
+    Polytope,
+    Pose,
+    Shape,
+    convex_hull,
+    is_closed,
+    is_convex,
+    is_outward,
+    spans_volume,
+)
+from meshforge.language.actions.base import Action
+from meshforge.language.actions.edit import GroupEdit, HullGroup, NewShape, Template, check_templates
+from meshforge.language.orient import orient_mesh
+from meshforge.language.print import Rule
+from meshforge.language.syntax import EXTREMITY, Orient, reference_length, select_mask
+from meshforge.symbolic import Hull, Label, SymbolicMesh, bits_of
+
+_NEW_SUFFIX = re.compile(r"~\d+$")
+_CONVEXITY = 1e-7  # relative to the size
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class Applied:
+class ActionResult:
     """The outcome of one action.
 
     made: names of the made hulls; sources: for each of them, the names of the hulls it was made from.
@@ -39,28 +55,30 @@ def apply_action(
     templates: Mapping[str, Template] | None = None,
     label: str | None = None,
     used: frozenset[str] = frozenset(),
-) -> Applied:
+) -> ActionResult:
     """Does an action to the hulls of a bit set, in the frame the mesh is in.
 
-    label: for what is made, None takes over that of the largest hull; used: as of the `Applied` before, in a run
-    of several. Kept hulls stay the same objects, made ones follow after them.
+    label: for what is made, None takes over that of the largest hull; used: in a run of several actions, the names
+    that the result before has. Kept hulls stay the same objects, made ones follow after them.
     Raises ProgramError for a missing template, GeometryError where no sound shape can be made.
     """
     templates = templates or {}
     check_templates(action.templates, templates)
     if not selected_mask:
-        return Applied(mesh, note="nothing selected", used=used)
-    groups = [_group(mesh, part, templates) for part in action.groups(mesh, selected_mask)]
+        return ActionResult(mesh, note="nothing selected", used=used)
+    groups = [_make_group(mesh, part, templates) for part in action.groups(mesh, selected_mask)]
     edits = [action.edit(group) for group in groups]
-    taken = set(used | used_names(mesh))
-    made = [(hull, m) for edit in edits for m in edit.made for hull in [_born(m, label, taken, length(mesh))]]
+    taken = set(used | names_in_use(mesh))
+    made = [
+        (hull, m) for edit in edits for m in edit.made for hull in [_make_hull(m, label, taken, reference_length(mesh))]
+    ]
     gone = {hull.name for group, edit in zip(groups, edits, strict=True) if edit.removes for hull in group.hulls}
-    renamed = _relabelled(groups, edits, label)
+    renamed = _relabel(groups, edits, label)
     kept = [renamed.get(hull.name, hull) for hull in mesh.hulls if hull.name not in gone]
     inherited = inheritance_notes((m for _, m in made), mesh)
     notes = dict.fromkeys([*(edit.note for edit in edits if edit.note), *inherited])
     changed = bool(made or gone or renamed)
-    return Applied(
+    return ActionResult(
         mesh.with_hulls([*kept, *(hull for hull, _ in made)]) if changed else mesh,
         tuple(hull.name for hull, _ in made),
         "; ".join(notes) or None,
@@ -69,29 +87,29 @@ def apply_action(
     )
 
 
-def used_names(mesh: SymbolicMesh) -> frozenset[str]:
+def names_in_use(mesh: SymbolicMesh) -> frozenset[str]:
     """The names that a made hull must not take: those of the mesh and of the file it came from."""
     source = mesh.asset.geoms if mesh.asset else ()
     return frozenset([hull.name for hull in mesh.hulls] + [geom.name for geom in source])
 
 
-def _group(mesh: SymbolicMesh, mask: int, templates: Mapping[str, Template]) -> Group:
-    return Group(tuple(mesh.hulls[index] for index in sorted(bits(mask))), length(mesh), templates)
+def _make_group(mesh: SymbolicMesh, mask: int, templates: Mapping[str, Template]) -> HullGroup:
+    return HullGroup(tuple(mesh.hulls[index] for index in sorted(bits_of(mask))), reference_length(mesh), templates)
 
 
-def _born(made: Made, label: str | None, taken: set[str], reference: float) -> Hull:
+def _make_hull(made: NewShape, label: str | None, taken: set[str], reference: float) -> Hull:
     """The hull of a made shape, verified and named; its name is added to those taken."""
     heir = made.heir
-    shape = sound(made.shape, heir.name, FLATNESS * reference)
-    stem = heir.name if heir.parent is None else _MADE.sub("", heir.name)
+    shape = ensure_valid(made.shape, heir.name, FLATNESS * reference)
+    stem = heir.name if heir.parent is None else _NEW_SUFFIX.sub("", heir.name)
     count = 1
     while f"{stem}~{count}" in taken:
         count += 1
     taken.add(f"{stem}~{count}")
-    return Hull(f"{stem}~{count}", heir.body, shape, _annotation(heir, label), heir.parent or heir.name)
+    return Hull(f"{stem}~{count}", heir.body, shape, _label_of_new(heir, label), heir.parent or heir.name)
 
 
-def _annotation(heir: Hull, label: str | None) -> Label | None:
+def _label_of_new(heir: Hull, label: str | None) -> Label | None:
     """The label of a made hull; one that the program sets is as sure as the program."""
     if label is not None:
         return Label(label, source="edit")
@@ -99,9 +117,116 @@ def _annotation(heir: Hull, label: str | None) -> Label | None:
     return Label(known.name, known.confidence, "edit") if known else None
 
 
-def _relabelled(groups: list[Group], edits: list[Edit], label: str | None) -> dict[str, Hull]:
+def _relabel(groups: list[HullGroup], edits: list[GroupEdit], label: str | None) -> dict[str, Hull]:
     """The hulls of groups that an edit left whole (a merge of one), with the label that what is made would take."""
     if label is None:
         return {}
     whole = [g for g, edit in zip(groups, edits, strict=True) if not edit.removes and not edit.made]
-    return {hull.name: hull.labelled(_annotation(hull, label)) for group in whole for hull in group.hulls}
+    return {hull.name: hull.with_label(_label_of_new(hull, label)) for group in whole for hull in group.hulls}
+
+
+def inheritance_notes(made: Iterable[NewShape], mesh: SymbolicMesh) -> list[str]:
+    """A sentence for each hull whose sources differ in contact attributes: it takes those of the largest."""
+    known = {geom.name: dict(geom.contact) for geom in mesh.asset.geoms if geom.contact} if mesh.asset else {}
+    return [note for one in made if known and (note := _inheritance_note(one, known))]
+
+
+def _inheritance_note(made: NewShape, known: dict[str, dict[str, str]]) -> str | None:
+    values = [known[name] for hull in made.sources if (name := hull.parent or hull.name) in known]
+    names = dict.fromkeys(name for each in values for name in each)
+    differing = [name for name in names if len({each.get(name) for each in values}) > 1]
+    if not differing:
+        return None
+    return f"{join_names(differing)} as {made.heir.name} has it; the hulls beside it have another"
+
+
+def ensure_valid(shape: Shape, name: str, thickness: float) -> Shape:
+    """The shape itself where it is sound, else the convex hull of its points, thickened to `thickness` [m].
+
+    Raises GeometryError naming `name` where no sound shape can be made of it.
+    """
+    return shape if is_valid(shape) else convex_hull(shape.vertices, name=name, thicken=thickness)
+
+
+def is_valid(shape: Shape) -> bool:
+    """Whether a shape is finite, closed, convex, and spans a volume."""
+    with np.errstate(all="ignore"):
+        vertices, volume = shape.vertices, shape.volume
+    if not np.isfinite(vertices).all() or not (np.isfinite(volume) and volume > 0):
+        return False
+    return spans_volume(vertices) and (not isinstance(shape, Polytope) or _is_valid_polytope(shape))
+
+
+def _is_valid_polytope(shape: Polytope) -> bool:
+    vertices, faces = shape.vertices, shape.faces
+    return is_closed(faces) and is_outward(vertices, faces) and is_convex(vertices, faces, _CONVEXITY)
+
+
+@dataclass(frozen=True, slots=True)
+class RuleTrace:
+    """What one rule did on a mesh; rule: its number from 1; selected, made: names of hulls.
+
+    sources: for each made hull, the names of the hulls it was made from; note: what a user should know.
+    """
+
+    rule: int
+    selected: tuple[str, ...]
+    made: tuple[str, ...] = ()
+    note: str | None = None
+    sources: tuple[tuple[str, ...], ...] = ()
+
+    def to_json(self) -> dict[str, Any]:
+        """The trace as JSON-able data: rule, selected, made, note, and sources by made name."""
+        return {
+            "rule": self.rule,
+            "selected": list(self.selected),
+            "made": list(self.made),
+            "note": self.note,
+            "sources": {name: list(names) for name, names in zip(self.made, self.sources, strict=True)},
+        }
+
+
+def to_canonical_frame(
+    mesh: SymbolicMesh, orient: Orient | None, contact: float | None = None
+) -> tuple[SymbolicMesh, Pose]:
+    """The mesh as the first rule sees it: oriented, with L fixed; and the pose oriented_T_incoming.
+
+    contact: the program's epsilon, None keeps the mesh's.
+    """
+    oriented, pose = orient_mesh(mesh, orient)
+    staged = replace(oriented, epsilon=mesh.epsilon if contact is None else contact, scale=oriented.diagonal)
+    if oriented.known_graph is not None and staged.contact_distance == oriented.contact_distance:
+        staged.set_known_graph(oriented.known_graph)  # the same shapes and reach
+    return staged, pose
+
+
+def from_canonical_frame(incoming: SymbolicMesh, staged: SymbolicMesh, pose: Pose) -> SymbolicMesh:
+    """An edited mesh back in the frame it came in; pose: oriented_T_incoming. The inverse of `to_canonical_frame`."""
+    back = pose.inverse()
+    turned = not np.array_equal(pose.rotation, np.eye(3))
+    hulls = tuple(_restore_hull(incoming, hull, back if turned else None) for hull in staged.hulls)
+    same = incoming.scale is None and len(hulls) == len(incoming.hulls)
+    if same and all(a is b for a, b in zip(hulls, incoming.hulls, strict=True)):
+        return incoming
+    return replace(incoming, hulls=hulls, scale=None)
+
+
+def apply_rule(
+    mesh: SymbolicMesh,
+    rule: Rule,
+    templates: Mapping[str, Template] | None = None,
+    extremity: float | None = None,
+    used: frozenset[str] = frozenset(),
+) -> tuple[tuple[str, ...], ActionResult]:
+    """Names of the hulls that a rule selects in a staged mesh, and what its action makes of them."""
+    mask = select_mask(rule.extractor, mesh, EXTREMITY if extremity is None else extremity)
+    selected = tuple(mesh.hulls[index].name for index in sorted(bits_of(mask)))
+    return selected, apply_action(mesh, mask, rule.action, templates, rule.label, used)
+
+
+def _restore_hull(incoming: SymbolicMesh, hull: Hull, back: Pose | None) -> Hull:
+    """A hull in the incoming frame: the original where it was kept, relabelled where the program did so."""
+    if hull.name in incoming.index:
+        original = incoming.hull_of(hull.name)
+        return original if original.annotation == hull.annotation else original.with_label(hull.annotation)
+    return hull.move(back) if back else hull

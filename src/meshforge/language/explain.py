@@ -4,100 +4,100 @@ from __future__ import annotations
 
 from typing import assert_never
 
-from meshforge.language.actions import PRIMITIVES, Action, Add, Delete, Each, Merge, Replace, Scale
-from meshforge.language.actions.arguments import show_number
-from meshforge.language.print import WORD
-from meshforge.language.program import Rule
-from meshforge.language.syntax import All, Attach, Base, Diff, Extractor, Geo, Intersect, Is, Orient, Union
+from meshforge.language.actions.base import PRIMITIVES, Action, show_number
+from meshforge.language.actions.basic import Delete, Each, Merge, Scale
+from meshforge.language.actions.insert import Add, Replace
+from meshforge.language.print import WORD, Rule
+from meshforge.language.syntax import All, Attach, BaseExtractor, Diff, Extractor, Geo, Intersect, Is, Orient, Union
 
-_SOLIDS = {"box": "box", "cylinder": "cylinder", "capsule": "capsule", "sphere": "sphere or ellipsoid"}
+_SOLID_WORDS = {"box": "box", "cylinder": "cylinder", "capsule": "capsule", "sphere": "sphere or ellipsoid"}
 
 
 def explain(node: Rule | Orient | Extractor) -> str:
     """A sentence for a rule or an orientation, a noun phrase for an extractor."""
     match node:
         case Rule(extractor, action, label):
-            given = f"; what is made is labelled {_word(label)}" if label is not None else ""
-            sentence = f"{_deed(action, _subject(extractor))}{given}."
+            relabel = f"; what is made is labelled {_quote_label(label)}" if label is not None else ""
+            sentence = f"{_action_sentence(action, _subject_phrase(extractor))}{relabel}."
             return sentence[0].upper() + sentence[1:]
         case Orient():
-            return _turn(node)
+            return _explain_orient(node)
         case All() | Is():
-            return _all_of(node)
+            return _all_phrase(node)
         case Attach(selected) | Geo(selected):
-            return f"{_all_of(selected)} {_that(node)}"
+            return f"{_all_phrase(selected)} {_condition_phrase(node)}"
         case Union(left, right):
-            return f"{_operand(left)} and {_operand(right)}"
+            return f"{_operand_phrase(left)} and {_operand_phrase(right)}"
         case Intersect(left, right):
-            return f"{_operand(left)}, but only {_operand(right, left)}"
+            return f"{_operand_phrase(left)}, but only {_operand_phrase(right, left)}"
         case Diff(left, right):
-            return f"{_operand(left)}, except {_operand(right, left)}"
+            return f"{_operand_phrase(left)}, except {_operand_phrase(right, left)}"
         case _:
             assert_never(node)
 
 
-def _subject(extractor: Extractor) -> str:
+def _subject_phrase(extractor: Extractor) -> str:
     """The phrase before a verb: an insertion is closed by a comma."""
     return explain(extractor) + "," * isinstance(extractor, Intersect | Diff)
 
 
-def _that(part: Attach | Geo) -> str:
+def _condition_phrase(part: Attach | Geo) -> str:
     """What is asked of the hulls of a base."""
     match part:
         case Attach(selected, anchor):
-            return f"that touch {_one_of(anchor, other=selected)}"
+            return f"that touch {_one_phrase(anchor, other=selected)}"
         case Geo(_, direction):
             return f"that reach farthest along {direction}"
         case _:
             assert_never(part)
 
 
-def _operand(part: Extractor, of: Extractor | None = None) -> str:
+def _operand_phrase(part: Extractor, of: Extractor | None = None) -> str:
     """The phrase for one side of a set operator, in brackets where it is one itself; `of`: the side before it."""
     if (isinstance(part, Attach) and part.selected == of) or (isinstance(part, Geo) and part.base == of):
-        return f"those {_that(part)}"
+        return f"those {_condition_phrase(part)}"
     return f"({explain(part)})" if isinstance(part, Union | Intersect | Diff) else explain(part)
 
 
-def _all_of(base: Base) -> str:
-    return f"the {_word(base.label)} hulls" if isinstance(base, Is) else "all hulls"
+def _all_phrase(base: BaseExtractor) -> str:
+    return f"the {_quote_label(base.label)} hulls" if isinstance(base, Is) else "all hulls"
 
 
-def _one_of(anchor: Base, other: Base) -> str:
+def _one_phrase(anchor: BaseExtractor, other: BaseExtractor) -> str:
     """The phrase for a hull that is touched; `other` are those that touch it: none is its own neighbour."""
     if isinstance(anchor, All):
         return "any other hull"
-    word = _word(anchor.label)
+    word = _quote_label(anchor.label)
     article = "another" if anchor == other else "an" if word[0].lower() in "aeiou" else "a"
     return f"{article} {word} hull"
 
 
-def _word(label: str) -> str:
+def _quote_label(label: str) -> str:
     return label if WORD.fullmatch(label) else f"“{label}”"
 
 
-def _turn(orient: Orient) -> str:
-    ways = [f"{pair.axis} points from {_all_of(pair.start)} to {_all_of(pair.end)}" for pair in orient.pairs]
+def _explain_orient(orient: Orient) -> str:
+    ways = [f"{pair.axis} points from {_all_phrase(pair.start)} to {_all_phrase(pair.end)}" for pair in orient.pairs]
     how = "by quarter turns, so that, as nearly as they allow, " if orient.snap else "so that "
     return f"For reasoning, turn every asset {how}{' and '.join(ways)}."
 
 
-def _deed(action: Action, hulls: str) -> str:
+def _action_sentence(action: Action, hulls: str) -> str:
     """What an action does to `hulls`; a sentence without its end."""
     if isinstance(action, Each):
-        return f"each connected group of {hulls.removeprefix('the ')} is {_done(action.action, 'its')}"
+        return f"each connected group of {hulls.removeprefix('the ')} is {_action_phrase(action.action, 'its')}"
     parts = ", one for each body" if action.by_body else ""
-    return f"{hulls} are {_done(action, 'their')}{parts}"
+    return f"{hulls} are {_action_phrase(action, 'their')}{parts}"
 
 
-def _done(action: Action, whose: str) -> str:
+def _action_phrase(action: Action, whose: str) -> str:
     match action:
         case Delete():
             return "deleted"
         case Merge():
             return "merged into one convex hull"
         case Replace():
-            return f"replaced by {_substitute(action, whose)}"
+            return f"replaced by {_substitute_phrase(action, whose)}"
         case Add():
             size = "in its own size" if action.keep else "as large as fits"
             return f"given “{action.template}” at {whose} {action.direction} side, {size}"
@@ -108,11 +108,11 @@ def _done(action: Action, whose: str) -> str:
             raise TypeError(f"no words for {type(action).__name__}")
 
 
-def _substitute(action: Replace, whose: str) -> str:
+def _substitute_phrase(action: Replace, whose: str) -> str:
     if action.geometry not in PRIMITIVES:
         turned = " turned lengthwise and" if action.fit == "longest" else ""
         return f"“{action.geometry}”,{turned} stretched to fill {whose} bounding box"
-    solid = _SOLIDS[action.geometry]
+    solid = _SOLID_WORDS[action.geometry]
     if action.fit == "tight":
         return f"the smallest {solid} around {'it' if whose == 'its' else 'them'}, at any angle"
     return f"a {solid} that fills {whose} bounding box"

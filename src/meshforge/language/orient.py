@@ -4,17 +4,25 @@ from __future__ import annotations
 
 import numpy as np
 
-from meshforge.errors import ProgramError
-from meshforge.geometry import Floats, Pose
-from meshforge.language.evaluate import SLACK, select_mask
+from meshforge.common import ProgramError, join_names
+from meshforge.geometry import (
+    Floats,
+    Pose,
+    nearest_aligned_rotation,
+    nearest_aligned_rotation_between,
+    rotation_about,
+    smallest_rotation,
+    snap_rotation,
+)
 from meshforge.language.print import show
-from meshforge.language.squaring import squaring_turn
-from meshforge.language.syntax import Base, Direction, LandmarkPair, Orient
-from meshforge.language.turns import about, exact, nearest_aligned, nearest_aligned_taking, smallest
-from meshforge.symbolic import SymbolicMesh, bits
-from meshforge.words import listed
+from meshforge.language.syntax import SLACK, BaseExtractor, Direction, LandmarkPair, Orient, select_mask
+from meshforge.symbolic import SymbolicMesh, bits_of
 
 _PARALLEL = 1e-6  # sine of the angle below which two pairs count as giving one direction
+
+SQUARE_ENOUGH = 1.05
+"""The frame as it came is kept when its rectangle is at most this many times the smallest."""
+_EQUAL = 1e-9  # areas and angles that differ by less are equal
 
 
 def orient_mesh(mesh: SymbolicMesh, orient: Orient | None) -> tuple[SymbolicMesh, Pose]:
@@ -23,41 +31,41 @@ def orient_mesh(mesh: SymbolicMesh, orient: Orient | None) -> tuple[SymbolicMesh
     None, and a turn by nothing, give the mesh itself. Raises ProgramError naming a landmark that selects nothing,
     or landmarks that give no direction.
     """
-    rotation = exact(_rotation(mesh, orient)) if orient else np.eye(3)
+    rotation = snap_rotation(_find_rotation(mesh, orient)) if orient else np.eye(3)
     pose = Pose(rotation, np.zeros(3))
     if np.array_equal(rotation, np.eye(3)):
         return mesh, pose
-    return mesh.with_hulls(hull.moved(pose) for hull in mesh.hulls), pose
+    return mesh.with_hulls(hull.move(pose) for hull in mesh.hulls), pose
 
 
-def _rotation(mesh: SymbolicMesh, orient: Orient) -> Floats:
-    asked = [_direction(mesh, pair) for pair in orient.pairs]
-    axes = [_unit(pair.axis) for pair in orient.pairs]
-    if len(asked) == 2:
-        frame = _frame(asked[0], _across(asked, orient))
-        rotation: Floats = _frame(axes[0], axes[1]).T @ frame
-        return nearest_aligned(rotation) if orient.snap else rotation
+def _find_rotation(mesh: SymbolicMesh, orient: Orient) -> Floats:
+    directions = [_landmark_direction(mesh, pair) for pair in orient.pairs]
+    axes = [_axis_vector(pair.axis) for pair in orient.pairs]
+    if len(directions) == 2:
+        frame = _frame_of(directions[0], _perpendicular_part(directions, orient))
+        rotation: Floats = _frame_of(axes[0], axes[1]).T @ frame
+        return nearest_aligned_rotation(rotation) if orient.snap else rotation
     if orient.snap:
-        return nearest_aligned_taking(asked[0], axes[0])
-    return _squared(mesh, smallest(asked[0], axes[0]), "XYZ".index(orient.pairs[0].axis[1]))
+        return nearest_aligned_rotation_between(directions[0], axes[0])
+    return _square_up(mesh, smallest_rotation(directions[0], axes[0]), "XYZ".index(orient.pairs[0].axis[1]))
 
 
-def _squared(mesh: SymbolicMesh, upright: Floats, axis: int) -> Floats:
+def _square_up(mesh: SymbolicMesh, upright: Floats, axis: int) -> Floats:
     """The rotation `upright`, then the turn about the coordinate axis that squares up the footprint."""
     plane = [(axis + 1) % 3, (axis + 2) % 3]
     points = np.concatenate([hull.vertices for hull in mesh.hulls]) @ upright.T
-    turned: Floats = about(np.eye(3)[axis], squaring_turn(points[:, plane])) @ upright
+    turned: Floats = rotation_about(np.eye(3)[axis], square_up_angle(points[:, plane])) @ upright
     return turned
 
 
-def _frame(first: Floats, second: Floats) -> Floats:
+def _frame_of(first: Floats, second: Floats) -> Floats:
     """The rotation whose rows are two perpendicular unit vectors and the third by the right-hand rule."""
     return np.stack([first, second, np.cross(first, second)])
 
 
-def _across(asked: list[Floats], orient: Orient) -> Floats:
+def _perpendicular_part(directions: list[Floats], orient: Orient) -> Floats:
     """The part of the second direction that is perpendicular to the first, at unit length."""
-    first, second = asked
+    first, second = directions
     part = second - (second @ first) * first
     norm = float(np.linalg.norm(part))
     if norm < _PARALLEL:
@@ -70,9 +78,9 @@ def _across(asked: list[Floats], orient: Orient) -> Floats:
     return unit
 
 
-def _direction(mesh: SymbolicMesh, pair: LandmarkPair) -> Floats:
+def _landmark_direction(mesh: SymbolicMesh, pair: LandmarkPair) -> Floats:
     """The unit vector from the start of a pair to its end."""
-    (start, from_names), (end, to_names) = _landmark(mesh, pair.start), _landmark(mesh, pair.end)
+    (start, from_names), (end, to_names) = _landmark_centre(mesh, pair.start), _landmark_centre(mesh, pair.end)
     norm = float(np.linalg.norm(end - start))
     if norm <= SLACK * mesh.diagonal:
         raise ProgramError(
@@ -83,20 +91,52 @@ def _direction(mesh: SymbolicMesh, pair: LandmarkPair) -> Floats:
     return (end - start) / norm
 
 
-def _landmark(mesh: SymbolicMesh, base: Base) -> tuple[Floats, str]:
+def _landmark_centre(mesh: SymbolicMesh, base: BaseExtractor) -> tuple[Floats, str]:
     """The volume-weighted centroid (3,) of a selection, and the names of its hulls."""
-    hulls = [mesh.hulls[index] for index in sorted(bits(select_mask(base, mesh)))]
+    hulls = [mesh.hulls[index] for index in sorted(bits_of(select_mask(base, mesh)))]
     if not hulls:
-        raise ProgramError(
-            f"orient: the landmark {show(base)} selects nothing",
-            remedy="Label the hulls that it should select, or orient by another landmark.",
-        )
+        problem = f"orient: the landmark {show(base)} selects nothing"
+        raise ProgramError(problem, remedy="Label the hulls that it should select, or orient by another landmark.")
     volumes = np.array([hull.volume for hull in hulls])
     centroids = np.array([hull.shape.centroid for hull in hulls])
-    return volumes @ centroids / volumes.sum(), listed([hull.name for hull in hulls])
+    return volumes @ centroids / volumes.sum(), join_names([hull.name for hull in hulls])
 
 
-def _unit(direction: Direction) -> Floats:
+def _axis_vector(direction: Direction) -> Floats:
     unit = np.zeros(3)
     unit["XYZ".index(direction[1])] = 1.0 if direction[0] == "+" else -1.0
     return unit
+
+
+def square_up_angle(footprint: Floats) -> float:
+    """The angle [rad], at most an eighth of a turn, that squares up points (n, 2) which span an area.
+
+    Of the four quarter turns that do, it is the one nearest to the incoming frame (of two, the positive one).
+    A smallest rectangle has a side along an edge of the convex hull, so the edges are all that is tried.
+    """
+    from scipy.spatial import ConvexHull  # lazy: slow to import, only a single landmark pair needs it
+
+    outline = footprint[ConvexHull(footprint).vertices]
+    edges = np.roll(outline, -1, axis=0) - outline
+    turns = _fold_angles(-np.arctan2(edges[:, 1], edges[:, 0]))
+    areas = np.array([_rectangle_area(outline, turn) for turn in turns])
+    smallest = float(areas.min())
+    if _rectangle_area(outline, 0.0) <= smallest * SQUARE_ENOUGH:
+        return 0.0
+    tied = [float(turn) for turn in turns[areas <= smallest * (1 + _EQUAL)]]
+    nearest = min(abs(turn) for turn in tied)
+    return max(turn for turn in tied if abs(turn) <= nearest + _EQUAL)
+
+
+def _fold_angles(angles: Floats) -> Floats:
+    """The angles up to quarter turns, in (-pi/4, pi/4]; what is -pi/4 but for rounding counts as pi/4."""
+    quarter = np.pi / 2
+    low = -quarter / 2 + _EQUAL
+    folded: Floats = (angles - low) % quarter + low
+    return folded
+
+
+def _rectangle_area(outline: Floats, turn: float) -> float:
+    cosine, sine = np.cos(turn), np.sin(turn)
+    turned = outline @ np.array([[cosine, sine], [-sine, cosine]])
+    return float(np.prod(np.ptp(turned, axis=0)))

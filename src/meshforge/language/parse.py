@@ -1,65 +1,83 @@
-"""Program text to nodes; every error has its line, its column and a caret."""
+"""Program text to parse trees, comments and nodes. What a grammar cannot check is checked here; every error has its
+line, its column and a caret."""
 
 from __future__ import annotations
 
+import re
+from collections.abc import Iterable, Sequence
 from functools import cache
 from pathlib import Path
-from typing import TYPE_CHECKING, cast
+from typing import TYPE_CHECKING, Any, cast
 
-from meshforge.errors import ProgramError
-from meshforge.language.actions import Action
-from meshforge.language.build import build_extractor, build_orient, build_program
-from meshforge.language.build_action import build_action
-from meshforge.language.places import Source
-from meshforge.language.program import Program
-from meshforge.language.syntax import Extractor, Orient
-from meshforge.language.syntax_errors import syntax_error
-from meshforge.language.trees import Text
+from meshforge.common import ProgramError
+from meshforge.language.actions.base import (
+    Action,
+    ActionArgument,
+    ArgumentType,
+    FileArgument,
+    TokenKind,
+    join_alternatives,
+)
+from meshforge.language.actions.basic import ACTIONS
+from meshforge.language.print import CommentLines, Comments, Rule
+from meshforge.language.syntax import (
+    OPERATORS,
+    All,
+    Attach,
+    BaseExtractor,
+    Diff,
+    Direction,
+    Extractor,
+    Geo,
+    Intersect,
+    Is,
+    LandmarkPair,
+    Orient,
+    Union,
+    check_direction,
+    check_threshold,
+)
+from meshforge.language.text import (
+    Node,
+    ProgramText,
+    TreeReader,
+    likely_word,
+    quote_code,
+    start_of,
+    subtrees_of,
+    syntax_error,
+    tokens_of,
+)
 
-if TYPE_CHECKING:
-    from lark import Lark, Token, Tree
+if TYPE_CHECKING:  # lark is loaded where a program is parsed
+    from lark import Lark, Token
 
-
-def parse(text: str, name: str = "program") -> Program:
-    """The program in a text. Raises ProgramError at `name:line:column`."""
-    source = Source(text.removeprefix("\ufeff").removesuffix("\n") + "\n", name)
-    try:
-        return build_program(source, _tree(source, "program"))
-    except RecursionError:
-        raise ProgramError("its extractors are nested too deep", where=name) from None
-
-
-def read(path: Path) -> Program:
-    """The program in a file. Raises ProgramError where it cannot be read or does not parse."""
-    try:
-        return parse(path.read_text(encoding="utf-8"), str(path))
-    except OSError as error:
-        raise ProgramError(f"the program cannot be read ({error.strerror})", where=str(path)) from None
-    except UnicodeDecodeError:
-        raise ProgramError("the program is not text in UTF-8", where=str(path)) from None
+_SET_OPERATORS: dict[str, type[Union | Intersect | Diff]] = {"union": Union, "intersect": Intersect, "diff": Diff}
+_TOKEN_KINDS: dict[str, TokenKind] = {"NAME": "word", "STRING": "text", "NUMBER": "number", "DIRECTION": "direction"}
+_TEXT_OR_COMMENT = re.compile(r'"(?:[^"\\\n]|\\.)*"|#(?P<comment>[^\n]*)')
 
 
 def parse_extractor(text: str, name: str = "extractor") -> Extractor:
     """The extractor in a text; any label is known. Raises ProgramError at `name:line:column`."""
-    source = Source(text.strip(), name)
-    return build_extractor(Text(source), _child(_tree(source, "only_extractor")))
+    source = ProgramText(text.strip(), name)
+    return build_extractor(TreeReader(source), _only_child(parse_tree(source, "only_extractor")))
 
 
 def parse_action(text: str, name: str = "action") -> Action:
     """The action in a text. Raises ProgramError at `name:line:column`."""
-    source = Source(text.strip(), name)
-    return build_action(Text(source), _child(_tree(source, "only_action")))
+    source = ProgramText(text.strip(), name)
+    return build_action(TreeReader(source), _only_child(parse_tree(source, "only_action")))
 
 
 def parse_orient(text: str, name: str = "orient") -> Orient:
     """The orientation directive in a text, `orient ...` as in a program. Raises ProgramError at `name:line:column`."""
-    source = Source(text.strip(), name)
-    return build_orient(Text(source), _child(_tree(source, "only_orient")))
+    source = ProgramText(text.strip(), name)
+    return build_orient(TreeReader(source), _only_child(parse_tree(source, "only_orient")))
 
 
 @cache
 def _grammar() -> Lark:
-    from lark import Lark
+    from lark import Lark  # lazy: most runs parse no program
 
     return Lark(
         Path(__file__).with_name("grammar.lark").read_text(encoding="utf-8"),
@@ -70,17 +88,16 @@ def _grammar() -> Lark:
     )
 
 
-def _tree(source: Source, start: str) -> Tree[Token]:
+def parse_tree(source: ProgramText, start: str) -> Node:
     """The parse tree of a text. Raises ProgramError where it has none."""
-    from lark import Token, UnexpectedCharacters, UnexpectedToken
-    from lark.exceptions import UnexpectedInput
+    from lark import Token, UnexpectedCharacters, UnexpectedInput, UnexpectedToken  # lazy: most runs parse no program
 
     parsing = _grammar().parse_interactive(source.text, start=start)
     before = ""
     try:
         for token in parsing.iter_parse():
             before = str(token)
-        return cast("Tree[Token]", parsing.feed_token(Token("$END", "")))
+        return cast(Node, parsing.feed_token(Token("$END", "")))
     except UnexpectedInput as error:
         at_end = isinstance(error, UnexpectedToken) and error.token.type == "$END"
         assert isinstance(error, UnexpectedCharacters | UnexpectedToken)
@@ -89,9 +106,173 @@ def _tree(source: Source, start: str) -> Tree[Token]:
         raise syntax_error(source, offset, accepted, before) from None
 
 
-def _child(tree: Tree[Token]) -> Tree[Token]:
-    from lark import Tree
-
-    (child,) = tree.children
-    assert isinstance(child, Tree)
+def _only_child(tree: Node) -> Node:
+    (child,) = subtrees_of(tree)
     return child
+
+
+def attach_comments(text: str, lines: Sequence[int]) -> tuple[list[Comments], CommentLines]:
+    """The comments of the statements on some lines (from 1, rising), and those after the last one.
+
+    A comment alone on its line belongs to the next statement; empty lines between are kept, several as one.
+    """
+    found = [_comment_of(line) for line in text.split("\n")]
+    comments, done = [], 0
+    for line in lines:
+        comments.append(Comments(_squeeze_blanks(found[done : line - 1], first=done == 0), found[line - 1]))
+        done = line
+    end = _squeeze_blanks(found[done:], first=done == 0)
+    return comments, end[:-1] if end[-1:] == (None,) else end
+
+
+def _comment_of(line: str) -> str | None:
+    """The comment in a line of program text, without its `#`."""
+    for match in _TEXT_OR_COMMENT.finditer(line):
+        if match["comment"] is not None:
+            return match["comment"].rstrip()
+    return None
+
+
+def _squeeze_blanks(lines: Iterable[str | None], *, first: bool) -> CommentLines:
+    """The lines with several empty ones as one, and none at the start of a text."""
+    out: list[str | None] = []
+    for line in lines:
+        if line is not None or (out[-1] is not None if out else not first):
+            out.append(line)
+    return tuple(out)
+
+
+def build_rule(text: TreeReader, tree: Node, comments: Comments) -> Rule:
+    """The rule of a `rule` node."""
+    extractor, action, *label = subtrees_of(tree)
+    parts = build_extractor(text, extractor), build_action(text, action), text.read_label(label[0]) if label else None
+    return text.locate_errors(label[0] if label else tree, lambda: Rule(*parts, comments))
+
+
+def build_extractor(text: TreeReader, tree: Node) -> Extractor:
+    """The extractor of a node of the grammar's `extractor`."""
+    match tree.data:
+        case "attach":
+            selected, anchor = subtrees_of(tree)
+            return Attach(_build_base(text, selected), _build_base(text, anchor))
+        case "geo":
+            return Geo(_build_base(text, subtrees_of(tree)[0]), _build_direction(text, tokens_of(tree)[0]))
+        case "union" | "intersect" | "diff":
+            kind = _SET_OPERATORS[tree.data]
+            left, right = subtrees_of(tree)
+            return kind(build_extractor(text, left), build_extractor(text, right))
+        case _:
+            return _build_base(text, tree)
+
+
+def build_orient(text: TreeReader, tree: Node) -> Orient:
+    """The directive of an `orient` node; an error is about the pair that is one too many or turns back."""
+    nodes = subtrees_of(tree)
+    pairs = tuple(_build_pair(text, node) for node in nodes)
+    wrong = nodes[min(2, len(nodes) - 1)]
+    return text.locate_errors(wrong, lambda: Orient(pairs, snap=len(tokens_of(tree)) > 0))
+
+
+def _build_pair(text: TreeReader, tree: Node) -> LandmarkPair:
+    start, end = subtrees_of(tree)
+    return LandmarkPair(_build_direction(text, tokens_of(tree)[0]), _build_base(text, start), _build_base(text, end))
+
+
+def _build_base(text: TreeReader, tree: Node) -> BaseExtractor:
+    return All() if tree.data == "all" else Is(text.read_label(subtrees_of(tree)[0]))
+
+
+def _build_direction(text: TreeReader, token: Token) -> Direction:
+    try:
+        check_direction(token)
+    except ProgramError as error:
+        like = likely_word(token[1:], ["+X", "+Y", "+Z"])
+        hint = f"Did you mean {token[0]}{like[1]}? " if like else ""
+        raise text.error_at(token, f"unknown direction `{token}`", f"{hint}{error.remedy}") from None
+    return cast(Direction, str(token))
+
+
+def collect_headers(text: TreeReader, statements: list[Node]) -> dict[str, Node]:
+    """The header statements by their kind. Raises ProgramError for one that is given twice."""
+    headers: dict[str, Node] = {}
+    for node in statements:
+        if node.data in headers:
+            line = headers[node.data].meta.line
+            raise text.error_at(node, f"{node.data} is given twice", f"It stands on line {line} already.")
+        headers[node.data] = node
+    return headers
+
+
+def build_labels(text: TreeReader, tree: Node) -> tuple[str, ...]:
+    """The labels that a `labels` header declares. Raises ProgramError for one that is declared twice."""
+    labels: list[str] = []
+    for node in subtrees_of(tree):
+        label = text.read_label(node)
+        if label in labels:
+            raise text.error_at(node, f"the label {label!r} is declared twice", "Leave one of them out.")
+        labels.append(label)
+    return tuple(labels)
+
+
+def build_threshold(text: TreeReader, tree: Node | None) -> float | None:
+    """The number of a threshold header; None where the header is missing."""
+    if tree is None:
+        return None
+    (token,) = tokens_of(tree)
+    text.locate_errors(token, lambda: check_threshold(tree.data, float(token)))
+    return float(token)
+
+
+def build_action(text: TreeReader, tree: Node) -> Action:
+    """The action of an `action` node. Raises ProgramError at its name or at the argument that does not fit."""
+    (name,) = tokens_of(tree)[:1]
+    parts = [part for part in tree.children[1:] if part is not None]
+    kind = ACTIONS.get(name)
+    if kind is None:
+        raise _unknown_action(text, name)
+    takes = list(kind.arguments().values())
+    if len(parts) > len(takes):
+        raise text.error_at(parts[len(takes)], f"{name} takes no further argument", f"Write {kind.usage()}.")
+    if len(parts) < kind.min_arguments():
+        raise text.error_at(name, f"{name} lacks an argument", f"Write {kind.usage()}.")
+    values = [_build_argument(text, kind, argument, part) for argument, part in zip(takes, parts, strict=False)]
+    return text.locate_errors(tree, lambda: kind(*values))
+
+
+def _unknown_action(text: TreeReader, name: Token) -> ProgramError:
+    known = f"Actions are {join_alternatives(ACTIONS)}."
+    if name in OPERATORS:
+        return text.error_at(name, f"{name} selects hulls, it is no action", known)
+    like = likely_word(name, ACTIONS)
+    return text.error_at(name, f"unknown action {quote_code(name)}", f"Did you mean {like}? {known}" if like else known)
+
+
+def _build_argument(text: TreeReader, kind: type[Action], argument: ArgumentType, given: Node | Token) -> Any:
+    """The value of an argument, read as its kind says."""
+    if isinstance(argument, ActionArgument) and not isinstance(given, str):
+        return build_action(text, given)
+    token = _bare_token(given)
+    if token is not None:
+        content = text.unquote(token) if token.type == "STRING" else str(token)
+        value = argument.read(_TOKEN_KINDS[token.type], content)
+        if value is not None:
+            return value
+    raise _misfit_error(text, kind, argument, given)
+
+
+def _bare_token(given: Node | Token) -> Token | None:
+    """The piece of text that an argument is; None where it has arguments of its own."""
+    if isinstance(given, str):
+        return given
+    return tokens_of(given)[0] if subtrees_of(given) == [] and len(tokens_of(given)) == 1 else None
+
+
+def _misfit_error(text: TreeReader, kind: type[Action], argument: ArgumentType, given: Node | Token) -> ProgramError:
+    thing = text.source.piece_at(start_of(given))
+    remedy = f"Write {kind.usage()}."
+    like = likely_word(thing.strip('"'), argument.choices)
+    if like:
+        remedy = f"Did you mean {like}? {remedy}"
+    elif isinstance(argument, FileArgument) and "\\" in thing:
+        remedy = "Write / between the folders of a path."
+    return text.error_at(given, f"{kind.__name__} takes {argument.wants} here, not {quote_code(thing)}", remedy)

@@ -1,15 +1,15 @@
-"""Programs as text in canonical form; `parse` is the inverse."""
+"""Rules, and every node below a program as text in canonical form; `parse` is the inverse."""
 
 from __future__ import annotations
 
 import json
 import re
-from collections.abc import Iterator
+from dataclasses import dataclass, field
 from typing import assert_never
 
-from meshforge.language.actions import ACTIONS, Action
-from meshforge.language.actions.arguments import show_number
-from meshforge.language.program import Comments, Lines, Program, Rule
+from meshforge.common import ProgramError
+from meshforge.language.actions.base import Action
+from meshforge.language.actions.basic import ACTIONS
 from meshforge.language.syntax import (
     OPERATORS,
     All,
@@ -22,17 +22,52 @@ from meshforge.language.syntax import (
     LandmarkPair,
     Orient,
     Union,
+    check_label,
 )
 
 WORD = re.compile(r"[^\W\d]\w*")
 RESERVED = frozenset(OPERATORS) | frozenset(ACTIONS)
-_ALIGNED = 60  # a longer extractor does not push the arrows of the other rules to the right
 
-Node = Extractor | Action | LandmarkPair | Orient | Rule | Program
+CommentLines = tuple[str | None, ...]
+"""Comment lines without their `#`; None is an empty line."""
 
 
-def show(node: Node) -> str:
-    """A node as program text; that of a program ends with a line break."""
+@dataclass(frozen=True, slots=True)
+class Comments:
+    """The lines above a statement and the comment at its end."""
+
+    above: CommentLines = ()
+    beside: str | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Rule:
+    """One rule: what to select, what to do with it, and the label for what is made (None: that of the largest hull).
+
+    Comments do not count when rules are compared.
+    """
+
+    extractor: Extractor
+    action: Action
+    label: str | None = None
+    comments: Comments = field(default=Comments(), compare=False)
+
+    def __post_init__(self) -> None:
+        if self.label is None:
+            return
+        check_label(self.label)
+        if not self.action.makes_hulls:
+            raise ProgramError(f"{self.action} makes no hull that could take the label {self.label!r}")
+
+    def __str__(self) -> str:
+        return show(self)
+
+
+SyntaxNode = Extractor | Action | LandmarkPair | Orient | Rule
+
+
+def show(node: SyntaxNode) -> str:
+    """A node as program text."""
     match node:
         case All():
             return "All"
@@ -49,9 +84,7 @@ def show(node: Node) -> str:
         case Orient(pairs, snap):
             return f"orient {'snap ' if snap else ''}{', '.join(map(show, pairs))}"
         case Rule():
-            return _rule(node, 0)
-        case Program():
-            return "".join(f"{line}\n" for line in _program(node))
+            return show_rule(node, 0)
         case _:
             assert_never(node)
 
@@ -62,42 +95,7 @@ def show_label(label: str) -> str:
     return label if plain else json.dumps(label, ensure_ascii=False)
 
 
-def _rule(rule: Rule, width: int) -> str:
+def show_rule(rule: Rule, width: int) -> str:
+    """A rule on one line, its arrow behind `width` characters at least."""
     label = f" as {show_label(rule.label)}" if rule.label is not None else ""
     return f"{show(rule.extractor):<{width}} => {rule.action}{label}"
-
-
-def _program(program: Program) -> Iterator[str]:
-    """The lines: header, orientation and rules as paragraphs, then the comments at the end."""
-    lines: list[str] = []
-    for text, comments, paragraph in _statements(program):
-        blank = paragraph and bool(lines)
-        above = comments.above[1:] if comments.above[:1] == (None,) else comments.above
-        if lines and (blank or above != comments.above):
-            lines.append("")
-        lines += _lines(above)
-        lines.append(f"{text}  #{comments.beside}" if comments.beside is not None else text)
-    end = program.comments.end
-    lines += _lines(end if lines else end[1:] if end[:1] == (None,) else end)
-    yield from lines
-
-
-def _statements(program: Program) -> Iterator[tuple[str, Comments, bool]]:
-    """Text, comments, and whether it begins a paragraph, of every statement in canonical order."""
-    notes = program.comments
-    if program.labels:
-        yield f"labels {', '.join(map(show_label, program.labels))}", notes.labels, False
-    if program.contact is not None:
-        yield f"contact {show_number(program.contact)}", notes.contact, False
-    if program.extremity is not None:
-        yield f"extremity {show_number(program.extremity)}", notes.extremity, False
-    if program.orient:
-        yield show(program.orient), notes.orient, True
-    widths = [len(show(rule.extractor)) for rule in program.rules]
-    width = max((w for w in widths if w <= _ALIGNED), default=0)
-    for k, rule in enumerate(program.rules):
-        yield _rule(rule, width), rule.comments, k == 0
-
-
-def _lines(lines: Lines) -> list[str]:
-    return ["" if line is None else f"#{line}" for line in lines]

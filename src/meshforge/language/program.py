@@ -1,69 +1,59 @@
-"""Programs: a vocabulary, an orientation and rules, with the comments of the text they came from."""
+"""Programs: a vocabulary, an orientation and rules; parsed from text, printed as text, run on a mesh, a label
+renamed in them."""
 
 from __future__ import annotations
 
-import math
-from collections.abc import Mapping
-from dataclasses import dataclass, field
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import TYPE_CHECKING
 
-from meshforge.errors import ProgramError, nearest
-from meshforge.language.actions import Action
-from meshforge.language.evaluate import labels_used
-from meshforge.language.syntax import Extractor, Orient, check_label
-from meshforge.language.template import Template
+from meshforge.common import MeshForgeError, ProgramError
+from meshforge.language.actions.base import show_number
+from meshforge.language.actions.edit import Template, check_templates
+from meshforge.language.apply import RuleTrace, apply_rule, from_canonical_frame, to_canonical_frame
+from meshforge.language.parse import (
+    attach_comments,
+    build_labels,
+    build_orient,
+    build_rule,
+    build_threshold,
+    collect_headers,
+    parse_tree,
+)
+from meshforge.language.print import CommentLines, Comments, Rule, show, show_label, show_rule
+from meshforge.language.syntax import (
+    Extractor,
+    Orient,
+    check_declared,
+    check_label,
+    check_threshold,
+    labels_of,
+    rename_in_extractor,
+    rename_in_orient,
+)
+from meshforge.language.text import Node, ProgramText, TreeReader, subtrees_of
 from meshforge.symbolic import SymbolicMesh
 
-if TYPE_CHECKING:
-    from meshforge.language.run import RunResult
-
-Lines = tuple[str | None, ...]
-"""Comment lines without their `#`; None is an empty line."""
-
-
-@dataclass(frozen=True, slots=True)
-class Comments:
-    """The lines above a statement and the comment at its end."""
-
-    above: Lines = ()
-    beside: str | None = None
+_MOST_ALIGNED = 60  # a longer extractor does not push the arrows of the other rules to the right
 
 
 @dataclass(frozen=True, slots=True)
 class HeaderComments:
     """The comments of the header lines, and those after the last statement."""
 
-    labels: Comments = Comments()
-    contact: Comments = Comments()
-    extremity: Comments = Comments()
-    orient: Comments = Comments()
-    end: Lines = ()
+    labels: Comments = field(default=Comments())
+    contact: Comments = field(default=Comments())
+    extremity: Comments = field(default=Comments())
+    orient: Comments = field(default=Comments())
+    end: CommentLines = ()
 
 
-@dataclass(frozen=True, slots=True)
-class Rule:
-    """One rule: what to select, what to do with it, and the label for what is made (None: that of the largest hull).
+@dataclass(frozen=True, eq=False, slots=True)
+class RunResult:
+    """The edited mesh in the incoming frame, the very same object where nothing changed, and a trace of every rule."""
 
-    Comments do not count when rules are compared.
-    """
-
-    extractor: Extractor
-    action: Action
-    label: str | None = None
-    comments: Comments = field(default=Comments(), compare=False)
-
-    def __post_init__(self) -> None:
-        if self.label is None:
-            return
-        check_label(self.label)
-        if not self.action.makes_hulls:
-            raise ProgramError(f"{self.action} makes no hull that could take the label {self.label!r}")
-
-    def __str__(self) -> str:
-        from meshforge.language.print import show
-
-        return show(self)
+    mesh: SymbolicMesh
+    trace: tuple[RuleTrace, ...]
 
 
 @dataclass(frozen=True, slots=True)
@@ -82,30 +72,30 @@ class Program:
     comments: HeaderComments = field(default=HeaderComments(), compare=False)
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "labels", tuple(self.labels) or self.used_labels)
+        object.__setattr__(self, "labels", tuple(self.labels) or self.labels_in_use)
         object.__setattr__(self, "rules", tuple(self.rules))
         for label in self.labels:
             check_label(label)
             if self.labels.count(label) > 1:
                 raise ProgramError(f"the label {label!r} is declared twice")
-        for label in self.used_labels:
+        for label in self.labels_in_use:
             check_declared(label, self.labels)
         check_threshold("contact", self.contact)
         check_threshold("extremity", self.extremity)
 
     @property
-    def asked_labels(self) -> tuple[str, ...]:
+    def labels_asked(self) -> tuple[str, ...]:
         """The labels that landmarks and extractors ask for, each once, in order of mention."""
         pairs = self.orient.pairs if self.orient else ()
         asked: list[Extractor] = [end for pair in pairs for end in (pair.start, pair.end)]
         asked += [rule.extractor for rule in self.rules]
-        return tuple(dict.fromkeys(label for extractor in asked for label in labels_used(extractor)))
+        return tuple(dict.fromkeys(label for extractor in asked for label in labels_of(extractor)))
 
     @property
-    def used_labels(self) -> tuple[str, ...]:
+    def labels_in_use(self) -> tuple[str, ...]:
         """The labels asked for, then those that rules give to what they make."""
-        given = [rule.label for rule in self.rules if rule.label is not None]
-        return tuple(dict.fromkeys([*self.asked_labels, *given]))
+        made = [rule.label for rule in self.rules if rule.label is not None]
+        return tuple(dict.fromkeys([*self.labels_asked, *made]))
 
     @property
     def templates(self) -> tuple[str, ...]:
@@ -115,38 +105,123 @@ class Program:
     @staticmethod
     def parse(text: str, name: str = "program") -> Program:
         """The program in a text. Raises ProgramError at `name:line:column`, with the line and a caret."""
-        from meshforge.language.parse import parse
-
-        return parse(text, name)
+        source = ProgramText(text.removeprefix("\ufeff").removesuffix("\n") + "\n", name)
+        try:
+            return _build_program(source, parse_tree(source, "program"))
+        except RecursionError:
+            raise ProgramError("its extractors are nested too deep", where=name) from None
 
     @staticmethod
     def read(path: Path | str) -> Program:
         """The program in a file. Raises ProgramError where it cannot be read or does not parse."""
-        from meshforge.language.parse import read
-
-        return read(Path(path))
+        path = Path(path)
+        try:
+            return Program.parse(path.read_text(encoding="utf-8"), str(path))
+        except OSError as error:
+            raise ProgramError(f"the program cannot be read ({error.strerror})", where=str(path)) from None
+        except UnicodeDecodeError:
+            raise ProgramError("the program is not text in UTF-8", where=str(path)) from None
 
     def run(self, mesh: SymbolicMesh, templates: Mapping[str, Template] | None = None) -> RunResult:
-        """The program's edit of a mesh, with a trace. Raises ProgramError where it cannot run on this mesh."""
-        from meshforge.language.run import run
+        """The program's edit of a mesh, with a trace.
 
-        return run(self, mesh, templates or {})
+        Hulls that no rule touches come back as the same objects. Raises ProgramError, about the mesh's file where it
+        has one: a missing template, no labels, a landmark that gives no direction; GeometryError for a hull that
+        cannot be made.
+        """
+        templates = templates or {}
+        try:
+            check_templates(self.templates, templates)
+            self._check_has_labels(mesh)
+            return self._run_rules(mesh, templates)
+        except MeshForgeError as error:
+            raise error.at(str(mesh.asset.path)) if mesh.asset else error from None
+
+    def _check_has_labels(self, mesh: SymbolicMesh) -> None:
+        if self.labels_asked and mesh.hulls and not any(hull.label for hull in mesh.hulls):
+            raise ProgramError(
+                "no labels: the program asks for labels, and no hull has one",
+                remedy="Label the asset first (meshforge label), or give its labels with --labels FILE.",
+            )
+
+    def _run_rules(self, mesh: SymbolicMesh, templates: Mapping[str, Template]) -> RunResult:
+        current, pose = to_canonical_frame(mesh, self.orient, self.contact)
+        trace, used = [], frozenset[str]()
+        for number, rule in enumerate(self.rules, 1):
+            selected, result = apply_rule(current, rule, templates, self.extremity, used)
+            current, used = result.mesh, result.used
+            trace.append(RuleTrace(number, selected, result.made, result.note, result.sources))
+        return RunResult(from_canonical_frame(mesh, current, pose), tuple(trace))
 
     def __str__(self) -> str:
-        from meshforge.language.print import show
-
-        return show(self)
+        return "".join(f"{line}\n" for line in _program_lines(self))
 
 
-def check_declared(label: str, declared: tuple[str, ...]) -> None:
-    """Raises ProgramError for a label that is not among those declared."""
-    if label not in declared:
-        like = nearest(label, declared)
-        hint = f"Did you mean {like!r}? " if like else ""
-        raise ProgramError(f"unknown label {label!r}", remedy=f"{hint}Declared labels: {', '.join(declared)}.")
+def rename_in_program(program: Program, old: str, new: str) -> Program:
+    """The program with a label by another name; declared twice by that, it is declared once."""
+    rules = (
+        replace(
+            rule,
+            extractor=rename_in_extractor(rule.extractor, old, new),
+            label=new if rule.label == old else rule.label,
+        )
+        for rule in program.rules
+    )
+    labels = dict.fromkeys(new if label == old else label for label in program.labels)
+    orient = rename_in_orient(program.orient, old, new) if program.orient else None
+    return replace(program, labels=tuple(labels), orient=orient, rules=tuple(rules))
 
 
-def check_threshold(name: str, value: float | None) -> None:
-    """Raises ProgramError for a threshold that is not a number above 0 and at most 1."""
-    if value is not None and not (math.isfinite(value) and 0 < value <= 1):
-        raise ProgramError(f"{name} is a share of a diagonal, above 0 and at most 1, not {value:g}")
+def _program_lines(program: Program) -> Iterator[str]:
+    """The lines: header, orientation and rules as paragraphs, then the comments at the end."""
+    lines: list[str] = []
+    for text, comments, paragraph in _statements(program):
+        blank = paragraph and bool(lines)
+        above = comments.above[1:] if comments.above[:1] == (None,) else comments.above
+        if lines and (blank or above != comments.above):
+            lines.append("")
+        lines += _comment_lines(above)
+        lines.append(f"{text}  #{comments.beside}" if comments.beside is not None else text)
+    end = program.comments.end
+    lines += _comment_lines(end if lines else end[1:] if end[:1] == (None,) else end)
+    yield from lines
+
+
+def _statements(program: Program) -> Iterator[tuple[str, Comments, bool]]:
+    """Text, comments, and whether it begins a paragraph, of every statement in canonical order."""
+    notes = program.comments
+    if program.labels:
+        yield f"labels {', '.join(map(show_label, program.labels))}", notes.labels, False
+    if program.contact is not None:
+        yield f"contact {show_number(program.contact)}", notes.contact, False
+    if program.extremity is not None:
+        yield f"extremity {show_number(program.extremity)}", notes.extremity, False
+    if program.orient:
+        yield show(program.orient), notes.orient, True
+    widths = [len(show(rule.extractor)) for rule in program.rules]
+    width = max((w for w in widths if w <= _MOST_ALIGNED), default=0)
+    for k, rule in enumerate(program.rules):
+        yield show_rule(rule, width), rule.comments, k == 0
+
+
+def _comment_lines(lines: CommentLines) -> list[str]:
+    return ["" if line is None else f"#{line}" for line in lines]
+
+
+def _build_program(source: ProgramText, tree: Node) -> Program:
+    """The program of a `program` node."""
+    statements = subtrees_of(tree)
+    text = TreeReader(source)
+    headers = collect_headers(text, [node for node in statements if node.data != "rule"])
+    labels = build_labels(text, headers["labels"]) if "labels" in headers else ()
+    text = TreeReader(source, labels)
+    comments, end = attach_comments(source.text, [node.meta.line for node in statements])
+    of = dict(zip(map(id, statements), comments, strict=True))
+    return Program(
+        labels,
+        build_orient(text, headers["orient"]) if "orient" in headers else None,
+        tuple(build_rule(text, node, of[id(node)]) for node in statements if node.data == "rule"),
+        build_threshold(text, headers.get("contact")),
+        build_threshold(text, headers.get("extremity")),
+        HeaderComments(**{name: of[id(node)] for name, node in headers.items()}, end=end),
+    )

@@ -1,42 +1,43 @@
-"""The nodes of the language: frozen, validated at birth, data only (paper, figure of the DSL)."""
+"""The nodes of the language, frozen and validated at birth, and what extractors select, as bit sets over the hulls
+of a mesh (paper, figures of the DSL and of its semantics)."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, Literal, get_args
+import math
+from dataclasses import dataclass, replace
+from typing import Literal, assert_never, get_args
 
-from meshforge.errors import ProgramError
-
-if TYPE_CHECKING:
-    from meshforge.symbolic import SymbolicMesh
+from meshforge.common import ProgramError, nearest_name
+from meshforge.geometry import Aabb
+from meshforge.symbolic import SymbolicMesh, bits_of, mask_of
 
 Direction = Literal["+X", "-X", "+Y", "-Y", "+Z", "-Z"]
 DIRECTIONS: tuple[Direction, ...] = get_args(Direction)
 OPERATORS = ("All", "Is", "Attach", "Geo", "Union", "Intersect", "Diff")
 EXTREMITY = 0.05
 """delta: how near the boundary counts as extreme, as a share of the base selection's diagonal (paper)."""
+SLACK = 1e-9
+"""Comparisons with a threshold forgive this share of the mesh's diagonal, against rounding."""
 
 
-class _Selecting:
+class _Selector:
     """Lets every extractor be asked for its selection."""
 
     __slots__ = ()
 
     def select(self, mesh: SymbolicMesh, extremity: float = EXTREMITY) -> frozenset[int]:
         """Indices of the hulls selected in the mesh, in the frame it is in."""
-        from meshforge.language.evaluate import select
-
         assert isinstance(self, All | Is | Attach | Geo | Union | Intersect | Diff)
         return select(self, mesh, extremity)
 
 
 @dataclass(frozen=True, slots=True)
-class All(_Selecting):
+class All(_Selector):
     """Every hull."""
 
 
 @dataclass(frozen=True, slots=True)
-class Is(_Selecting):
+class Is(_Selector):
     """The hulls with a label."""
 
     label: str
@@ -45,25 +46,25 @@ class Is(_Selecting):
         check_label(self.label)
 
 
-Base = All | Is
+BaseExtractor = All | Is
 
 
 @dataclass(frozen=True, slots=True)
-class Attach(_Selecting):
+class Attach(_Selector):
     """The hulls of `selected` in contact with at least one hull of `anchor`."""
 
-    selected: Base
-    anchor: Base
+    selected: BaseExtractor
+    anchor: BaseExtractor
 
     def __post_init__(self) -> None:
         _check_base(self, self.selected, self.anchor)
 
 
 @dataclass(frozen=True, slots=True)
-class Geo(_Selecting):
+class Geo(_Selector):
     """The hulls of `base` that reach farthest along `direction`, within extremity times the diagonal of `base`."""
 
-    base: Base
+    base: BaseExtractor
     direction: Direction
 
     def __post_init__(self) -> None:
@@ -72,36 +73,29 @@ class Geo(_Selecting):
 
 
 @dataclass(frozen=True, slots=True)
-class Union(_Selecting):
+class _SetOperator(_Selector):
+    left: Extractor
+    right: Extractor
+
+    def __post_init__(self) -> None:
+        for operand in (self.left, self.right):
+            if not isinstance(operand, All | Is | Attach | Geo | Union | Intersect | Diff):
+                raise ProgramError(f"{type(self).__name__} takes extractors, not {operand!r}")
+
+
+@dataclass(frozen=True, slots=True)
+class Union(_SetOperator):
     """The hulls of either."""
 
-    left: Extractor
-    right: Extractor
-
-    def __post_init__(self) -> None:
-        _check_extractors(self, self.left, self.right)
-
 
 @dataclass(frozen=True, slots=True)
-class Intersect(_Selecting):
+class Intersect(_SetOperator):
     """The hulls of both."""
 
-    left: Extractor
-    right: Extractor
-
-    def __post_init__(self) -> None:
-        _check_extractors(self, self.left, self.right)
-
 
 @dataclass(frozen=True, slots=True)
-class Diff(_Selecting):
+class Diff(_SetOperator):
     """The hulls of `left` that are not in `right`."""
-
-    left: Extractor
-    right: Extractor
-
-    def __post_init__(self) -> None:
-        _check_extractors(self, self.left, self.right)
 
 
 Extractor = All | Is | Attach | Geo | Union | Intersect | Diff
@@ -112,8 +106,8 @@ class LandmarkPair:
     """The direction from the centre of `start` to the centre of `end` becomes `axis`."""
 
     axis: Direction
-    start: Base
-    end: Base
+    start: BaseExtractor
+    end: BaseExtractor
 
     def __post_init__(self) -> None:
         check_direction(self.axis)
@@ -132,9 +126,8 @@ class Orient:
             raise ProgramError(f"orient takes one or two landmark pairs, not {len(self.pairs)}")
         axes = [pair.axis for pair in self.pairs]
         if len({axis[1] for axis in axes}) != len(axes):
-            raise ProgramError(
-                f"orient names the axis {axes[0][1]} twice", remedy="Give the second pair another axis than the first."
-            )
+            problem = f"orient names the axis {axes[0][1]} twice"
+            raise ProgramError(problem, remedy="Give the second pair another axis than the first.")
 
 
 def check_label(label: str) -> None:
@@ -158,7 +151,130 @@ def _check_base(node: object, *operands: object) -> None:
             )
 
 
-def _check_extractors(node: object, *operands: object) -> None:
-    for operand in operands:
-        if not isinstance(operand, All | Is | Attach | Geo | Union | Intersect | Diff):
-            raise ProgramError(f"{type(node).__name__} takes extractors, not {operand!r}")
+def select(extractor: Extractor, mesh: SymbolicMesh, extremity: float = EXTREMITY) -> frozenset[int]:
+    """Indices of the hulls that an extractor selects, in the frame the mesh is in."""
+    return bits_of(select_mask(extractor, mesh, extremity))
+
+
+def select_mask(extractor: Extractor, mesh: SymbolicMesh, extremity: float = EXTREMITY) -> int:
+    """The selection as a bit set."""
+    match extractor:
+        case All():
+            return (1 << len(mesh.hulls)) - 1
+        case Is(label):
+            return label_mask(mesh, label)
+        case Attach(selected, anchor):
+            return attach_mask(mesh, select_mask(selected, mesh, extremity), select_mask(anchor, mesh, extremity))
+        case Geo(base, direction):
+            return geo_mask(mesh, select_mask(base, mesh, extremity), direction, extremity)
+        case Union(left, right):
+            return select_mask(left, mesh, extremity) | select_mask(right, mesh, extremity)
+        case Intersect(left, right):
+            return select_mask(left, mesh, extremity) & select_mask(right, mesh, extremity)
+        case Diff(left, right):
+            return select_mask(left, mesh, extremity) & ~select_mask(right, mesh, extremity)
+        case _:
+            assert_never(extractor)
+
+
+def label_mask(mesh: SymbolicMesh, label: str) -> int:
+    """The hulls with a label."""
+    return mask_of(index for index, hull in enumerate(mesh.hulls) if hull.label == label)
+
+
+def attach_mask(mesh: SymbolicMesh, selected: int, anchor: int) -> int:
+    """The hulls of `selected` in contact with at least one of `anchor`."""
+    return mask_of(index for index in bits_of(selected) if mesh.adjacency[index] & anchor)
+
+
+def geo_mask(mesh: SymbolicMesh, base: int, direction: Direction, extremity: float = EXTREMITY) -> int:
+    """The hulls of `base` within `extremity` times its diagonal of its boundary along `direction`."""
+    if not base:
+        return 0
+    boxes = {index: mesh.hulls[index].aabb for index in bits_of(base)}
+    reach = {index: _reach_of(box, direction) for index, box in boxes.items()}
+    nearest = max(reach.values()) - extremity * Aabb.union(boxes.values()).diagonal - SLACK * reference_length(mesh)
+    return mask_of(index for index, value in reach.items() if value >= nearest)
+
+
+def _reach_of(box: Aabb, direction: Direction) -> float:
+    """How far a box reaches along a direction [m]."""
+    axis = "XYZ".index(direction[1])
+    return float(box.max[axis] if direction[0] == "+" else -box.min[axis])
+
+
+def reference_length(mesh: SymbolicMesh) -> float:
+    """L, the length [m] that relative thresholds refer to: fixed in a run, else the diagonal."""
+    return mesh.diagonal if mesh.scale is None else mesh.scale
+
+
+def size_of(extractor: Extractor) -> int:
+    """The number of syntax nodes: All, Is 1; Geo 2; Attach 3; set operators 1 and both operands."""
+    match extractor:
+        case All() | Is():
+            return 1
+        case Geo():
+            return 2
+        case Attach():
+            return 3
+        case Union(left, right) | Intersect(left, right) | Diff(left, right):
+            return 1 + size_of(left) + size_of(right)
+        case _:
+            assert_never(extractor)
+
+
+def labels_of(extractor: Extractor) -> tuple[str, ...]:
+    """The labels an extractor asks for, each once, in order of mention."""
+    match extractor:
+        case All():
+            return ()
+        case Is(label):
+            return (label,)
+        case Geo(base, _):
+            return labels_of(base)
+        case Attach(left, right) | Union(left, right) | Intersect(left, right) | Diff(left, right):
+            return tuple(dict.fromkeys(labels_of(left) + labels_of(right)))
+        case _:
+            assert_never(extractor)
+
+
+def rename_in_orient(orient: Orient, old: str, new: str) -> Orient:
+    """The orientation with a label by another name."""
+    pairs = (
+        replace(pair, start=_rename_in_base(pair.start, old, new), end=_rename_in_base(pair.end, old, new))
+        for pair in orient.pairs
+    )
+    return replace(orient, pairs=tuple(pairs))
+
+
+def _rename_in_base(base: BaseExtractor, old: str, new: str) -> BaseExtractor:
+    return Is(new) if base == Is(old) else base
+
+
+def rename_in_extractor(node: Extractor, old: str, new: str) -> Extractor:
+    """An extractor that asks for the label `new` wherever it asked for `old`."""
+    match node:
+        case All() | Is():
+            return _rename_in_base(node, old, new)
+        case Geo(base, direction):
+            return Geo(_rename_in_base(base, old, new), direction)
+        case Attach(selected, anchor):
+            return Attach(_rename_in_base(selected, old, new), _rename_in_base(anchor, old, new))
+        case Union(left, right) | Intersect(left, right) | Diff(left, right):
+            return type(node)(rename_in_extractor(left, old, new), rename_in_extractor(right, old, new))
+        case _:
+            assert_never(node)
+
+
+def check_declared(label: str, declared: tuple[str, ...]) -> None:
+    """Raises ProgramError for a label that is not among those declared."""
+    if label not in declared:
+        like = nearest_name(label, declared)
+        hint = f"Did you mean {like!r}? " if like else ""
+        raise ProgramError(f"unknown label {label!r}", remedy=f"{hint}Declared labels: {', '.join(declared)}.")
+
+
+def check_threshold(name: str, value: float | None) -> None:
+    """Raises ProgramError for a threshold that is not a number above 0 and at most 1."""
+    if value is not None and not (math.isfinite(value) and 0 < value <= 1):
+        raise ProgramError(f"{name} is a share of a diagonal, above 0 and at most 1, not {value:g}")

@@ -1,54 +1,73 @@
-"""The assets of a project in memory, while several lessons in a row are learned from them."""
+"""The assets that a program is learned from: which of very many, in memory, and which to demonstrate first."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Sequence
 
-from meshforge.project.answering import answers
-from meshforge.project.evenly import evenly
-from meshforge.project.reviewing import accepted_results
-from meshforge.symbolic import SymbolicMesh, follow_labels
+from meshforge.common import MeshForgeError
+from meshforge.project.review import find_accepted_results, pick_evenly
+from meshforge.store import Store
+from meshforge.symbolic import SymbolicMesh, transfer_labels
+from meshforge.synthesis import choose_first_demonstration
 
-if TYPE_CHECKING:
-    from meshforge.project.project import Project
-
-MOST = 400
+MOST_ASSETS = 400
 """Of more assets so many are looked at while a program is learned, besides those of which something was said: they are
 all read and edited again after each answer. A variant that one asset in a hundred has is then missed once in fifty
 times."""
 
+MOST_COMPARED = 100
+"""Of more assets so many are looked at, evenly over all: each has to be read."""
 
-class Family:
+
+class FamilyMeshes:
     """Reads every asset once; labels are looked at anew each time, as answers change them."""
 
-    def __init__(self, project: Project) -> None:
-        self._project = project
+    def __init__(self, store: Store) -> None:
+        self._store = store
         self._kept: dict[str, tuple[bytes, SymbolicMesh]] = {}
 
     def meshes(self) -> dict[str, SymbolicMesh]:
         """The assets to learn from that can be read, by id, with the labels they have now."""
         if not self._kept:
-            rows = self._project.named_meshes(looked_at(self._project))
+            rows = self._store.meshes_by_id(select_assets(self._store))
             self._kept = {asset: (self._labels(asset), mesh) for asset, mesh in rows}
         for asset, (before, mesh) in self._kept.items():
             now = self._labels(asset)
             if now != before:
-                bare = mesh.labelled(dict.fromkeys(mesh.index))
-                self._kept[asset] = now, follow_labels(self._project.labels(asset), bare).mesh
+                bare = mesh.with_labels(dict.fromkeys(mesh.index))
+                self._kept[asset] = now, transfer_labels(self._store.labels(asset), bare).mesh
         return {asset: mesh for asset, (_, mesh) in self._kept.items()}
 
     def _labels(self, asset: str) -> bytes:
-        path = self._project.layout.labels(asset)
+        path = self._store.layout.labels(asset)
         return path.read_bytes() if path.exists() else b""
 
 
-def looked_at(project: Project) -> tuple[str, ...]:
-    """The ids of the assets to learn from: all, or of very many those that something was said of, and some evenly."""
-    every = project.assets()
-    if len(every) <= MOST:
+def select_assets(store: Store) -> tuple[str, ...]:
+    """The assets to learn from: all, or of very many those that a person said something about, and some evenly."""
+    every = store.assets()
+    if len(every) <= MOST_ASSETS:
         return every
-    said = {line.asset for line in answers(project).answers}
-    said.update(accepted_results(project))
-    said.update(asset for asset in every if project.layout.demonstration(asset).exists())
-    said.update(evenly(every, MOST))
-    return tuple(asset for asset in every if asset in said)
+    known = {line.asset for line in store.answers().answers}
+    known.update(find_accepted_results(store))
+    known.update(store.demonstration_ids())
+    known.update(pick_evenly(every, MOST_ASSETS))
+    return tuple(asset for asset in every if asset in known)
+
+
+def suggest_first_demonstration(store: Store, assets: Sequence[str]) -> str | None:
+    """The id of the asset that tells most when it is demonstrated, None where there is nothing to choose by.
+
+    assets: ids of those that come into question.
+    """
+    if len(assets) < 2:
+        return next(iter(assets), None)
+    meshes: dict[str, SymbolicMesh] = {}
+    for asset in pick_evenly(assets, MOST_COMPARED):
+        try:
+            meshes[asset] = store.mesh(asset)
+        except MeshForgeError:  # the status names it, with the reason
+            continue
+    settings = store.settings
+    limits = settings.thresholds
+    return choose_first_demonstration(meshes, settings.vocabulary, store.orientation, limits.contact, limits.extremity)

@@ -1,30 +1,25 @@
-"""Puts the status of a project together from its files and from the stamps of its outputs."""
+"""The status of a project, put together from its files and from the stamps of its outputs."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from functools import partial
-from typing import TYPE_CHECKING
 
-from meshforge.batch import AssetJob, Spread, Stamp, Task, inputs_of, read_stamp
-from meshforge.errors import MeshForgeError
+from meshforge.batch import ApplyTask, AssetJob, ExecutionOptions, Stamp, inputs_of, read_stamp
+from meshforge.common import MeshForgeError
 from meshforge.language import Program
-from meshforge.project.accepting import standing
-from meshforge.project.advice import advice
-from meshforge.project.applying import jobs, task
-from meshforge.project.beginning import first_to_show
-from meshforge.project.demonstrating import astray
-from meshforge.project.reviewing import Review, output_digest
-from meshforge.project.status import AssetStatus, State, Status
-from meshforge.project.survey import Facts, geometry_digest, survey
-from meshforge.symbolic import LabelFile, label_homes
-
-if TYPE_CHECKING:
-    from meshforge.project.project import Project
+from meshforge.project.accept import program_state_of
+from meshforge.project.demonstrate import find_unknown_hulls
+from meshforge.project.family import suggest_first_demonstration
+from meshforge.project.review import output_digest
+from meshforge.project.run import build_jobs, build_task
+from meshforge.project.status import AssetStatus, OutputState, Status, advise
+from meshforge.store import AssetFacts, Review, Store, geometry_digest, survey
+from meshforge.symbolic import LabelFile, match_labels
 
 
-def status(
-    project: Project,
+def compute_status(
+    store: Store,
     only: Collection[str] | None,
     others: Iterable[AssetStatus],
     workers: int | None,
@@ -36,62 +31,64 @@ def status(
     Raises ProjectError for an asset that is not there, and for a file of the project that cannot be read.
     """
     for asset in only or ():
-        project.path(asset)
-    settings, ids, work, reviews = project.settings, project.found.ids, jobs(project, only), project.reviews()
-    spread = Spread(workers=workers, stop=stop)
-    facts = survey(project.found, project.layout, only, spread=spread, progress=progress)
-    program, what, problem = _program(project)
-    assets = tuple(_asset(project, job, facts[job.id], what, reviews.get(job.id)) for job in work)
-    stands = standing(project, program)
+        store.path(asset)
+    settings, ids, work, reviews = store.settings, store.found.ids, build_jobs(store, only), store.reviews()
+    execution = ExecutionOptions(workers=workers, stop=stop)
+    facts = survey(store.found, store.layout, only, execution=execution, progress=progress)
+    program, task, problem = _read_program(store)
+    assets = tuple(_asset_status(store, job, facts[job.id], task, reviews.get(job.id)) for job in work)
+    state = program_state_of(store, program)
     rules = len(program.rules) if program else None
     known = {asset.id: asset for asset in (*others, *assets)}
     every = [known[asset] for asset in ids if asset in known]
-    first = partial(first_to_show, project) if only is None else _unchosen
-    advised = advice(project.folder, ids, every, settings.vocabulary, rules, stands, problem, first)
+    first = partial(suggest_first_demonstration, store) if only is None else _choose_none
+    advised = advise(store.folder, ids, every, settings.vocabulary, rules, state, problem, first)
     return Status(
         settings.name,
         assets,
         settings.vocabulary,
         rules,
-        stands.outdated,
+        state.outdated,
         problem,
-        _lost(project),
+        _find_lost_ids(store),
         advised,
-        stands.question,
+        state.question,
     )
 
 
-def _unchosen(assets: Sequence[str]) -> None:
-    """Of a project that is looked at in part no asset stands out."""
+def _choose_none(assets: Sequence[str]) -> None:
+    """No suggestion, where only a part of the project is looked at."""
 
 
-def _program(project: Project) -> tuple[Program | None, Task | None, str | None]:
+def _read_program(store: Store) -> tuple[Program | None, ApplyTask | None, str | None]:
     """The program, what applying it means, and why it cannot be applied."""
     program = None
     try:
-        program = project.program()
-        return program, task(project, program) if program else None, None
+        program = store.program()
+        return program, build_task(store, program) if program else None, None
     except MeshForgeError as error:
         return program, None, error.message
 
 
-def _asset(project: Project, job: AssetJob, facts: Facts, what: Task | None, review: Review | None) -> AssetStatus:
-    stamp = read_stamp(project.layout.edited, job.id)
+def _asset_status(
+    store: Store, job: AssetJob, facts: AssetFacts, task: ApplyTask | None, review: Review | None
+) -> AssetStatus:
+    stamp = read_stamp(store.layout.edited, job.id)
     failed = stamp.error if stamp and stamp.status == "failed" else None
-    file, unreadable = _labels(project, job)
-    homes = label_homes(LabelFile() if facts.error else file, facts.hulls)
-    said = review if review and review.output == output_digest(stamp) else None
+    file, unreadable = _read_labels(store, job)
+    homes = match_labels(LabelFile() if facts.error else file, facts.hulls)
+    current_review = review if review and review.output == output_digest(stamp) else None
     return AssetStatus(
         id=job.id,
         hulls=None if facts.error else len(facts.hulls),
         labelled=len(homes.labels),
         doubtful=tuple(sorted((*homes.changed, *homes.gone), key=list(file.labels).index)),
-        demonstrated=project.layout.demonstration(job.id).exists(),
-        output=_state(stamp),
-        stale=_stale(stamp, job, facts, what),
+        demonstrated=store.layout.demonstration(job.id).exists(),
+        output=_output_state(stamp),
+        stale=_find_changes(stamp, job, facts, task),
         error=facts.error or unreadable or failed,
-        flags=(*_astray(project, job.id, facts), *(stamp.flags if stamp else ())),
-        review=said.verdict if said else None,
+        flags=(*_describe_unknown_hulls(store, job.id, facts), *(stamp.flags if stamp else ())),
+        review=current_review.verdict if current_review else None,
         prepared=facts.prepared,
         sources=facts.sources,
         names=tuple(facts.hulls),
@@ -101,46 +98,46 @@ def _asset(project: Project, job: AssetJob, facts: Facts, what: Task | None, rev
         after_labels=stamp.labels if stamp and output_digest(stamp) else (),
         output_digest=output_digest(stamp),
         corrections=len(job.corrections),
-        review_note=said.note if said else None,
+        review_note=current_review.note if current_review else None,
     )
 
 
-def _astray(project: Project, asset: str, facts: Facts) -> Iterator[str]:
+def _describe_unknown_hulls(store: Store, asset: str, facts: AssetFacts) -> Iterator[str]:
     """A sentence for each hull that is demonstrated and is no more."""
     try:
-        steps = () if facts.error else project.steps(asset)
+        steps = () if facts.error else store.steps(asset)
     except MeshForgeError as error:
         yield error.message
         return
-    for rule, name in astray(steps, facts.hulls):
+    for rule, name in find_unknown_hulls(steps, facts.hulls):
         parts = facts.replaced.get(name)
         fate = f"was split into {', '.join(parts)}" if parts else "is gone"
         yield f"{name}, which is demonstrated for rule {rule}, {fate}: demonstrate it anew"
 
 
-def _labels(project: Project, job: AssetJob) -> tuple[LabelFile, str | None]:
+def _read_labels(store: Store, job: AssetJob) -> tuple[LabelFile, str | None]:
     """The labels of an asset, and why they cannot be read."""
     try:
-        return project.labels(job.id), None
+        return store.labels(job.id), None
     except MeshForgeError as error:
         return LabelFile(), error.message
 
 
-def _state(stamp: Stamp | None) -> State:
+def _output_state(stamp: Stamp | None) -> OutputState:
     return stamp.status if stamp else "none"
 
 
-def _stale(stamp: Stamp | None, job: AssetJob, facts: Facts, what: Task | None) -> tuple[str, ...]:
+def _find_changes(stamp: Stamp | None, job: AssetJob, facts: AssetFacts, task: ApplyTask | None) -> tuple[str, ...]:
     """What changed since the output was made; of written files only whether they are there."""
-    if not stamp or not stamp.inputs or not what:
+    if not stamp or not stamp.inputs or not task:
         return ()
-    gone = not all((what.out / name).is_file() for name in stamp.outputs)
-    now = inputs_of(what, job, facts.files).model_copy(update={"settings": stamp.inputs.settings})
+    gone = not all((task.out / name).is_file() for name in stamp.outputs)
+    now = inputs_of(task, job, facts.files).model_copy(update={"settings": stamp.inputs.settings})
     return (*now.changes(stamp.inputs), *(["output"] if gone else []))
 
 
-def _lost(project: Project) -> tuple[str, ...]:
+def _find_lost_ids(store: Store) -> tuple[str, ...]:
     """The ids that something is kept for, though there is no such asset."""
-    kept = {asset for kind in ("labels", "demonstrations", "corrections") for asset in project.layout.kept_for(kind)}
-    kept |= set(project.layout.prepared())
-    return tuple(sorted(kept - set(project.assets())))
+    kept = {asset for kind in ("labels", "demonstrations", "corrections") for asset in store.layout.ids_with(kind)}
+    kept |= set(store.layout.ids_with_preparation())
+    return tuple(sorted(kept - set(store.assets())))

@@ -1,8 +1,9 @@
-"""Errors that pages are told in a way of their own."""
+"""Errors with an HTTP status of their own, and every error as the page gets it."""
 
 from __future__ import annotations
 
-from meshforge.errors import ProjectError, UsageError
+from meshforge.common import MeshForgeError, ProjectError, UsageError, describe_error
+from meshforge.studio.wire.events import Problem
 
 
 class ConflictError(ProjectError):
@@ -10,8 +11,35 @@ class ConflictError(ProjectError):
 
 
 class NotHereError(ProjectError):
-    """Something that was asked for is not in the project."""
+    """There is no such thing in the project."""
 
 
 class TooLargeError(UsageError):
-    """An upload beyond what is taken."""
+    """An upload is larger than the limit."""
+
+
+def status_of(error: Exception) -> int:
+    """The HTTP status of an error."""
+    match error:
+        case ConflictError():
+            return 409
+        case NotHereError():
+            return 404
+        case TooLargeError():
+            return 413
+        case MeshForgeError():
+            return 400
+        case _:
+            return 500
+
+
+def problem_of(error: Exception) -> Problem:
+    """An error in its parts; a fault of the studio in one sentence."""
+    if isinstance(error, MeshForgeError):
+        return Problem(
+            message=error.problem,
+            where=error.where,
+            remedy=error.remedy,
+            conflict=isinstance(error, ConflictError),
+        )
+    return Problem(message=describe_error(error, fault="start the studio with --debug to see where it comes from"))

@@ -1,34 +1,72 @@
 """The collision mesh as the language sees it: labelled hulls, AABBs and the contact graph."""
 
-from meshforge.symbolic.components import bodies, components
-from meshforge.symbolic.descriptor import DESCRIBED, descriptors
-from meshforge.symbolic.follow import Followed, Homes, follow_labels, label_homes
-from meshforge.symbolic.hull import Hull
-from meshforge.symbolic.label_file import LabelFile, labels_text, read_labels, write_labels
-from meshforge.symbolic.labels import GIVEN_SOURCES, HUMAN_SOURCES, SOURCES, Label, Source
-from meshforge.symbolic.mesh import EPSILON, SymbolicMesh, bits, mask_of
+from meshforge.symbolic.asset import (
+    Asset,
+    Body,
+    Document,
+    Geom,
+    Inertial,
+    Joint,
+    JointKind,
+    Mechanism,
+    Mentions,
+    Opaque,
+    Surface,
+    unique_names,
+    unit_vector,
+)
+from meshforge.symbolic.descriptor import DESCRIPTOR_NAMES, descriptors
+from meshforge.symbolic.features import PRIMITIVE_FEATURES, Feature, FeatureKind, features_of
+from meshforge.symbolic.hull import GIVEN_SOURCES, HUMAN_SOURCES, LABEL_SOURCES, Hull, Label, LabelSource
+from meshforge.symbolic.label_file import (
+    LabelFile,
+    LabelTransfer,
+    format_labels,
+    match_labels,
+    read_labels,
+    transfer_labels,
+    write_labels,
+)
+from meshforge.symbolic.mesh import EPSILON, NEAR_MISS, SymbolicMesh, bits_of, mask_of, split_by_body, split_by_contact
 
 __all__ = [
-    "DESCRIBED",
+    "DESCRIPTOR_NAMES",
     "EPSILON",
     "GIVEN_SOURCES",
     "HUMAN_SOURCES",
-    "SOURCES",
-    "Followed",
-    "Homes",
+    "LABEL_SOURCES",
+    "NEAR_MISS",
+    "PRIMITIVE_FEATURES",
+    "Asset",
+    "Body",
+    "Document",
+    "Feature",
+    "FeatureKind",
+    "Geom",
     "Hull",
+    "Inertial",
+    "Joint",
+    "JointKind",
     "Label",
     "LabelFile",
-    "Source",
+    "LabelSource",
+    "LabelTransfer",
+    "Mechanism",
+    "Mentions",
+    "Opaque",
+    "Surface",
     "SymbolicMesh",
-    "bits",
-    "bodies",
-    "components",
+    "bits_of",
     "descriptors",
-    "follow_labels",
-    "label_homes",
-    "labels_text",
+    "features_of",
+    "format_labels",
     "mask_of",
+    "match_labels",
     "read_labels",
+    "split_by_body",
+    "split_by_contact",
+    "transfer_labels",
+    "unique_names",
+    "unit_vector",
     "write_labels",
 ]

@@ -1,4 +1,4 @@
-"""What hulls are like, in numbers that neither the size of the mesh nor a turn about the upright axis changes."""
+"""Descriptors of hulls: numbers that neither the size of the mesh nor a turn about the upright axis changes."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ import numpy as np
 from meshforge.geometry import Box, Floats, Ints, Shape
 from meshforge.symbolic.mesh import SymbolicMesh
 
-DESCRIBED = (
+DESCRIPTOR_NAMES = (
     "share of the volume",
     "length",
     "width",
@@ -28,19 +28,19 @@ _CORNERS = np.array(list(product((-1.0, 1.0), repeat=3)))
 
 
 def descriptors(meshes: Sequence[SymbolicMesh]) -> Floats:
-    """A row for each hull of each mesh, in order: (hulls, len(DESCRIBED)).
+    """A row for each hull of each mesh, in order: (hulls, len(DESCRIPTOR_NAMES)).
 
     Lengths are in diagonals of the mesh, in logarithms where they are sizes; height runs from 0 at the foot of the
     mesh to 1 at its top, along Z.
     """
     hulls = [hull for mesh in meshes for hull in mesh.hulls]
     if not hulls:
-        return np.zeros((0, len(DESCRIBED)))
+        return np.zeros((0, len(DESCRIPTOR_NAMES)))
     owner = np.repeat(np.arange(len(meshes)), [len(mesh.hulls) for mesh in meshes])
     low, high = (np.concatenate([mesh.corners[end] for mesh in meshes]) for end in (0, 1))
-    foot, top = _around(low, high, owner, len(meshes))
+    foot, top = _boxes_around(low, high, owner, len(meshes))
     size = np.maximum(np.linalg.norm(top - foot, axis=1), 1e-300)[owner]
-    spread = np.maximum(_spreads([_points(hull.shape) for hull in hulls]), _LEAST * size[:, None])
+    spread = np.maximum(_spreads([_points_of(hull.shape) for hull in hulls]), _LEAST * size[:, None])
     volume = np.maximum([hull.volume for hull in hulls], 1e-9 * spread.prod(axis=1))
     middle, centre = (low + high) / 2, ((foot + top) / 2)[owner]
     tall = np.maximum((top - foot)[owner, 2], _LEAST * size)
@@ -56,7 +56,7 @@ def descriptors(meshes: Sequence[SymbolicMesh]) -> Floats:
     return np.stack(columns, axis=1)
 
 
-def _around(low: Floats, high: Floats, owner: Ints, count: int) -> tuple[Floats, Floats]:
+def _boxes_around(low: Floats, high: Floats, owner: Ints, count: int) -> tuple[Floats, Floats]:
     """The corners (count, 3) of the box around the hulls of each mesh; of a mesh without hulls, the origin."""
     foot, top = np.zeros((count, 3)), np.zeros((count, 3))
     firsts = np.flatnonzero(np.diff(owner, prepend=-1))
@@ -65,7 +65,7 @@ def _around(low: Floats, high: Floats, owner: Ints, count: int) -> tuple[Floats,
     return foot, top
 
 
-def _points(shape: Shape) -> Floats:
+def _points_of(shape: Shape) -> Floats:
     """Its vertices (n, 3); those of a box without the faces that come with a tessellation, which take most time."""
     return shape.pose.apply(_CORNERS * shape.half) if isinstance(shape, Box) else shape.vertices
 

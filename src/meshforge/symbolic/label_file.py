@@ -1,18 +1,19 @@
-"""Labels as a file beside an asset: readable JSON, keyed by hull name, with a digest of each hull's geometry."""
+"""Labels as a file beside an asset: JSON keyed by hull name, with a digest of each hull's geometry, by which labels
+follow hulls that were renamed."""
 
 from __future__ import annotations
 
 import json
+from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from types import MappingProxyType
 from typing import Any
 
-from meshforge.errors import AssetError, nearest
-from meshforge.files import write_atomically
+from meshforge.common import AssetError, nearest_name, write_atomically
 from meshforge.geometry import digest
-from meshforge.symbolic.labels import SOURCES, Label
+from meshforge.symbolic.hull import LABEL_SOURCES, Label
 from meshforge.symbolic.mesh import SymbolicMesh
 
 _REMEDY = 'Expected {"vocabulary": [label, …], "hulls": {name: {"label", "confidence", "source", "digest"}}}.'
@@ -36,33 +37,33 @@ class LabelFile:
 def write_labels(path: Path | None, mesh: SymbolicMesh, vocabulary: Sequence[str]) -> str:
     """The text of the labels of a mesh, in its order, written to `path` unless that is None."""
     digests = {hull.name: digest(hull.shape) for hull in mesh.hulls if hull.annotation}
-    text = labels_text(LabelFile(tuple(vocabulary), mesh.labels, digests))
+    text = format_labels(LabelFile(tuple(vocabulary), mesh.labels, digests))
     if path is not None:
         write_atomically(path, text)
     return text
 
 
-def labels_text(file: LabelFile) -> str:
+def format_labels(file: LabelFile) -> str:
     """The text of a labels file: one hull a line; labels that its vocabulary lacks are added at the end of that."""
     labels = [label.name for label in file.labels.values()]
     words = json.dumps(list(dict.fromkeys([*file.vocabulary, *labels])), ensure_ascii=False)
-    rows = [_row(name, label, file.digests.get(name)) for name, label in file.labels.items()]
+    rows = [_format_row(name, label, file.digests.get(name)) for name, label in file.labels.items()]
     hulls = "{\n" + ",\n".join(rows) + "\n  }" if rows else "{}"
     return f'{{\n  "vocabulary": {words},\n  "hulls": {hulls}\n}}\n'
 
 
-def _row(name: str, label: Label, geometry: str | None) -> str:
+def _format_row(name: str, label: Label, geometry: str | None) -> str:
     value: dict[str, Any] = {"label": label.name, "confidence": label.confidence, "source": label.source}
     value |= {"digest": geometry} if geometry else {}
     return f"    {json.dumps(name, ensure_ascii=False)}: {json.dumps(value, ensure_ascii=False)}"
 
 
 def read_labels(path: Path) -> LabelFile:
-    """The labels of a file; the short form `{"hulls": {name: label}}` is read too, as of source `file`.
+    """The labels of a file; the short form `{"hulls": {name: label}}` is read too, its labels have the source `file`.
 
     Raises AssetError naming file and hull: unreadable, no JSON, or not of that form.
     """
-    data = _json(path)
+    data = _load_json(path)
     known = {"vocabulary", "hulls"}
     if not isinstance(data, dict) or not isinstance(data.get("hulls"), dict):
         raise AssetError("this is no labels file", where=str(path), remedy=_REMEDY)
@@ -72,9 +73,9 @@ def read_labels(path: Path) -> LabelFile:
     vocabulary = data.get("vocabulary", [])
     if not isinstance(vocabulary, list) or not all(isinstance(word, str) and word for word in vocabulary):
         raise AssetError("its vocabulary is not a list of labels", where=str(path), remedy=_REMEDY)
-    entries = {name: _Entry.of(name, value, path) for name, value in data["hulls"].items() if value is not None}
+    entries = {name: _HullEntry.of(name, value, path) for name, value in data["hulls"].items() if value is not None}
     for name, entry in entries.items():
-        _check_word(name, entry.label.name, vocabulary, path)
+        _check_label(name, entry.label.name, vocabulary, path)
     return LabelFile(
         tuple(dict.fromkeys(vocabulary)),
         MappingProxyType({name: entry.label for name, entry in entries.items()}),
@@ -82,9 +83,9 @@ def read_labels(path: Path) -> LabelFile:
     )
 
 
-def _json(path: Path) -> Any:
+def _load_json(path: Path) -> Any:
     try:
-        return json.loads(path.read_text(encoding="utf-8-sig"), object_pairs_hook=_without_doubles)
+        return json.loads(path.read_text(encoding="utf-8-sig"), object_pairs_hook=_reject_duplicates)
     except OSError as error:
         raise AssetError(f"the labels cannot be read ({error.strerror})", where=str(path)) from error
     except UnicodeDecodeError as error:
@@ -94,63 +95,129 @@ def _json(path: Path) -> Any:
         raise AssetError(f"the labels are no JSON ({error.msg})", where=place, remedy=_REMEDY) from error
     except (RecursionError, ValueError) as error:
         raise AssetError("the labels are no JSON that can be read", where=str(path), remedy=_REMEDY) from error
-    except _TwiceError as error:
+    except _DuplicateNameError as error:
         raise AssetError(f"{error.args[0]!r} is given twice", where=str(path), remedy="Keep one of them.") from error
 
 
-class _TwiceError(Exception):
+class _DuplicateNameError(Exception):
     """A name that occurs twice in an object."""
 
 
-def _without_doubles(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+def _reject_duplicates(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
     found: dict[str, Any] = {}
     for name, value in pairs:
         if name in found:
-            raise _TwiceError(name)
+            raise _DuplicateNameError(name)
         found[name] = value
     return found
 
 
 @dataclass(frozen=True, slots=True)
-class _Entry:
+class _HullEntry:
     label: Label
     digest: str | None = None
 
     @staticmethod
-    def of(name: str, value: Any, path: Path) -> _Entry:
+    def of(name: str, value: Any, path: Path) -> _HullEntry:
         """What the file says of one hull, in the long form or the short."""
         match value:
             case str() if value:
-                return _Entry(Label(value, 1.0, "file"))
+                return _HullEntry(Label(value, 1.0, "file"))
             case {"label": str(label), **rest} if label:
-                return _Entry(Label(label, _confidence(name, rest, path), _source(name, rest, path)), _digest(rest))
+                return _HullEntry(
+                    Label(label, _parse_confidence(name, rest, path), _parse_source(name, rest, path)),
+                    _parse_digest(rest),
+                )
         raise AssetError(f"hull {name!r} has no label, which is a text", where=str(path), remedy=_REMEDY)
 
 
-def _confidence(name: str, rest: Mapping[Any, Any], path: Path) -> float:
+def _parse_confidence(name: str, rest: Mapping[Any, Any], path: Path) -> float:
     value = rest.get("confidence", 1.0)
     if isinstance(value, bool) or not isinstance(value, int | float) or not 0.0 <= value <= 1.0:
         raise AssetError(f"the confidence of hull {name!r} is {value!r}, not a number from 0 to 1", where=str(path))
     return float(value)
 
 
-def _source(name: str, rest: Mapping[Any, Any], path: Path) -> Any:
+def _parse_source(name: str, rest: Mapping[Any, Any], path: Path) -> Any:
     value = rest.get("source", "file")
-    if value not in SOURCES:
-        remedy = f"It is one of: {', '.join(SOURCES)}."
+    if value not in LABEL_SOURCES:
+        remedy = f"It is one of: {', '.join(LABEL_SOURCES)}."
         raise AssetError(f"the source of hull {name!r} is {value!r}", where=str(path), remedy=remedy)
     return value
 
 
-def _digest(rest: Mapping[Any, Any]) -> str | None:
+def _parse_digest(rest: Mapping[Any, Any]) -> str | None:
     value = rest.get("digest")
     return value if isinstance(value, str) and value else None
 
 
-def _check_word(name: str, label: str, vocabulary: Sequence[str], path: Path) -> None:
+def _check_label(name: str, label: str, vocabulary: Sequence[str], path: Path) -> None:
     if not label.isprintable():
         raise AssetError(f"the label {label!r} of hull {name!r} is no plain text", where=str(path))
     if vocabulary and label not in vocabulary:
-        like = nearest(label, vocabulary)
+        like = nearest_name(label, vocabulary)
         hint = f"Did you mean {like!r}?" if like else f"The vocabulary is: {', '.join(vocabulary)}."
         raise AssetError(f"the label {label!r} of hull {name!r} is not in its vocabulary", where=str(path), remedy=hint)
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class LabelMatch:
+    """Where the labels of a file belong. labels: by the name that the hull has now.
+
+    changed: hulls that keep name and label, with other geometry than was labelled; renamed: old and new names of
+    hulls that the label followed; gone: names in the file that no hull answers to. All in the file's order.
+    """
+
+    labels: Mapping[str, Label]
+    changed: tuple[str, ...] = ()
+    renamed: tuple[tuple[str, str], ...] = ()
+    gone: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class LabelTransfer:
+    """A mesh with the labels of a file; changed, renamed, gone: see `LabelMatch`."""
+
+    mesh: SymbolicMesh
+    changed: tuple[str, ...] = ()
+    renamed: tuple[tuple[str, str], ...] = ()
+    gone: tuple[str, ...] = ()
+
+
+def transfer_labels(file: LabelFile, mesh: SymbolicMesh) -> LabelTransfer:
+    """The mesh with the labels of the file, in the places that `match_labels` gives them."""
+    homes = match_labels(file, {hull.name: digest(hull.shape) if file.digests else "" for hull in mesh.hulls})
+    return LabelTransfer(mesh.with_labels(homes.labels), homes.changed, homes.renamed, homes.gone)
+
+
+def match_labels(file: LabelFile, hulls: Mapping[str, str]) -> LabelMatch:
+    """Where labels belong among hulls, given as digests by name; hulls are known again by name and by digest.
+
+    A label stays with its name. Where the name is gone, or has other geometry, it goes to the one hull that has the
+    digest, provided that the file gives that digest once; so the labels of a renumbered file move with their hulls.
+    """
+    moved = _match_renamed(file, hulls)
+    claimed = set(moved.values())
+    labels: dict[str, Label] = {}
+    changed, gone = [], []
+    for name, label in file.labels.items():
+        home = moved.get(name, name if name in hulls and name not in claimed else None)
+        if home is None:
+            gone.append(name)
+            continue
+        labels[home] = label
+        if home == name and file.digests.get(name, hulls[name]) != hulls[name]:
+            changed.append(name)
+    return LabelMatch(labels, tuple(changed), tuple(moved.items()), tuple(gone))
+
+
+def _match_renamed(file: LabelFile, here: Mapping[str, str]) -> dict[str, str]:
+    """The new name of each labelled hull that has another one now."""
+    authored = Counter(file.digests.values())
+    present = Counter(here.values())
+    names = {geometry: name for name, geometry in here.items()}
+    return {
+        name: names[geometry]
+        for name, geometry in file.digests.items()
+        if here.get(name) != geometry and authored[geometry] == present[geometry] == 1
+    }

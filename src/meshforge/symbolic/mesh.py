@@ -1,24 +1,28 @@
-"""The symbolic collision mesh: hulls with labels, AABBs and the contact graph, immutable."""
+"""The symbolic collision mesh: hulls, their contact graph, and selections of hulls as bit sets."""
 
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from math import dist
 
 import numpy as np
 
-from meshforge.asset import Asset, Geom
-from meshforge.errors import MeshForgeError
-from meshforge.geometry import Aabb, Floats, bounds
-from meshforge.symbolic.contact import NEAR_MISS, ContactGraph, contact_graph
-from meshforge.symbolic.hull import Hull
-from meshforge.symbolic.labels import Label
+from meshforge.common import MeshForgeError
+from meshforge.geometry import Aabb, Floats, Shape, bounds, close_pairs
+from meshforge.symbolic.asset import Asset, Geom
+from meshforge.symbolic.hull import Hull, Label
 
 EPSILON = 0.002
 """Contact threshold as a share of the diagonal (paper, implementation)."""
+
+ContactGraph = Mapping[tuple[int, int], float]
+"""Distance [m] of each pair (i, j), i < j, that is within reach."""
+
+NEAR_MISS = 3.0
+"""Pairs within this many times the contact distance are kept, to be shown."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -73,6 +77,15 @@ class SymbolicMesh:
         """Distances of all pairs within three times the contact distance."""
         return contact_graph([h.shape for h in self.hulls], self.contact_distance * NEAR_MISS)
 
+    @property
+    def known_graph(self) -> ContactGraph | None:
+        """The contact graph, None where it is not measured yet."""
+        return self.__dict__.get("graph")
+
+    def set_known_graph(self, graph: ContactGraph) -> None:
+        """Spare the measuring of distances that are known from another mesh with the same shapes."""
+        self.__dict__["graph"] = graph
+
     @cached_property
     def contacts(self) -> frozenset[tuple[int, int]]:
         """The pairs (i, j), i < j, of hulls in contact."""
@@ -90,7 +103,7 @@ class SymbolicMesh:
 
     def neighbours(self, index: int) -> frozenset[int]:
         """Indices of the hulls in contact with hull `index`; never itself."""
-        return bits(self.adjacency[index])
+        return bits_of(self.adjacency[index])
 
     @property
     def near_misses(self) -> tuple[tuple[int, int, float], ...]:
@@ -104,7 +117,7 @@ class SymbolicMesh:
         """Position of each hull by name."""
         return {hull.name: k for k, hull in enumerate(self.hulls)}
 
-    def named(self, name: str) -> Hull:
+    def hull_of(self, name: str) -> Hull:
         """The hull of that name. Raises MeshForgeError where there is none."""
         if name not in self.index:
             raise MeshForgeError(f"there is no hull {name!r}", where=str(self.asset.path) if self.asset else None)
@@ -114,36 +127,39 @@ class SymbolicMesh:
     def labels(self) -> dict[str, Label]:
         return {h.name: h.annotation for h in self.hulls if h.annotation}
 
-    def labelled(self, labels: Mapping[str, Label | None]) -> SymbolicMesh:
+    def names_of(self, mask: int) -> tuple[str, ...]:
+        """The names of the hulls in a bit set, in their order."""
+        return tuple(self.hulls[index].name for index in sorted(bits_of(mask)))
+
+    def with_labels(self, labels: Mapping[str, Label | None]) -> SymbolicMesh:
         """The mesh with some labels set, or taken away by None."""
-        return self.with_hulls(h.labelled(labels[h.name]) if h.name in labels else h for h in self.hulls)
+        return self.with_hulls(h.with_label(labels[h.name]) if h.name in labels else h for h in self.hulls)
 
     def with_hulls(self, hulls: Iterable[Hull]) -> SymbolicMesh:
         """The mesh with other hulls; distances between hulls whose shapes stay are not measured again."""
         edited = replace(self, hulls=tuple(hulls))
-        if "graph" in self.__dict__ and edited.contact_distance == self.contact_distance:
-            known, now = _by_shape(self.hulls), _by_shape(edited.hulls)
+        if self.known_graph is not None and edited.contact_distance == self.contact_distance:
+            known, now = _positions_by_shape(self.hulls), _positions_by_shape(edited.hulls)
             kept = {now[shape]: known[shape] for shape in now if shape in known}
             reach = self.contact_distance * NEAR_MISS
-            graph = contact_graph([h.shape for h in edited.hulls], reach, known=self.graph, kept=kept)
-            edited.__dict__["graph"] = graph
+            edited.set_known_graph(contact_graph([h.shape for h in edited.hulls], reach, self.known_graph, kept))
         return edited
 
-    def lowered(self) -> Asset:
+    def to_asset(self) -> Asset:
         """The asset with the hulls of this mesh as its geoms. Raises MeshForgeError for a mesh made in memory."""
         if self.asset is None:
             raise MeshForgeError("this mesh was made in memory and has no file to be written back to")
         return self.asset.with_geoms(Geom(h.name, h.body, h.shape, h.parent) for h in self.hulls)
 
 
-def _by_shape(hulls: tuple[Hull, ...]) -> dict[int, int]:
+def _positions_by_shape(hulls: tuple[Hull, ...]) -> dict[int, int]:
     """Position of each shape object by its identity, without those that several hulls share."""
     ids = [id(hull.shape) for hull in hulls]
     seen = Counter(ids)
     return {shape: k for k, shape in enumerate(ids) if seen[shape] == 1}
 
 
-def bits(mask: int) -> frozenset[int]:
+def bits_of(mask: int) -> frozenset[int]:
     """The positions of the set bits."""
     found = []
     while mask:
@@ -159,3 +175,55 @@ def mask_of(indices: Iterable[int]) -> int:
     for index in indices:
         mask |= 1 << index
     return mask
+
+
+def contact_graph(
+    shapes: Sequence[Shape], reach: float, known: ContactGraph | None = None, kept: Mapping[int, int] | None = None
+) -> ContactGraph:
+    """Distances of all pairs of shapes that are at most `reach` [m] apart, in the order of their indices.
+
+    known, kept: distances of an earlier list of shapes, and for each shape that was in it, its index there;
+    pairs of two kept shapes are taken over, all others are measured.
+    """
+    if known is None or not kept:
+        return close_pairs(shapes, reach)
+    back = {old: new for new, old in kept.items()}
+    found = {
+        (min(back[i], back[j]), max(back[i], back[j])): gap for (i, j), gap in known.items() if i in back and j in back
+    }
+    if len(kept) < len(shapes):
+        found.update(close_pairs(shapes, reach, settled=frozenset(kept)))
+    return dict(sorted(found.items()))
+
+
+def split_by_body(mesh: SymbolicMesh, mask: int) -> list[int]:
+    """The parts of a selection in one body each, as bit sets, in order of their lowest index."""
+    parts: dict[str, int] = {}
+    for index, hull in enumerate(mesh.hulls):
+        if mask >> index & 1:
+            parts[hull.body] = parts.get(hull.body, 0) | 1 << index
+    return list(parts.values())
+
+
+def split_by_contact(mesh: SymbolicMesh, mask: int) -> list[int]:
+    """The connected components of a selection within one body each, as bit sets, in order of their lowest index.
+
+    mask: the selection as a bit set. Hulls outside the selection, or of another body, connect nothing.
+    """
+    found = []
+    for part in split_by_body(mesh, mask):
+        while part:
+            found.append(_reach(mesh.adjacency, part & -part, part))
+            part &= ~found[-1]
+    return sorted(found, key=lambda component: component & -component)
+
+
+def _reach(adjacency: tuple[int, ...], seed: int, allowed: int) -> int:
+    """All positions that can be reached from the seed within those allowed."""
+    reached = frontier = seed
+    while frontier:
+        lowest = frontier & -frontier
+        fresh = adjacency[lowest.bit_length() - 1] & allowed & ~reached
+        reached |= fresh
+        frontier = (frontier ^ lowest) | fresh
+    return reached

@@ -1,40 +1,52 @@
 """Programs from demonstrations: steps, replay, the search for extractors, and what it comes to."""
 
-from meshforge.synthesis.asking import Answer, Choice, Hint, Question, Repair
-from meshforge.synthesis.correction import Correction
-from meshforge.synthesis.demonstration import Demonstration, Step
-from meshforge.synthesis.gather import consolidated
+from meshforge.synthesis.asset_selection import choose_first_demonstration
+from meshforge.synthesis.demonstration import Demonstration, Step, merge_steps, strip_each
 from meshforge.synthesis.learn import synthesize
-from meshforge.synthesis.options import LAYERS, Layers, Options, Shortcuts
-from meshforge.synthesis.outcome import Ambiguous, Found, Nearest, NeedsRepair, NoProgram, Outcome, Reading, TimedOut
-from meshforge.synthesis.search import Tried
-from meshforge.synthesis.telling import most_telling
-from meshforge.synthesis.wire import outcome_json
+from meshforge.synthesis.options import LAYERS, Layers, Options
+from meshforge.synthesis.outcome import (
+    Ambiguous,
+    Found,
+    LearningOutcome,
+    Nearest,
+    NeedsRepair,
+    NoProgram,
+    Reading,
+    TimedOut,
+    outcome_to_json,
+)
+from meshforge.synthesis.questions import Answer, Choice, Hint, LabelCorrection, Question, Repair
+from meshforge.synthesis.readings.rank import BELIEVABLE
+from meshforge.synthesis.replay import Replay, advance, begin_replay, memoize
 
 __all__ = [
+    "BELIEVABLE",
     "LAYERS",
     "Ambiguous",
     "Answer",
     "Choice",
-    "Correction",
     "Demonstration",
     "Found",
     "Hint",
+    "LabelCorrection",
     "Layers",
+    "LearningOutcome",
     "Nearest",
     "NeedsRepair",
     "NoProgram",
     "Options",
-    "Outcome",
     "Question",
     "Reading",
     "Repair",
-    "Shortcuts",
+    "Replay",
     "Step",
     "TimedOut",
-    "Tried",
-    "consolidated",
-    "most_telling",
-    "outcome_json",
+    "advance",
+    "begin_replay",
+    "choose_first_demonstration",
+    "memoize",
+    "merge_steps",
+    "outcome_to_json",
+    "strip_each",
     "synthesize",
 ]

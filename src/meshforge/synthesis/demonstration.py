@@ -1,13 +1,14 @@
-"""Demonstrations: what a person did, step by step, on one mesh."""
+"""Demonstrations: what a person did, step by step, on one mesh, and what all of them together say about each rule."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
-from meshforge.errors import DemonstrationError
-from meshforge.language import Action, Each
-from meshforge.symbolic import SymbolicMesh
+from meshforge.common import DemonstrationError
+from meshforge.language import Action, Delete, Each
+from meshforge.symbolic import SymbolicMesh, mask_of, split_by_contact
+from meshforge.synthesis.questions import LabelCorrection
 
 
 @dataclass(frozen=True, slots=True, init=False)
@@ -77,11 +78,125 @@ class Demonstration:
         return None if step is None or step.open else step
 
 
-def named(demos: Iterable[Demonstration]) -> tuple[tuple[str, Demonstration], ...]:
+def name_demonstrations(demos: Iterable[Demonstration]) -> tuple[tuple[str, Demonstration], ...]:
     """Each demonstration with the name that messages use; one without a name is `demonstration 1`, `2`, ..."""
     return tuple((demo.name or f"demonstration {k}", demo) for k, demo in enumerate(demos, 1))
 
 
-def core(action: Action) -> Action:
+def strip_each(action: Action) -> Action:
     """The action without `Each` around it."""
     return action.action if isinstance(action, Each) else action
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Example:
+    """One mesh as the rule meets it, and the hulls that the rule is to select there, as a bit set.
+
+    name: how messages call the mesh.
+    """
+
+    name: str
+    mesh: SymbolicMesh
+    selection: int
+
+
+LabelChange = tuple[int, str]
+"""A hull by its index, and the label it gets."""
+
+
+def to_correction(example: Example, change: LabelChange) -> LabelCorrection:
+    """A change as it is called outside."""
+    hull = example.mesh.hulls[change[0]]
+    return LabelCorrection(example.name, hull.name, hull.label, change[1])
+
+
+@dataclass(frozen=True, slots=True)
+class RuleSpec:
+    """A rule without its extractor.
+
+    each_in: where the action is `Each`, the name of a demonstration that says so. One that shows the action without
+    `Each` agrees with it only where it selects one connected component.
+    """
+
+    number: int
+    action: Action
+    label: str | None
+    each_in: str | None
+
+
+def collect_rule_specs(demos: Sequence[Demonstration]) -> tuple[RuleSpec, ...]:
+    """The rules in order. Raises DemonstrationError where actions differ, or where a rule is shown nowhere."""
+    count = max((len(demo.steps) for demo in demos), default=0)
+    if not count:
+        raise DemonstrationError("there is no demonstrated step to learn from")
+    return tuple(_merge_rule(number, demos) for number in range(1, count + 1))
+
+
+def _merge_rule(number: int, demos: Sequence[Demonstration]) -> RuleSpec:
+    steps = [(name, demo.step(number)) for name, demo in name_demonstrations(demos)]
+    shown = [(name, step) for name, step in steps if step and step.shown]
+    if not shown:
+        raise DemonstrationError(
+            f"rule {number} selects no hull in any demonstration",
+            remedy="Show it on a mesh where it has something to do, or leave the step out.",
+        )
+    for other in shown[1:]:
+        _check_same_rule(number, shown[0], other)
+    eaches = [(name, step) for name, step in shown if isinstance(step.action, Each)]
+    name, step = (eaches or shown)[0]
+    return RuleSpec(number, step.action, step.label, name if eaches else None)
+
+
+def _check_same_rule(number: int, one: tuple[str, Step], other: tuple[str, Step]) -> None:
+    (one_name, a), (other_name, b) = one, other
+    if (strip_each(a.action), a.label) != (strip_each(b.action), b.label):
+        raise DemonstrationError(
+            f"rule {number} does {_describe_step(a)} in {one_name}, but {_describe_step(b)} in {other_name}",
+            remedy="A rule does the same on every mesh: change one of the steps, or make two rules of them.",
+        )
+
+
+def _describe_step(step: Step) -> str:
+    return f"{step.action} as {step.label}" if step.label else str(step.action)
+
+
+def merge_steps(steps: Sequence[Step], mesh: SymbolicMesh) -> tuple[Step, ...]:
+    """The steps with like neighbours put together, numbered anew; steps that cannot be are left as they are.
+
+    mesh: the one the steps were done on, for its names and contacts. Two steps are put together where both are
+    shown, do the same under the same label, and either delete or act on different connected components of what
+    they select together. Hulls that a step made are not in the mesh; steps on them stay apart.
+    """
+    done: list[Step] = []
+    for step in steps:
+        both = _merge_pair(done[-1], step, mesh) if done else None
+        if both:
+            done[-1] = both
+        else:
+            done.append(step)
+    return tuple(Step(number, step.select, step.action, step.label) for number, step in enumerate(done, 1))
+
+
+def _merge_pair(one: Step, other: Step, mesh: SymbolicMesh) -> Step | None:
+    """One step that does what two do, None where there is none."""
+    if not one.select or not other.select or one.select & other.select:
+        return None
+    both = one.select | other.select
+    if (strip_each(one.action), one.label) != (strip_each(other.action), other.label) or not both <= mesh.index.keys():
+        return None
+    if isinstance(strip_each(one.action), Delete):
+        return Step(one.rule, both, Delete(), one.label)
+    parts = _parts_of(one, mesh) + _parts_of(other, mesh)
+    if sorted(parts) != sorted(split_by_contact(mesh, _mask_of_names(both, mesh))):
+        return None
+    return Step(one.rule, both, Each(strip_each(one.action)), one.label)
+
+
+def _parts_of(step: Step, mesh: SymbolicMesh) -> list[int]:
+    """What the step acts on one by one; without `Each` that is all of its selection."""
+    mask = _mask_of_names(step.select or frozenset(), mesh)
+    return split_by_contact(mesh, mask) if isinstance(step.action, Each) else [mask]
+
+
+def _mask_of_names(names: frozenset[str], mesh: SymbolicMesh) -> int:
+    return mask_of(mesh.index[name] for name in names)

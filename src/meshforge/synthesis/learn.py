@@ -1,23 +1,18 @@
-"""Learns a program from demonstrations (paper, stage III): one lesson after the other while labels get corrected."""
+"""Learns a program from demonstrations (paper, stage III): one run after the other while labels get corrected."""
 
 from __future__ import annotations
 
-import time
 from collections.abc import Callable, Iterable, Mapping, Sequence
 
+from meshforge.common import DemonstrationError, nearest_name
 from meshforge.language import Orient, Program, Template
 from meshforge.symbolic import SymbolicMesh
-from meshforge.synthesis.agreement import agreed_rules
-from meshforge.synthesis.asking import Answer, Repair
-from meshforge.synthesis.batch import Batch, corrected, named_batch
-from meshforge.synthesis.correction import Correction
-from meshforge.synthesis.demonstration import Demonstration, named
-from meshforge.synthesis.lesson import Lesson
-from meshforge.synthesis.options import Options
-from meshforge.synthesis.outcome import NeedsRepair, Outcome
-from meshforge.synthesis.task import Task
-from meshforge.synthesis.vocabulary import learned_vocabulary
-from meshforge.synthesis.watch import Clock, Watch
+from meshforge.synthesis.demonstration import Demonstration, collect_rule_specs, name_demonstrations
+from meshforge.synthesis.learning_run import LearningRun
+from meshforge.synthesis.options import Options, TimeBudget
+from meshforge.synthesis.outcome import LearningOutcome, NeedsRepair
+from meshforge.synthesis.questions import Answer, LabelCorrection, Repair
+from meshforge.synthesis.task import Batch, LearningTask, apply_corrections, name_batch
 
 DEFAULTS = Options()
 
@@ -28,88 +23,121 @@ def synthesize(
     orient: Orient | None = None,
     templates: Mapping[str, Template] | None = None,
     vocabulary: Sequence[str] | None = None,
-    contact: float | None = None,
-    extremity: float | None = None,
     options: Options = DEFAULTS,
     confirm: Callable[[Repair], bool] | None = None,
     answers: Sequence[Answer] = (),
-    rejected: Iterable[Correction] = (),
-    follow: Program | None = None,
-    clock: Clock = time.monotonic,
-    stop: Callable[[], bool] | None = None,
-) -> Outcome:
+) -> LearningOutcome:
     """The program that does on every demonstration what was shown, and whatever else these leave open.
 
     batch: the meshes it is meant for, by name or by their files' paths; vocabulary: labels it may ask for, by default
-    all on the meshes. templates: by the paths that actions name; contact, extremity: thresholds the program is to set.
+    all on the meshes. templates: by the paths that actions name.
     confirm: is asked about each label that is probably wrong; without it the outcome proposes the repairs.
-    answers: what a person said to earlier questions; rejected: corrections that a person refused, so the labels stand.
-    follow: a program somebody had in mind; the outcome tells what became of each of its rules.
-    stop: asked now and then; when it says so, what was found so far is returned, as when the time runs out.
+    answers: what a person said to earlier questions.
     Raises DemonstrationError for demonstrations that contradict each other or name what is not there, ProgramError
     where the orientation fails on one of them.
     """
-    meshes = named_batch(batch, demos)
-    rules = agreed_rules(demos)
-    labels = learned_vocabulary(demos, meshes.values(), orient, vocabulary)
-    frame = Program(labels, orient, (), contact, extremity)
-    watch = Watch(options.budget, clock, stop)
-    asked = _Asked(confirm, rejected, watch)
-    confirmed: tuple[Correction, ...] = ()
+    meshes = name_batch(batch, demos)
+    rules = collect_rule_specs(demos)
+    labels = choose_vocabulary(demos, meshes.values(), orient, vocabulary)
+    frame = Program(labels, orient, (), options.contact, options.extremity)
+    budget = TimeBudget(options.budget, options.clock, options.stop)
+    confirmer = _RepairConfirmer(confirm, options.rejected, budget)
+    confirmed: tuple[LabelCorrection, ...] = ()
     while True:
-        task = Task(
+        task = LearningTask(
             rules,
             tuple(
-                Demonstration(corrected(demo.mesh, name, confirmed), demo.steps, demo.name)
-                for name, demo in named(demos)
+                Demonstration(apply_corrections(demo.mesh, name, confirmed), demo.steps, demo.name)
+                for name, demo in name_demonstrations(demos)
             ),
-            {name: corrected(mesh, name, confirmed) for name, mesh in meshes.items()},
+            {name: apply_corrections(mesh, name, confirmed) for name, mesh in meshes.items()},
             frame,
             templates or {},
             tuple(answers),
-            asked.rejected,
+            confirmer.rejected,
             options,
-            follow,
             confirmed,
         )
-        outcome = Lesson(task, watch, asked.again if confirm else None).outcome()
+        outcome = LearningRun(task, budget, confirmer.confirm if confirm else None).run()
         if not confirm or not isinstance(outcome, NeedsRepair):
             return outcome
-        confirmed += asked.confirmed(outcome.repairs)
+        confirmed += confirmer.confirm_all(outcome.repairs)
 
 
-class _Asked:
+class _RepairConfirmer:
     """Asks a person about each correction once; what was confirmed is not to be undone by another one."""
 
-    def __init__(self, confirm: Callable[[Repair], bool] | None, rejected: Iterable[Correction], watch: Watch) -> None:
-        self._confirm, self._watch = confirm, watch
-        self._said = dict.fromkeys(rejected, False)
+    def __init__(
+        self, confirm: Callable[[Repair], bool] | None, rejected: Iterable[LabelCorrection], budget: TimeBudget
+    ) -> None:
+        self._confirm, self._budget = confirm, budget
+        self._decisions = dict.fromkeys(rejected, False)
 
     @property
-    def rejected(self) -> frozenset[Correction]:
+    def rejected(self) -> frozenset[LabelCorrection]:
         """What is not to be proposed: what was refused, and the reverse of what was confirmed."""
-        refused = {correction for correction, right in self._said.items() if not right}
-        return frozenset(refused.union(c.reverse for c, right in self._said.items() if right and c.reverse))
+        refused = {correction for correction, right in self._decisions.items() if not right}
+        return frozenset(refused.union(c.reverse for c, right in self._decisions.items() if right and c.reverse))
 
-    def confirmed(self, repairs: Iterable[Repair]) -> tuple[Correction, ...]:
+    def confirm_all(self, repairs: Iterable[Repair]) -> tuple[LabelCorrection, ...]:
         """Those that are confirmed; of a rule's repairs none is asked about after one that is refused.
 
         They explain the rule together, so without one the others may be pointless; if not, they are proposed again.
         """
-        right, refused = list[Correction](), set[int]()
+        right, refused = list[LabelCorrection](), set[int]()
         for repair in repairs:
             if repair.rule in refused:
                 continue
-            if self.again(repair):
+            if self.confirm(repair):
                 right.append(repair.correction)
             else:
                 refused.add(repair.rule)
         return tuple(right)
 
-    def again(self, repair: Repair) -> bool:
+    def confirm(self, repair: Repair) -> bool:
         """Whether a repair is confirmed."""
         assert self._confirm
-        if repair.correction not in self._said:
-            with self._watch.paused():
-                self._said[repair.correction] = self._confirm(repair)
-        return self._said[repair.correction]
+        if repair.correction not in self._decisions:
+            with self._budget.pause():
+                self._decisions[repair.correction] = self._confirm(repair)
+        return self._decisions[repair.correction]
+
+
+def choose_vocabulary(
+    demos: Sequence[Demonstration],
+    batch: Iterable[SymbolicMesh],
+    orient: Orient | None,
+    vocabulary: Sequence[str] | None,
+) -> tuple[str, ...]:
+    """The given vocabulary, or else every label of the meshes, the steps and the orientation, sorted.
+
+    Raises DemonstrationError for a demonstration with a label that a given vocabulary lacks.
+    """
+    landmarks = Program(orient=orient).labels_in_use
+    if vocabulary is None:
+        meshes = [*(demo.mesh for demo in demos), *batch]
+        on_hulls = {hull.label for mesh in meshes for hull in mesh.hulls if hull.label}
+        return tuple(sorted({*on_hulls, *landmarks, *(label for demo in demos for label in _labels_in_steps(demo))}))
+    for name, demo in name_demonstrations(demos):
+        for hull in demo.mesh.hulls:
+            if hull.label:
+                _check_label(hull.label, vocabulary, f"{name}, hull {hull.name!r}")
+        for label in _labels_in_steps(demo):
+            _check_label(label, vocabulary, f"{name}, steps")
+    return tuple(vocabulary)
+
+
+def _labels_in_steps(demo: Demonstration) -> list[str]:
+    """The labels that steps give to what they make."""
+    return [step.label for step in demo.steps if step.label]
+
+
+def _check_label(label: str, vocabulary: Sequence[str], where: str) -> None:
+    if label not in vocabulary:
+        like = nearest_name(label, vocabulary)
+        hint = f"Did you mean {like!r}? " if like else ""
+        raise DemonstrationError(
+            f"the label {label!r} is not in the vocabulary",
+            where=where,
+            remedy=f"{hint}The vocabulary is {', '.join(vocabulary) or 'empty'}.",
+        )

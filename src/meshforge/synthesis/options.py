@@ -1,14 +1,23 @@
-"""How a search is limited, and which of its shortcuts it takes."""
+"""How a search is limited: the options of learning, and the budget of time that a search checks as it goes."""
 
 from __future__ import annotations
 
+import time
+from collections.abc import Callable, Collection, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import Literal, get_args
+
+from meshforge.language import EXTREMITY, Program
+from meshforge.synthesis.questions import LabelCorrection
 
 Layers = Literal["S", "S+T", "S+G", "S+T+G"]
 LAYERS: tuple[Layers, ...] = get_args(Layers)
 Strategy = Literal["default", "paper"]
 STRATEGIES: tuple[Strategy, ...] = get_args(Strategy)
+
+Clock = Callable[[], float]
+"""Seconds from any fixed moment."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,6 +50,10 @@ class Options:
     repair: whether wrong labels are looked for; eta: corrections a mesh, over all rules, at most.
     max_size: in syntax nodes; budget: for the whole program [s].
     above: readings have up to so many nodes more than the smallest; effort: how many operands they may take to find.
+    contact, extremity: thresholds that the program is to set.
+    rejected: corrections that a person refused, so the labels stand.
+    follow: a program somebody had in mind; the outcome says what became of each of its rules.
+    stop: asked now and then; when it says so, what was found so far is returned, as when the time runs out.
     """
 
     strategy: Strategy = "default"
@@ -52,3 +65,49 @@ class Options:
     above: int = 4
     effort: int = 100_000
     shortcuts: Shortcuts = Shortcuts()
+    contact: float | None = None
+    extremity: float | None = None
+    rejected: Collection[LabelCorrection] = ()
+    follow: Program | None = None
+    clock: Clock = time.monotonic
+    stop: Callable[[], bool] | None = None
+
+    @property
+    def geo_extremity(self) -> float:
+        """The threshold of `Geo`: the language's own where none is set."""
+        return EXTREMITY if self.extremity is None else self.extremity
+
+
+class OutOfTime(Exception):  # noqa: N818 (not an error: the search's way out)
+    """The budget is spent, or a person does not want to wait; caught by the learner."""
+
+
+class TimeBudget:
+    """Counts down from the moment it is made; stop: says whether to stop before."""
+
+    __slots__ = ("_clock", "_end", "_start", "_stop")
+
+    def __init__(self, budget: float, clock: Clock = time.monotonic, stop: Callable[[], bool] | None = None) -> None:
+        self._clock, self._stop = clock, stop
+        self._start = clock()
+        self._end = self._start + budget
+
+    def check(self) -> None:
+        """Raise OutOfTime when the budget is spent."""
+        if self._clock() >= self._end or (self._stop and self._stop()):
+            raise OutOfTime
+
+    @contextmanager
+    def pause(self) -> Iterator[None]:
+        """While a person thinks, no time passes."""
+        began = self._clock()
+        try:
+            yield
+        finally:
+            away = self._clock() - began
+            self._start, self._end = self._start + away, self._end + away
+
+    @property
+    def elapsed(self) -> float:
+        """Time since the start [s]."""
+        return self._clock() - self._start

@@ -1,15 +1,15 @@
-"""What learning comes to: a closed union whose members share the attributes that callers read."""
+"""What learning results in: a closed union whose members share the attributes that callers read, and its JSON."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import ClassVar, Literal
+from typing import Any, ClassVar, Literal
 
-from meshforge.language import Extractor, Program, Rule, size
-from meshforge.synthesis.asking import Answer, Hint, Question, Repair
-from meshforge.synthesis.frames import Suggested
-from meshforge.synthesis.search import Tried
+from meshforge.language import Extractor, Program, Rule, show, size_of
+from meshforge.synthesis.orientation.suggest import OrientationSuggestion
+from meshforge.synthesis.questions import Answer, Hint, Question, Repair
+from meshforge.synthesis.search.smallest import SearchEffort
 
 
 @dataclass(frozen=True, slots=True)
@@ -29,7 +29,7 @@ class Reading:
     @property
     def size(self) -> int:
         """Syntax nodes of the extractor."""
-        return size(self.extractor)
+        return size_of(self.extractor)
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,20 +47,20 @@ class Nearest:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class _Outcome:
+class _OutcomeBase:
     """What all outcomes have.
 
     rules: those learned, in order; readings: of all of them, by rule, the most believable first; tried: how far the
     search of each rule went. seconds: under "search" and "replay".
     settled: whether all believable readings do the same on the whole batch; stale: answers that no longer fit, as
-    their asset or hulls are gone; hint: what to demonstrate next; sample: the assets whose results tell best whether
-    the program is what is meant, most telling first; overruled: assets whose result was accepted, which no program
+    their asset or hulls are gone; hint: what to demonstrate next; sample: the assets whose results show best whether
+    the program is what is meant, most revealing first; overruled: assets whose result was accepted, which no program
     keeps. followed: what became of a program that was to be followed, a sentence each.
     """
 
     rules: tuple[Rule, ...]
     readings: tuple[Reading, ...]
-    tried: tuple[Tried, ...]
+    tried: tuple[SearchEffort, ...]
     seconds: Mapping[str, float]
     settled: bool = False
     stale: tuple[Answer, ...] = ()
@@ -75,7 +75,7 @@ class _Outcome:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Found(_Outcome):
+class Found(_OutcomeBase):
     """A program that does on every demonstration what was shown; what is still open is not worth a question."""
 
     status: ClassVar[Literal["found"]] = "found"
@@ -83,7 +83,7 @@ class Found(_Outcome):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Ambiguous(_Outcome):
+class Ambiguous(_OutcomeBase):
     """A program that does what was shown, and a question that may change what it does elsewhere."""
 
     status: ClassVar[Literal["ambiguous"]] = "ambiguous"
@@ -92,7 +92,7 @@ class Ambiguous(_Outcome):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class NeedsRepair(_Outcome):
+class NeedsRepair(_OutcomeBase):
     """Labels that are probably wrong: with them corrected the rules have believable extractors.
 
     proposed: what the program would be then, as far as all rules were found; nearest: of a rule that still has none.
@@ -103,7 +103,7 @@ class NeedsRepair(_Outcome):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class NoProgram(_Outcome):
+class NoProgram(_OutcomeBase):
     """A rule that no extractor fits; why: one sentence about it; advice: what would help, a sentence each.
 
     suggested: an orientation in which every rule has an extractor.
@@ -113,14 +113,89 @@ class NoProgram(_Outcome):
     nearest: Nearest
     why: str
     advice: tuple[str, ...] = ()
-    suggested: Suggested | None = None
+    suggested: OrientationSuggestion | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class TimedOut(_Outcome):
+class TimedOut(_OutcomeBase):
     """The time ran out, or a person stopped it, while a rule was searched for; the rules before it are there."""
 
     status: ClassVar[Literal["timeout"]] = "timeout"
 
 
-Outcome = Found | Ambiguous | NeedsRepair | NoProgram | TimedOut
+LearningOutcome = Found | Ambiguous | NeedsRepair | NoProgram | TimedOut
+
+
+def outcome_to_json(outcome: LearningOutcome) -> dict[str, Any]:
+    """The outcome as `synthesize --json` prints it."""
+    return {
+        "status": outcome.status,
+        "program": str(outcome.program) if outcome.program else None,
+        "settled": outcome.settled,
+        "readings": [_reading_json(reading) for reading in outcome.readings],
+        "repairs": [_repair_json(repair) for repair in outcome.repairs],
+        "question": _question_json(outcome.question) if outcome.question else None,
+        "nearest": _nearest_json(outcome.nearest) if outcome.nearest else None,
+        "demonstrate_next": {"asset": outcome.hint.asset, "why": outcome.hint.why} if outcome.hint else None,
+        "look_at": list(outcome.sample),
+        "overruled": list(outcome.overruled),
+        "stale_answers": [{"rule": answer.rule, "asset": answer.asset} for answer in outcome.stale],
+        "followed": list(outcome.followed),
+        **_failure_json(outcome),
+        "seconds": dict(outcome.seconds),
+    }
+
+
+def _failure_json(outcome: LearningOutcome) -> dict[str, Any]:
+    if not isinstance(outcome, NoProgram):
+        return {}
+    orient = show(outcome.suggested.orient) if outcome.suggested else None
+    return {"why": outcome.why, "advice": list(outcome.advice), "suggested_orientation": orient}
+
+
+def _reading_json(reading: Reading) -> dict[str, Any]:
+    return {
+        "id": reading.id,
+        "rule": reading.rule,
+        "extractor": show(reading.extractor),
+        "size": reading.size,
+        "belief": round(reading.belief, 6),
+        "differs_on": list(reading.differs_on),
+    }
+
+
+def _repair_json(repair: Repair) -> dict[str, Any]:
+    wrong = repair.correction
+    return {
+        "rule": repair.rule,
+        "asset": wrong.asset,
+        "hull": wrong.hull,
+        "from": wrong.was,
+        "to": wrong.to,
+        "belief": round(repair.belief, 6),
+        "why": repair.why,
+    }
+
+
+def _question_json(question: Question) -> dict[str, Any]:
+    return {
+        "id": question.id,
+        "asset": question.asset,
+        "rule": question.rule,
+        "choices": [{"reading": choice.reading, "select": list(choice.select)} for choice in question.choices],
+    }
+
+
+def _nearest_json(nearest: Nearest) -> dict[str, Any]:
+    return {
+        "rule": nearest.rule,
+        "extractor": show(nearest.extractor),
+        "asset": nearest.asset,
+        "extra": list(nearest.extra),
+        "missing": list(nearest.missing),
+    }
+
+
+def reading_id(rule: int, place: int) -> str:
+    """The id of a reading by its place among those of its rule, from 0."""
+    return f"{rule}.{place + 1}"

@@ -1,40 +1,165 @@
-"""All that a program is to be learned from."""
+"""All that a program is learned from, and its meshes on their way through the rules."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
 
-from meshforge.language import EXTREMITY, Program, Template
-from meshforge.synthesis.agreement import Agreed
-from meshforge.synthesis.asking import Answer
-from meshforge.synthesis.batch import Batch
-from meshforge.synthesis.correction import Correction
-from meshforge.synthesis.demonstration import Demonstration
+from meshforge.common import MeshForgeError
+from meshforge.language import Program, Rule, Template
+from meshforge.symbolic import Label, SymbolicMesh, mask_of
+from meshforge.synthesis.demonstration import Demonstration, Example, RuleSpec, name_demonstrations
 from meshforge.synthesis.options import Options
+from meshforge.synthesis.questions import Answer, LabelCorrection
+from meshforge.synthesis.replay import Replay, begin_replay, example_of
+from meshforge.synthesis.replay import advance as advanced
+
+Batch = Mapping[str, SymbolicMesh]
+"""Meshes by the names that questions and readings call them."""
 
 
 @dataclass(frozen=True, slots=True)
-class Task:
+class LearningTask:
     """Demonstrations, the batch they stand for, and what a person said since.
 
-    frame: the program without its rules; rejected: corrections of labels that a person refused;
-    confirmed: those that were made, as a person said that they are right;
-    follow: a program of which is to be told why it is not what was learned.
+    frame: the program without its rules; rejected: corrections of labels not to propose; confirmed: those that were
+    made, as a person said that they are right.
     """
 
-    rules: tuple[Agreed, ...]
+    rules: tuple[RuleSpec, ...]
     demos: tuple[Demonstration, ...]
     batch: Batch
     frame: Program
     templates: Mapping[str, Template]
     answers: tuple[Answer, ...]
-    rejected: frozenset[Correction]
+    rejected: frozenset[LabelCorrection]
     options: Options
-    follow: Program | None = None
-    confirmed: tuple[Correction, ...] = ()
+    confirmed: tuple[LabelCorrection, ...] = ()
+
+
+def name_batch(batch: Iterable[SymbolicMesh] | Batch, demos: Sequence[Demonstration]) -> dict[str, SymbolicMesh]:
+    """The meshes of a batch in the order of their names, without those that are demonstrated.
+
+    By default the name is the file's path.
+    """
+    shown, meshes = dict(name_demonstrations(demos)), {id(demo.mesh) for demo in demos}
+    rows = batch if isinstance(batch, Mapping) else dict(_pair_with_names(batch))
+    return {name: rows[name] for name in sorted(rows) if name not in shown and id(rows[name]) not in meshes}
+
+
+def _pair_with_names(batch: Iterable[SymbolicMesh]) -> Iterable[tuple[str, SymbolicMesh]]:
+    for number, mesh in enumerate(batch, 1):
+        yield str(mesh.asset.path) if mesh.asset else f"mesh {number}", mesh
+
+
+def apply_corrections(mesh: SymbolicMesh, name: str, corrections: Iterable[LabelCorrection]) -> SymbolicMesh:
+    """A mesh with the labels that corrections give to its hulls, as far as they are there."""
+    given: dict[str, Label | None] = {c.hull: Label(c.to, 1.0, "repair") for c in corrections if c.asset == name}
+    return mesh.with_labels(given) if given else mesh
+
+
+class ReplaySet:
+    """All meshes as the next rule meets them.
+
+    Those of the batch that have no labels at all, that cannot be oriented or that an action fails on, leave it: the
+    program would fail there.
+    """
+
+    def __init__(
+        self,
+        demos: Sequence[Demonstration],
+        batch: Batch,
+        frame: Program,
+        templates: Mapping[str, Template],
+        answers: Sequence[Answer],
+    ) -> None:
+        self._frame, self._templates, self._answers = frame, templates, answers
+        self.shown = [
+            begin_replay(name, demo, frame.orient, frame.contact) for name, demo in name_demonstrations(demos)
+        ]
+        bare = {name for name, mesh in batch.items() if frame.labels and not any(hull.label for hull in mesh.hulls)}
+        rows = ((name, mesh) for name, mesh in batch.items() if name not in bare)
+        self.others = [replay for name, mesh in rows if (replay := self._begin(name, mesh))]
+        rules = range(1, 1 + max((len(demo.steps) for demo in demos), default=0))
+        self._stale = self._answers_without_asset(answers) + [answer for answer in answers if answer.rule not in rules]
 
     @property
-    def extremity(self) -> float:
-        """The threshold of `Geo`."""
-        return EXTREMITY if self.frame.extremity is None else self.frame.extremity
+    def stale(self) -> tuple[Answer, ...]:
+        """Answers whose rule, asset or hulls are not there."""
+        return tuple(dict.fromkeys(self._stale))
+
+    def _answers_without_asset(self, answers: Iterable[Answer]) -> list[Answer]:
+        """Those about assets that are not, or no longer, on their way."""
+        names = {replay.name for replay in [*self.shown, *self.others]}
+        return [answer for answer in answers if answer.asset not in names]
+
+    def _begin(self, name: str, mesh: SymbolicMesh) -> Replay | None:
+        try:
+            return begin_replay(name, Demonstration(mesh, (), name), self._frame.orient, self._frame.contact)
+        except MeshForgeError:
+            return None
+
+    def examples(self, rule: RuleSpec) -> tuple[list[Example], list[Replay]]:
+        """What is known about a rule, by demonstrations and answers, and the meshes about which nothing is."""
+        examples, open_ = [], []
+        answered = {a.asset: a for a in self._answers if a.rule == rule.number}  # the last one counts
+        for replay in [*self.shown, *self.others]:
+            shown = example_of(replay, rule)
+            answer = answered.get(replay.name)
+            if shown is None and answer and answer.select is not None:
+                shown = _example_of_answer(replay, answer)
+                self._stale += [] if shown else [answer]
+            if shown:
+                examples.append(shown)
+            else:
+                open_.append(replay)
+        self._stale += self._answers_without_asset(answered.values())
+        return examples, open_
+
+    def assets_with_answers(self, rule: int) -> tuple[str, ...]:
+        """The meshes of which an answer, and no demonstration, says what the rule selects."""
+        silent = {replay.name for replay in [*self.shown, *self.others] if not replay.demo.step(rule)}
+        selections = {a.asset: a.select for a in self._answers if a.rule == rule}
+        return tuple(name for name, select in selections.items() if select is not None and name in silent)
+
+    def rejections(self, rule: int, meshes: Sequence[SymbolicMesh]) -> list[tuple[int, int]]:
+        """What a person said is not meant: places in the list of meshes, and hulls there, as bit sets."""
+        places = {id(mesh): place for place, mesh in enumerate(meshes)}
+        by_name = {replay.name: replay.mesh for replay in [*self.shown, *self.others] if id(replay.mesh) in places}
+        return [
+            (places[id(by_name[answer.asset])], mask_of(by_name[answer.asset].index[name] for name in names))
+            for answer in {a.asset: a for a in self._answers if a.rule == rule}.values()
+            for names in answer.refused
+            if answer.asset in by_name and names <= by_name[answer.asset].index.keys()
+        ]
+
+    def advance(self, number: int, rule: Rule, last: bool) -> None:
+        """Run a rule on all meshes; the last one only on those that are demonstrated."""
+        delta = self._frame.extremity
+        self.shown = [advanced(replay, number, rule, self._templates, delta) for replay in self.shown]
+        if not last:
+            self.others = [done for replay in self.others if (done := self._advance(replay, number, rule))]
+
+    def _advance(self, replay: Replay, number: int, rule: Rule) -> Replay | None:
+        try:
+            return advanced(replay, number, rule, self._templates, self._frame.extremity)
+        except MeshForgeError:
+            return None
+
+    def correct(self, corrections: Sequence[LabelCorrection]) -> None:
+        """Go on as if labels were corrected."""
+        self.shown = [_correct_replay(replay, corrections) for replay in self.shown]
+        self.others = [_correct_replay(replay, corrections) for replay in self.others]
+
+
+def _example_of_answer(replay: Replay, answer: Answer) -> Example | None:
+    """None where a hull of the answer is not there: it was made by an earlier rule that is another one now."""
+    index, names = replay.mesh.index, answer.select or frozenset()
+    if not names <= index.keys():
+        return None
+    return Example(replay.name, replay.mesh, sum(1 << index[name] for name in names))
+
+
+def _correct_replay(replay: Replay, corrections: Sequence[LabelCorrection]) -> Replay:
+    mesh = apply_corrections(replay.mesh, replay.name, corrections)
+    return replay if mesh is replay.mesh else replace(replay, mesh=mesh)

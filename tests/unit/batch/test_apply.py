@@ -12,33 +12,36 @@ from typing import Any
 import pytest
 
 from meshforge.batch import (
+    IN_PROCESS,
+    ApplyOptions,
     AssetJob,
+    AssetOutcome,
     Edited,
+    ExecutionOptions,
     Failed,
-    Outcome,
     Skipped,
     Unchanged,
     apply,
     expand,
-    jobs,
-    json_line,
-    locked,
-    status,
+    hold_lock,
+    make_jobs,
+    status_of,
+    to_json_line,
 )
-from meshforge.errors import MeshForgeError, UsageError
+from meshforge.common import MeshForgeError, UsageError
 from meshforge.formats import load
 from meshforge.language import Program
 from meshforge.symbolic import write_labels
 from tests.unit.batch.families import PROGRAM, obj, tree, write_table, write_tables, write_urdf_table
 
 
-def run(assets: Path, out: Path, text: str = PROGRAM, **more: Any) -> list[Outcome]:
-    more.setdefault("workers", 0)
-    return list(apply(Program.parse(text), jobs(expand([assets])), out, **more))
+def run(assets: Path, out: Path, text: str = PROGRAM, **more: Any) -> list[AssetOutcome]:
+    more.setdefault("execution", IN_PROCESS)
+    return list(apply(Program.parse(text), make_jobs(expand([assets])), out, **more))
 
 
-def words(outcomes: Sequence[Outcome]) -> list[str]:
-    return [status(outcome) for outcome in outcomes]
+def words(outcomes: Sequence[AssetOutcome]) -> list[str]:
+    return [status_of(outcome) for outcome in outcomes]
 
 
 def results(folder: Path) -> dict[str, bytes]:
@@ -81,8 +84,10 @@ def test_the_labels_of_the_edited_asset_lie_beside_it_and_fit_it(assets: Path, o
 
 def test_outcomes_and_files_do_not_depend_on_the_number_of_workers(assets: Path, tmp_path: Path) -> None:
     (assets / "table1" / "model.obj").write_text("v 0 0\nf 1 2 3\n")
-    runs = {workers: run(assets, tmp_path / f"out{workers}", workers=workers) for workers in (0, 1, 2)}
-    lines = {w: [json_line(o) | {"seconds": 0, "out": None} for o in outcomes] for w, outcomes in runs.items()}
+    runs = {
+        workers: run(assets, tmp_path / f"out{workers}", execution=ExecutionOptions(workers)) for workers in (0, 1, 2)
+    }
+    lines = {w: [to_json_line(o) | {"seconds": 0, "out": None} for o in outcomes] for w, outcomes in runs.items()}
     assert lines[0] == lines[1] == lines[2]
     trees = {workers: tree(tmp_path / f"out{workers}") for workers in runs}
     assert trees[0] == trees[1] == trees[2]
@@ -115,7 +120,7 @@ def test_a_second_run_skips_what_is_up_to_date(assets: Path, out: Path) -> None:
     old, new = first[0], second[0]
     assert isinstance(old, Edited) and isinstance(new, Skipped)
     assert (new.rules, new.before, new.after, new.out) == (old.rules, old.before, old.after, old.out)
-    assert words(run(assets, out, resume=False)) == ["edited"] * 3
+    assert words(run(assets, out, options=ApplyOptions(resume=False))) == ["edited"] * 3
 
 
 def test_a_changed_asset_label_program_or_output_is_made_again(assets: Path, out: Path) -> None:
@@ -187,16 +192,16 @@ def test_the_second_of_two_assets_that_change_one_file_differently_fails(tmp_pat
     first, second = (write_table(tmp_path / name / "t.obj", height) for name, height in (("a", 1.0), ("b", 2.0)))
     work = [AssetJob("a", first, first.parent, None), AssetJob("b", second, second.parent, None)]
     program = Program.parse("labels misc\nAll => Merge\n")
-    outcomes = list(apply(program, work, out, workers=0))
+    outcomes = list(apply(program, work, out, execution=IN_PROCESS))
     assert words(outcomes) == ["edited", "failed"]
     assert isinstance(outcomes[1], Failed) and "a has written this file with other contents" in outcomes[1].error
-    assert words(list(apply(program, work, out, workers=0))) == ["skipped", "failed"]
+    assert words(list(apply(program, work, out, execution=IN_PROCESS))) == ["skipped", "failed"]
 
 
 def test_a_dry_run_tells_the_same_and_writes_nothing(assets: Path, out: Path) -> None:
-    dry = [json_line(o) | {"seconds": 0} for o in run(assets, out, dry_run=True)]
+    dry = [to_json_line(o) | {"seconds": 0} for o in run(assets, out, options=ApplyOptions(dry_run=True))]
     assert not out.exists()
-    assert dry == [json_line(o) | {"seconds": 0} for o in run(assets, out)]
+    assert dry == [to_json_line(o) | {"seconds": 0} for o in run(assets, out)]
 
 
 def test_files_that_an_edit_no_longer_makes_are_taken_away(tmp_path: Path, out: Path) -> None:
@@ -210,24 +215,24 @@ def test_files_that_an_edit_no_longer_makes_are_taken_away(tmp_path: Path, out: 
 
 def test_copied_files_may_be_hard_links(tmp_path: Path, out: Path) -> None:
     write_urdf_table(tmp_path / "robots")
-    run(tmp_path / "robots", out, "labels top, leg, misc\nIs(leg) => Delete\n", link=True)
+    run(tmp_path / "robots", out, "labels top, leg, misc\nIs(leg) => Delete\n", options=ApplyOptions(link=True))
     assert (out / "meshes/crumb.obj").samefile(tmp_path / "robots/meshes/crumb.obj")
 
 
 def test_only_one_run_may_write_into_a_folder(assets: Path, out: Path) -> None:
-    with locked(out / ".meshforge" / "lock", str(out)), pytest.raises(MeshForgeError, match="another meshforge"):
+    with hold_lock(out / ".meshforge" / "lock", str(out)), pytest.raises(MeshForgeError, match="another meshforge"):
         run(assets, out)
 
 
 def test_progress_counts_every_asset(assets: Path, out: Path) -> None:
     seen: list[None] = []
-    run(assets, out, workers=1, progress=lambda: seen.append(None))
+    run(assets, out, execution=ExecutionOptions(1, progress=lambda: seen.append(None)))
     assert len(seen) == 3
 
 
 def test_a_caller_that_stops_early_leaves_finished_work_and_no_drafts(assets: Path, out: Path) -> None:
-    outcomes = apply(Program.parse(PROGRAM), jobs(expand([assets])), out, workers=1)
-    assert status(next(outcomes)) == "edited"
+    outcomes = apply(Program.parse(PROGRAM), make_jobs(expand([assets])), out, execution=ExecutionOptions(1))
+    assert status_of(next(outcomes)) == "edited"
     assert isinstance(outcomes, Generator)
     outcomes.close()
     assert sorted(results(out)) == ["table0/model.labels.json", "table0/model.obj"]
@@ -236,7 +241,7 @@ def test_a_caller_that_stops_early_leaves_finished_work_and_no_drafts(assets: Pa
 
 
 def test_two_assets_of_one_id_are_refused(assets: Path, out: Path) -> None:
-    job = jobs(expand([assets]))[0]
+    job = make_jobs(expand([assets]))[0]
     with pytest.raises(UsageError, match="two assets have the id"):
         apply(Program.parse(PROGRAM), [job, job], out)
 
@@ -249,7 +254,7 @@ def test_a_folder_of_pieces_is_edited_as_one_asset(tmp_path: Path, out: Path) ->
     (tmp_path / "pieces.labels.json").write_text(json.dumps({"hulls": {"left": "a", "right": "a", "far": "b"}}))
     program = "labels a, b\nIs(a) => Merge\n"
     outcomes = run(tmp_path / "pieces", out, program)
-    assert [(o.asset, status(o)) for o in outcomes] == [("pieces", "edited")]
+    assert [(o.asset, status_of(o)) for o in outcomes] == [("pieces", "edited")]
     assert {hull.name: hull.label for hull in load(out / "pieces").hulls} == {"far": "b", "left~1": "a"}
     assert words(run(tmp_path / "pieces", out, program)) == ["skipped"]
     (tmp_path / "pieces/more.obj").write_text(obj({"more": ((20, 0, 0), (21, 1, 1))}))
@@ -281,11 +286,11 @@ def test_labels_follow_hulls_that_were_renamed(tmp_path: Path, out: Path) -> Non
 
 @pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="this system has no named pipes")
 def test_an_asset_that_takes_for_ever_fails_and_the_others_are_done(assets: Path, out: Path) -> None:
-    first, *others = jobs(expand([assets]))
+    first, *others = make_jobs(expand([assets]))
     endless = out.with_name("endless.json")
     os.mkfifo(endless)  # whoever reads it waits for a writer that never comes
     work = [replace(first, labels=endless), *others]
-    outcomes = list(apply(Program.parse(PROGRAM), work, out, workers=1, timeout=2.0))
+    outcomes = list(apply(Program.parse(PROGRAM), work, out, execution=ExecutionOptions(1, 2.0)))
     assert words(outcomes) == ["failed", "edited", "edited"]
     assert isinstance(outcomes[0], Failed) and "longer than 2 seconds" in outcomes[0].error
 

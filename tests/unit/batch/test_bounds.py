@@ -8,9 +8,21 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from meshforge.batch import Failed, Summary, Unchanged, apply, expand, isolated, jobs, plan, status
-from meshforge.batch.summary import SHOWN
-from meshforge.batch.workers.memory import MIB, share
+from meshforge.batch import (
+    IN_PROCESS,
+    ExecutionOptions,
+    Failed,
+    RunSummary,
+    Unchanged,
+    apply,
+    expand,
+    make_jobs,
+    plan_run,
+    run_isolated,
+    status_of,
+)
+from meshforge.batch.outcome import MOST_SHOWN
+from meshforge.batch.workers import MIB, memory_share
 from meshforge.language import Program
 from tests.unit.batch.families import PROGRAM, write_tables
 
@@ -27,8 +39,8 @@ def filled(mebibytes: int) -> int | str:
 
 @only_linux
 def test_a_monster_has_no_room_and_the_others_have() -> None:
-    assert list(isolated(filled, [10, 900, 20], workers=1, memory=500 * MIB)) == [10, "no room", 20]
-    assert list(isolated(filled, [900], workers=1)) == [900]
+    assert list(run_isolated(filled, [10, 900, 20], ExecutionOptions(1, None, 500 * MIB))) == [10, "no room", 20]
+    assert list(run_isolated(filled, [900], ExecutionOptions(1, None))) == [900]
 
 
 _left: list[np.ndarray] = []
@@ -42,7 +54,7 @@ def leaked(mebibytes: int) -> int:
 
 @only_linux
 def test_what_earlier_assets_left_behind_takes_no_room_from_the_next() -> None:
-    assert list(isolated(leaked, [300] * 4, workers=1, memory=500 * MIB)) == [1, 2, 3, 4]
+    assert list(run_isolated(leaked, [300] * 4, ExecutionOptions(1, None, 500 * MIB))) == [1, 2, 3, 4]
 
 
 @only_linux
@@ -52,44 +64,47 @@ def test_an_asset_without_room_fails_alone(tmp_path: Path) -> None:
     big.write_text("".join(f"v {k} 0 0\n" for k in range(2_000_000)) + "f 1 2 3\n")
     outcomes = list(
         apply(
-            Program.parse(PROGRAM), jobs(expand([tmp_path / "assets"])), tmp_path / "out", memory=100 * MIB, workers=1
+            Program.parse(PROGRAM),
+            make_jobs(expand([tmp_path / "assets"])),
+            tmp_path / "out",
+            execution=ExecutionOptions(1, memory=100 * MIB),
         )
     )
-    assert [status(outcome) for outcome in outcomes] == ["failed", "edited", "edited"]
+    assert [status_of(outcome) for outcome in outcomes] == ["failed", "edited", "edited"]
     assert isinstance(outcomes[0], Failed)
     assert "big.obj: there is not enough memory for it\n  More for one asset: --memory" in outcomes[0].error
 
 
 def test_shares_of_the_memory_are_even() -> None:
-    whole = share(1)
+    whole = memory_share(1)
     if whole is None:
         pytest.skip("this system does not tell its memory")
-    assert share(4) == pytest.approx(whole / 4, abs=1)
-    assert share(0) == whole
+    assert memory_share(4) == pytest.approx(whole / 4, abs=1)
+    assert memory_share(0) == whole
 
 
 def test_a_plan_tells_what_is_there_and_what_was_done(tmp_path: Path) -> None:
     write_tables(tmp_path / "assets", 3)
     (tmp_path / "assets/table0/model.labels.json").unlink()
-    work, out = jobs(expand([tmp_path / "assets"])), tmp_path / "out"
-    before = plan(work, out)
+    work, out = make_jobs(expand([tmp_path / "assets"])), tmp_path / "out"
+    before = plan_run(work, out)
     assert (before.count, before.kinds, before.labelled, before.earlier) == (3, {"OBJ": 3}, 2, 0)
     assert before.size == sum(path.stat().st_size for path in (tmp_path / "assets").rglob("*.obj"))
     assert str(before).startswith("3 assets (3 OBJ; 0.0 MiB), 2 with labels\n")
-    list(apply(Program.parse(PROGRAM), work[:2], out, workers=0))
-    after = plan(work, out)
+    list(apply(Program.parse(PROGRAM), work[:2], out, execution=IN_PROCESS))
+    after = plan_run(work, out)
     assert after.earlier == 2
     assert "an earlier run was at 2 of them" in str(after)
 
 
 def test_a_summary_counts_all_and_keeps_few() -> None:
-    summary = Summary()
+    summary = RunSummary()
     for k in range(1000):
         summary.add(Failed(f"bad{k}", "no", 0.0) if k % 10 == 0 else Unchanged(f"a{k}", "o", (), 2, 1, 0.0))
     assert (summary.total, summary.counts["failed"], summary.before, summary.after) == (1000, 100, 1800, 900)
-    assert len(summary.shown) == SHOWN
-    assert all(isinstance(outcome, Failed) for outcome in summary.shown[:100])
+    assert len(summary.outcomes_to_show) == MOST_SHOWN
+    assert all(isinstance(outcome, Failed) for outcome in summary.outcomes_to_show[:100])
     told = str(summary).splitlines()
     assert told[0] == "1,000 assets: 100 failed, 900 unchanged; hulls 1,800 -> 900"
     assert told[1].startswith("failed: bad0, bad10,") and told[1].endswith(" and 80 more")
-    assert str(Summary()) == "0 assets: nothing to do; hulls 0 -> 0"
+    assert str(RunSummary()) == "0 assets: nothing to do; hulls 0 -> 0"

@@ -8,11 +8,11 @@ from typing import Any
 
 import pytest
 
-from meshforge.batch import Failed, Spread, Wanted, apply, examine_all, expand, jobs, status
-from meshforge.batch.workers.cluster import on_cluster
-from meshforge.batch.workers.pool import Lost
-from meshforge.checks import Measures
-from meshforge.errors import MeshForgeError, StoppedError
+from meshforge.batch import CheckTask, ExecutionOptions, Failed, apply, check_assets, expand, make_jobs, status_of
+from meshforge.batch.execution import run_on_cluster
+from meshforge.batch.workers import WorkerFailure
+from meshforge.checks import CheckOptions
+from meshforge.common import MeshForgeError, StoppedError
 from meshforge.language import Program
 from meshforge.project import Project
 from tests.unit.batch.cluster_work import has_ray, slow_square, square_or_worse
@@ -43,9 +43,9 @@ def test_results_come_in_order_and_a_crash_or_a_hang_loses_one_item(cluster: Any
     def done() -> None:
         count[0] += 1
 
-    found = list(on_cluster(square_or_worse, range(40), timeout=8.0, done=done))
-    assert found[3] == Lost("its worker process died (SIGKILL)")
-    assert found[5] == Lost("it took longer than 8 seconds and was stopped", 8.0)
+    found = list(run_on_cluster(square_or_worse, range(40), ExecutionOptions(timeout=8.0, progress=done)))
+    assert found[3] == WorkerFailure("its worker process died (SIGKILL)")
+    assert found[5] == WorkerFailure("it took longer than 8 seconds and was stopped", 8.0)
     assert [(k, n) for k, n in enumerate(found) if k not in (3, 5)] == [
         (k, k * k) for k in range(40) if k not in (3, 5)
     ]
@@ -56,39 +56,39 @@ def test_a_node_that_dies_in_the_midst_costs_nothing(cluster: Any, tmp_path: Pat
     """Both nodes work when one of them is killed, and a third one comes."""
     write_tables(tmp_path / "assets", 60)
     (tmp_path / "assets/table7/model.obj").write_text("v 1 2\n")
-    program, work = Program.parse(PROGRAM), jobs(expand([tmp_path / "assets"]))
-    here = list(apply(program, work, tmp_path / "here", workers=2))
+    program, work = Program.parse(PROGRAM), make_jobs(expand([tmp_path / "assets"]))
+    here = list(apply(program, work, tmp_path / "here", execution=ExecutionOptions(2)))
     there, killed = [], False
-    for outcome in apply(program, work, tmp_path / "there", backend="ray"):
+    for outcome in apply(program, work, tmp_path / "there", execution=ExecutionOptions(backend="ray")):
         there.append(outcome)
         if not killed:
             cluster.remove_node(next(iter(cluster.worker_nodes)), allow_graceful=False)
             cluster.add_node(num_cpus=1)
             killed = True
-    assert [(o.asset, status(o)) for o in there] == [(o.asset, status(o)) for o in here]
+    assert [(o.asset, status_of(o)) for o in there] == [(o.asset, status_of(o)) for o in here]
     assert [o.asset for o in there if isinstance(o, Failed)] == ["table7/model.obj"]
     assert tree(tmp_path / "there") == tree(tmp_path / "here")
-    again = apply(program, work, tmp_path / "there", backend="ray")
-    assert {status(o) for o in again} == {"skipped", "failed"}
+    again = apply(program, work, tmp_path / "there", execution=ExecutionOptions(backend="ray"))
+    assert {status_of(o) for o in again} == {"skipped", "failed"}
 
 
 def test_checks_and_labels_are_the_same_there(cluster: Any, tmp_path: Path) -> None:
     write_tables(tmp_path / "assets", 6)
     (tmp_path / "assets/table3/model.obj").write_text("v 1 2\n")
-    work, wanted = jobs(expand([tmp_path / "assets"])), Wanted(Measures("unreal", fit=True))
+    work, wanted = make_jobs(expand([tmp_path / "assets"])), CheckTask(CheckOptions("unreal", fit=True))
     found, labels = [], []
-    for spread in (Spread(workers=2), Spread(backend="ray")):
-        found.append([examined.to_json() for examined in examine_all(work, wanted, spread) if examined])
+    for spread in (ExecutionOptions(workers=2), ExecutionOptions(backend="ray")):
+        found.append([examined.to_json() for examined in check_assets(work, wanted, spread) if examined])
         made = Project.create(tmp_path / spread.backend, [tmp_path / "assets"], vocabulary=("top", "leg", "misc"))
         made.set_labels("table0/model.obj", {name: label_of(name) for name in table_boxes()})
-        named, told = made.label_from_names(spread=spread), made.propagate_labels(spread=spread)
+        named, told = made.label_from_names(execution=spread), made.propagate_labels(execution=spread)
         labels.append((named, told, tree(made.folder / "labels")))
     assert found[0] == found[1] and [row["asset"] for row in found[0] if row["error"]] == [str(work[3].path)]
     assert labels[0] == labels[1] and len(labels[0][2]) == 5
 
 
 def test_a_node_that_dies_is_worked_off_by_the_others(cluster: Any) -> None:
-    results = on_cluster(slow_square, range(64))
+    results = run_on_cluster(slow_square, range(64))
     first = next(results)
     cluster.remove_node(next(iter(cluster.worker_nodes)), allow_graceful=False)
     assert [first, *results] == [n * n for n in range(64)]
@@ -96,12 +96,12 @@ def test_a_node_that_dies_is_worked_off_by_the_others(cluster: Any) -> None:
 
 
 def test_workers_need_not_load_ray(cluster: Any) -> None:
-    assert list(on_cluster(has_ray, range(4))) == [False] * 4
+    assert list(run_on_cluster(has_ray, range(4))) == [False] * 4
 
 
 def test_it_can_be_stopped(cluster: Any) -> None:
     with pytest.raises(StoppedError):
-        list(on_cluster(slow_square, range(1000), stop=lambda: True))
+        list(run_on_cluster(slow_square, range(1000), ExecutionOptions(timeout=None, stop=lambda: True)))
 
 
 def test_a_cluster_that_does_not_answer_is_one_message(monkeypatch: pytest.MonkeyPatch, cluster: Any) -> None:
@@ -113,4 +113,4 @@ def test_a_cluster_that_does_not_answer_is_one_message(monkeypatch: pytest.Monke
     with pytest.raises(
         MeshForgeError, match="no Ray cluster answers: nobody there\n  Start one with `ray start --head`"
     ):
-        list(on_cluster(slow_square, range(2)))
+        list(run_on_cluster(slow_square, range(2)))

@@ -5,9 +5,8 @@ from pathlib import Path
 
 import pytest
 
-from meshforge.batch import expand, jobs
-from meshforge.errors import UsageError
-from meshforge.files import globbed
+from meshforge.batch import expand, make_jobs
+from meshforge.common import UsageError, expand_glob
 from meshforge.formats import load_many
 from tests.unit.batch.families import obj, write_table, write_tables, write_urdf_table
 
@@ -124,23 +123,23 @@ def test_an_argument_that_matches_nothing_is_named(tmp_path: Path, pattern: str)
 def test_labels_are_found_beside_the_assets_or_in_a_folder_that_mirrors_them(tmp_path: Path) -> None:
     write_tables(tmp_path / "assets", 3)
     found = expand([tmp_path / "assets"])
-    assert [job.labels for job in jobs(found)] == [p.with_suffix(".labels.json") for p in found]
+    assert [job.labels for job in make_jobs(found)] == [p.with_suffix(".labels.json") for p in found]
     mirror = tmp_path / "labels"
     for name in ("table0/model.obj.json", "table1/model.labels.json"):
         (mirror / name).parent.mkdir(parents=True)
         (mirror / name).touch()
-    given = [job.labels for job in jobs(found, mirror)]
+    given = [job.labels for job in make_jobs(found, mirror)]
     assert given == [mirror / "table0/model.obj.json", mirror / "table1/model.labels.json", None]
 
 
 def test_one_labels_file_serves_one_asset_only(tmp_path: Path) -> None:
     paths = write_tables(tmp_path, 2)
     labels = paths[0].with_suffix(".labels.json")
-    assert jobs(expand(paths[1:]), labels)[0].labels == labels
+    assert make_jobs(expand(paths[1:]), labels)[0].labels == labels
     with pytest.raises(UsageError, match="one labels file cannot serve 2 assets"):
-        jobs(expand(paths), labels)
+        make_jobs(expand(paths), labels)
     with pytest.raises(UsageError, match="no such labels file or folder"):
-        jobs(expand(paths[:1]), tmp_path / "absent")
+        make_jobs(expand(paths[:1]), tmp_path / "absent")
 
 
 def test_links_that_lead_in_circles_are_followed_once(tmp_path: Path) -> None:
@@ -163,7 +162,7 @@ def test_a_glob_matches_what_python_matches(pattern: str, tmp_path: Path) -> Non
     for name in ("c.obj", "a/c.obj", "a/b/c.obj", "a/b/b/d.obj", "e/b/c.obj", ".hidden/c.obj", "a/.hidden.obj"):
         one_box(tmp_path / name)
     (tmp_path / "linked").symlink_to(tmp_path / "a")
-    ours = {Path(name) for name in globbed(pattern, tmp_path)}
+    ours = {Path(name) for name in expand_glob(pattern, tmp_path)}
     theirs = {Path(name) for name in glob(pattern, root_dir=tmp_path, recursive=True)}  # noqa: PTH207
     assert {path for path in ours if (tmp_path / path).is_file()} == {p for p in theirs if (tmp_path / p).is_file()}
     assert ours <= theirs

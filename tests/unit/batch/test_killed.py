@@ -11,7 +11,7 @@ from pathlib import Path
 
 import pytest
 
-from meshforge.batch import apply, expand, jobs, status
+from meshforge.batch import IN_PROCESS, apply, expand, make_jobs, status_of
 from meshforge.language import Program
 from tests.unit.batch.families import PROGRAM, tree, write_tables, write_urdf_table
 from tests.unit.deaths import deaths, needs_fork
@@ -21,8 +21,8 @@ NEW = "labels top, leg, misc\nIs(misc) => Delete\nIs(leg) => Merge\n"
 
 
 def run(assets: Path, out: Path, text: str) -> list[str]:
-    outcomes = apply(Program.parse(text), jobs(expand([assets])), out, workers=0)
-    return [status(outcome) for outcome in outcomes]
+    outcomes = apply(Program.parse(text), make_jobs(expand([assets])), out, execution=IN_PROCESS)
+    return [status_of(outcome) for outcome in outcomes]
 
 
 def files(out: Path) -> dict[str, bytes]:
@@ -65,12 +65,12 @@ SCRIPT = """\
 import sys
 import time
 from pathlib import Path
-from meshforge.batch import apply, expand, jobs
+from meshforge.batch import ExecutionOptions, apply, expand, make_jobs
 from meshforge.language import Program
 
 if __name__ == "__main__":
     assets, out, text = sys.argv[1:]
-    for outcome in apply(Program.parse(text), jobs(expand([assets])), Path(out), workers=1):
+    for outcome in apply(Program.parse(text), make_jobs(expand([assets])), Path(out), execution=ExecutionOptions(1)):
         print(outcome.asset, flush=True)
 """
 
@@ -93,8 +93,8 @@ def test_ctrl_c_leaves_finished_work_intact_and_no_process_behind(tmp_path: Path
     assert process.returncode != 0 and "KeyboardInterrupt" in errors
     wait_until_gone(process.pid)
     finished = [first, *rest.split()]
-    work = jobs(expand([assets]))[: len(finished) + 1]
-    words = [status(outcome) for outcome in apply(Program.parse(PROGRAM), work, out, workers=0)]
+    work = make_jobs(expand([assets]))[: len(finished) + 1]
+    words = [status_of(outcome) for outcome in apply(Program.parse(PROGRAM), work, out, execution=IN_PROCESS)]
     assert words == ["skipped"] * len(finished) + ["edited"]
     assert not (out / ".meshforge" / "drafts").exists()
 

@@ -6,15 +6,15 @@ from pathlib import Path
 
 import pytest
 
-from meshforge.batch import locked
-from meshforge.errors import MeshForgeError
+from meshforge.batch import hold_lock
+from meshforge.common import MeshForgeError
 from tests.unit.deaths import needs_fork
 
 
 def is_free(path: Path, *, again: bool = True) -> bool:
     """Whether the present thread gets a lock at once."""
     try:
-        with locked(path, "it", wait=0, again=again):
+        with hold_lock(path, "it", wait=0, again=again):
             return True
     except MeshForgeError:
         return False
@@ -31,7 +31,7 @@ def is_free_elsewhere(path: Path) -> bool:
 
 def test_a_thread_takes_a_lock_again_and_holds_it_until_the_first_time_ends(tmp_path: Path) -> None:
     path = tmp_path / "lock"
-    with locked(path, "it", again=True):
+    with hold_lock(path, "it", again=True):
         assert is_free(path)
         assert not is_free_elsewhere(path)
     assert is_free_elsewhere(path)
@@ -39,31 +39,31 @@ def test_a_thread_takes_a_lock_again_and_holds_it_until_the_first_time_ends(tmp_
 
 def test_the_same_lock_by_another_path_is_the_same(tmp_path: Path) -> None:
     (tmp_path / "folder").mkdir()
-    with locked(tmp_path / "lock", "it", again=True):
+    with hold_lock(tmp_path / "lock", "it", again=True):
         assert is_free(tmp_path / "folder" / ".." / "lock")
 
 
 def test_a_lock_that_is_not_to_be_taken_again_is_not(tmp_path: Path) -> None:
     path = tmp_path / "lock"
-    with locked(path, "it"):
+    with hold_lock(path, "it"):
         assert not is_free(path) and not is_free(path, again=False)
-    with locked(path, "it", again=True):
+    with hold_lock(path, "it", again=True):
         assert not is_free(path, again=False)
 
 
 def test_an_error_inside_lets_go_of_the_lock(tmp_path: Path) -> None:
     path = tmp_path / "lock"
-    with pytest.raises(ValueError, match="inside"), locked(path, "it", again=True):
+    with pytest.raises(ValueError, match="inside"), hold_lock(path, "it", again=True):
         raise ValueError("inside")
     assert is_free_elsewhere(path)
-    with locked(path, "it", again=True):
+    with hold_lock(path, "it", again=True):
         assert not is_free_elsewhere(path)
 
 
 @needs_fork
 def test_a_forked_process_does_not_hold_what_its_parent_holds(tmp_path: Path) -> None:
     path = tmp_path / "lock"
-    with locked(path, "it", again=True):
+    with hold_lock(path, "it", again=True):
         child = os.fork()
         if child == 0:
             os._exit(1 if is_free(path) else 0)

@@ -5,10 +5,10 @@ import pickle
 
 import pytest
 
-from meshforge.batch import Edited, Failed, Outcome, RuleLine, Skipped, Unchanged, json_line, status
+from meshforge.batch import AssetOutcome, Edited, Failed, RuleEffect, Skipped, Unchanged, status_of, to_json_line
 
-RULES = (RuleLine(1, ("a", "b"), ("a~1",), "two pieces"), RuleLine(2, ()))
-OUTCOMES: list[tuple[str, Outcome]] = [
+RULES = (RuleEffect(1, ("a", "b"), ("a~1",), "two pieces"), RuleEffect(2, ()))
+OUTCOMES: list[tuple[str, AssetOutcome]] = [
     ("edited", Edited("x/t.urdf", "out/x/t.urdf", RULES, 5, 4, 1.23456)),
     ("unchanged", Unchanged("x/t.urdf", "out/x/t.urdf", RULES, 5, 5, 0.5)),
     ("skipped", Skipped("x/t.urdf", "out/x/t.urdf", RULES, 5, 4, 0.0)),
@@ -17,17 +17,17 @@ OUTCOMES: list[tuple[str, Outcome]] = [
 
 
 @pytest.mark.parametrize(("word", "outcome"), OUTCOMES)
-def test_every_outcome_pickles_and_has_a_json_line_of_one_shape(word: str, outcome: Outcome) -> None:
+def test_every_outcome_pickles_and_has_a_json_line_of_one_shape(word: str, outcome: AssetOutcome) -> None:
     again = pickle.loads(pickle.dumps(outcome))
     assert again == outcome
-    line = json.loads(json.dumps(json_line(again)))
+    line = json.loads(json.dumps(to_json_line(again)))
     assert list(line) == ["asset", "status", "out", "error", "rules", "hulls", "seconds"]
-    assert line["status"] == status(outcome) == word
+    assert line["status"] == status_of(outcome) == word
     assert set(line["hulls"]) == {"before", "after"}
 
 
 def test_the_json_line_of_an_edited_asset() -> None:
-    assert json_line(OUTCOMES[0][1]) == {
+    assert to_json_line(OUTCOMES[0][1]) == {
         "asset": "x/t.urdf",
         "status": "edited",
         "out": "out/x/t.urdf",
@@ -42,6 +42,6 @@ def test_the_json_line_of_an_edited_asset() -> None:
 
 
 def test_the_json_line_of_a_failed_asset_has_the_message_and_no_output() -> None:
-    line = json_line(OUTCOMES[3][1])
+    line = to_json_line(OUTCOMES[3][1])
     assert line["error"] == "x/t.urdf: no labels"
     assert line["out"] is None and line["rules"] == [] and line["hulls"] == {"before": None, "after": None}

@@ -13,12 +13,22 @@ import lxml.html
 import pytest
 from PIL import Image
 
-from meshforge.batch import Failed, Figures, Kept, ReportAsset, Summary, Unchanged, write_report
+from meshforge.batch import (
+    EarlierExamination,
+    Failed,
+    ReportAsset,
+    ReportHeader,
+    ReportOptions,
+    RunFigures,
+    RunSummary,
+    Unchanged,
+    write_report,
+)
 from meshforge.checks import Finding
 from meshforge.language import Program, RuleTrace, explain, show
 from meshforge.symbolic import SymbolicMesh
 from tests.unit.batch.pages import opened, texts
-from tests.unit.views.scenes import box, hull, table
+from tests.unit.rendering.scenes import box, hull, table
 
 PROGRAM = Program.parse(
     """\
@@ -50,7 +60,8 @@ def assets() -> list[ReportAsset]:
 
 
 def written(path: Path, what: Sequence[ReportAsset], **options: Any) -> str:
-    write_report(path / "report.html", title="Tables & <co>", program=PROGRAM, assets=what, **options)
+    header = ReportHeader("Tables & <co>", *(options.pop(key, None) for key in ("about", "seconds", "figures")))
+    write_report(path / "report.html", header, what, program=PROGRAM, options=ReportOptions(**options))
     return (path / "report.html").read_text("utf-8")
 
 
@@ -117,10 +128,10 @@ def test_headline_counts_assets_hulls_and_seconds(tree: Any) -> None:
 
 @pytest.mark.slow
 def test_of_a_large_run_the_headline_tells_all_and_how_many_are_shown(tmp_path: Path) -> None:
-    summary = Summary()
+    summary = RunSummary()
     for k in range(5000):
         summary.add(Failed(f"bad{k}", "no", 0.0) if k < 2 else Unchanged(f"a{k}", "o", (), 3, 2, 0.0))
-    page: Any = lxml.html.document_fromstring(written(tmp_path, assets(), figures=Figures.of_run(summary)))
+    page: Any = lxml.html.document_fromstring(written(tmp_path, assets(), figures=RunFigures.of_run(summary)))
     figures = dict(zip(texts(page, "//dl//dt"), texts(page, "//dl//dd"), strict=True))
     assert figures == {"assets": "5,000", "unchanged": "4,998", "failed": "2", "hulls": "14,994 → 9,996 −33 %"}
     assert "4 of 5,000 assets are shown, those that failed first." in texts(page, "//p")
@@ -146,7 +157,7 @@ def test_of_a_page_about_labels_the_legend_has_them_though_no_hull_does(tmp_path
 
 def test_without_a_program_and_pairs_there_is_no_panel_and_no_slider(tmp_path: Path) -> None:
     mesh = table()
-    write_report(tmp_path / "r.html", title="Checks", assets=[ReportAsset("a", mesh, mesh, (), "clean")])
+    write_report(tmp_path / "r.html", ReportHeader("Checks"), [ReportAsset("a", mesh, mesh, (), "clean")])
     page = opened(tmp_path / "r.html")
     assert page.xpath("//*[@id='program' or @id='every' or @id='modes']") == []
     assert texts(page, "//h2") == ["Assets"] and page.xpath("//article//img/@class") == ["only"]
@@ -157,9 +168,9 @@ def test_without_a_program_and_pairs_there_is_no_panel_and_no_slider(tmp_path: P
 def test_hulls_that_findings_name_stand_out(tmp_path: Path) -> None:
     mesh, shown = table(), []
     for hulls in ((), (mesh.hulls[0].name,), tuple(mesh.index)):
-        found = Kept((Finding("odd", "warning", hulls, "odd", "Mend it."),), ())
+        found = EarlierExamination((Finding("odd", "warning", hulls, "odd", "Mend it."),), ())
         asset = ReportAsset("a", mesh, mesh, (), "warnings", checked=found)
-        write_report(tmp_path / "r.html", title="Checks", assets=[asset])
+        write_report(tmp_path / "r.html", ReportHeader("Checks"), [asset])
         page = opened(tmp_path / "r.html")
         told = "named by a finding, the rest pale" in texts(page, "//ul[@class='legend']/li")
         shown.append((page.xpath("//img/@src")[0], told))
@@ -169,10 +180,10 @@ def test_hulls_that_findings_name_stand_out(tmp_path: Path) -> None:
 
 def test_long_lists_of_notes_and_findings_are_cut_and_counted(tmp_path: Path) -> None:
     mesh = SymbolicMesh(table().hulls[:1])
-    found = Kept(tuple(Finding("odd", "warning", (), f"odd {k}", "Mend it.") for k in range(50)), ())
+    found = EarlierExamination(tuple(Finding("odd", "warning", (), f"odd {k}", "Mend it.") for k in range(50)), ())
     notes = tuple(f"note {k}" for k in range(9))
     asset = ReportAsset("a", mesh, mesh, (), "warnings", notes=notes, checked=found)
-    write_report(tmp_path / "r.html", title="Checks", assets=[asset], pictured=0)
+    write_report(tmp_path / "r.html", ReportHeader("Checks"), [asset], options=ReportOptions(pictured=0))
     page = opened(tmp_path / "r.html")
     assert texts(page, "//article/p") == list(notes[:6]) and texts(page, "//summary")[0] == "and 3 more"
     assert texts(page, "//ul[@class='findings']/li")[39:] == ["warning odd 39 Mend it.", "and 10 more"]

@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from meshforge.batch import load_templates, template_folders
-from meshforge.errors import ProgramError
+from meshforge.common import ProgramError
 from meshforge.language import Program
 from tests.unit.batch.families import obj, write_table
 

@@ -8,7 +8,8 @@ from pathlib import Path
 
 import pytest
 
-from meshforge.perception.vlm import Client, Endpoint
+from meshforge.labels.vlm.client import Client
+from meshforge.labels.vlm.endpoint import Endpoint
 from tests.loopback import Asked, Server, serving
 from tests.loopback.server import KEY, MODEL
 

@@ -88,7 +88,7 @@ def test_an_agent_that_is_wrong_at_first_is_told_why_and_ends_right(
     answers = [block("Is(base => Delete"), block(wrong), block(right)]
     with asking(by_turn(*answers)) as (server, client):
         written = refined(client, agent.opening, agent.tried, ROOM)
-        assert client.bill.cost is not None
+        assert client.usage.cost is not None
     assert (written.fits, written.rounds, written.wrong) == (True, 3, [None, len(shown), 0])
     assert Program.parse(written.text or "") == bench.task.program
     _, second, third = server.answered

@@ -20,7 +20,7 @@ from benchmark.baselines.blender.process import Blender, Limits
 from benchmark.baselines.blender.scene import mesh_of, scene_of
 from benchmark.baselines.blender.shapes import Illegal
 from benchmark.tasks import task
-from meshforge.errors import UsageError
+from meshforge.common import UsageError
 from meshforge.geometry import convex_hull, digest
 from meshforge.symbolic import SymbolicMesh
 from tests.unit.benchmark.blender_script import SHELLS
@@ -93,14 +93,14 @@ bpy.ops.object.light_add()
     back, named = mesh_of(answer["objects"], MESH)
     assert {hull.name for hull in back.hulls} == {second, third, *rest, "box"}
     assert named == {third, "box"}
-    lifted = MESH.named(second).aabb.min + np.array([0, 0, 0.5])
-    assert np.allclose(back.named(second).aabb.min, lifted, atol=1e-6)
-    assert back.named(second).label == MESH.named(second).label
-    assert (back.named(third).label, back.named("box").label) == ("spout", "lid")
-    assert digest(back.named(third).shape) == digest(MESH.named(third).shape)
-    assert back.named("box").volume == pytest.approx(0.008, rel=1e-5)
-    assert back.named("box").shape.kind == "polytope"
-    assert all(back.named(name) is MESH.named(name) for name in rest)
+    lifted = MESH.hull_of(second).aabb.min + np.array([0, 0, 0.5])
+    assert np.allclose(back.hull_of(second).aabb.min, lifted, atol=1e-6)
+    assert back.hull_of(second).label == MESH.hull_of(second).label
+    assert (back.hull_of(third).label, back.hull_of("box").label) == ("spout", "lid")
+    assert digest(back.hull_of(third).shape) == digest(MESH.hull_of(third).shape)
+    assert back.hull_of("box").volume == pytest.approx(0.008, rel=1e-5)
+    assert back.hull_of("box").shape.kind == "polytope"
+    assert all(back.hull_of(name) is MESH.hull_of(name) for name in rest)
 
 
 HULL = """
@@ -140,10 +140,10 @@ def test_the_hull_that_is_made_as_the_model_is_told_is_legal_and_the_right_one(b
 )
 def test_a_primitive_that_says_what_it_is_becomes_one(blender: Blender, script: str, kind: str) -> None:
     back = made(blender, f"{script}\nbpy.context.object.name = 'new'\nbpy.context.object['primitive'] = {kind!r}")
-    one = back.named("new")
+    one = back.hull_of("new")
     assert one.primitive
     assert one.shape.kind == kind
-    as_mesh = made(blender, f"{script}\nbpy.context.object.name = 'new'").named("new")
+    as_mesh = made(blender, f"{script}\nbpy.context.object.name = 'new'").hull_of("new")
     assert as_mesh.shape.kind == "polytope"
     assert one.aabb.size == pytest.approx(as_mesh.aabb.size, rel=0.02)
     assert as_mesh.volume == pytest.approx(one.volume, rel=0.05)

@@ -14,7 +14,7 @@ import pytest
 from benchmark.baselines.blender import landlock
 from benchmark.baselines.blender.apart import alone, environment
 from benchmark.baselines.blender.process import Blender, Limits
-from meshforge.errors import UsageError
+from meshforge.common import UsageError
 
 ROOT = Path(__file__).resolve().parents[3]
 needs_landlock = pytest.mark.skipif(not landlock.version(), reason="this kernel has no Landlock")

@@ -19,7 +19,7 @@ from benchmark.evaluation import journal
 from benchmark.study import FULL, Bench, Session
 from benchmark.tasks import task
 from meshforge.language import ACTIONS
-from meshforge.project.labels.vlm.settings import VlmSettings
+from meshforge.store.settings import VlmSettings
 from tests.loopback.server import MODEL
 from tests.unit.benchmark.blender_script import SHELLS
 from tests.unit.benchmark.model_asking import PRICES, VARIABLE, asking, block, by_turn, key

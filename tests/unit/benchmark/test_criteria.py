@@ -25,7 +25,7 @@ ACROSS = ((0.0, 1.0, 0.0), (1.0, 0.0, 0.0), (0.0, 0.0, -1.0))
 
 
 def brick(low: Point, high: Point, scale: float = 1.0) -> Polytope:
-    return Box.filling(Aabb(np.array(low) * scale, np.array(high) * scale)).tessellated()
+    return Box.of_bounds(Aabb(np.array(low) * scale, np.array(high) * scale)).tessellate()
 
 
 def case(rows: Sequence[Row], *sites: Site, parts: Sequence[Row] | None = None) -> Case:
@@ -192,7 +192,7 @@ class TestSupports:
             here = self.place(s)
             at = turn.apply(np.array([here.at]))[0]
             moved = Site("place", (at[0], at[1], at[2]), here.size)
-            rows = [(label, shape.moved(turn)) for label, shape in self.top(s)]
+            rows = [(label, shape.move(turn)) for label, shape in self.top(s)]
             assert (not why(case(rows, moved), "supports")) == holds, degrees
 
 

@@ -15,11 +15,11 @@ from benchmark.labels.methods import REPEATS, Method, Told, offline
 from benchmark.labels.sampling import LABELLED, Family, families
 from benchmark.labels.sampling import main as write_sample
 from benchmark.labels.scores import scored
-from meshforge.errors import UsageError
+from meshforge.common import UsageError
 from meshforge.formats import read
-from meshforge.perception.vlm import MODES
+from meshforge.labels.vlm.prompt import MODES
+from meshforge.rendering import draw_labeling_pictures, encode_png
 from meshforge.symbolic.label_file import write_labels
-from meshforge.views import png, shots
 from tests.loopback import Asked, labels_as_json, serving, status
 from tests.unit.benchmark.model_asking import PRICES, key, settings_file
 
@@ -122,8 +122,8 @@ class Model:
     def __init__(self, family: Family) -> None:
         self.truth: dict[bytes, dict[int, str]] = {}
         for place, labels in zip(family.drawn, truth(family), strict=True):
-            taken = shots(family.bare[place], most=MODES["cheap"].pictures, size=SIZE)
-            self.truth[png(taken[0].marked)] = dict(enumerate(labels))
+            taken = draw_labeling_pictures(family.bare[place], most=MODES["cheap"].pictures, size=SIZE)
+            self.truth[encode_png(taken[0].marked)] = dict(enumerate(labels))
         self.asked = 0
 
     def __call__(self, asked: Asked) -> str:

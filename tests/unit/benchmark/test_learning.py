@@ -22,7 +22,7 @@ from benchmark.learning.contest import HAS_CVC5
 from benchmark.learning.programs import wanted, wanted_tables
 from benchmark.learning.tables import DEMONSTRATED, bundled, stretched
 from benchmark.report import Result, as_text
-from meshforge.language import size
+from meshforge.language import size_of
 from meshforge.synthesis.readings import belief
 
 
@@ -70,7 +70,7 @@ def test_draws_are_the_same_every_time_and_longer_rows_begin_with_shorter_ones()
 
 @pytest.mark.parametrize("nodes", SIZED)
 def test_the_extractors_on_boxes_have_their_sizes(nodes: int) -> None:
-    assert size(SIZED[nodes]) == nodes
+    assert size_of(SIZED[nodes]) == nodes
 
 
 def test_the_case_of_the_goal_needs_all_its_nodes() -> None:

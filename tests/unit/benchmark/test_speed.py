@@ -40,7 +40,7 @@ def test_all_contestants_find_the_same_contacts_on_the_bundled_tables() -> None:
 
 
 def test_a_difference_is_told_with_its_distance() -> None:
-    row = [Box(Pose.of_translation([2.2 * k, 0, 0]), np.ones(3)).tessellated() for k in range(3)]
+    row = [Box(Pose.of_translation([2.2 * k, 0, 0]), np.ones(3)).tessellate() for k in range(3)]
     mesh = contact._of(row)
     (differ,) = contact._differences(row, mesh, frozenset({(0, 1)}))
     assert differ["pair"] == [0, 1]
@@ -49,7 +49,7 @@ def test_a_difference_is_told_with_its_distance() -> None:
 
 
 def test_near_pairs_are_those_whose_boxes_are_near() -> None:
-    row = [Box(Pose.of_translation([k, 0, 0]), np.full(3, 0.4)).tessellated() for k in range(3)]
+    row = [Box(Pose.of_translation([k, 0, 0]), np.full(3, 0.4)).tessellate() for k in range(3)]
     assert near_pairs(row, 0.21) == [(0, 1), (1, 2)]
     assert near_pairs(row, 0.19) == []
 

@@ -9,7 +9,7 @@ import pytest
 from benchmark.learning.sygus import cvc5_problem, stated
 from meshforge.language import All, Attach, Diff, Extractor, Geo, Intersect, Is, Union, select_mask
 from meshforge.symbolic import SymbolicMesh
-from meshforge.synthesis.example import Example
+from meshforge.synthesis.demonstration import Example
 from tests.synthesis_boxes import table
 
 LABELS = ("panel", "leg", "drawer", "handle", "misc")

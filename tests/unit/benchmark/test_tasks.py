@@ -13,7 +13,7 @@ from benchmark.assets.frozen import DATA, read
 from benchmark.assets.making import COUNT, category, kinds
 from benchmark.tasks import DIFFICULTIES, Edited, Task, task, tasks
 from meshforge.geometry import Floats, is_closed, is_convex
-from meshforge.language import Attach, Base, Diff, Each, Extractor, Geo, Intersect, Union, size
+from meshforge.language import Attach, BaseExtractor, Diff, Each, Extractor, Geo, Intersect, Union, size_of
 
 TASKS = tasks()
 MOTIFS = {
@@ -109,7 +109,7 @@ def test_a_task_is_as_hard_as_its_name_says(one: Task) -> None:
     near = [e for e in extractors if any(isinstance(leaf, Attach | Geo) for leaf in leaves(e))]
     if one.difficulty == "easy":
         assert len(rules) == 1
-        assert isinstance(extractors[0], Base)
+        assert isinstance(extractors[0], BaseExtractor)
     elif one.difficulty == "medium":
         assert len(rules) == 2
         assert near
@@ -118,7 +118,7 @@ def test_a_task_is_as_hard_as_its_name_says(one: Task) -> None:
         assert any(isinstance(e, Union | Intersect | Diff) for e in near)
         assert one.program.orient
     assert set(one.program.labels) == set(category(one.category).LABELS)
-    assert all(size(e) <= 9 for e in extractors)
+    assert all(size_of(e) <= 9 for e in extractors)
     templates = {name for rule in rules for name in rule.action.templates}
     assert templates == set(one.templates)
     assert not any(isinstance(rule.action, Each) and rule.action.action == rule.action for rule in rules)

@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from meshforge.checks import ENGINES
-from meshforge.checks.engines import Engine
+from meshforge.checks.limits import Engine
 
 PAGE = Path(__file__).parents[3] / "docs" / "engines.md"
 

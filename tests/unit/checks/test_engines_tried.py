@@ -13,7 +13,7 @@ from meshforge.geometry import Aabb, Box
 
 
 def compiled(volume: float) -> mujoco.MjModel:
-    cube = Box.filling(Aabb([0, 0, 0], [1, 1, 1])).tessellated().vertices * np.cbrt(volume)
+    cube = Box.of_bounds(Aabb([0, 0, 0], [1, 1, 1])).tessellate().vertices * np.cbrt(volume)
     spec = mujoco.MjSpec()
     spec.add_mesh(name="cube", uservert=cube.ravel().tolist())
     spec.worldbody.add_body().add_geom(type=mujoco.mjtGeom.mjGEOM_MESH, meshname="cube")
@@ -41,7 +41,7 @@ def test_the_margin_of_bullet_makes_a_hull_at_the_limit_twice_as_thick(tmp_path:
     import pybullet
 
     (limit,) = (limit for limit in ENGINES["bullet"].limits if limit.rule == "thin")
-    plate = Box.filling(Aabb([-1, -1, 0], [1, 1, limit.number])).tessellated()
+    plate = Box.of_bounds(Aabb([-1, -1, 0], [1, 1, limit.number])).tessellate()
     rows = [f"v {x} {y} {z}" for x, y, z in plate.vertices.tolist()] + [f"f {a} {b} {c}" for a, b, c in plate.faces + 1]
     (tmp_path / "plate.obj").write_text("\n".join([*rows, ""]))
     (tmp_path / "plate.urdf").write_text(URDF)

@@ -5,14 +5,14 @@ from pathlib import Path
 
 import pytest
 
-from meshforge.batch import ReportAsset, write_report
-from meshforge.checks import Measures, examine_mesh, pictures
+from meshforge.batch import ReportAsset, ReportHeader, write_report
+from meshforge.checks import CheckOptions, draw_examination, examine_mesh
 from meshforge.geometry import Box
 from meshforge.language import Program
 from tests.cups import BOTTOM, WALLS, WHOLE, cup
 from tests.unit.cli.in_process import Run, runner
 
-ALL = Measures("mujoco", fit=True, clearance=True, physics=True)
+ALL = CheckOptions("mujoco", fit=True, clearance=True, physics=True)
 
 
 def urdf(filled: bool) -> str:
@@ -43,18 +43,18 @@ def test_all_that_is_asked_for_comes_with_its_findings() -> None:
     assert {f.rule for f in found.findings} == {"fit-out", "clearance-closed"}
     assert found.fit and found.clearance and found.changed and found.physics and found.earlier
     assert sorted(found.to_json()) == ["clearance", "clearance_of_edit", "fit", "physics", "physics_before"]
-    assert len(found.told) == 5
+    assert len(found.descriptions) == 5
 
 
 def test_what_is_not_asked_for_is_not_measured() -> None:
-    found = examine_mesh(cup(WHOLE), Measures())
-    assert found.to_json() == {} and found.told == () and found.findings == ()
+    found = examine_mesh(cup(WHOLE), CheckOptions())
+    assert found.to_json() == {} and found.descriptions == () and found.findings == ()
 
 
 def test_an_asset_that_shows_nothing_says_so() -> None:
-    found = examine_mesh(cup(WHOLE, shown=()), Measures(fit=True, clearance=True))
-    assert found.told == (f"note: {found.notes[0]}",) and "nothing is shown" in found.notes[0]
-    assert list(pictures(cup(WHOLE, shown=()), found)) == []
+    found = examine_mesh(cup(WHOLE, shown=()), CheckOptions(fit=True, clearance=True))
+    assert found.descriptions == (f"note: {found.notes[0]}",) and "nothing is shown" in found.notes[0]
+    assert list(draw_examination(cup(WHOLE, shown=()), found)) == []
 
 
 def test_the_command_line_measures_an_edit_against_what_was_before(run: Run) -> None:
@@ -110,7 +110,7 @@ def test_the_report_shows_what_was_found_failures_first(tmp_path: Path) -> None:
         ReportAsset("filled", bad, bad, checked=examine_mesh(bad, ALL)),
         ReportAsset("gone", None, status="failed", error="it cannot be read"),
     ]
-    write_report(tmp_path / "report.html", title="Cups", program=Program(), assets=assets)
+    write_report(tmp_path / "report.html", ReportHeader("Cups"), assets, program=Program())
     page = (tmp_path / "report.html").read_text("utf-8")
     places = [page.index(f'data-name="{name}"') for name in ("gone", "filled", "unmeasured", "fine")]
     assert places == sorted(places)

@@ -3,25 +3,27 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from meshforge.checks.fit import fit, fit_pictures, oddities
+from meshforge.checks.fit import measure_fit
+from meshforge.checks.oddities import find_oddities
+from meshforge.checks.pictures import draw_fit
 from meshforge.geometry import Aabb, Box, Shape
 from meshforge.symbolic import Hull, SymbolicMesh
 from tests.cups import BOTTOM, WALLS, WHOLE, cup
 
 
 def box(low: list[float], high: list[float]) -> Box:
-    return Box.filling(Aabb(low, high))
+    return Box.of_bounds(Aabb(low, high))
 
 
 def test_hulls_that_fit_stick_out_nowhere_and_leave_nothing_bare() -> None:
-    found = fit(cup(BOTTOM, *WALLS))
+    found = measure_fit(cup(BOTTOM, *WALLS))
     assert found.out < found.cell and found.bare < 1e-9
     assert found.bare_share == 0.0 and found.findings == ()
 
 
 def test_a_hull_that_sticks_out_is_told_by_how_much() -> None:
     long = box([0, 0, 0], [0.15, 0.1, 0.01])
-    found = fit(cup(long, *WALLS))
+    found = measure_fit(cup(long, *WALLS))
     by_name = {row.hull: row for row in found.hulls}
     assert by_name["h0"].out == pytest.approx(0.05, rel=0.01)
     assert by_name["h0"].out_area == pytest.approx(2 * 0.05 * 0.1 + 2 * 0.05 * 0.01 + 0.1 * 0.01, rel=0.1)
@@ -31,13 +33,13 @@ def test_a_hull_that_sticks_out_is_told_by_how_much() -> None:
 
 
 def test_what_fills_a_cup_sticks_out_into_its_inside() -> None:
-    (row,) = fit(cup(WHOLE)).hulls
+    (row,) = measure_fit(cup(WHOLE)).hulls
     assert row.out == pytest.approx(0.04, rel=0.02)  # the middle of the opening, from the walls
 
 
 @pytest.mark.slow
 def test_a_visual_surface_without_a_hull_is_bare_beside_the_nearest_one() -> None:
-    found = fit(cup(BOTTOM, *WALLS[:3]))
+    found = measure_fit(cup(BOTTOM, *WALLS[:3]))
     assert found.bare == pytest.approx(0.04, rel=0.01)  # the middle of the wall, from the walls beside it
     bare = {row.hull for row in found.hulls if row.bare_area > 0}
     assert bare and found.bare_share == pytest.approx(sum(row.bare_area for row in found.hulls) / found.seen_area)
@@ -45,21 +47,21 @@ def test_a_visual_surface_without_a_hull_is_bare_beside_the_nearest_one() -> Non
 
 
 def test_a_hull_is_held_against_its_own_body() -> None:
-    found = fit(cup(BOTTOM, *WALLS, box([1, 1, 1], [2, 2, 2]), bodies=["cup"] * 5 + ["other"]))
+    found = measure_fit(cup(BOTTOM, *WALLS, box([1, 1, 1], [2, 2, 2]), bodies=["cup"] * 5 + ["other"]))
     assert found.silent == ("other",)
     assert [row.hull for row in found.hulls] == ["h0", "h1", "h2", "h3", "h4"]
 
 
 def test_nothing_shown_is_told_not_an_error() -> None:
-    found = fit(cup(WHOLE, shown=()))
-    assert found.hulls == () and "nothing is shown" in found.told and found.findings == ()
-    assert fit_pictures(cup(WHOLE, shown=()), found) is None
+    found = measure_fit(cup(WHOLE, shown=()))
+    assert found.hulls == () and "nothing is shown" in found.description and found.findings == ()
+    assert draw_fit(cup(WHOLE, shown=()), found) is None
 
 
 def test_the_heat_map_is_hot_where_the_hull_sticks_out() -> None:
     mesh = cup(box([0, 0, 0], [0.1, 0.1, 0.3]), shown=[WHOLE])
-    found = fit(mesh)
-    pair = fit_pictures(mesh, found, size=(200, 150))
+    found = measure_fit(mesh)
+    pair = draw_fit(mesh, found, size=(200, 150))
     assert pair is not None
     pixels = np.asarray(pair[0].convert("RGB")).astype(int).reshape(-1, 3)
     hot = (pixels[:, 0] > pixels[:, 1] + 20).sum()
@@ -70,7 +72,7 @@ def test_the_heat_map_is_hot_where_the_hull_sticks_out() -> None:
 
 def rules(*shapes: Shape) -> dict[str, tuple[str, ...]]:
     hulls = tuple(Hull(f"h{k}", "body", shape) for k, shape in enumerate(shapes))
-    return {f.rule: f.hulls for f in oddities(SymbolicMesh(hulls))}
+    return {f.rule: f.hulls for f in find_oddities(SymbolicMesh(hulls))}
 
 
 CUBE = box([0, 0, 0], [1, 1, 1])
@@ -98,4 +100,4 @@ def test_odd_hulls_and_pairs_are_named(shapes: list[Shape], expected: dict[str, 
 
 def test_pairs_of_two_bodies_are_no_oddity() -> None:
     hulls = Hull("a", "one", CUBE), Hull("b", "two", box([0.5, 0, 0], [1.5, 1, 1]))
-    assert oddities(SymbolicMesh(hulls)) == ()
+    assert find_oddities(SymbolicMesh(hulls)) == ()

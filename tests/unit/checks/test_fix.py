@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from meshforge.checks import check, engine_named, fix
+from meshforge.checks import check, find_engine, fix
 from meshforge.geometry import Aabb, Box, Polytope, Pose, Shape, convex_hull, polygon_sizes
 from meshforge.symbolic import Hull, Label, SymbolicMesh
 from tests.unit.cli.in_process import Run, runner
@@ -25,14 +25,14 @@ def mesh(*shapes: Shape) -> SymbolicMesh:
 
 @pytest.mark.slow
 def test_a_hull_of_too_many_vertices_is_replaced_by_one_that_the_engine_takes() -> None:
-    before = mesh(ball(300), Box.filling(Aabb([1, 0, 0], [2, 1, 1])))
-    fixed = fix(before, engine_named("physx-gpu"))
+    before = mesh(ball(300), Box.of_bounds(Aabb([1, 0, 0], [2, 1, 1])))
+    fixed = fix(before, find_engine("physx-gpu"))
     (change,) = fixed.changes
     assert (change.hull, change.made, change.rules) == ("h0", "h0~1", ("vertices", "polygons"))
-    made = fixed.mesh.named("h0~1")
+    made = fixed.mesh.hull_of("h0~1")
     assert (made.parent, made.label, made.body) == ("h0", "knob", "b0")
     assert change.vertices == (300, len(made.vertices)) and len(made.vertices) <= 64
-    assert len(polygon_sizes(made.shape.tessellated())) <= 64
+    assert len(polygon_sizes(made.shape.tessellate())) <= 64
     assert fixed.mesh.hulls[1] is before.hulls[1]
     assert check(fixed.mesh, "physx-gpu") == ()
     assert not fixed.left
@@ -41,21 +41,21 @@ def test_a_hull_of_too_many_vertices_is_replaced_by_one_that_the_engine_takes() 
 @pytest.mark.slow
 def test_what_would_stick_out_too_far_is_left_and_told() -> None:
     before = mesh(ball(300))
-    fixed = fix(before, engine_named("physx-gpu"), tolerance=0.001)
+    fixed = fix(before, find_engine("physx-gpu"), tolerance=0.001)
     assert fixed.mesh is before and not fixed.changes
     assert fixed.left[0].startswith("h0: left as it is, since a hull within the limits would stick out by 0.0")
 
 
 def test_what_would_come_to_overlap_another_body_is_left() -> None:
-    beside = Box.filling(Aabb([0.0995, -1, -1], [1, 1, 1]))
-    around = ball(300).moved(Pose.of_translation([-0.0005, 0, 0]))
-    fixed = fix(mesh(around, beside), engine_named("unreal"), tolerance=0.1)
+    beside = Box.of_bounds(Aabb([0.0995, -1, -1], [1, 1, 1]))
+    around = ball(300).move(Pose.of_translation([-0.0005, 0, 0]))
+    fixed = fix(mesh(around, beside), find_engine("unreal"), tolerance=0.1)
     assert fixed.left == ("h0: left as it is, since it would come to overlap h1 of body b1",)
 
 
 def test_a_hull_that_is_too_thin_is_thickened_to_both_sides() -> None:
-    plate = Box.filling(Aabb([0, 0, 0], [1, 1, 0.0004])).tessellated()
-    fixed = fix(mesh(plate), engine_named("physx-gpu"))
+    plate = Box.of_bounds(Aabb([0, 0, 0], [1, 1, 0.0004])).tessellate()
+    fixed = fix(mesh(plate), find_engine("physx-gpu"))
     made = fixed.mesh.hulls[0].aabb
     assert made.size[2] == pytest.approx(0.001, rel=1e-5)
     assert made.center[2] == pytest.approx(0.0002)
@@ -65,7 +65,7 @@ def test_a_hull_that_is_too_thin_is_thickened_to_both_sides() -> None:
 
 def test_a_mesh_within_the_limits_stays_the_same_object() -> None:
     before = mesh(ball(20))
-    assert fix(before, engine_named("physx-gpu")).mesh is before
+    assert fix(before, find_engine("physx-gpu")).mesh is before
 
 
 @pytest.fixture

@@ -5,12 +5,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from meshforge.asset import Asset, Body, Document, Geom, Opaque
 from meshforge.checks import Finding, check
 from meshforge.geometry import Aabb, Box, Capsule, Cylinder, Ellipsoid, Polytope, Pose, Shape, Sphere, convex_hull
-from meshforge.symbolic import Hull, SymbolicMesh
+from meshforge.symbolic import Asset, Body, Document, Geom, Hull, Opaque, SymbolicMesh
 
-CUBE = Box.filling(Aabb([0, 0, 0], [1, 1, 1])).tessellated()
+CUBE = Box.of_bounds(Aabb([0, 0, 0], [1, 1, 1])).tessellate()
 
 
 def mesh(*shapes: Shape) -> SymbolicMesh:
@@ -25,7 +24,7 @@ def found(*shapes: Shape) -> list[tuple[str, str, tuple[str, ...]]]:
     "shape",
     [
         CUBE,
-        Box.filling(Aabb([0, 0, 0], [1, 2, 3])),
+        Box.of_bounds(Aabb([0, 0, 0], [1, 2, 3])),
         Sphere(Pose.identity(), 1.0),
         Cylinder(Pose.identity(), 1.0, 2.0),
         Capsule(Pose.identity(), 1.0, 2.0),
@@ -54,7 +53,7 @@ def dented() -> Polytope:
         (Sphere(Pose.identity(), float("nan")), "finite"),
         (Polytope(CUBE.vertices[:3], np.array([[0, 1, 2]])), "solid"),
         (Polytope(CUBE.vertices * [1, 1, 0], CUBE.faces), "flat"),
-        (Box.filling(Aabb([0, 0, 0], [1, 1, 1e-7])), "flat"),
+        (Box.of_bounds(Aabb([0, 0, 0], [1, 1, 1e-7])), "flat"),
         (Sphere(Pose.identity(), 0.0), "flat"),
         (Polytope(CUBE.vertices, CUBE.faces[1:]), "closed"),
         (Polytope(CUBE.vertices, CUBE.faces[:, ::-1]), "volume"),
@@ -67,26 +66,26 @@ def test_a_hull_that_is_none_is_named_with_what_it_lacks(shape: Shape, rule: str
 
 
 def test_a_message_names_the_hulls_and_a_remedy_follows() -> None:
-    (finding,) = check(mesh(dented(), CUBE, dented().moved(Pose.of_translation([3, 0, 0]))))
+    (finding,) = check(mesh(dented(), CUBE, dented().move(Pose.of_translation([3, 0, 0]))))
     assert finding.message == "h0, h2: not convex"
     assert finding.remedy
 
 
 def test_many_names_are_cut_short_in_the_message_only() -> None:
-    shapes = [dented().moved(Pose.of_translation([3 * k, 0, 0])) for k in range(9)]
+    shapes = [dented().move(Pose.of_translation([3 * k, 0, 0])) for k in range(9)]
     (finding,) = check(mesh(*shapes))
     assert finding.message == "h0, h1, h2, h3, h4 and 4 more: not convex"
     assert len(finding.hulls) == 9
 
 
 def test_exact_duplicates_are_named_together() -> None:
-    other = Box.filling(Aabb([5, 5, 5], [6, 6, 6])).tessellated()
+    other = Box.of_bounds(Aabb([5, 5, 5], [6, 6, 6])).tessellate()
     reordered = Polytope(CUBE.vertices[::-1], 7 - CUBE.faces)
     assert found(CUBE, other, reordered) == [("duplicate", "warning", ("h0", "h2"))]
 
 
 def test_a_name_that_two_hulls_have_is_an_error() -> None:
-    twins = SymbolicMesh((Hull("a", "body", CUBE), Hull("a", "body", CUBE.moved(Pose.of_translation([2, 0, 0])))))
+    twins = SymbolicMesh((Hull("a", "body", CUBE), Hull("a", "body", CUBE.move(Pose.of_translation([2, 0, 0])))))
     assert [(f.rule, f.hulls) for f in check(twins)] == [("name", ("a",))]
 
 

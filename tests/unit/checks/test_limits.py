@@ -5,11 +5,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from meshforge.asset import Asset, Body, Document, Geom
 from meshforge.checks import ENGINES, check
-from meshforge.errors import UsageError
+from meshforge.common import UsageError
 from meshforge.geometry import Aabb, Box, Cylinder, Polytope, Pose, Shape, convex_hull, polygon_sizes
-from meshforge.symbolic import Hull, SymbolicMesh
+from meshforge.symbolic import Asset, Body, Document, Geom, Hull, SymbolicMesh
 
 
 def mesh(*shapes: Shape) -> SymbolicMesh:
@@ -39,7 +38,7 @@ def test_the_engines_are_those_of_the_command_line() -> None:
 
 @pytest.mark.parametrize("engine", ENGINES)
 def test_a_box_is_within_the_limits_of_every_engine(engine: str) -> None:
-    assert rules(engine, Box.filling(Aabb([0, 0, 0], [1, 1, 1])).tessellated()) == []
+    assert rules(engine, Box.of_bounds(Aabb([0, 0, 0], [1, 1, 1])).tessellate()) == []
 
 
 @pytest.mark.parametrize("engine", ENGINES)
@@ -77,9 +76,9 @@ def test_limits_hold_to_the_last_vertex(engine: str, shape: Shape, expected: lis
 
 
 def test_a_needle_is_oblong_for_physx_on_the_gpu() -> None:
-    needle = Box.filling(Aabb([0, 0, 0], [101, 1, 1])).tessellated()
+    needle = Box.of_bounds(Aabb([0, 0, 0], [101, 1, 1])).tessellate()
     assert rules("physx-gpu", needle) == [("physx-gpu-oblong", "warning")]
-    assert rules("physx-gpu", Box.filling(Aabb([0, 0, 0], [99, 1, 1])).tessellated()) == []
+    assert rules("physx-gpu", Box.of_bounds(Aabb([0, 0, 0], [99, 1, 1])).tessellate()) == []
 
 
 def test_the_message_says_how_many_and_how_many_are_allowed() -> None:
@@ -89,13 +88,13 @@ def test_the_message_says_how_many_and_how_many_are_allowed() -> None:
 
 
 def test_a_body_of_many_hulls_is_told() -> None:
-    boxes = [Box.filling(Aabb([2 * k, 0, 0], [2 * k + 1, 1, 1])) for k in range(65)]
+    boxes = [Box.of_bounds(Aabb([2 * k, 0, 0], [2 * k + 1, 1, 1])) for k in range(65)]
     assert rules("physx-gpu", *boxes) == [("physx-gpu-hulls", "warning")]
     assert rules("physx-gpu", *boxes[:64]) == []
 
 
 def in_file(form: str, count: int) -> SymbolicMesh:
-    geoms = tuple(Geom(f"h{k}", "b", Box.filling(Aabb([2 * k, 0, 0], [2 * k + 1, 1, 1]))) for k in range(count))
+    geoms = tuple(Geom(f"h{k}", "b", Box.of_bounds(Aabb([2 * k, 0, 0], [2 * k + 1, 1, 1]))) for k in range(count))
     return SymbolicMesh.of(Asset(Path(f"x.{form}"), form, (Body("b", Pose.identity()),), geoms, Document()))
 
 
@@ -116,7 +115,7 @@ def test_an_unknown_engine_is_refused_with_the_nearest() -> None:
 
 
 def test_the_polygons_of_a_box_are_six_squares() -> None:
-    assert polygon_sizes(Box.filling(Aabb([0, 0, 0], [1, 1, 1])).tessellated()) == (4,) * 6
+    assert polygon_sizes(Box.of_bounds(Aabb([0, 0, 0], [1, 1, 1])).tessellate()) == (4,) * 6
 
 
 def test_the_polygons_of_a_prism_are_its_caps_and_sides() -> None:

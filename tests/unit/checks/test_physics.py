@@ -5,8 +5,8 @@ import itertools
 import numpy as np
 import pytest
 
-from meshforge.asset import Inertial, Joint
-from meshforge.checks.physics import masses, physics
+from meshforge.checks.physics.masses import check_masses
+from meshforge.checks.physics.simulation import simulate
 from meshforge.geometry import (
     Aabb,
     Box,
@@ -20,12 +20,12 @@ from meshforge.geometry import (
     convex_hull,
     inertia,
 )
-from meshforge.symbolic import Hull, SymbolicMesh
+from meshforge.symbolic import Hull, Inertial, Joint, SymbolicMesh
 from tests.cups import BOTTOM, WALLS, WHOLE, cup
 
 
 def box(low: list[float], high: list[float]) -> Box:
-    return Box.filling(Aabb(low, high))
+    return Box.of_bounds(Aabb(low, high))
 
 
 def solid(mass: float, *shapes: Shape, body: str = "cup") -> Inertial:
@@ -34,14 +34,14 @@ def solid(mass: float, *shapes: Shape, body: str = "cup") -> Inertial:
 
 
 def test_a_cup_rests() -> None:
-    found = physics(cup(BOTTOM, *WALLS, inertials=[solid(0.2, BOTTOM, *WALLS)]))
+    found = simulate(cup(BOTTOM, *WALLS, inertials=[solid(0.2, BOTTOM, *WALLS)]))
     assert found.rest is not None and found.findings == ()
     assert found.rest.jitter < 1e-4 and found.rest.tilt < 0.1 and found.rest.sunk < 1e-3
 
 
 def test_what_hangs_in_the_air_is_put_on_the_plane() -> None:
-    high = [shape.moved(Pose.of_translation([3, 2, 5])) for shape in (BOTTOM, *WALLS)]
-    found = physics(cup(*high, shown=()))
+    high = [shape.move(Pose.of_translation([3, 2, 5])) for shape in (BOTTOM, *WALLS)]
+    found = simulate(cup(*high, shown=()))
     assert found.rest is not None and found.rest.moved < 1e-3 and found.findings == ()
 
 
@@ -57,25 +57,25 @@ def test_what_hangs_in_the_air_is_put_on_the_plane() -> None:
     ],
 )
 def test_every_kind_of_shape_weighs_what_it_should_and_is_simulated(shape: Shape) -> None:
-    from meshforge.checks.physics.model import DENSITY, compiled
-    from meshforge.checks.physics.tree import Tree
+    from meshforge.checks.physics.mechanism import JointTree
+    from meshforge.checks.physics.model import DENSITY, compile_model
 
     mesh = cup(shape, shown=())
-    model = compiled(mesh, Tree.of(mesh))
+    model = compile_model(mesh, JointTree.of(mesh))
     assert model.body_mass[1] == pytest.approx(DENSITY * shape.volume, rel=1e-4)
-    assert physics(mesh).rest is not None
+    assert simulate(mesh).rest is not None
 
 
 def test_a_tall_needle_on_its_tip_falls_over() -> None:
     needle = convex_hull(np.array([[0, 0, 0], [0.1, 0.02, 1], [-0.05, 0.1, 1], [-0.05, -0.1, 1]], dtype=float))
-    found = physics(cup(needle, shown=()))
+    found = simulate(cup(needle, shown=()))
     assert found.rest is not None and found.rest.tilt > 60
     assert "physics-tilt" in [f.rule for f in found.findings]
 
 
 def test_bodies_that_start_within_each_other_are_told_and_thrown() -> None:
     first, second = box([0, 0, 0], [1, 1, 1]), box([0.6, 0, 0], [1.6, 1, 1])
-    found = physics(cup(first, second, bodies=["one", "two"], shown=()))
+    found = simulate(cup(first, second, bodies=["one", "two"], shown=()))
     (overlap,) = found.overlaps
     assert overlap.bodies == ("one", "two") and not overlap.joined
     assert overlap.depth == pytest.approx(0.4, rel=0.05)
@@ -88,16 +88,16 @@ def drawer(kind: str) -> Joint:
 
 def test_bodies_that_a_joint_holds_are_told_as_joined_and_those_welded_not_at_all() -> None:
     shapes = box([0, 0, 0], [1, 1, 1]), box([0.6, 0, 0], [1.6, 1, 1])
-    joined = physics(cup(*shapes, bodies=["one", "two"], joints=[drawer("prismatic")], shown=()))
+    joined = simulate(cup(*shapes, bodies=["one", "two"], joints=[drawer("prismatic")], shown=()))
     assert [overlap.joined for overlap in joined.overlaps] == [True]
-    welded = physics(cup(*shapes, bodies=["one", "two"], joints=[drawer("fixed")], shown=()))
+    welded = simulate(cup(*shapes, bodies=["one", "two"], joints=[drawer("fixed")], shown=()))
     assert welded.overlaps == () and welded.findings == ()
 
 
 def test_a_loop_of_joints_is_cut_not_followed_for_ever() -> None:
     loop = [drawer("revolute"), Joint("k", "revolute", "two", "one", np.zeros(3), np.array([0, 0, 1.0]))]
     shapes = box([0, 0, 0], [1, 1, 1]), box([0, 0, 1], [1, 1, 2])
-    assert physics(cup(*shapes, bodies=["one", "two"], joints=loop, shown=())).rest is not None
+    assert simulate(cup(*shapes, bodies=["one", "two"], joints=loop, shown=())).rest is not None
 
 
 @pytest.mark.parametrize(
@@ -116,31 +116,31 @@ def test_a_loop_of_joints_is_cut_not_followed_for_ever() -> None:
     ],
 )
 def test_odd_masses_are_told(inertial: Inertial, rules: list[str]) -> None:
-    assert [f.rule for f in masses(cup(WHOLE, inertials=[inertial]))] == rules
+    assert [f.rule for f in check_masses(cup(WHOLE, inertials=[inertial]))] == rules
 
 
 def test_a_mass_that_cannot_be_does_not_stop_the_simulation() -> None:
-    found = physics(cup(WHOLE, inertials=[solid(0.0, WHOLE)]))
+    found = simulate(cup(WHOLE, inertials=[solid(0.0, WHOLE)]))
     assert found.rest is not None and [f.severity for f in found.findings] == ["error"]
 
 
 def test_hulls_that_are_none_are_left_out() -> None:
     flat = Polytope(WHOLE.vertices * [1, 1, 0], WHOLE.faces)
     mesh = SymbolicMesh((Hull("a", "body", WHOLE), Hull("b", "body", flat)))
-    assert physics(mesh).rest is not None
-    assert physics(SymbolicMesh((Hull("b", "body", flat),))).refused == "there is no hull"
+    assert simulate(mesh).rest is not None
+    assert simulate(SymbolicMesh((Hull("b", "body", flat),))).refused == "there is no hull"
 
 
 def test_a_hull_that_mujoco_refuses_is_an_error_with_its_message() -> None:
-    tiny = box([0, 0, 0], [1e-6, 1e-6, 1e-6]).tessellated()
-    found = physics(cup(tiny, shown=()))
+    tiny = box([0, 0, 0], [1e-6, 1e-6, 1e-6]).tessellate()
+    found = simulate(cup(tiny, shown=()))
     assert found.rest is None and [f.rule for f in found.findings] == ["physics-refused"]
     assert found.refused and found.refused.startswith("MuJoCo refuses it: ")
 
 
 def test_the_same_mesh_gives_the_same_figures() -> None:
     mesh = cup(BOTTOM, *WALLS)
-    assert physics(mesh).to_json() == physics(mesh).to_json()
+    assert simulate(mesh).to_json() == simulate(mesh).to_json()
 
 
 @pytest.mark.slow
@@ -151,5 +151,5 @@ def test_very_many_bodies_in_a_chain_are_refused_or_simulated_never_more() -> No
         joints = [Joint("", "revolute", a, b, np.zeros(3), np.array([0, 0, 1.0])) for a, b in itertools.pairwise(names)]
         return cup(*shapes, bodies=names, joints=joints, shown=())
 
-    assert physics(chain(60)).rest is not None
-    assert physics(chain(600)).refused == "more than 500 bodies"
+    assert simulate(chain(60)).rest is not None
+    assert simulate(chain(600)).refused == "more than 500 bodies"

@@ -62,7 +62,7 @@ def test_what_the_journal_kept_is_on_the_page_too(run: Run) -> None:
 
 
 def test_an_asset_that_is_gone_by_then_is_told_without_a_picture(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("meshforge.batch.read_again", lambda readers: [None for _ in readers])
+    monkeypatch.setattr("meshforge.cli.check_report.read_again", lambda readers: [None for _ in readers])
     assert run("check", "mixed/good.obj", "--report", "r.html").code == 0
     page = opened("r.html")
     assert kinds(page) == ["clean"] and page.xpath("//img") == []
@@ -90,7 +90,7 @@ def faces(sides: int) -> str:
 
 @pytest.mark.slow
 def test_of_very_many_assets_the_page_shows_some_and_says_so(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("meshforge.batch.report.chosen.Chosen.__init__.__defaults__", (2,))
+    monkeypatch.setattr("meshforge.batch.report.contents.TopItems.__init__.__defaults__", (2,))
     run("check", "mixed/*", "--report", "r.html", "--fit")
     page = opened("r.html")
     assert names(page) == [ODD, "cup.urdf"]

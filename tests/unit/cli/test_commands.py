@@ -90,7 +90,7 @@ try:
     main()
 except SystemExit:
     pass
-heavy = {"numpy", "scipy", "coal", "trimesh", "lxml", "lark", "pydantic", "rich.table", "PIL", "manifold3d"}
+heavy = {"numpy", "scipy", "coal", "trimesh", "lxml", "jinja2", "lark", "pydantic", "rich.table", "PIL", "manifold3d"}
 sys.exit(", ".join(sorted(heavy & sys.modules.keys())) or 0)
 """
     assert subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False).returncode == 0

@@ -8,11 +8,11 @@ from pathlib import Path
 import pytest
 from PIL import Image
 
-from meshforge.cli import question_pictures
-from meshforge.cli.conversation import Conversation
-from meshforge.cli.lessons import Lessons
+from meshforge.cli import synthesize_session
+from meshforge.cli.synthesize_dialog import Conversation
+from meshforge.cli.synthesize_session import LearningSession
 from meshforge.project import Project
-from meshforge.synthesis import Ambiguous, Found, NeedsRepair, NoProgram, Options, Outcome
+from meshforge.synthesis import Ambiguous, Found, LearningOutcome, NeedsRepair, NoProgram, Options
 from tests.unit.project.shelves import PLAIN, SHELVED, ambiguous, mislabelled
 
 HIGHEST = "labels board, leg, knob\n\nGeo(Is(board), +Z) => Delete\n"
@@ -20,11 +20,11 @@ HIGHEST = "labels board, leg, knob\n\nGeo(Is(board), +Z) => Delete\n"
 
 @pytest.fixture(autouse=True)
 def _small(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
-    monkeypatch.setattr(question_pictures, "SIZE", (240, 160))
+    monkeypatch.setattr(synthesize_session, "PICTURE_SIZE", (240, 160))
     monkeypatch.chdir(tmp_path)
 
 
-def talk(project: Project, *lines: str) -> tuple[Outcome, str, list[str]]:
+def talk(project: Project, *lines: str) -> tuple[LearningOutcome, str, list[str]]:
     """The outcome when a person types these lines and then has enough, all that was to be read, and the pictures."""
     seen, pictures = list[str](), list[str]()
     typed: Iterator[str] = iter(lines)
@@ -40,7 +40,7 @@ def talk(project: Project, *lines: str) -> tuple[Outcome, str, list[str]]:
             raise EOFError
         return line
 
-    outcome = Conversation(Lessons(project, Options()), ask, seen.append).run()
+    outcome = Conversation(LearningSession(project, Options()), ask, seen.append).run()
     assert not project.layout.questions.exists()
     assert next(typed, None) is None
     return outcome, "\n".join(seen), pictures
@@ -83,16 +83,16 @@ def test_neither_leads_to_the_labels(tmp_path: Path) -> None:
     project = ambiguous(tmp_path)
     outcome, seen, _ = talk(project, "n", "shelf=lek", "shelf", "shelf=leg", "1")
     assert isinstance(outcome, Found)
-    assert project.mesh(SHELVED).named("shelf").label == "leg"
+    assert project.mesh(SHELVED).hull_of("shelf").label == "leg"
     assert project.answers().ids == ("1:rack3.obj",)
     assert (
         """
 Then a label may be wrong. The choices differ on:
   shelf  board
   top  board
-HULL=LABEL to mend one (more with commas), Enter to leave them: shelf=lek
+HULL=LABEL to correct one (more with commas), Enter to leave them: shelf=lek
 there is no label 'lek'; did you mean 'leg'?
-HULL=LABEL to mend one (more with commas), Enter to leave them: shelf
+HULL=LABEL to correct one (more with commas), Enter to leave them: shelf
 'shelf' is not of the form HULL=LABEL
 """
         in seen
@@ -124,9 +124,9 @@ def test_having_enough_amid_the_labels_keeps_what_was_said(tmp_path: Path) -> No
 
 def test_an_answer_that_leaves_no_program_can_be_taken_back(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     project = ambiguous(tmp_path)
-    learn, failed = Lessons.learn, Project.open(project.folder).synthesize
+    learn, failed = LearningSession.learn, Project.open(project.folder).synthesize
 
-    def without_program(self: Lessons) -> Outcome:
+    def without_program(self: LearningSession) -> LearningOutcome:
         """As if no rule agreed with the answer."""
         if not project.answers().ids:
             return learn(self)
@@ -135,7 +135,7 @@ def test_an_answer_that_leaves_no_program_can_be_taken_back(tmp_path: Path, monk
         nearest = _missing(project)
         return NoProgram(rules=(), readings=(), tried=(), seconds={}, nearest=nearest.nearest, why="none fits")
 
-    monkeypatch.setattr(Lessons, "learn", without_program)
+    monkeypatch.setattr(LearningSession, "learn", without_program)
     outcome, seen, _ = talk(project, "1", "y", "1", "n")
     assert isinstance(outcome, NoProgram)
     assert seen.count("With your answer about rack2.obj there is no program: none fits") == 2
@@ -155,7 +155,7 @@ def test_a_confirmed_repair_is_made_and_learned_from(tmp_path: Path) -> None:
     project = mislabelled(tmp_path)
     outcome, seen, pictures = talk(project, "y")
     assert isinstance(outcome, Found)
-    assert project.mesh(PLAIN).named("knob").source == "repair"
+    assert project.mesh(PLAIN).hull_of("knob").source == "repair"
     assert pictures == ["label-rack0"]
     lines = seen.splitlines()
     assert lines[:2] == ["A label may be wrong.", "  knob of rack0.obj: leg -> knob"]
@@ -163,8 +163,8 @@ def test_a_confirmed_repair_is_made_and_learned_from(tmp_path: Path) -> None:
     assert lines[3:] == [
         "  how sure: 99 %",
         "  picture: racks/.meshforge/questions/label-rack0.png",
-        "Mend it? y, n, s to stop asking: y",
-        "mended: knob of rack0.obj: leg -> knob",
+        "Repair it? y, n, s to stop asking: y",
+        "repaired: knob of rack0.obj: leg -> knob",
     ]
 
 
@@ -172,8 +172,8 @@ def test_a_refused_repair_is_not_asked_about_again(tmp_path: Path) -> None:
     project = mislabelled(tmp_path)
     outcome, seen, _ = talk(project, "n")
     assert not isinstance(outcome, NeedsRepair)
-    assert seen.count("Mend it?") == 1
-    assert project.mesh(PLAIN).named("knob").label == "leg"
+    assert seen.count("Repair it?") == 1
+    assert project.mesh(PLAIN).hull_of("knob").label == "leg"
 
 
 def test_a_repair_can_be_left_open(tmp_path: Path) -> None:

@@ -4,35 +4,35 @@ from pathlib import Path
 
 import pytest
 
-from meshforge.cli.tables import KEPT, demonstrated_tables, kept_tables
-from meshforge.errors import UsageError
+from meshforge.cli.demo import STUDIO_MARK, create_tables, open_tables
+from meshforge.common import UsageError
 
 
 def test_the_tables_of_the_studio_are_labelled_and_nothing_is_shown_yet(tmp_path: Path) -> None:
-    project = kept_tables(tmp_path / "demo")
+    project = open_tables(tmp_path / "demo")
     assert len(project.assets()) == 14
     assert all(hull.label for hull in project.mesh("table_01.obj").hulls)
     assert not project.demonstrations() and project.program() is None
 
 
 def test_what_was_done_is_there_when_one_comes_back(tmp_path: Path) -> None:
-    kept_tables(tmp_path / "demo").set_labels("table_01.obj", {"convex_00": "leg"})
-    again = kept_tables(tmp_path / "demo")
+    open_tables(tmp_path / "demo").set_labels("table_01.obj", {"convex_00": "leg"})
+    again = open_tables(tmp_path / "demo")
     assert again.labels("table_01.obj").labels["convex_00"].name == "leg"
     with pytest.raises(UsageError, match="something else"):
-        demonstrated_tables(tmp_path / "demo")
+        create_tables(tmp_path / "demo")
     assert (tmp_path / "demo" / "project").exists()
 
 
 def test_a_demo_that_was_killed_while_it_was_made_is_made_anew(tmp_path: Path) -> None:
     (tmp_path / "demo").mkdir()
-    (tmp_path / "demo" / KEPT).touch()
+    (tmp_path / "demo" / STUDIO_MARK).touch()
     (tmp_path / "demo" / "assets").mkdir()
-    assert len(kept_tables(tmp_path / "demo").assets()) == 14
+    assert len(open_tables(tmp_path / "demo").assets()) == 14
 
 
 def test_a_folder_of_yours_is_never_taken(tmp_path: Path) -> None:
     (tmp_path / "thesis.txt").write_text("do not lose me")
     with pytest.raises(UsageError, match="something else"):
-        kept_tables(tmp_path)
+        open_tables(tmp_path)
     assert (tmp_path / "thesis.txt").read_text() == "do not lose me"

@@ -11,7 +11,7 @@ import pytest
 from meshforge.project import Project
 from tests.unit.batch.families import tree
 from tests.unit.cli.in_process import Run, runner
-from tests.unit.project.labels.partnet import write_partnet
+from tests.unit.labels.partnet import write_partnet
 
 VOCABULARY = ("drawer", "door", "handle", "frame")
 

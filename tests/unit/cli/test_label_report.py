@@ -65,7 +65,7 @@ def test_carried_labels_are_shown_with_what_is_unsure(run: Run) -> None:
     told = run("label", "p", "--with", "propagate", "--report", "r.html", "--json")
     lines = {line["asset"]: line for line in map(json.loads, told.out.splitlines()) if "asset" in line}
     page = opened("r.html")
-    assert "Labels of a few assets carried to all others." in texts(page, "//header/p")[0]
+    assert "Labels of a few assets propagated to all others." in texts(page, "//header/p")[0]
     taken = sum(line["taken"] for line in lines.values())
     assert taken and figures(page)["labels taken"] == str(taken)
     assert "without a label" not in figures(page)
@@ -85,7 +85,7 @@ def test_labels_of_names_give_the_same_page(run: Run) -> None:
 
 
 def test_of_very_many_assets_the_page_shows_some_and_says_so(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("meshforge.batch.report.PICTURED", 2)
+    monkeypatch.setattr("meshforge.cli.label_report.MOST_PICTURED", 2)
     run("label", "p", "--report", "r.html")
     page = opened("r.html")
     assert kinds(page) == ["problems", "problems"] and figures(page)["assets"] == "4"

@@ -18,7 +18,7 @@ from meshforge.project import Project
 from tests.loopback import KEY, Asked, Server, labels_as_json, serving
 from tests.unit.batch.pages import kinds, names, opened, texts
 from tests.unit.cli.in_process import Run, runner
-from tests.unit.project.labels.vlm_family import VARIABLE, family, right, truth
+from tests.unit.labels.vlm_family import VARIABLE, family, right, truth
 
 _RUN = "from meshforge.cli import main; main()"
 

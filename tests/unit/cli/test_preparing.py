@@ -6,8 +6,8 @@ from pathlib import Path
 
 import pytest
 
+from tests.unit.batch.preparation.samples import write_boxes, write_stand
 from tests.unit.cli.in_process import Run, runner
-from tests.unit.preparation.samples import write_boxes, write_stand
 
 VOXELS = ("--decompose", "vhacd", "--set", "resolution=5000", "--set", "max_convex_hulls=4", "--workers", "1")
 

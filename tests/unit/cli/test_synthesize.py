@@ -6,16 +6,18 @@ import json
 import os
 import re
 import signal
+from dataclasses import replace
 from pathlib import Path
 from typing import Any, get_args, get_type_hints
 
 import pytest
 
 from meshforge import synthesis
-from meshforge.cli.interruption import interruptible
 from meshforge.cli.synthesize import synthesize
+from meshforge.cli.terminal import catch_interrupt
 from meshforge.language import Delete
-from meshforge.project import Project, learning
+from meshforge.project import Project
+from meshforge.project import learn as learn_module
 from meshforge.synthesis import LAYERS, Step
 from meshforge.synthesis.options import STRATEGIES
 from tests.unit.cli.in_process import Run, runner
@@ -50,8 +52,8 @@ def test_a_question_is_printed_with_the_ways_to_answer_it(run: Run, tmp_path: Pa
         timeless(told.err).replace(ahead, "AHEAD")
         == """
 learned in TIME, kept as racks/program.mf
-not settled: it is open what rule 1 does on rack2.obj
-To be surer, demonstrate AHEAD: believable readings of the rules differ there
+ambiguous: it is open what rule 1 does on rack2.obj
+To be more certain, demonstrate AHEAD: believable readings of the rules differ there
   meshforge demonstrate racks AHEAD 'HULLS => ACTION' ...
 Next: meshforge apply racks
 
@@ -74,7 +76,7 @@ def test_answers_come_from_a_file_by_the_choice(run: Run, tmp_path: Path) -> Non
         timeless(told.err)
         == """
 learned in TIME with 1 answer, kept as racks/program.mf
-settled: all believable readings agree on your 30 assets
+unambiguous: all believable readings agree on your 30 assets
 Next: meshforge apply racks
 """
     )
@@ -102,7 +104,7 @@ def test_a_dry_run_keeps_nothing(run: Run, tmp_path: Path) -> None:
     assert told.out == f"{LABELS}Geo(Is(board), +Z) => Delete\n"
     assert timeless(told.err).splitlines()[1:] == [
         "learned in TIME with 1 answer",
-        "settled: all believable readings agree on your 30 assets",
+        "unambiguous: all believable readings agree on your 30 assets",
     ]
     assert project.program() is None and not project.answers().ids
 
@@ -140,10 +142,10 @@ def test_repairs_are_proposed_with_the_program_they_lead_to(run: Run, tmp_path: 
         "With that, the program is:",
         "  Is(knob) => Delete",
         "To look at each: meshforge synthesize racks in a terminal; "
-        "to mend all: meshforge synthesize racks --accept-repairs",
+        "to repair all: meshforge synthesize racks --accept-repairs",
         "To keep the labels as they are: meshforge synthesize racks --reject-repairs",
     ]
-    assert project.mesh(PLAIN).named("knob").label == "leg"
+    assert project.mesh(PLAIN).hull_of("knob").label == "leg"
 
 
 def test_repairs_are_accepted_listed_and_taken_back(run: Run, tmp_path: Path) -> None:
@@ -152,20 +154,20 @@ def test_repairs_are_accepted_listed_and_taken_back(run: Run, tmp_path: Path) ->
     assert (told.code, told.out) == (0, f"{LABELS}Is(knob) => Delete\n")
     assert (
         timeless(told.err)
-        == """mended: knob of rack0.obj: leg -> knob
+        == """repaired: knob of rack0.obj: leg -> knob
 
-learned in TIME with 1 mended label, kept as racks/program.mf
-settled: all believable readings agree on your 7 assets
+learned in TIME with 1 repaired label, kept as racks/program.mf
+unambiguous: all believable readings agree on your 7 assets
 Next: meshforge apply racks
 """
     )
     listed = run("synthesize", "racks", "--list-answers")
-    assert listed.out == "rack0.obj#knob=knob  mended, was leg\n"
+    assert listed.out == "rack0.obj#knob=knob  repaired, was leg\n"
     assert listed.err == "To take one back: meshforge synthesize racks --forget 'rack0.obj#knob=knob'\n"
     assert run("synthesize", "racks", "--list-answers", "--json").json["confirmed"][0]["from"] == "leg"
     assert run("synthesize", "racks", "--forget", "rack0.obj#knob=knob").out == "taken back: rack0.obj#knob=knob\n"
-    assert project.mesh(PLAIN).named("knob").label == "leg"
-    assert run("synthesize", "racks", "--list-answers").err == "nothing was answered, mended or refused yet\n"
+    assert project.mesh(PLAIN).hull_of("knob").label == "leg"
+    assert run("synthesize", "racks", "--list-answers").err == "nothing was answered, repaired or refused yet\n"
 
 
 def test_repairs_are_rejected_until_all_is_forgotten(run: Run, tmp_path: Path) -> None:
@@ -176,7 +178,7 @@ def test_repairs_are_rejected_until_all_is_forgotten(run: Run, tmp_path: Path) -
     assert run("synthesize", "racks", "--forget", "all").out == "taken back: 1 answer or repair\n"
     assert run("synthesize", "racks", "--json").json["status"] == "repair"
     assert run("synthesize", "racks", "--json", "--no-repair").json["status"] != "repair"
-    assert project.mesh(PLAIN).named("knob").label == "leg"
+    assert project.mesh(PLAIN).hull_of("knob").label == "leg"
 
 
 def test_repairs_are_either_accepted_or_rejected(run: Run, tmp_path: Path) -> None:
@@ -246,7 +248,7 @@ def test_the_first_interrupt_stops_the_search_and_tells_what_was_found(
         os.kill(os.getpid(), signal.SIGINT)
         return learn(*demos, **options)
 
-    monkeypatch.setattr(learning, "synthesize", interrupted)
+    monkeypatch.setattr(learn_module, "synthesize", interrupted)
     told = run("synthesize", "racks")
     assert told.code == 1
     assert told.out.startswith("stopped while rule 1 was searched for\n")
@@ -254,7 +256,7 @@ def test_the_first_interrupt_stops_the_search_and_tells_what_was_found(
 
 
 def test_the_second_interrupt_ends_the_program() -> None:
-    with pytest.raises(KeyboardInterrupt), interruptible() as stop:
+    with pytest.raises(KeyboardInterrupt), catch_interrupt() as stop:
         os.kill(os.getpid(), signal.SIGINT)
         assert stop()
         os.kill(os.getpid(), signal.SIGINT)
@@ -266,7 +268,11 @@ def test_a_search_without_time_tells_how_to_give_it_more(
 ) -> None:
     mislabelled(tmp_path)
     learn = synthesis.synthesize
-    monkeypatch.setattr(learning, "synthesize", lambda *given, **more: learn(*given, **more | {"stop": lambda: True}))
+
+    def stopped(*given: Any, **more: Any) -> Any:
+        return learn(*given, **more | {"options": replace(more["options"], stop=lambda: True)})
+
+    monkeypatch.setattr(learn_module, "synthesize", stopped)
     told = run("synthesize", "racks", "--budget", "0.1")
     assert told.code == 1
     assert told.out.startswith("the time ran out while rule 1 was searched for; --budget SECONDS gives more\n")

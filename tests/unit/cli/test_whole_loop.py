@@ -23,4 +23,4 @@ def test_from_files_to_edited_files(tmp_path: Path) -> None:
     for source in sources:
         before, after = load(source), load(tmp_path / "tables/edited" / source.parent.name / source.name)
         assert sorted(hull.label or "" for hull in after.hulls) == ["leg", "leg", "top"]
-        assert after.named("top").volume == before.named("top").volume
+        assert after.hull_of("top").volume == before.hull_of("top").volume

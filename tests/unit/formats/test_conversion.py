@@ -8,9 +8,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from meshforge.asset import Asset
 from meshforge.formats import read, save
 from meshforge.geometry import Floats
+from meshforge.symbolic import Asset
 from tests.conversion_samples import SAMPLES
 from tests.gltf_files import KHR, SceneFile
 from tests.soups import box
@@ -36,7 +36,7 @@ def assert_same_hulls(before: Asset, after: Asset, names: dict[str, str], linear
     slack = SINGLE * before.aabb.diagonal
     for geom in before.geoms:
         now = by_name[names.get(geom.name, geom.name)]
-        was = (geom.shape if now.kind == geom.shape.kind else geom.shape.tessellated()).mapped(linear, np.zeros(3))
+        was = (geom.shape if now.kind == geom.shape.kind else geom.shape.tessellate()).transform(linear, np.zeros(3))
         np.testing.assert_allclose(now.aabb.min, was.aabb.min, atol=slack, err_msg=geom.name)
         np.testing.assert_allclose(now.aabb.max, was.aabb.max, atol=slack, err_msg=geom.name)
         assert now.volume == pytest.approx(was.volume, rel=1e-3)

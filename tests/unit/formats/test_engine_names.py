@@ -9,18 +9,17 @@ import numpy as np
 import pytest
 import trimesh
 
-from meshforge.asset import Asset, Geom, Opaque, Surface
 from meshforge.checks import check
-from meshforge.errors import AssetError, UsageError
-from meshforge.formats import Names, read, save
+from meshforge.common import AssetError, UsageError
+from meshforge.formats import EngineName, read, save
 from meshforge.geometry import Box, Pose, Sphere, convex_hull
-from meshforge.symbolic import SymbolicMesh
+from meshforge.symbolic import Asset, Geom, Opaque, Surface, SymbolicMesh
 from tests.conversion_samples import SAMPLES, block, foreign, wedge
 from tests.gltf_files import SceneFile, tree_of
 from tests.gltf_validation import errors
 from tests.soups import Soup, angle, box, together
 
-NAMED: list[tuple[Names, str]] = [("unreal", ".glb"), ("unreal", ".gltf"), ("godot", ".glb"), ("unity", ".gltf")]
+NAMED: list[tuple[EngineName, str]] = [("unreal", ".glb"), ("unreal", ".gltf"), ("godot", ".glb"), ("unity", ".gltf")]
 
 
 def names(asset: Asset) -> list[str]:
@@ -159,7 +158,7 @@ def test_where_nothing_is_seen_unreal_gets_what_collides_to_show_and_others_noth
     saved = save(asset, tmp_path / "a.glb", names="unreal")
     assert "Unreal needs a mesh to be seen: what collides stands for it in left, right, base" in saved.notes
     shown = trimesh.load_scene(saved.path).geometry
-    hulls = [geom.shape.tessellated() for geom in asset.geoms if geom.body == "left"]
+    hulls = [geom.shape.tessellate() for geom in asset.geoms if geom.body == "left"]
     assert shown["left"].volume == pytest.approx(sum(hull.volume for hull in hulls))
     for other in ("godot", "unity"):
         assert not read(save(asset, tmp_path / other / "a.glb", names=other).path).visuals
@@ -171,9 +170,9 @@ def test_what_is_no_hull_never_becomes_one_for_unreal(tmp_path: Path) -> None:
     vertices, faces = box()
     shown = replace(asset, visuals=(Surface(vertices, faces, "room"),))
     seen = save(shown, tmp_path / "seen.obj", names="unreal")
-    told = {loss.what.many: loss.instead for saved in (bare, seen) for loss in saved.report.lost}
+    told = {loss.kind.many: loss.instead for saved in (bare, seen) for loss in saved.report.lost}
     assert told["opaque pieces"] is None  # the body shows something of its own
-    assert [loss.instead for loss in bare.report.lost if loss.what.many == "opaque pieces"] == [
+    assert [loss.instead for loss in bare.report.lost if loss.kind.many == "opaque pieces"] == [
         "written to be seen alone"
     ]
     for saved in (bare, seen):
@@ -285,7 +284,7 @@ def test_pieces_that_an_edit_puts_below_their_node_do_not_make_a_file_one_for_un
     ],
 )
 def test_formats_without_such_names_are_refused_with_those_that_have_them(
-    place: str, engine: Names, message: str, tmp_path: Path
+    place: str, engine: EngineName, message: str, tmp_path: Path
 ) -> None:
     with pytest.raises(UsageError) as caught:
         save(SAMPLES["crowd"](), tmp_path / place, names=engine)

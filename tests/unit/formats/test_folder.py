@@ -6,10 +6,10 @@ from pathlib import Path
 
 import pytest
 
-from meshforge.asset import Asset, Geom
-from meshforge.errors import AssetError
+from meshforge.common import AssetError
 from meshforge.formats import labels_beside, read, save
 from meshforge.geometry import convex_hull
+from meshforge.symbolic import Asset, Geom
 from tests.mesh_files import obj, ply, stl_binary, wrl
 from tests.soups import box, together
 
@@ -118,16 +118,16 @@ def test_other_mesh_files_in_the_way_are_not_taken_for_hulls(folder: Path, tmp_p
 def test_a_new_folder_appears_whole_or_not_at_all(
     folder: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    from meshforge.formats import copying, saving
+    from meshforge.formats import output_tree
 
-    asset, copy, calls = read(folder), copying.copy_atomically, iter([None, KeyboardInterrupt()])
+    asset, copy, calls = read(folder), output_tree.copy_atomically, iter([None, KeyboardInterrupt()])
 
     def dying(source: Path, target: Path, *, link: bool) -> None:
         if error := next(calls):
             raise error
         copy(source, target, link=link)
 
-    monkeypatch.setattr(saving, "copy_atomically", dying)
+    monkeypatch.setattr(output_tree, "copy_atomically", dying)
     with pytest.raises(KeyboardInterrupt):
         save(asset, tmp_path / "new" / "out")
     assert list((tmp_path / "new").iterdir()) == []

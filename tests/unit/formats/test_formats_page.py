@@ -11,22 +11,22 @@ from pathlib import Path
 
 import pytest
 
-from meshforge.asset import What
-from meshforge.formats import FORMATS, NAMED, Format
+from meshforge.formats import ENGINE_FORMATS, FORMATS, Format
+from meshforge.symbolic import FeatureKind
 
 ROOT = Path(__file__).parents[3]
 PAGE = ROOT / "docs" / "formats.md"
 _START, _END = "<!-- {}: made by tests/unit/formats/test_formats_page.py -->\n", "<!-- end of {} -->"
 _MATRICES = {
     "matrix": [known for known in FORMATS if known.name != "wrl"],
-    "named matrix": [known for formats in NAMED.values() for known in formats],
+    "named matrix": [known for formats in ENGINE_FORMATS.values() for known in formats],
 }
 
 
 def matrix(formats: list[Format]) -> str:
     """What each format takes over from others, a row for each kind of thing that any of them takes."""
     rows = [["", *(known.title for known in formats)], ["---"] * (len(formats) + 1)]
-    for what in What:
+    for what in FeatureKind:
         cells = ["●" if what in known.holds else known.instead.get(what, "") for known in formats]
         if "●" in cells:
             rows.append([what.many, *cells])

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 import trimesh
 
-from meshforge.asset import Asset, Body, Document, Geom, Inertial, Joint, Mechanism, Opaque, Surface
 from meshforge.formats import read, save
-from meshforge.geometry import Box, Capsule, Cylinder, Ellipsoid, Pose, Sphere, convex_hull, same_shape
+from meshforge.geometry import Box, Capsule, Cylinder, Ellipsoid, Pose, Sphere, convex_hull, is_same_shape
+from meshforge.symbolic import Asset, Body, Document, Geom, Inertial, Joint, Mechanism, Opaque, Surface
 from tests.gltf_files import KHR, tree_of
 from tests.gltf_validation import errors
 from tests.soups import angle, box
@@ -59,10 +59,10 @@ def test_bodies_and_native_shapes_become_those_of_the_physics_extension(tmp_path
     assert list(back) == [geom.name for geom in (*geoms, egg)] and not saved.names
     for geom in geoms:
         now = back[geom.name].shape
-        assert same_shape(now, geom.shape, 1e-9) or now.kind == geom.shape.kind == "polytope"
+        assert is_same_shape(now, geom.shape, 1e-9) or now.kind == geom.shape.kind == "polytope"
         assert now.volume == pytest.approx(geom.shape.volume, rel=1e-6) and back[geom.name].body == geom.body
         np.testing.assert_allclose([now.aabb.min, now.aabb.max], [geom.shape.aabb.min, geom.shape.aabb.max], atol=1e-6)
-    assert [(loss.what.one, loss.names) for loss in saved.report.lost] == [("ellipsoid", ("arm/egg",))]
+    assert [(loss.kind.one, loss.names) for loss in saved.report.lost] == [("ellipsoid", ("arm/egg",))]
     for body in bodies:
         np.testing.assert_allclose(after.body_poses[body.name].rotation, body.pose.rotation, atol=1e-12)
         np.testing.assert_allclose(after.body_poses[body.name].translation, body.pose.translation, atol=1e-12)
@@ -115,7 +115,7 @@ def test_masses_go_along_and_joints_are_told_as_lost(tmp_path: Path) -> None:
     motions = [node["extensions"][KHR]["motion"] for node in tree_of(saved.path.read_bytes())["nodes"][:2]]
     assert motions[0] == {"isKinematic": True} and "isKinematic" not in motions[1]
     assert [str(loss) for loss in saved.report.lost] == [
-        "1 joint (hinge) is left out: MeshForge does not carry joints over to glTF"
+        "1 joint (hinge) is left out: MeshForge does not convert joints to glTF"
     ]
 
 

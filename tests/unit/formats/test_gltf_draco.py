@@ -6,7 +6,7 @@ import DracoPy
 import numpy as np
 import pytest
 
-from meshforge.errors import AssetError
+from meshforge.common import AssetError
 from meshforge.formats import read, read_triangles, save
 from tests.gltf_files import SceneFile, tree_of
 from tests.gltf_validation import errors

@@ -7,9 +7,9 @@ import mujoco
 import numpy as np
 import pytest
 
-from meshforge.asset import PRIMITIVES, Asset, What
 from meshforge.formats import read, save
 from meshforge.geometry import Box, Capsule, Cylinder, Ellipsoid, Sphere
+from meshforge.symbolic import PRIMITIVE_FEATURES, Asset, FeatureKind
 from tests.gltf_files import KHR, SHAPES, SceneFile, Tree
 from tests.soups import angle, box, together
 
@@ -179,7 +179,7 @@ def test_a_mass_without_its_inertia_has_that_of_the_hulls_as_mujoco_computes_it(
     motion = {KHR: {"motion": {"mass": 2}}}
     scene.node("jar", children=children, translation=[5, 0, 0], rotation=[0, 0.6, 0, 0.8], extensions=motion)
     asset = asset_of(scene, tmp_path)
-    assert {geom.shape.kind for geom in asset.geoms} == {*PRIMITIVES, "polytope"}
+    assert {geom.shape.kind for geom in asset.geoms} == {*PRIMITIVE_FEATURES, "polytope"}
     text = save(asset, tmp_path / "m.xml").path.read_text()
     (tmp_path / "n.xml").write_text(re.sub("<inertial.*?>", "", text))
     ours, own = (mujoco.MjModel.from_xml_path(str(tmp_path / name)) for name in ("m.xml", "n.xml"))
@@ -229,9 +229,9 @@ def test_masses_that_cannot_go_along_are_told(tmp_path: Path) -> None:
         scene.node(name, children=[child], extensions={KHR: {"motion": motion}})
     scene.node("ghost", extensions={KHR: {"motion": {"mass": 3}}})
     lost = save(asset_of(scene, tmp_path), tmp_path / "m.urdf").report.lost
-    assert [str(loss) for loss in lost if loss.what is What.MASSES] == [
+    assert [str(loss) for loss in lost if loss.kind is FeatureKind.MASSES] == [
         "2 masses (heavy, stiff) are left out: they or their inertia are endless",
-        "1 mass (ghost) is left out: no hull of these bodies tells their inertia",
+        "1 mass (ghost) is left out: no hull of these bodies gives their inertia",
     ]
 
 

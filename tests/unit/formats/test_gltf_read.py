@@ -7,12 +7,12 @@ from typing import Any
 import numpy as np
 import pytest
 
-from meshforge.asset import Asset
-from meshforge.errors import AssetError
+from meshforge.common import AssetError
 from meshforge.formats import load, read
-from meshforge.formats.triangles import read_triangles
+from meshforge.formats.mesh_reader import read_triangles
 from meshforge.geometry import Capsule, Pose, Shape, Sphere
-from meshforge.geometry.shapes.polytope import volume_and_centroid
+from meshforge.geometry.shape import volume_and_centroid
+from meshforge.symbolic import Asset
 from tests.gltf_files import KHR, SceneFile, Tree
 from tests.soups import Soup, angle, box, together, turned
 

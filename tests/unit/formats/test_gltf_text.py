@@ -7,8 +7,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from meshforge.formats.gltf.writing.json_text import rewritten
-from meshforge.formats.naming.marks import godot_kind, render_name, unreal_kind, without_suffix
+from meshforge.formats.engine_names.base import godot_kind, strip_godot_suffix, unreal_kind, visible_mesh_of
+from meshforge.formats.gltf.json_text import rewrite_json
 from tests.examples import examples
 
 SCALARS = st.none() | st.booleans() | st.integers(-9, 9) | st.floats(allow_nan=False, allow_infinity=False) | st.text()
@@ -22,8 +22,8 @@ LAYOUTS = st.sampled_from([(None, (",", ":")), (None, (", ", ": ")), (2, (",", "
 @given(TREES, TREES, LAYOUTS)
 def test_any_value_can_become_any_other(old: Any, new: Any, layout: Any) -> None:
     text = json.dumps(old, indent=layout[0], separators=layout[1])
-    assert json.loads(rewritten(text, new)) == new
-    assert rewritten(text, old) == text
+    assert json.loads(rewrite_json(text, new)) == new
+    assert rewrite_json(text, old) == text
 
 
 @examples(60)
@@ -32,13 +32,13 @@ def test_what_stays_of_a_list_keeps_its_text(old: list[Any], more: Any, data: st
     kept = [value for value in old if data.draw(st.booleans())]
     new = [*kept, more]
     text = json.dumps({"list": old, "x": 1.0}, indent=layout[0], separators=layout[1])
-    assert json.loads(rewritten(text, {"list": new, "x": 1.0})) == {"list": new, "x": 1.0}
+    assert json.loads(rewrite_json(text, {"list": new, "x": 1.0})) == {"list": new, "x": 1.0}
 
 
 def test_numbers_escapes_and_blanks_stay_and_new_members_are_laid_out_alike() -> None:
     text = '{\r\n\t"a" : [\r\n\t\t1.00,\r\n\t\t-0\r\n\t],\r\n\t"b": {"\\u0063":1.50e0}\r\n}\r\n'
     new = {"a": [1.0, 0, {"x": 1}], "b": {"c": 1.5, "d": 2}, "e": 3}
-    assert rewritten(text, new) == (
+    assert rewrite_json(text, new) == (
         '{\r\n\t"a" : [\r\n\t\t1.00,\r\n\t\t-0,\r\n\t\t{\r\n\t\t\t"x": 1\r\n\t\t}\r\n\t],\r\n'
         '\t"b": {"\\u0063":1.50e0,"d":2},\r\n\t"e": 3\r\n}\r\n'
     )
@@ -46,10 +46,10 @@ def test_numbers_escapes_and_blanks_stay_and_new_members_are_laid_out_alike() ->
 
 def test_a_removed_member_takes_its_comma_along() -> None:
     text = '{"a": 1.0, "b": 2.0, "c": 3.0}'
-    assert rewritten(text, {"a": 1, "c": 3}) == '{"a": 1.0, "c": 3.0}'
-    assert rewritten(text, {"b": 2}) == '{"b": 2.0}'
-    assert rewritten(text, {"a": 1}) == '{"a": 1.0}'
-    assert rewritten(text, {"d": 4}) == '{"d": 4}'
+    assert rewrite_json(text, {"a": 1, "c": 3}) == '{"a": 1.0, "c": 3.0}'
+    assert rewrite_json(text, {"b": 2}) == '{"b": 2.0}'
+    assert rewrite_json(text, {"a": 1}) == '{"a": 1.0}'
+    assert rewrite_json(text, {"d": 4}) == '{"d": 4}'
 
 
 @pytest.mark.parametrize(
@@ -68,7 +68,7 @@ def test_a_removed_member_takes_its_comma_along() -> None:
 )
 def test_godot_takes_names_that_end_so(name: str | None, kind: str | None, rest: str | None) -> None:
     assert godot_kind(name) == kind
-    assert name is None or without_suffix(name) == rest
+    assert name is None or strip_godot_suffix(name) == rest
 
 
 def test_unreal_takes_names_that_begin_so() -> None:
@@ -84,7 +84,7 @@ def test_unreal_takes_names_that_begin_so() -> None:
 
 
 def test_the_mesh_of_an_unreal_name_is_the_longest_that_is_there() -> None:
-    assert render_name("UCX_table_top_01", ["table", "table_top"]) == "table_top"
-    assert render_name("UCX_table_top_01", ["table"]) == "table"
-    assert render_name("UCX_table_top_01", []) == "table_top"
-    assert render_name("UCX_01", ["01"]) == "01"
+    assert visible_mesh_of("UCX_table_top_01", ["table", "table_top"]) == "table_top"
+    assert visible_mesh_of("UCX_table_top_01", ["table"]) == "table"
+    assert visible_mesh_of("UCX_table_top_01", []) == "table_top"
+    assert visible_mesh_of("UCX_01", ["01"]) == "01"

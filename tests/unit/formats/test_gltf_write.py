@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from meshforge.errors import AssetError
+from meshforge.common import AssetError
 from meshforge.formats import read, save
 from tests.gltf_edited import Edited, brick, names, three_legs
 from tests.gltf_files import SceneFile, Tree, chunk, glb_of, tree_of

@@ -8,9 +8,9 @@ from typing import Any
 import numpy as np
 import pytest
 
-from meshforge.asset import Geom
-from meshforge.errors import AssetError
-from meshforge.geometry import Box, Capsule, Cylinder, Ellipsoid, Pose, Shape, Sphere, convex_hull, same_shape
+from meshforge.common import AssetError
+from meshforge.geometry import Box, Capsule, Cylinder, Ellipsoid, Pose, Shape, Sphere, convex_hull, is_same_shape
+from meshforge.symbolic import Geom
 from tests.gltf_edited import Edited, brick, names, three_legs
 from tests.gltf_files import KHR, SHAPES, SceneFile
 from tests.soups import angle, box, together
@@ -161,7 +161,7 @@ def test_made_colliders_are_native_shapes_with_all_else_of_their_parent(tmp_path
     assert not case.saved.names
     assert {geom.body for geom in after.geoms if "~" in geom.name} == {"jar"}
     for geom in made[:4]:
-        assert same_shape(back[geom.name], geom.shape, 1e-9)
+        assert is_same_shape(back[geom.name], geom.shape, 1e-9)
     assert back["jar/wall~5"].volume == pytest.approx(shapes[4].volume, rel=1e-5)
     assert back["jar/wall~6"].kind == "polytope"
     assert "1 ellipsoid written as hull meshes: the extension has no ellipsoid" in case.saved.notes
@@ -218,7 +218,7 @@ def test_the_extensions_of_omi_are_written_in_their_own_form(tmp_path: Path, for
     case = Edited(scene, tmp_path)
     after = case.edit(gone=["box"], made=made)
     back = {geom.name: geom.shape for geom in after.geoms}
-    assert same_shape(back["box~1"], made[0].shape, 1e-9) and same_shape(back["box~2"], made[1].shape, 1e-9)
+    assert is_same_shape(back["box~1"], made[0].shape, 1e-9) and is_same_shape(back["box~2"], made[1].shape, 1e-9)
     assert back["box~3"].volume == pytest.approx(made[2].shape.volume, rel=1e-5)
 
 

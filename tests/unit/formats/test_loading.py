@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 import meshforge as mf
-from meshforge.errors import AssetError
+from meshforge.common import AssetError
 from meshforge.formats import SUFFIXES, format_of, labels_beside, load, load_many, read, save
 from tests.mesh_files import obj, stl_binary
 from tests.soups import box, together

@@ -7,10 +7,9 @@ from pathlib import Path
 
 import pytest
 
-from meshforge.asset import Geom, Mentions
+from meshforge.batch import Preparation, apply_preparation, cut_hull
 from meshforge.formats import read, save
-from meshforge.preparation import Preparation, cut_hull, prepared
-from meshforge.symbolic import SymbolicMesh
+from meshforge.symbolic import Geom, Mentions, SymbolicMesh
 from tests.gltf_files import SceneFile
 from tests.soups import box
 from tests.unit.batch.families import obj
@@ -113,7 +112,7 @@ def test_hulls_that_a_hull_was_split_into_are_called_as_it_was(tmp_path: Path) -
     put(tmp_path, "parts/original-1.obj", CUBE)
     asset = read(put(tmp_path, "r.urdf", URDF))
     cut = cut_hull(asset, Preparation(), "base/own", (0, 0, 0), (1, 0, 0))
-    made = {geom.name: geom.mentions for geom in prepared(asset, cut).geoms}
+    made = {geom.name: geom.mentions for geom in apply_preparation(asset, cut).geoms}
     assert made["base/own#0"] == made["base/own#1"] == (("visual", "front"),)
 
 

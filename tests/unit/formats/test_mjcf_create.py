@@ -10,10 +10,10 @@ import mujoco
 import numpy as np
 import pytest
 
-from meshforge.asset import Asset, Body, Inertial, Joint, Mechanism, Opaque, Surface
-from meshforge.formats import Saved, read, save
+from meshforge.formats import SaveResult, read, save
 from meshforge.formats.visuals import Visual, VisualSurfaces
 from meshforge.geometry import Aabb, Box, Pose, Sphere, convex_hull
+from meshforge.symbolic import Asset, Body, Inertial, Joint, Mechanism, Opaque, Surface
 from tests.conversion_samples import TURNED, block, foreign, wedge
 from tests.soups import angle
 from tests.urdf_sample import boxes_obj
@@ -21,7 +21,7 @@ from tests.urdf_sample import boxes_obj
 ORIGIN, UP = np.zeros(3), np.array([0.0, 0.0, 1.0])
 
 
-def made(asset: Asset, folder: Path) -> tuple[Asset, Any, Saved]:
+def made(asset: Asset, folder: Path) -> tuple[Asset, Any, SaveResult]:
     """The asset written as MJCF and read back, and the model that MuJoCo compiles."""
     saved = save(asset, folder / "out" / "m.xml")
     return read(saved.path), mujoco.MjModel.from_xml_path(str(saved.path)), saved
@@ -111,7 +111,7 @@ def test_each_hull_is_a_file_of_its_own_and_a_mesh_of_its_own(tmp_path: Path) ->
 
 
 def test_a_hull_far_from_its_body_keeps_its_digits(tmp_path: Path) -> None:
-    box = Box.filling(Aabb((1000, 2000, -500), (1000.001, 2000.002, -499.997))).tessellated()
+    box = Box.of_bounds(Aabb((1000, 2000, -500), (1000.001, 2000.002, -499.997))).tessellate()
     shape = convex_hull(box.vertices)
     after, _, _ = made(foreign({"a": Pose.identity()}, [("a/far", "a", shape)]), tmp_path)
     np.testing.assert_allclose(after.geoms[0].shape.aabb.size, shape.aabb.size, rtol=1e-5)
@@ -119,7 +119,7 @@ def test_a_hull_far_from_its_body_keeps_its_digits(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("side", [1e-3, 1e-4, 1e-5])
 def test_tiny_hulls_compile_alone_or_on_a_body_that_moves(side: float, tmp_path: Path) -> None:
-    tiny = convex_hull(Box.filling(Aabb((0, 0, 0), (side, side, side))).tessellated().vertices)
+    tiny = convex_hull(Box.of_bounds(Aabb((0, 0, 0), (side, side, side))).tessellate().vertices)
     asset = foreign({"a": Pose.identity(), "b": Pose.identity()}, [("a/x", "a", tiny), ("b/x", "b", tiny)])
     joint = Joint("j", "revolute", "a", "b", ORIGIN, UP)
     after, model, _ = made(replace(asset, mechanism=Mechanism((joint,))), tmp_path)
@@ -288,4 +288,4 @@ def test_a_body_of_an_asset_made_in_memory_becomes_a_body(tmp_path: Path) -> Non
     asset = replace(pair(), bodies=(Body("base", Pose.identity()), Body("arm", TURNED)), mechanism=Mechanism())
     _, model, saved = made(asset, tmp_path)
     assert model.njnt == 0
-    assert "MuJoCo computes the masses that are not told, at 1000 kg/m^3 (base, arm)" in saved.notes
+    assert "MuJoCo computes the masses that the file does not say, at 1000 kg/m^3 (base, arm)" in saved.notes

@@ -7,9 +7,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from meshforge.errors import AssetError
-from meshforge.formats.mjcf.files.sources import gather
-from meshforge.formats.mjcf.writing import edit
+from meshforge.common import AssetError
+from meshforge.formats.mjcf import edit
+from meshforge.formats.mjcf.document import read_tree
 from meshforge.geometry import Box, Pose
 from tests.mjcf_engines import model, put, read
 from tests.mjcf_models import Pair, compiled, hull, replaced, write
@@ -28,7 +28,7 @@ def check(folder: Path, files: Files, removed: list[str], *made: str) -> Path:
     boxes = [hull(asset, name, BOX) for name in made]
     path, _ = write(replaced(asset, [*removed, *made], *boxes), folder / "out")
     Pair(compiled(asset.path), compiled(path)).assert_same(removed=[*removed, *made], made=boxes)
-    assert not gather(path).faults
+    assert not read_tree(path).faults
     return path
 
 
@@ -78,8 +78,8 @@ def test_the_geom_with_most_numbers_of_the_users_may_go(tmp_path: Path) -> None:
 
 
 def test_what_mujoco_refuses_of_includes_after_an_edit_is_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    as_it_is = edit._file
-    monkeypatch.setattr(edit, "_file", lambda *of: b"<mujocoinclude/>" if of[2] else as_it_is(*of))
+    as_it_is = edit._edit_file
+    monkeypatch.setattr(edit, "_edit_file", lambda *of: b"<mujocoinclude/>" if of[2] else as_it_is(*of))
     asset = read(put(tmp_path / "in", {"main.xml": model(INCLUDING), "c.xml": INCLUDED}))
     with pytest.raises(AssetError, match=r"of the edited file: the included file 'c.xml' is empty"):
         write(replaced(asset, ["b/h"]), tmp_path / "out")

@@ -9,12 +9,11 @@ from pathlib import Path
 import mujoco
 import pytest
 
-from meshforge.asset import Asset
-from meshforge.errors import AssetError
+from meshforge.common import AssetError
 from meshforge.formats import read as read_any
-from meshforge.formats.mjcf.document import MjcfDocument
-from meshforge.formats.mjcf.files.sources import gather
-from meshforge.formats.mjcf.reading.engine import compiled
+from meshforge.formats.mjcf.document import MjcfDocument, read_tree
+from meshforge.formats.mjcf.engine import compile_model
+from meshforge.symbolic import Asset
 from tests.mjcf_engines import TETRAHEDRON, assert_as_in_mujoco, model, put, read
 
 OBJ = "v 0 0 0\nv 1 0 0\nv 0 2 0\nv 0 0 3\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n"
@@ -236,17 +235,17 @@ def test_edited_files_compile_from_memory_with_what_lies_on_disk(tmp_path: Path)
     meshes = '<asset><mesh name="n" file="n.obj"/><mesh name="t" file="t.obj"/></asset>'
     edited[path] = model('<include file="a.xml"/>', meshes).encode()
     with pytest.raises(AssetError, match=r"new/b\.xml:2: MuJoCo refuses this file: Schema violation"):
-        compiled(path, edited)
+        compile_model(path, edited)
     edited[tmp_path / "new" / "b.xml"] = b'<x><geom size="2"/></x>'
-    made = compiled(path, edited)
+    made = compile_model(path, edited)
     assert isinstance(made, mujoco.MjModel)
     assert made.ngeom == 2 and made.geom_size[1, 0] == 2
-    assert compiled(path).ngeom == 1
+    assert compile_model(path).ngeom == 1
 
 
 def test_a_tree_tells_the_file_and_line_of_each_element(tmp_path: Path) -> None:
     files: Files = {"main.xml": model('<include file="a.xml"/>\n<body/>'), "a.xml": "<x>\n\n<geom size='1'/></x>"}
-    tree = gather(put(tmp_path, files))
+    tree = read_tree(put(tmp_path, files))
     assert [node.tag for node in tree.root.walk()] == ["mujoco", "worldbody", "geom", "body"]
     assert [tree.where(node) for node in list(tree.root.walk())[2:]] == [
         f"{tmp_path}/a.xml:3",

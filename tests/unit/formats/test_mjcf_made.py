@@ -7,9 +7,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from meshforge.asset import Geom
-from meshforge.errors import AssetError
+from meshforge.common import AssetError
 from meshforge.geometry import Box, Capsule, Cylinder, Ellipsoid, Pose, Shape, Sphere, convex_hull
+from meshforge.symbolic import Geom
 from tests.mjcf_engines import TETRAHEDRON, model, put, read
 from tests.mjcf_models import Pair, compiled, hull, replaced, write
 
@@ -142,7 +142,7 @@ def test_small_and_flat_hulls_are_written(scale: float, tmp_path: Path) -> None:
 
 
 def test_a_hull_far_from_its_body_keeps_its_digits(tmp_path: Path) -> None:
-    shape = WEDGE.mapped(np.eye(3) * 1e-3, np.array([50.0, -30.0, 20.0]))
+    shape = WEDGE.transform(np.eye(3) * 1e-3, np.array([50.0, -30.0, 20.0]))
     path = check(tmp_path, model('<body name="b"><geom name="g" size="1"/></body>'), shape)
     (found,) = read(path).geoms
     assert np.abs(found.shape.aabb.size - shape.aabb.size).max() < 1e-9

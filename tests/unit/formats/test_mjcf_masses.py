@@ -7,10 +7,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from meshforge.asset import Asset
-from meshforge.errors import AssetError
+from meshforge.common import AssetError
 from meshforge.formats.base import Mass, Output
 from meshforge.geometry import Box, Cylinder, Pose, convex_hull
+from meshforge.symbolic import Asset
 from tests.mjcf_engines import model, put, read
 from tests.mjcf_models import Pair, compiled, hull, replaced, write
 

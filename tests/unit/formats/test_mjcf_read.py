@@ -9,9 +9,9 @@ import mujoco
 import numpy as np
 import pytest
 
-from meshforge.asset import Surface
 from meshforge.formats.mjcf.document import MjcfDocument, body_names, geom_names
 from meshforge.geometry import Box, Capsule, Cylinder, Ellipsoid, Pose, Sphere
+from meshforge.symbolic import Surface
 from tests.mjcf_engines import TETRAHEDRON, assert_as_in_mujoco, asset, mesh_vertices, model, put, read, shape_of
 
 MESH = f'<asset><mesh name="m" vertex="{TETRAHEDRON}"/></asset>'
@@ -373,5 +373,5 @@ def test_excluded_bodies_and_pairs_of_geoms_are_told_by_name_and_bits_to_the_las
     assert [set(pair) for pair in found.mechanism.paired] == [{floor, other}]
     assert dict(found.geoms[0].contact)["contype"] == "1048577"
     assert dict(found.geoms[2].contact)["conaffinity"] == "-2"
-    moved = found.mechanism.moved(Pose.of_translation([1, 0, 0]))
+    moved = found.mechanism.move(Pose.of_translation([1, 0, 0]))
     assert (moved.apart, moved.paired) == (found.mechanism.apart, found.mechanism.paired)

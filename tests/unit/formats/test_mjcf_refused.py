@@ -8,9 +8,9 @@ from pathlib import Path
 
 import pytest
 
-from meshforge.asset import Asset
-from meshforge.errors import AssetError
+from meshforge.common import AssetError
 from meshforge.formats.mjcf.document import MjcfDocument
+from meshforge.symbolic import Asset
 from tests.mjcf_engines import TETRAHEDRON, model, put, read
 
 SOUND = '<geom name="a" size="1"/><body name="b" pos="1 0 0"><geom type="mesh" mesh="m"/></body>'
@@ -121,7 +121,9 @@ def test_a_second_fault_behind_the_first_is_told_too(tmp_path: Path) -> None:
         read(path)
     assert "unrecognized element" in error.value.problem
     assert error.value.remedy is not None
-    assert error.value.remedy.startswith(f"Mended, it would meet: {path}:2: MuJoCo refuses this file: size 0 must")
+    first, _, rest = error.value.remedy.partition(": ")
+    assert first == "Once that is fixed, the next problem is"
+    assert rest.startswith(f"{path}:2: MuJoCo refuses this file: size 0 must")
 
 
 def test_a_flat_collision_mesh_is_an_error_about_the_mesh(tmp_path: Path) -> None:

@@ -10,11 +10,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from meshforge.asset import Asset, Document, Geom
-from meshforge.errors import AssetError
-from meshforge.formats import placed, save
-from meshforge.formats.mjcf import MjcfFormat
+from meshforge.common import AssetError
+from meshforge.formats import output_path_of, save
+from meshforge.formats.mjcf.format import MjcfFormat
 from meshforge.geometry import Box, Pose, convex_hull
+from meshforge.symbolic import Asset, Document, Geom
 from tests.mjcf_engines import TETRAHEDRON, model, put, read
 from tests.mjcf_models import Pair, compiled, hull, replaced, write
 
@@ -272,7 +272,7 @@ def test_made_meshes_are_found_under_every_setting_of_folders(kind: str, tmp_pat
     asset = read(put(tmp_path / "x/in", {"main.xml": text, file: OBJ}))
     made = hull(asset, "b/g", HULL)
     edit = replaced(asset, ["b/g"], made)
-    target = placed(edit, asset.path.parent, tmp_path / "out")
+    target = output_path_of(edit, asset.path.parent, tmp_path / "out")
     saved = save(edit, target)
     assert (target == tmp_path / "out/main.xml") == (kind in ("none", "meshdir", "assetdir", "strippath"))
     assert all(file.is_relative_to(tmp_path / "out") for file in saved.files)

@@ -9,10 +9,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from meshforge.asset import Asset, Geom
-from meshforge.errors import AssetError
+from meshforge.common import AssetError
 from meshforge.formats import read, save
 from meshforge.geometry import Box, Pose, Shape, convex_hull
+from meshforge.symbolic import Asset, Geom
 from tests.soups import QUADS, Soup, box
 
 

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from meshforge.errors import AssetError
+from meshforge.common import AssetError
 from meshforge.formats import read, save
 from tests.corpus_case import run_main
 from tests.mesh_files import obj

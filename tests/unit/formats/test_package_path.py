@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from meshforge.errors import AssetError
+from meshforge.common import AssetError
 from meshforge.formats import read
 
 URDF = """<robot name="r"><link name="l"><collision><geometry>

@@ -10,11 +10,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from meshforge.asset import Asset, Geom, Opaque, Surface
-from meshforge.errors import AssetError
+from meshforge.common import AssetError
 from meshforge.formats import read, save
-from meshforge.formats.plain import Stl
+from meshforge.formats.plain.stl import StlFormat
 from meshforge.geometry import Capsule, Pose, convex_hull
+from meshforge.symbolic import Asset, Geom, Opaque, Surface
 from tests.mesh_files import KINDS, ply, stl_ascii, stl_binary, wrl
 from tests.soups import Soup, box, together
 
@@ -193,9 +193,9 @@ def test_of_hulls_that_cannot_be_told_apart_the_first_by_name_is_named(tmp_path:
 def test_corners_that_a_writer_moves_are_noticed(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, old: str, new: str
 ) -> None:
-    edited = Stl.edited
+    edited = StlFormat.apply_edit
     moved = (f"vertex {old} ".encode(), f"vertex {new} ".encode())
-    monkeypatch.setattr(Stl, "edited", lambda *given: edited(*given).replace(*moved))
+    monkeypatch.setattr(StlFormat, "apply_edit", lambda *given: edited(*given).replace(*moved))
     asset = read(put(tmp_path, ".stl", stl_ascii(LEGS)))
     made = Geom("geom0#0~1", "body", convex_hull(box((0.25, 5, 0))[0]), "geom0#0")
     with pytest.raises(AssetError, match=rf"would have the vertex {float(old):g} .* elsewhere"):

@@ -7,12 +7,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from meshforge.asset import Asset, Geom
-from meshforge.errors import AssetError
+from meshforge.common import AssetError
 from meshforge.formats import read, save
-from meshforge.formats.meshfile.ply import parse_ply
-from meshforge.formats.meshfile.ply_header import TYPES
+from meshforge.formats.meshfile.ply import TYPES, parse_ply
 from meshforge.geometry import convex_hull
+from meshforge.symbolic import Asset, Geom
 from tests.soups import Soup, box, together
 
 ORDERS = {"ascii": "", "binary_little_endian": "<", "binary_big_endian": ">"}

@@ -9,11 +9,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from meshforge.asset import Asset, What
+from meshforge.common import pluralize
 from meshforge.formats import FORMATS, Format, Loss, Output, read, save
-from meshforge.formats.reporting import report
+from meshforge.formats.conversion import report_conversion
 from meshforge.formats.visuals import Visual, VisualSurfaces
-from meshforge.words import counted
+from meshforge.symbolic import Asset, FeatureKind
 from tests.conversion_samples import SAMPLES, crowd, doors
 from tests.gltf_files import SceneFile
 from tests.soups import box
@@ -156,7 +156,7 @@ def said(source: str, folder: Path) -> str:
     parts = []
     for suffix in SUFFIXES:
         saved = save(asset, folder / "out" / suffix.removeprefix(".") / f"thing{suffix}")
-        held = ", ".join(counted(f.count, f.what.one, f.what.many) for f in saved.report.held)
+        held = ", ".join(pluralize(f.count, f.kind.one, f.kind.many) for f in saved.report.held)
         parts.append("\n".join([f"== to {suffix or 'a folder'}, which holds: {held or 'hulls'}", *saved.notes]))
     return "\n\n".join(parts) + "\n"
 
@@ -175,31 +175,31 @@ def test_every_format_says_what_it_is_called_and_what_it_holds(known: Format) ->
 
 def test_what_only_the_document_tells_is_never_told_to_be_held(tmp_path: Path) -> None:
     told = save(SOURCES["busy_mjcf"](tmp_path), tmp_path / "out" / "m.urdf").report
-    assert {loss.what for loss in told.lost} >= {What.MATERIALS, What.SENSORS, What.CONTACT}
-    assert not {feature.what for feature in told.held} & {loss.what for loss in told.lost}
+    assert {loss.kind for loss in told.lost} >= {FeatureKind.MATERIALS, FeatureKind.SENSORS, FeatureKind.CONTACT}
+    assert not {feature.kind for feature in told.held} & {loss.kind for loss in told.lost}
 
 
 def test_a_loss_is_a_sentence_with_a_count_and_names() -> None:
-    three = Loss(What.JOINTS, ("door", "drawer", "lid", "wheel"), "OBJ has no joints")
+    three = Loss(FeatureKind.JOINTS, ("door", "drawer", "lid", "wheel"), "OBJ has no joints")
     assert str(three) == "4 joints (door, drawer, lid and 1 more) are left out: OBJ has no joints"
-    assert str(Loss(What.BODIES, ("a",), "so it is", "flat")) == "1 body (a) is flat: so it is"
-    assert str(Loss(What.COMMENTS, (), "because", unnamed=1_200)) == "1,200 comments are left out: because"
+    assert str(Loss(FeatureKind.BODIES, ("a",), "so it is", "flat")) == "1 body (a) is flat: so it is"
+    assert str(Loss(FeatureKind.COMMENTS, (), "because", unnamed=1_200)) == "1,200 comments are left out: because"
 
 
 def test_things_that_a_creator_left_out_do_not_count_as_held() -> None:
     asset, urdf = SAMPLES["opaque"](), next(known for known in FORMATS if known.name == "urdf")
-    lost = tuple(Loss(What.OPAQUE, (name,), "flat") for name in ("room/walls", "room/other"))
-    told = report(asset, None, urdf, Output(b"", lost=lost))
-    assert What.OPAQUE not in {feature.what for feature in told.held}
-    assert [str(loss) for loss in told.lost if loss.what is What.OPAQUE] == [
+    lost = tuple(Loss(FeatureKind.OPAQUE, (name,), "flat") for name in ("room/walls", "room/other"))
+    told = report_conversion(asset, None, urdf, Output(b"", lost=lost))
+    assert FeatureKind.OPAQUE not in {feature.kind for feature in told.held}
+    assert [str(loss) for loss in told.lost if loss.kind is FeatureKind.OPAQUE] == [
         "2 opaque pieces (room/walls, room/other) are left out: flat"
     ]
 
 
 def test_names_count_where_an_author_gave_them_only() -> None:
     obj = next(known for known in FORMATS if known.name == "obj")
-    held = {feature.what: feature.names for feature in report(crowd(), None, obj, Output(b"")).held}
-    assert held[What.NAMES] == ("left/part", "right/part")
+    held = {feature.kind: feature.names for feature in report_conversion(crowd(), None, obj, Output(b"")).held}
+    assert held[FeatureKind.NAMES] == ("left/part", "right/part")
 
 
 @pytest.mark.parametrize("suffix", [".urdf", ".xml", ".sdf", ".glb"])
@@ -218,7 +218,7 @@ def test_what_the_vertices_of_a_gltf_have_besides_their_places_is_told(tmp_path:
     part["attributes"] |= {"TEXCOORD_0": scene.accessor(np.ones((8, 2), "<f4"))}
     scene.node("box", mesh=scene.mesh(part))
     saved = save(read(scene.write(tmp_path / "a.glb")), tmp_path / "a.stl")
-    assert {loss.what for loss in saved.report.lost} >= {What.VERTEX_COLORS, What.TEXTURE_COORDINATES}
+    assert {loss.kind for loss in saved.report.lost} >= {FeatureKind.VERTEX_COLORS, FeatureKind.TEXTURE_COORDINATES}
 
 
 def test_within_a_format_nothing_is_lost(tmp_path: Path) -> None:

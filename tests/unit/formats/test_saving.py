@@ -8,12 +8,11 @@ from pathlib import Path
 
 import pytest
 
-from meshforge.asset import Asset
-from meshforge.errors import AssetError
-from meshforge.formats import Format, Mass, Output, placed, read, save
-from meshforge.formats import saving as saving_module
+from meshforge.common import AssetError
+from meshforge.formats import Format, Mass, Output, output_path_of, read, save
+from meshforge.formats import output_tree as saving_module
 from meshforge.geometry import convex_hull
-from meshforge.symbolic import Hull, SymbolicMesh
+from meshforge.symbolic import Asset, Hull, SymbolicMesh
 from tests.mesh_files import obj
 from tests.soups import box, together
 
@@ -181,21 +180,21 @@ def asset(source: Path) -> Iterator[Asset]:
 
 
 def test_an_output_lies_below_the_output_folder_as_the_asset_below_the_base(asset: Asset, tmp_path: Path) -> None:
-    assert placed(asset, tmp_path, Path("out")) == Path("out/in/tables/table.obj")
-    assert placed(asset, tmp_path / "in", Path("out")) == Path("out/tables/table.obj")
+    assert output_path_of(asset, tmp_path, Path("out")) == Path("out/in/tables/table.obj")
+    assert output_path_of(asset, tmp_path / "in", Path("out")) == Path("out/tables/table.obj")
 
 
 def test_references_that_climb_above_the_base_stay_in_the_output_folder(asset: Asset, tmp_path: Path) -> None:
-    path = placed(asset, tmp_path / "in" / "tables", tmp_path / "out")
+    path = output_path_of(asset, tmp_path / "in" / "tables", tmp_path / "out")
     assert path == tmp_path / "out" / "tables" / "table.obj"
     save(asset, path)
     assert sorted(tree(tmp_path / "out")) == ["oak.png", "tables/table.obj", "wood.mtl"]
 
 
 def test_an_asset_elsewhere_counts_from_its_own_files(asset: Asset, tmp_path: Path) -> None:
-    assert placed(asset, tmp_path / "elsewhere", Path("out")) == Path("out/tables/table.obj")
+    assert output_path_of(asset, tmp_path / "elsewhere", Path("out")) == Path("out/tables/table.obj")
 
 
 def test_paths_may_be_relative(source: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(source.parent)
-    assert placed(read(Path("table.obj")), Path(".."), Path("out")) == Path("out/tables/table.obj")
+    assert output_path_of(read(Path("table.obj")), Path(".."), Path("out")) == Path("out/tables/table.obj")

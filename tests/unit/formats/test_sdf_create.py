@@ -8,8 +8,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from meshforge.asset import Joint, JointKind, What
 from meshforge.formats import read, save
+from meshforge.symbolic import FeatureKind, Joint, JointKind
 from tests.conversion_samples import SAMPLES, block, doors, foreign, inertial
 
 
@@ -70,7 +70,7 @@ def test_what_moves_freely_has_no_joint_and_that_is_told(tmp_path: Path) -> None
     )
     saved = save(asset, tmp_path / "m.sdf")
     assert "<joint" not in saved.path.read_text()
-    assert [loss.names for loss in saved.report.lost if loss.what is What.JOINTS] == [("free",)]
+    assert [loss.names for loss in saved.report.lost if loss.kind is FeatureKind.JOINTS] == [("free",)]
     assert [body.name for body in read(saved.path).bodies] == ["cup"]
 
 

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from meshforge.errors import AssetError
+from meshforge.common import AssetError
 from meshforge.formats import read as read_any
 from meshforge.formats.visuals import VisualSurfaces
 from meshforge.geometry import Pose

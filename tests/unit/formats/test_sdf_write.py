@@ -10,10 +10,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from meshforge.asset import Asset, Geom
-from meshforge.errors import AssetError
+from meshforge.common import AssetError
 from meshforge.formats import save
 from meshforge.geometry import Box, Capsule, Ellipsoid, Pose, Sphere
+from meshforge.symbolic import Asset, Geom
 from tests.corpus_case import ROOT
 from tests.sdf_sample import SAMPLE, box, link, model, put_text, read, sample, write
 from tests.urdf_sample import made, put, without

@@ -10,18 +10,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from meshforge.errors import AssetError
+from meshforge.common import AssetError
 from meshforge.formats import is_asset
-from meshforge.formats.segmented import (
-    Segmented,
-    Semantic,
-    is_segmented,
-    of_own_mesh,
-    points_beside,
-    read_classes,
-    read_segmented,
-    read_semantics,
-)
+from meshforge.formats.segmentation.base import Segmentation, is_segmentation, points_beside
+from meshforge.formats.segmentation.class_names import LinkSemantics, read_class_names, read_semantics
+from meshforge.formats.segmentation.reader import attach_own_mesh, read_segmentation
 from tests.mesh_files import obj, stl_binary
 from tests.soups import box
 
@@ -56,7 +49,7 @@ def array(folder: Path, given: object) -> Path:
     return path
 
 
-def classes(found: Segmented) -> list[int]:
+def classes(found: Segmentation) -> list[int]:
     return [int(k) for k in found.classes]
 
 
@@ -65,7 +58,7 @@ def classes(found: Segmented) -> list[int]:
 )
 def test_a_ply_has_the_class_of_each_vertex_in_a_property_of_such_a_name(tmp_path: Path, name: str) -> None:
     text = ply(vertex=f"property uchar red\nproperty int {name}\n", labels=(" 9 0", " 9 1", " 9 1", " 9 -1"))
-    found = read_segmented(put(tmp_path, text))
+    found = read_segmentation(put(tmp_path, text))
     assert classes(found) == [0, 1, 1, -1]
     assert found.vertices is not None and np.array_equal(found.vertices, POINTS)
     assert not len(found.faces) and not found.of_faces and not found.names
@@ -74,14 +67,14 @@ def test_a_ply_has_the_class_of_each_vertex_in_a_property_of_such_a_name(tmp_pat
 def test_classes_of_faces_count_before_those_of_vertices_and_polygons_hand_on_theirs(tmp_path: Path) -> None:
     rest = "element face 2\nproperty list uchar int vertex_indices\nproperty float label\nend_header\n"
     text = ply(vertex="property int label\n", labels=(" 5",) * 4, rest=rest) + "4 0 1 2 3 7\n3 0 1 2 8\n"
-    found = read_segmented(put(tmp_path, text))
+    found = read_segmentation(put(tmp_path, text))
     assert classes(found) == [7, 7, 8] and found.of_faces and len(found.faces) == 3
 
 
 def test_a_ply_with_as_many_faces_as_vertices_knows_whose_classes_are(tmp_path: Path) -> None:
     rest = "element face 4\nproperty list uchar int vertex_indices\nend_header\n"
     rows = "".join(f"3 {a} {b} {c}\n" for a, b, c in FACES[:4])
-    found = read_segmented(put(tmp_path, ply(vertex="property int seg\n", labels=(" 5",) * 4, rest=rest) + rows))
+    found = read_segmentation(put(tmp_path, ply(vertex="property int seg\n", labels=(" 5",) * 4, rest=rest) + rows))
     assert not found.of_faces and len(found.faces) == 4
 
 
@@ -95,25 +88,25 @@ def test_a_ply_with_as_many_faces_as_vertices_knows_whose_classes_are(tmp_path: 
 )
 def test_names_of_classes_stand_in_comments(tmp_path: Path, comments: str, names: dict[int, str]) -> None:
     text = ply(comments=comments, vertex="property int label\n", labels=(" 0",) * 4)
-    assert read_segmented(put(tmp_path, text)).names == names
+    assert read_segmentation(put(tmp_path, text)).names == names
 
 
 def test_arrays_have_points_or_a_mesh(tmp_path: Path) -> None:
-    found = read_segmented(arrays(tmp_path, points=POINTS, labels=[0, 1, 1, 2], names=["a", "b", "c"]))
+    found = read_segmentation(arrays(tmp_path, points=POINTS, labels=[0, 1, 1, 2], names=["a", "b", "c"]))
     assert classes(found) == [0, 1, 1, 2] and found.names == {0: "a", 1: "b", 2: "c"}
-    found = read_segmented(arrays(tmp_path, Vertices=POINTS, faces=FACES, part_labels=np.arange(5.0)[:, None]))
+    found = read_segmentation(arrays(tmp_path, Vertices=POINTS, faces=FACES, part_labels=np.arange(5.0)[:, None]))
     assert classes(found) == [0, 1, 2, 3, 4] and found.of_faces
-    found = read_segmented(arrays(tmp_path, xyz=POINTS, triangles=FACES, seg=np.arange(4), classes=np.array([b"x"])))
+    found = read_segmentation(arrays(tmp_path, xyz=POINTS, triangles=FACES, seg=np.arange(4), classes=np.array([b"x"])))
     assert classes(found) == [0, 1, 2, 3] and not found.of_faces and found.names == {0: "x"}
 
 
 def test_one_array_has_points_with_their_class_or_classes_alone(tmp_path: Path) -> None:
-    found = read_segmented(array(tmp_path, np.column_stack([POINTS, [1, 2, 3, -1]])))
+    found = read_segmentation(array(tmp_path, np.column_stack([POINTS, [1, 2, 3, -1]])))
     assert classes(found) == [1, 2, 3, -1] and found.vertices is not None
     kind = [("x", "f4"), ("y", "f4"), ("z", "f4"), ("label", "i4")]
-    found = read_segmented(array(tmp_path, np.array([(0, 1, 2, 5)], dtype=kind)))
+    found = read_segmentation(array(tmp_path, np.array([(0, 1, 2, 5)], dtype=kind)))
     assert classes(found) == [5] and found.vertices is not None and found.vertices.tolist() == [[0, 1, 2]]
-    found = read_segmented(array(tmp_path, np.array([3, 4])))
+    found = read_segmentation(array(tmp_path, np.array([3, 4])))
     assert classes(found) == [3, 4] and found.vertices is None
 
 
@@ -181,7 +174,7 @@ REFUSED: dict[str, tuple[Make, str]] = {
     ),
     "a point that is infinite": (
         lambda d: arrays(d, points=np.where(POINTS == 1, np.inf, POINTS), labels=[0] * 4),
-        "a coordinate is not a finite number\n  Mend or export it again.",
+        "a coordinate is not a finite number\n  Fix or export it again.",
     ),
     "wrong lengths": (
         lambda d: arrays(d, points=POINTS, labels=[0, 1]),
@@ -250,14 +243,14 @@ def test_a_wrong_file_has_one_message(tmp_path: Path, case: str) -> None:
     make, message = REFUSED[case]
     path = make(tmp_path)
     with pytest.raises(AssetError) as told:
-        read_segmented(path)
+        read_segmentation(path)
     assert told.value.message == f"{path}: {message}"
 
 
 def test_a_file_that_is_not_there_is_told(tmp_path: Path) -> None:
     for name in ("a.ply", "a.npz"):
         with pytest.raises(AssetError, match="cannot be read: No such file"):
-            read_segmented(tmp_path / name)
+            read_segmentation(tmp_path / name)
 
 
 # Classes of the asset's own mesh
@@ -268,17 +261,17 @@ def test_classes_without_points_are_of_the_mesh_of_the_asset(tmp_path: Path) -> 
     (tmp_path / "a.obj").write_bytes(obj((vertices, faces)))
     (tmp_path / "a.stl").write_bytes(stl_binary((vertices, faces)))
     for name in ("a.obj", "a.stl"):
-        own = of_own_mesh(Segmented(np.arange(len(faces))), tmp_path / name, "x.npy")
+        own = attach_own_mesh(Segmentation(np.arange(len(faces))), tmp_path / name, "x.npy")
         assert own.of_faces and own.vertices is not None
         assert np.array_equal(own.vertices[own.faces], vertices[faces].astype(np.float32))
         assert classes(own) == list(range(len(faces)))
-    own = of_own_mesh(Segmented(np.arange(len(vertices))), tmp_path / "a.obj", "x.npy")
+    own = attach_own_mesh(Segmentation(np.arange(len(vertices))), tmp_path / "a.obj", "x.npy")
     assert not own.of_faces and classes(own) == list(range(len(vertices)))
 
 
 def test_polygons_hand_their_class_to_their_triangles(tmp_path: Path) -> None:
     text = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nf 1 2 3 4\nf 1 2 5\n"
-    own = of_own_mesh(Segmented(np.array([4, 9])), put(tmp_path, text, "a.obj"), "x.npy")
+    own = attach_own_mesh(Segmentation(np.array([4, 9])), put(tmp_path, text, "a.obj"), "x.npy")
     assert classes(own) == [4, 4, 9]
 
 
@@ -292,7 +285,7 @@ def test_polygons_hand_their_class_to_their_triangles(tmp_path: Path) -> None:
 def test_classes_of_another_mesh_are_refused_with_a_recipe(tmp_path: Path, name: str, count: int, message: str) -> None:
     (tmp_path / name).write_bytes(obj(box()))
     with pytest.raises(AssetError) as told:
-        of_own_mesh(Segmented(np.zeros(count, dtype=np.int64)), tmp_path / name, "x.npy")
+        attach_own_mesh(Segmentation(np.zeros(count, dtype=np.int64)), tmp_path / name, "x.npy")
     assert told.value.problem == message and "np.savez(" in (told.value.remedy or "")
 
 
@@ -309,17 +302,17 @@ def test_classes_of_another_mesh_are_refused_with_a_recipe(tmp_path: Path, name:
     ],
 )
 def test_names_of_classes_in_a_file(tmp_path: Path, text: str, names: dict[int, str]) -> None:
-    assert read_classes(put(tmp_path, text, "classes.txt")) == names
+    assert read_class_names(put(tmp_path, text, "classes.txt")) == names
 
 
 def test_names_of_classes_that_make_no_sense(tmp_path: Path) -> None:
     with pytest.raises(AssetError, match="1 line of 2 begin with a number"):
-        read_classes(put(tmp_path, "0 drawer\nleg\n", "classes.txt"))
+        read_class_names(put(tmp_path, "0 drawer\nleg\n", "classes.txt"))
     with pytest.raises(AssetError, match=r"classes\.txt:2: class 0 is named twice"):
-        read_classes(put(tmp_path, "0 drawer\n0 leg\n", "classes.txt"))
+        read_class_names(put(tmp_path, "0 drawer\n0 leg\n", "classes.txt"))
     (tmp_path / "classes.txt").write_bytes(b"\xff\xfe\xff")
     with pytest.raises(AssetError, match="are not UTF-8 text"):
-        read_classes(tmp_path / "classes.txt")
+        read_class_names(tmp_path / "classes.txt")
 
 
 # PartNet
@@ -327,7 +320,7 @@ def test_names_of_classes_that_make_no_sense(tmp_path: Path) -> None:
 
 def test_semantics_tell_what_links_are(tmp_path: Path) -> None:
     text = "link_0 hinge rotation_door\n\n  link_1   heavy furniture_body \n"
-    expected = (Semantic("link_0", "hinge", "rotation_door"), Semantic("link_1", "heavy", "furniture_body"))
+    expected = (LinkSemantics("link_0", "hinge", "rotation_door"), LinkSemantics("link_1", "heavy", "furniture_body"))
     assert read_semantics(put(tmp_path, text, "semantics.txt")) == expected
 
 
@@ -335,8 +328,8 @@ def test_semantics_tell_what_links_are(tmp_path: Path) -> None:
     ("text", "message"),
     [
         ("link_0 hinge\n", r"semantics.txt:1: this line has 2 words, not three: 'link_0 hinge'"),
-        ("a b c\na b d\n", r"semantics.txt:2: the link 'a' is told twice"),
-        ("\n", r"semantics.txt: it tells of no link"),
+        ("a b c\na b d\n", r"semantics.txt:2: the link 'a' is listed twice"),
+        ("\n", r"semantics.txt: it lists no link"),
     ],
 )
 def test_semantics_that_make_no_sense(tmp_path: Path, text: str, message: str) -> None:
@@ -349,7 +342,7 @@ def test_semantics_that_make_no_sense(tmp_path: Path, text: str, message: str) -
 
 def test_segmented_points_beside_an_asset_are_no_asset(tmp_path: Path) -> None:
     path = put(tmp_path, ply(vertex="property int label\n", labels=(" 1",) * 4), "table.points.ply")
-    assert is_segmented(path) and not is_asset(path)
-    assert not is_segmented(tmp_path / "points.ply")
+    assert is_segmentation(path) and not is_asset(path)
+    assert not is_segmentation(tmp_path / "points.ply")
     assert points_beside(tmp_path / "table.labels.json") == path
     assert points_beside(tmp_path / "chair.labels.json") is None

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from meshforge.errors import AssetError
+from meshforge.common import AssetError
 from meshforge.formats.meshfile import stl
 from meshforge.formats.meshfile.stl import StlText, facet_spans, parse_stl
 

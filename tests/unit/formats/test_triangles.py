@@ -11,9 +11,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from meshforge.errors import AssetError
-from meshforge.formats import RawSurface, pieces_of, read_triangles
-from meshforge.formats.triangles import surfaces_in
+from meshforge.common import AssetError
+from meshforge.formats import RawSurface, read_triangles, split_into_pieces
+from meshforge.formats.mesh_reader import parse_surfaces
 from meshforge.geometry import Floats
 from tests.examples import examples
 from tests.mesh_files import KINDS, dae, glb, gltf, gltf_tree, ply, stl_ascii, stl_binary, wrl
@@ -41,7 +41,7 @@ def corners(found: list[RawSurface]) -> Floats:
 def test_every_kind_of_file_gives_the_same_triangles(tmp_path: Path, suffix: str, write: Write) -> None:
     found = surfaces(tmp_path / f"a{suffix}", write(PAIR))
     assert np.array_equal(corners(found), PAIR[0][PAIR[1]])
-    assert [round(p.shape.volume, 6) for p in pieces_of(found, name="a") if p.shape] == [1, 1]
+    assert [round(p.shape.volume, 6) for p in split_into_pieces(found, name="a") if p.shape] == [1, 1]
 
 
 @pytest.mark.parametrize(("suffix", "write"), KINDS.values(), ids=KINDS.keys())
@@ -53,7 +53,7 @@ def test_a_damaged_file_is_read_or_refused_by_name_never_more(suffix: str, write
     noise = data.draw(st.binary(max_size=6))
     broken = whole[:cut] + noise + (whole[cut + len(noise) :] if data.draw(st.booleans()) else b"")
     try:
-        found = surfaces_in(broken, Path(f"broken{suffix}"))
+        found = parse_surfaces(broken, Path(f"broken{suffix}"))
     except AssetError as error:
         assert f"broken{suffix}" in str(error)
     else:

@@ -8,11 +8,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from meshforge.asset import Surface
 from meshforge.formats import FORMATS, Format, read, save
-from meshforge.formats.turning import stood_up, turned
+from meshforge.formats.conversion import turn_asset, turn_upright
 from meshforge.formats.visuals import Visual, VisualSurfaces
 from meshforge.geometry import Pose
+from meshforge.symbolic import Surface
 from tests.conversion_samples import TURNED, doors, opaque
 from tests.urdf_sample import boxes_obj
 
@@ -32,7 +32,7 @@ BY_NAME: dict[str, Format] = {known.name: known for known in FORMATS}
     ],
 )
 def test_the_report_says_what_was_done_about_up(source: str | None, target: str, said: str | None) -> None:
-    standing, notes = stood_up(doors(), BY_NAME[source] if source else None, BY_NAME[target])
+    standing, notes = turn_upright(doors(), BY_NAME[source] if source else None, BY_NAME[target])
     assert notes == ((said,) if said else ())
     before, after = doors().aabb, standing.aabb
     assert before is not None
@@ -45,7 +45,7 @@ def test_the_report_says_what_was_done_about_up(source: str | None, target: str,
 def test_what_is_on_top_stays_on_top(way: tuple[str, str, int]) -> None:
     source, target, sign = way
     up, now = (2, 1) if sign > 0 else (1, 2)
-    before, after = doors(), stood_up(doors(), BY_NAME[source], BY_NAME[target])[0]
+    before, after = doors(), turn_upright(doors(), BY_NAME[source], BY_NAME[target])[0]
     for old, new in zip(before.geoms, after.geoms, strict=True):
         np.testing.assert_allclose(new.shape.centroid[now], old.shape.centroid[up], atol=1e-12)
         np.testing.assert_allclose(new.shape.aabb.max[now], old.shape.aabb.max[up], atol=1e-12)
@@ -56,7 +56,7 @@ def test_all_of_an_asset_turns_together(tmp_path: Path) -> None:
     file.write_text(boxes_obj(((0, 0, 0), (1, 2, 3))))
     visuals = VisualSurfaces((Visual("door", file, TURNED.rotation, TURNED.translation, (1, 0, 0, 1)),))
     asset = replace(doors(), visuals=visuals, opaque=opaque().opaque)
-    after = turned(asset, TURNED)
+    after = turn_asset(asset, TURNED)
     walls, floor = after.opaque
     assert walls.surface is not None
     assert asset.opaque[0].surface is not None
@@ -69,7 +69,7 @@ def test_all_of_an_asset_turns_together(tmp_path: Path) -> None:
         after.mechanism.joints[0].anchor, TURNED.apply(asset.mechanism.joints[0].anchor[None])[0]
     )
     np.testing.assert_allclose(after.body_poses["frame"].rotation, np.eye(3), atol=1e-12)
-    shown = turned(replace(asset, visuals=(Surface(*_triangle()),)), TURNED)
+    shown = turn_asset(replace(asset, visuals=(Surface(*_triangle()),)), TURNED)
     np.testing.assert_allclose(shown.visuals[0].vertices, TURNED.apply(_triangle()[0]))
 
 

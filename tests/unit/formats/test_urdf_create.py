@@ -9,18 +9,18 @@ from xml.etree import ElementTree
 import numpy as np
 import pytest
 
-from meshforge.asset import Asset, Body, Document, Geom, Inertial, Joint, Mechanism, Opaque, Surface
 from meshforge.formats import save
 from meshforge.formats.base import Output
-from meshforge.formats.reporting import report
-from meshforge.formats.urdf import UrdfFormat
+from meshforge.formats.conversion import report_conversion
+from meshforge.formats.urdf.format import UrdfFormat
 from meshforge.formats.visuals import Visual, VisualSurfaces
 from meshforge.geometry import Aabb, Box, Capsule, Cylinder, Pose, Shape, Sphere
+from meshforge.symbolic import Asset, Body, Document, Geom, Inertial, Joint, Mechanism, Opaque, Surface
 from tests.urdf_engines import assert_mujoco_agrees, bullet, mujoco_model, yourdf
 from tests.urdf_sample import boxes_obj, put, read
 
 TURNED = Pose.from_rpy([1, 2, 3], [0.4, -1.1, 2.0])
-BLOCK = Box.filling(Aabb((0, 0, 0), (1, 2, 3)))
+BLOCK = Box.of_bounds(Aabb((0, 0, 0), (1, 2, 3)))
 BLOCK_OBJ = boxes_obj(((0, 0, 0), (1, 2, 3)))
 
 
@@ -36,7 +36,7 @@ def created(asset: Asset, tmp_path: Path) -> tuple[Asset, Path, Output]:
 
 
 def told(asset: Asset, output: Output) -> tuple[str, ...]:
-    return report(asset, None, UrdfFormat(), output).sentences
+    return report_conversion(asset, None, UrdfFormat(), output).sentences
 
 
 CART = foreign(
@@ -45,7 +45,7 @@ CART = foreign(
         ("frame/geom0", "frame", BLOCK),
         ("wheel <1>/tyre", "wheel <1>", Cylinder(TURNED, 0.3, 0.1)),
         ("wheel <1>/hub#2", "wheel <1>", Sphere(TURNED, 0.2)),
-        ("lid/knob", "lid", BLOCK.tessellated()),
+        ("lid/knob", "lid", BLOCK.tessellate()),
         ("lid/rod", "lid", Capsule(TURNED, 0.1, 0.4)),
     ],
 )
@@ -59,7 +59,7 @@ def test_bodies_hulls_and_names_come_back(tmp_path: Path) -> None:
         np.testing.assert_allclose(again.body_poses[name].rotation, pose.rotation, atol=1e-12)
         np.testing.assert_allclose(again.body_poses[name].translation, pose.translation, atol=1e-12)
     for old, new in zip(CART.geoms, again.geoms, strict=True):
-        shape = old.shape.tessellated() if old.shape.kind == "capsule" else old.shape
+        shape = old.shape.tessellate() if old.shape.kind == "capsule" else old.shape
         assert new.shape.kind == shape.kind
         np.testing.assert_allclose(new.shape.aabb.min, shape.aabb.min, atol=1e-12)
         np.testing.assert_allclose(new.shape.aabb.max, shape.aabb.max, atol=1e-12)
@@ -78,7 +78,7 @@ def test_all_engines_load_it(tmp_path: Path) -> None:
 
 
 def test_a_plain_mesh_becomes_one_link(tmp_path: Path) -> None:
-    plain = foreign({"body": Pose.identity()}, [("part 1", "body", BLOCK), ("part#2", "body", BLOCK.tessellated())])
+    plain = foreign({"body": Pose.identity()}, [("part 1", "body", BLOCK), ("part#2", "body", BLOCK.tessellate())])
     again, path, output = created(plain, tmp_path)
     assert [b.name for b in again.bodies] == ["body"]
     assert [g.name for g in again.geoms] == ["body/part 1", "body/part#2"]
@@ -106,7 +106,7 @@ def test_opaque_pieces_are_meshes_as_they_are_unless_they_are_flat(flat: bool, t
     assert [n for n in said if "lid/open" in n] == [
         "1 opaque piece (lid/open) is left out: engines refuse a mesh that is flat"
         if flat
-        else "of opaque pieces (lid/open) engines take the convex hull"
+        else "of non-convex pieces (lid/open) engines take the convex hull"
     ]
 
 

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from meshforge.errors import AssetError
+from meshforge.common import AssetError
 from meshforge.geometry import Pose
 from tests.examples import examples
 from tests.urdf_sample import link, read, robot, sample

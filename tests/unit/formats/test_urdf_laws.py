@@ -10,9 +10,9 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
-from meshforge.asset import Asset, Geom
-from meshforge.formats.xml import Splice, parsed, spliced
+from meshforge.formats.xml import Splice, apply_splices, parse_xml
 from meshforge.geometry import Box, Capsule, Cylinder, Ellipsoid, Polytope, Pose, Shape, Sphere
+from meshforge.symbolic import Asset, Geom
 from tests.examples import examples
 from tests.urdf_sample import put, read, robot, sample, write
 
@@ -52,7 +52,7 @@ def shape(draw: st.DrawFn) -> Shape:
     sizes = np.array(draw(st.tuples(NUMBER, NUMBER, NUMBER)))
     a, b = float(sizes[0]), float(sizes[1])
     kinds = [Box(pose, sizes), Sphere(pose, a), Cylinder(pose, a, b), Capsule(pose, a, b), Ellipsoid(pose, sizes)]
-    return draw(st.sampled_from([*kinds, kinds[0].tessellated()]))
+    return draw(st.sampled_from([*kinds, kinds[0].tessellate()]))
 
 
 @st.composite
@@ -67,8 +67,8 @@ def edited(draw: st.DrawFn, asset: Asset) -> Asset:
 
 def _outside(data: bytes) -> bytes:
     """The text without collision elements and blanks."""
-    links = list(parsed(data, "x").each("link"))
-    cut = spliced(data, [Splice(c.start, c.end, b"") for link in links for c in link.each("collision")])
+    links = list(parse_xml(data, "x").each("link"))
+    cut = apply_splices(data, [Splice(c.start, c.end, b"") for link in links for c in link.each("collision")])
     return re.sub(rb"\s+", b"", cut)
 
 
@@ -93,7 +93,7 @@ def test_an_edit_reads_back_as_it_was_meant_and_changes_only_collisions(data: st
 
 def _same(wanted: Geom, found: Geom) -> None:
     plain = isinstance(wanted.shape, Box | Sphere | Cylinder | Polytope)
-    shape = wanted.shape if plain else wanted.shape.tessellated()
+    shape = wanted.shape if plain else wanted.shape.tessellate()
     assert found.body == wanted.body and found.shape.kind == shape.kind
     np.testing.assert_allclose(found.shape.aabb.min, shape.aabb.min, atol=1e-9)
     np.testing.assert_allclose(found.shape.aabb.max, shape.aabb.max, atol=1e-9)

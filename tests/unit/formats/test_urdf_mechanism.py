@@ -10,8 +10,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from meshforge.asset import Inertial, Joint, Mechanism
 from meshforge.geometry import Pose
+from meshforge.symbolic import Inertial, Joint, Mechanism
 from tests.urdf_sample import read, robot, sample
 
 LINKS = '<link name="a"/><link name="b"/>'
@@ -121,7 +121,7 @@ def test_a_mechanism_turns_with_its_root_frame() -> None:
     turn = Pose([[1, 0, 0], [0, 0, -1], [0, 1, 0]], [0, 0, 5])
     joint = Joint("j", "revolute", "a", "b", np.array([1.0, 2, 3]), np.array([0, 1.0, 0]), (0.0, 1.0))
     inertial = Inertial("a", 1.0, np.array([1.0, 2, 3]), np.diag([1.0, 2, 3]))
-    moved = Mechanism((joint,), (inertial,)).moved(turn)
+    moved = Mechanism((joint,), (inertial,)).move(turn)
     np.testing.assert_allclose(moved.joints[0].anchor, [1, -3, 7])
     np.testing.assert_allclose(moved.joints[0].axis, [0, 0, 1])
     np.testing.assert_allclose(moved.inertials[0].centre, [1, -3, 7])

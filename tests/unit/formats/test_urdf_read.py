@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from meshforge.errors import AssetError
+from meshforge.common import AssetError
 from meshforge.geometry import Box, Capsule, Cylinder, Polytope, Pose, Sphere
 from tests.urdf_sample import HULLS, THREE, corner_obj, link, read, robot, sample, write
 

@@ -6,8 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from meshforge.errors import AssetError
-from meshforge.formats.companions import companions
+from meshforge.common import AssetError
+from meshforge.formats.companions import find_companions
 from meshforge.formats.references import placement
 from tests.urdf_sample import THREE, link, put, read, robot, sample, write
 
@@ -128,10 +128,10 @@ def test_companions_of_collada_and_gltf_are_their_images_and_buffers(tmp_path: P
     (tmp_path / "m.glb").write_bytes(b"glTF" + b"\0" * 8 + len(chunk).to_bytes(4, "little") + b"JSON" + chunk + b"BIN")
     (tmp_path / "broken.gltf").write_text("[1, 2")
     (tmp_path / "list.gltf").write_text("[1, 2]")
-    assert list(companions(tmp_path / "m.dae")) == ["a b.png", "d.png"]
-    assert list(companions(tmp_path / "m.gltf")) == ["c.bin", "a b.png"]
-    assert list(companions(tmp_path / "m.glb")) == ["c.bin", "a b.png"]
-    assert all(companions(tmp_path / name) == {} for name in ("broken.gltf", "list.gltf", "none.obj", "c.bin"))
+    assert list(find_companions(tmp_path / "m.dae")) == ["a b.png", "d.png"]
+    assert list(find_companions(tmp_path / "m.gltf")) == ["c.bin", "a b.png"]
+    assert list(find_companions(tmp_path / "m.glb")) == ["c.bin", "a b.png"]
+    assert all(find_companions(tmp_path / name) == {} for name in ("broken.gltf", "list.gltf", "none.obj", "c.bin"))
 
 
 def test_a_place_is_below_the_output_folder_or_none() -> None:

@@ -10,8 +10,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from meshforge.errors import AssetError
-from meshforge.formats.xml import Element, Text, parsed
+from meshforge.common import AssetError
+from meshforge.formats.xml import Element, XmlText, parse_xml
 from tests.examples import examples
 from tests.urdf_sample import SAMPLE, link, read, robot, sample, write
 
@@ -94,7 +94,7 @@ def _reference(element: ET.Element) -> object:
 
 def test_the_tree_of_the_sample_is_that_of_a_plain_xml_reader() -> None:
     plain = SAMPLE.replace(" -- by", " by").replace(' xmlns:drake="http://drake.mit.edu"', "").replace("drake:", "")
-    assert _shape(parsed(plain.encode(), "x")) == _reference(ET.fromstring(plain))
+    assert _shape(parse_xml(plain.encode(), "x")) == _reference(ET.fromstring(plain))
 
 
 BLANK = st.sampled_from(["", " ", "\n", "\r\n\t", "<!-- <b> -- ' \" -->", "<?pi > ?>", "text é"])
@@ -122,9 +122,9 @@ def element_text(draw: st.DrawFn, depth: int = 3) -> str:
 @examples(150)
 @given(element_text())
 def test_the_place_of_every_element_is_exactly_its_text(text: str) -> None:
-    data = Text.of(text.encode()).data
-    for element in parsed(data, "x").walk():
-        alone = parsed(data[element.start : element.end], "x")
+    data = XmlText.of(text.encode()).data
+    for element in parse_xml(data, "x").walk():
+        alone = parse_xml(data[element.start : element.end], "x")
         assert _shape(alone) == _shape(element)
         assert (alone.start, alone.end) == (0, element.end - element.start)
         assert alone.inside == element.inside - element.start

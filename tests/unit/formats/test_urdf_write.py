@@ -8,9 +8,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from meshforge.asset import Asset, Geom
-from meshforge.errors import AssetError
-from meshforge.geometry import Aabb, Box, Capsule, Cylinder, Ellipsoid, Polytope, Pose, Shape, Sphere, same_shape
+from meshforge.common import AssetError
+from meshforge.geometry import Aabb, Box, Capsule, Cylinder, Ellipsoid, Polytope, Pose, Shape, Sphere, is_same_shape
+from meshforge.symbolic import Asset, Geom
 from tests.urdf_sample import HULLS, SAMPLE, THREE, corner_obj, link, made, put, read, robot, sample, without, write
 
 TURNED = Pose.from_rpy([0.3, -0.2, 0.7], [0.4, -1.1, 2.0])
@@ -67,7 +67,7 @@ def test_pieces_that_stay_get_an_element_and_a_file_each(tmp_path: Path) -> None
     assert output.main.decode() == SAMPLE[:start] + first + second + sphere
     again = rewritten(edited, tmp_path)
     for old, new in zip(edited.geoms, again.geoms, strict=True):
-        assert old.name == new.name and same_shape(old.shape, new.shape)
+        assert old.name == new.name and is_same_shape(old.shape, new.shape)
 
 
 def test_the_triangles_of_a_kept_piece_are_those_of_the_author(tmp_path: Path) -> None:
@@ -101,7 +101,7 @@ def test_a_native_shape_is_written_as_itself_and_inherits_from_its_parent(
 
 @pytest.mark.parametrize(
     "shape",
-    [Capsule(TURNED, 0.1, 0.2), Ellipsoid(TURNED, np.array(HALF)), Box(TURNED, np.array(HALF)).tessellated()],
+    [Capsule(TURNED, 0.1, 0.2), Ellipsoid(TURNED, np.array(HALF)), Box(TURNED, np.array(HALF)).tessellate()],
     ids=lambda s: s.kind,
 )
 def test_other_shapes_become_hulls_in_files_of_their_own_noted_unless_they_are_hulls(
@@ -119,14 +119,14 @@ def test_other_shapes_become_hulls_in_files_of_their_own_noted_unless_they_are_h
     assert output.notes == expected
     for geom in rewritten(edited, tmp_path).geoms:
         if "~" in geom.name:
-            np.testing.assert_allclose(geom.shape.aabb.min, shape.tessellated().aabb.min, atol=1e-12)
-            assert geom.shape.volume == pytest.approx(shape.tessellated().volume)
+            np.testing.assert_allclose(geom.shape.aabb.min, shape.tessellate().aabb.min, atol=1e-12)
+            assert geom.shape.volume == pytest.approx(shape.tessellate().volume)
 
 
 def test_a_made_hull_of_a_mesh_is_in_metres_and_keeps_what_the_mesh_element_says(tmp_path: Path) -> None:
     mesh = '<mesh scale="2 2 2" filename="meshes/three.obj"><drake:declare_convex/></mesh>'
     asset = read(sample(tmp_path, robot(link(mesh))))
-    hull = Box.filling(Aabb((0, 0, 0), (1, 1, 1))).tessellated()
+    hull = Box.of_bounds(Aabb((0, 0, 0), (1, 1, 1))).tessellate()
     text = write(asset.with_geoms([made(asset, "a/geom0#1", hull)])).main.decode()
     assert (
         '<collision name="geom0#1~1"><origin xyz="0 0 0" rpy="0 0 0"/><geometry>'

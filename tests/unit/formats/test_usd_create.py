@@ -30,7 +30,7 @@ def test_a_made_stage_holds_the_asset_and_is_valid(tmp_path: Path, sample: str, 
         made = by_name[out.names.get(geom.name, geom.name)]
         kind = "polytope" if geom.shape.kind == "ellipsoid" else geom.shape.kind
         assert (made.body, made.shape.kind) == (geom.body, kind)
-        wanted = geom.shape.tessellated() if geom.shape.kind == "ellipsoid" else geom.shape
+        wanted = geom.shape.tessellate() if geom.shape.kind == "ellipsoid" else geom.shape
         assert np.allclose(made.shape.aabb.min, wanted.aabb.min, atol=1e-6)
         assert np.allclose(made.shape.aabb.max, wanted.aabb.max, atol=1e-6)
     assert len(after.opaque) == len(asset.opaque) and after.up == "z"

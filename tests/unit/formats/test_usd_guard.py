@@ -12,10 +12,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from meshforge.errors import AssetError
-from meshforge.formats.usd.reading.guard import refuse_harmful
-from meshforge.formats.usd.reading.guard.crate import CRATE
-from meshforge.formats.usd.reading.guard.packed import Allowance, Bytes
+from meshforge.common import AssetError
+from meshforge.formats.usd.crate import CRATE_MARK
+from meshforge.formats.usd.crate_values import Allowance, CrateBytes
+from meshforge.formats.usd.guard import refuse_harmful
 from tests import usd_crates as crates
 
 _EVERYTHING = """
@@ -76,7 +76,7 @@ def test_all_kinds_of_values_that_the_library_writes_pass(tmp_path: Path, versio
     command = [sys.executable, "-c", _EVERYTHING, str(made), version]
     subprocess.run(command, env=env, check=True, capture_output=True)
     data = made.read_bytes()
-    assert data.startswith(CRATE)
+    assert data.startswith(CRATE_MARK)
     if version in BEFORE:
         assert ".".join(map(str, data[8:11])) == version
     refuse_harmful(data, "made.usdc")
@@ -85,7 +85,7 @@ def test_all_kinds_of_values_that_the_library_writes_pass(tmp_path: Path, versio
 @given(st.lists(st.integers(-(2**31), 2**31 - 1) | st.integers(-300, 300), max_size=70))
 def test_integers_are_those_that_were_coded(numbers: list[int]) -> None:
     coded = crates.integers(numbers)
-    assert Bytes(coded, 0, Allowance(len(coded))).integers(len(numbers)).tolist() == numbers
+    assert CrateBytes(coded, 0, Allowance(len(coded))).read_integers(len(numbers)).tolist() == numbers
 
 
 def test_a_layer_made_by_hand_is_one_that_the_library_reads(tmp_path: Path) -> None:

@@ -8,12 +8,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from meshforge.asset import Asset
-from meshforge.checks.physics import physics
-from meshforge.errors import AssetError
+from meshforge.checks.physics.simulation import simulate
+from meshforge.common import AssetError
 from meshforge.formats import read
 from meshforge.geometry import Box, Capsule, Cylinder, Sphere
-from meshforge.symbolic import SymbolicMesh
+from meshforge.symbolic import Asset, SymbolicMesh
 from tests.usd_stages import COLLIDES, CONVEX, CUP, mesh, physics_shapes, stage, table, written
 
 SCALED = "xformOp:scale = ({}, {}, {})\nuniform token[] xformOpOrder = ['xformOp:scale']"
@@ -235,7 +234,7 @@ def test_filtered_pairs_of_bodies_are_told_and_excluded_from_the_check(tmp_path:
     )
     asset = of(tmp_path, bodies)
     assert asset.mechanism.apart == (("one", "two"),)
-    assert [overlap.excluded for overlap in physics(SymbolicMesh.of(asset)).overlaps] == [True]
+    assert [overlap.excluded for overlap in simulate(SymbolicMesh.of(asset)).overlaps] == [True]
 
 
 def test_what_the_library_complains_about_is_a_note_and_not_printed(

@@ -7,10 +7,9 @@ from pathlib import Path
 
 import pytest
 
-from meshforge.errors import AssetError
+from meshforge.common import AssetError
 from meshforge.formats import read, save
-from meshforge.formats.usd.text import has_comments, patched
-from meshforge.formats.usd.text.scan import UnscannableError, scanned
+from meshforge.formats.usd.layer_text import UnscannableError, has_comments, patch_layer, scan_layer
 from tests.usd_stages import CUP, written
 
 ODD = '''#usda 1.0
@@ -30,7 +29,7 @@ def Xform "a" ( doc = "{ ( [" ) { custom string x = "}"; int y = 3 # behind
 
 
 def test_prims_and_properties_are_found_whatever_stands_in_texts_and_comments() -> None:
-    root = scanned(ODD)
+    root = scan_layer(ODD)
     a = root.children["a"]
     assert list(root.children) == ["a"] and list(a.children) == ["b"]
     assert list(a.own) == ["x", "y", "z", "f", "d", '"v"']
@@ -40,7 +39,7 @@ def test_prims_and_properties_are_found_whatever_stands_in_texts_and_comments() 
 @pytest.mark.parametrize("text", ['def "a" {', 'def "a" { int x = (3 }', "}", 'def "a" { } } def "b" { }'])
 def test_what_does_not_close_is_not_understood(text: str) -> None:
     with pytest.raises(UnscannableError):
-        scanned(text)
+        scan_layer(text)
 
 
 def test_comments_are_those_that_are_not_in_texts() -> None:
@@ -49,15 +48,15 @@ def test_comments_are_those_that_are_not_in_texts() -> None:
 
 def test_without_an_edit_nothing_changes() -> None:
     library = '#usda 1.0\n\ndef "a"\n{\n    int x = 3\n}\n'
-    assert patched('#usda 1.0\ndef "a" { int x = 3 }', library, library) == '#usda 1.0\ndef "a" { int x = 3 }'
+    assert patch_layer('#usda 1.0\ndef "a" { int x = 3 }', library, library) == '#usda 1.0\ndef "a" { int x = 3 }'
 
 
 def test_a_text_of_another_form_is_written_anew_and_its_comments_told(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    import meshforge.formats.usd.writing.write as writing
+    import meshforge.formats.usd.edit as writing
 
-    monkeypatch.setattr(writing, "patched", lambda text, before, after: text)  # an edit that goes amiss is noticed
+    monkeypatch.setattr(writing, "patch_layer", lambda text, before, after: text)  # an edit that goes amiss is noticed
     asset = read(written(tmp_path, CUP))
     saved = save(asset.with_geoms(asset.geoms[1:]), tmp_path / "out" / "a.usda")
     assert len(read(saved.path).geoms) == 3 and "comments in its text are not kept" in saved.notes

@@ -10,10 +10,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from meshforge.asset import Asset, Geom
-from meshforge.errors import AssetError
-from meshforge.formats import Saved, read, save
+from meshforge.common import AssetError
+from meshforge.formats import SaveResult, read, save
 from meshforge.geometry import Box, Cylinder, Ellipsoid, Pose, Shape, inertia
+from meshforge.symbolic import Asset, Geom
 from tests.usd_stages import COLLIDES, CONVEX, CUP, mesh, physics_shapes, specs, stage, table, written
 
 SIDE, HANDLE, BOTTOM, BOTH = "Cup/collisions/side", "Cup/collisions/handle", "Cup/collisions/bottom", "Cup/both"
@@ -21,7 +21,9 @@ CAN = Cylinder(Pose.from_rpy([0.01, 0.02, 0.1], [0.3, 0.2, 0.1]), 0.02, 0.03)
 KINDS = (".usda", ".usdc", ".usd", ".usdz")
 
 
-def edited(asset: Asset, out: Path, without: Sequence[str] = (), made: Sequence[Shape] = (), like: str = SIDE) -> Saved:
+def edited(
+    asset: Asset, out: Path, without: Sequence[str] = (), made: Sequence[Shape] = (), like: str = SIDE
+) -> SaveResult:
     """The asset written without some hulls, and with made ones that stem from another."""
     geoms = [geom for geom in asset.geoms if geom.name not in without]
     body = next((geom.body for geom in asset.geoms if geom.name == like), "")

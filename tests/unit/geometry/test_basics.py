@@ -14,15 +14,15 @@ from meshforge.geometry import (
     Pose,
     Sphere,
     digest,
-    frozen_floats,
-    frozen_ints,
-    same_shape,
+    freeze_floats,
+    freeze_ints,
+    is_same_shape,
 )
 
 
 def test_frozen_arrays_are_copies_that_cannot_be_written() -> None:
     source = np.zeros((2, 3))
-    frozen = frozen_floats(source, (-1, 3))
+    frozen = freeze_floats(source, (-1, 3))
     source[0, 0] = 1
     assert frozen[0, 0] == 0
     with pytest.raises(ValueError, match="read-only"):
@@ -31,14 +31,14 @@ def test_frozen_arrays_are_copies_that_cannot_be_written() -> None:
 
 def test_an_array_of_another_shape_is_refused() -> None:
     with pytest.raises(ValueError, match=r"\(-1, 3\) was expected, not \(2, 2\)"):
-        frozen_floats(np.zeros((2, 2)), (-1, 3))
+        freeze_floats(np.zeros((2, 2)), (-1, 3))
     with pytest.raises(ValueError, match="was expected"):
-        frozen_ints([1, 2], (3,))
+        freeze_ints([1, 2], (3,))
 
 
 def test_nothing_is_an_array_of_no_rows() -> None:
-    assert frozen_floats([], (-1, 3)).shape == (0, 3)
-    assert frozen_ints([], (-1, 3)).shape == (0, 3)
+    assert freeze_floats([], (-1, 3)).shape == (0, 3)
+    assert freeze_ints([], (-1, 3)).shape == (0, 3)
 
 
 def test_a_pose_takes_lists() -> None:
@@ -67,10 +67,10 @@ def test_a_box_around_boxes_holds_them() -> None:
 
 
 def test_shapes_and_poses_pickle() -> None:
-    for shape in (Box.filling(Aabb([0, 0, 0], [1, 2, 3])), Sphere(Pose.identity(), 2.0)):
-        assert same_shape(pickle.loads(pickle.dumps(shape)), shape)
-    hull = Box.filling(Aabb([0, 0, 0], [1, 2, 3])).tessellated()
-    assert same_shape(pickle.loads(pickle.dumps(hull)), hull)
+    for shape in (Box.of_bounds(Aabb([0, 0, 0], [1, 2, 3])), Sphere(Pose.identity(), 2.0)):
+        assert is_same_shape(pickle.loads(pickle.dumps(shape)), shape)
+    hull = Box.of_bounds(Aabb([0, 0, 0], [1, 2, 3])).tessellate()
+    assert is_same_shape(pickle.loads(pickle.dumps(hull)), hull)
 
 
 def test_volumes_of_round_shapes_are_analytic() -> None:
@@ -81,7 +81,7 @@ def test_volumes_of_round_shapes_are_analytic() -> None:
 
 
 def hull() -> Polytope:
-    return Box.filling(Aabb([0.1, 0.2, 0.3], [1.1, 2.3, 3.7])).tessellated()
+    return Box.of_bounds(Aabb([0.1, 0.2, 0.3], [1.1, 2.3, 3.7])).tessellate()
 
 
 def test_a_digest_survives_single_precision_and_another_order() -> None:
@@ -92,17 +92,17 @@ def test_a_digest_survives_single_precision_and_another_order() -> None:
 
 
 def test_a_digest_tells_place_size_and_kind_apart() -> None:
-    box = Box.filling(Aabb([0.1, 0.2, 0.3], [1.1, 2.3, 3.7]))
-    others = [hull().moved(Pose.of_translation([1e-3, 0, 0])), hull().mapped(np.eye(3) * 1.001, np.zeros(3)), box]
+    box = Box.of_bounds(Aabb([0.1, 0.2, 0.3], [1.1, 2.3, 3.7]))
+    others = [hull().move(Pose.of_translation([1e-3, 0, 0])), hull().transform(np.eye(3) * 1.001, np.zeros(3)), box]
     assert len({digest(shape) for shape in [hull(), *others]}) == 4
 
 
 def test_shapes_of_two_kinds_are_never_the_same() -> None:
-    box = Box.filling(Aabb([0, 0, 0], [1, 1, 1]))
-    assert same_shape(box, box)
-    assert not same_shape(box, box.tessellated())
-    assert not same_shape(box, box.moved(Pose.of_translation([1e-3, 0, 0])))
-    assert same_shape(box, box.moved(Pose.of_translation([1e-3, 0, 0])), tolerance=2e-3)
+    box = Box.of_bounds(Aabb([0, 0, 0], [1, 1, 1]))
+    assert is_same_shape(box, box)
+    assert not is_same_shape(box, box.tessellate())
+    assert not is_same_shape(box, box.move(Pose.of_translation([1e-3, 0, 0])))
+    assert is_same_shape(box, box.move(Pose.of_translation([1e-3, 0, 0])), tolerance=2e-3)
 
 
 @pytest.mark.parametrize("rpy", [(0.3, -1.2, 2.9), (0, 0, 0), (np.pi, 0, 0), (0, np.pi, 0), (0, 0, np.pi), (2, 3, -1)])

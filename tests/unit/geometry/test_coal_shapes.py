@@ -9,10 +9,9 @@ import coal
 import numpy as np
 import pytest
 
-from meshforge.geometry import Box, Floats, Polytope, Pose, close_pairs, coal_shapes, convex_hull, distance
-from meshforge.geometry.aabb import bounds
-from meshforge.geometry.coal_shapes import Frame, parts
-from meshforge.geometry.distance import near_boxes
+from meshforge.geometry import Box, Floats, Polytope, Pose, close_pairs, convex_hull, distance
+from meshforge.geometry.aabb import bounds, near_boxes
+from meshforge.geometry.distance import _POOL_SIZE, CoalFrame, _pool, split_for_coal
 
 
 def ball(corners: int, center: Floats) -> Polytope:
@@ -66,19 +65,19 @@ def test_a_vessel_holds_nothing_of_what_was_in_it_before() -> None:
 def test_vessels_are_used_again_and_not_too_many_are_kept() -> None:
     crowd = [ball(30, np.array([3.0 * k, 0, 0])) for k in range(100)]
     assert len(close_pairs(crowd, 1.5)) == 99
-    assert len(coal_shapes._idle[32]) == coal_shapes._IDLE
-    kept = {id(vessel.shape) for vessel in coal_shapes._idle[32]}
+    assert len(_pool[32]) == _POOL_SIZE
+    kept = {id(vessel.shape) for vessel in _pool[32]}
     close_pairs(crowd[:5], 1.5)
-    assert {id(vessel.shape) for vessel in coal_shapes._idle[32]} == kept
+    assert {id(vessel.shape) for vessel in _pool[32]} == kept
 
 
 def test_vessels_come_back_when_a_shape_has_no_place() -> None:
     shapes = [ball(30, np.zeros(3)), ball(30, np.ones(3))]
     distance(*shapes)
-    kept = len(coal_shapes._idle[32])
+    kept = len(_pool[32])
     with pytest.raises(TypeError, match="no distance for shapes of kind odd"):
-        Frame.around(np.zeros(3), np.ones(3)).placed([*shapes, Odd()]).__enter__()  # type: ignore[list-item]
-    assert len(coal_shapes._idle[32]) == kept
+        CoalFrame.of_bounds(np.zeros(3), np.ones(3)).place([*shapes, Odd()]).__enter__()  # type: ignore[list-item]
+    assert len(_pool[32]) == kept
 
 
 def test_threads_do_not_pour_into_each_others_vessels() -> None:
@@ -94,7 +93,7 @@ def test_threads_do_not_pour_into_each_others_vessels() -> None:
 def test_a_vertex_may_have_more_edges_than_coal_can_count(count: int) -> None:
     cone = convex_hull(np.vstack([rim(count), [[0, 0, 1]]]))
     assert np.bincount(cone.faces.ravel()).max() == count
-    cut = parts(cone)
+    cut = split_for_coal(cone)
     assert (len(cut) > 1) == (count > 254)
     assert sum(part.volume for part in cut) == pytest.approx(cone.volume, rel=1e-12)
     small = Box(Pose.of_translation([0, 0, 1.75]), np.array([0.25, 0.25, 0.25]))
@@ -129,7 +128,7 @@ def fanned(count: int) -> Polytope:
 )
 def test_several_vertices_may_have_too_many_edges(shape: Polytope) -> None:
     assert (np.bincount(shape.faces.ravel()) > 254).sum() == 2
-    cut = parts(shape)
+    cut = split_for_coal(shape)
     assert all(np.bincount(part.faces.ravel()).max() <= 254 for part in cut)
     assert sum(part.volume for part in cut) == pytest.approx(shape.volume, rel=1e-9)
     top = float(shape.aabb.max[2])
@@ -140,7 +139,7 @@ def test_several_vertices_may_have_too_many_edges(shape: Polytope) -> None:
 def test_a_frame_makes_what_lies_in_it_about_one_long() -> None:
     for scale in (1e-6, 1.0, 3e5):
         low, high = np.array([3.0, -1, 2]) * scale, np.array([5.0, 7, 2]) * scale
-        frame = Frame.around(low, high)
+        frame = CoalFrame.of_bounds(low, high)
         assert 0.5 <= np.linalg.norm(high - low) / frame.unit < 1
         assert np.abs((np.array([low, high]) - frame.origin) / frame.unit).max() <= 1
 

@@ -5,16 +5,16 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from meshforge.geometry import Aabb, Box, common, convex_hull, cut, is_convex, overlap_volume, parted
+from meshforge.geometry import Aabb, Box, convex_hull, cut, intersect, is_convex, overlap_volume, partition
 from tests.examples import examples
 
 
 def box(low: tuple[float, float, float], high: tuple[float, float, float]) -> Box:
-    return Box.filling(Aabb(low, high))
+    return Box.of_bounds(Aabb(low, high))
 
 
 def test_two_boxes_have_a_box_in_common() -> None:
-    met = common(box((0, 0, 0), (2, 2, 2)), box((1, 1, 1), (3, 3, 5)))
+    met = intersect(box((0, 0, 0), (2, 2, 2)), box((1, 1, 1), (3, 3, 5)))
     assert met is not None
     np.testing.assert_allclose([met.aabb.min, met.aabb.max], [[1, 1, 1], [2, 2, 2]])
     assert met.volume == pytest.approx(1.0)
@@ -22,12 +22,12 @@ def test_two_boxes_have_a_box_in_common() -> None:
 
 @pytest.mark.parametrize("low", [(2, 0, 0), (2, 2, 2), (5, 5, 5)])
 def test_shapes_that_touch_or_lie_apart_have_nothing_in_common(low: tuple[float, float, float]) -> None:
-    assert common(box((0, 0, 0), (2, 2, 2)), box(low, (9, 9, 9))) is None
+    assert intersect(box((0, 0, 0), (2, 2, 2)), box(low, (9, 9, 9))) is None
 
 
 def test_a_shape_has_itself_in_common_with_one_around_it() -> None:
     inner = convex_hull(np.random.default_rng(0).uniform(-1, 1, (30, 3)))
-    met = common(inner, box((-5, -5, -5), (5, 5, 5)))
+    met = intersect(inner, box((-5, -5, -5), (5, 5, 5)))
     assert met is not None and met.volume == pytest.approx(inner.volume)
 
 
@@ -36,7 +36,7 @@ def test_a_shape_has_itself_in_common_with_one_around_it() -> None:
 def test_what_two_hulls_have_in_common_is_convex_and_as_large_as_their_overlap(seed: int) -> None:
     random = np.random.default_rng(seed)
     a, b = (convex_hull(random.normal(size=(12, 3)) + shift) for shift in (0.0, random.uniform(0, 1.5)))
-    met, volume = common(a, b), overlap_volume(a, b)
+    met, volume = intersect(a, b), overlap_volume(a, b)
     if met is None:
         assert volume <= 1e-9 * a.volume
     else:
@@ -47,7 +47,7 @@ def test_what_two_hulls_have_in_common_is_convex_and_as_large_as_their_overlap(s
 def test_a_shape_parted_by_its_halves_loses_nothing() -> None:
     whole = convex_hull(np.random.default_rng(1).normal(size=(40, 3)))
     halves = [half for half in cut(whole, np.zeros(3), np.array([1.0, 2.0, 3.0])) if half]
-    found = parted(whole, halves)
+    found = partition(whole, halves)
     assert [p.volume for p in found.parts] == pytest.approx([h.volume for h in halves])
     assert found.dropped == 0 and found.lost == pytest.approx(0.0, abs=1e-9)
 
@@ -55,10 +55,10 @@ def test_a_shape_parted_by_its_halves_loses_nothing() -> None:
 def test_what_no_part_covers_is_told_and_crumbs_are_dropped() -> None:
     whole = box((0, 0, 0), (4, 1, 1))
     by = [box((-1, -1, -1), (1, 2, 2)), box((3.999, 0, 0), (9, 9, 9)), box((7, 7, 7), (8, 8, 8))]
-    found = parted(whole, by)
+    found = partition(whole, by)
     assert [part.volume for part in found.parts] == pytest.approx([1.0])
     assert found.dropped == 1 and found.lost == pytest.approx(0.75)
 
 
 def test_a_shape_that_nothing_covers_is_lost_whole() -> None:
-    assert parted(box((0, 0, 0), (1, 1, 1)), []).lost == 1.0
+    assert partition(box((0, 0, 0), (1, 1, 1)), []).lost == 1.0

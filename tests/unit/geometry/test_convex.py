@@ -3,14 +3,14 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from meshforge.errors import GeometryError
+from meshforge.common import GeometryError
 from meshforge.geometry import (
     Floats,
     Polytope,
     convex_hull,
     is_closed,
     is_convex,
-    outward,
+    is_outward,
     principal_extents,
     spans_volume,
 )
@@ -151,9 +151,9 @@ def test_a_surface_with_a_face_turned_over_is_not_closed() -> None:
 
 
 def test_a_surface_inside_out_is_closed_but_not_outward() -> None:
-    assert outward(CORNERS, FACES)
+    assert is_outward(CORNERS, FACES)
     assert is_closed(FACES[:, ::-1])
-    assert not outward(CORNERS, FACES[:, ::-1])
+    assert not is_outward(CORNERS, FACES[:, ::-1])
 
 
 def test_a_dent_is_not_convex_beyond_the_tolerance() -> None:

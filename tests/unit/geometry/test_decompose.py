@@ -8,19 +8,13 @@ from typing import Any
 import numpy as np
 import pytest
 
-from meshforge.errors import GeometryError, UsageError
+from meshforge.common import GeometryError, UsageError
 from meshforge.geometry import Floats, Ints, is_convex
-from meshforge.geometry.decompose import (
-    CoacdSettings,
-    DecomposeSettings,
-    DecompositionCancelledError,
-    VhacdSettings,
-    cache_folder,
-    child,
-    decompose,
-)
-from meshforge.geometry.decompose.cache import cache_key, read_entry, write_entry
-from meshforge.geometry.decompose.surface import sound_triangles
+from meshforge.geometry.decomposition import process
+from meshforge.geometry.decomposition.process import DecompositionCancelledError, EngineControl
+from meshforge.geometry.decomposition.run import cache_folder, cache_key, decompose, read_entry, write_entry
+from meshforge.geometry.decomposition.settings import CoacdSettings, DecomposeSettings, VhacdSettings
+from meshforge.geometry.decomposition.triangles import clean_triangles
 
 QUICK = CoacdSettings(resolution=200, mcts_iterations=20, mcts_nodes=8)
 COARSE = VhacdSettings(resolution=5000, max_convex_hulls=4)
@@ -48,7 +42,7 @@ CUBE = prism([(0, 0), (1, 0), (1, 1), (0, 1)], [(0, 1, 2), (0, 2, 3)])
 def fake_engine(monkeypatch: pytest.MonkeyPatch, folder: Path, code: str) -> None:
     script = folder / "engine.py"
     script.write_text(code)
-    monkeypatch.setattr(child, "worker", SimpleNamespace(__file__=str(script)))
+    monkeypatch.setattr(process, "worker", SimpleNamespace(__file__=str(script)))
 
 
 @pytest.mark.parametrize(
@@ -112,7 +106,7 @@ def test_coordinates_of_unused_vertices_do_not_matter() -> None:
 
 def test_progress_tells_each_round() -> None:
     told: list[str] = []
-    decompose(*L_SHAPE, QUICK, progress=told.append)
+    decompose(*L_SHAPE, QUICK, control=EngineControl(told.append))
     assert told[0] == "round 1: 1 parts still to be split" and len(told) > 1
 
 
@@ -144,21 +138,21 @@ def test_cancelling_ends_the_engine(monkeypatch: pytest.MonkeyPatch, tmp_path: P
         return (tmp_path / "pid").exists() and (tmp_path / "pid").read_text() != ""
 
     with pytest.raises(DecompositionCancelledError):
-        decompose(*CUBE, QUICK, cancel=cancel)
+        decompose(*CUBE, QUICK, control=EngineControl(cancel=cancel))
     assert_ended(int((tmp_path / "pid").read_text()))
 
 
 def test_an_engine_that_takes_too_long_is_ended(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     fake_engine(monkeypatch, tmp_path, hanging_engine(tmp_path))
     with pytest.raises(GeometryError, match=r"no decomposition within 0\.6 s"):
-        decompose(*CUBE, QUICK, timeout=0.6)
+        decompose(*CUBE, QUICK, control=EngineControl(timeout=0.6))
     if (tmp_path / "pid").exists():
         assert_ended(int((tmp_path / "pid").read_text()))
 
 
 def test_sheets_get_a_thickness_and_needles_are_left_out(tmp_path: Path) -> None:
     sheet, needle = CUBE[0] * [1, 1, 0], CUBE[0] * [1, 0, 0]
-    write_entry(tmp_path, cache_key(sound_triangles(*CUBE), QUICK), [(sheet, CUBE[1]), (needle, CUBE[1])])
+    write_entry(tmp_path, cache_key(clean_triangles(*CUBE), QUICK), [(sheet, CUBE[1]), (needle, CUBE[1])])
     notes: list[str] = []
     (hull,) = decompose(*CUBE, QUICK, cache=tmp_path, note=notes.append)
     assert hull.aabb.size == pytest.approx([1, 1, 1e-4 * 3**0.5])
@@ -201,7 +195,7 @@ def test_a_cache_that_cannot_be_written_is_a_note(tmp_path: Path) -> None:
 
 
 def test_the_key_tells_geometry_and_settings_apart() -> None:
-    cube, l_shape = sound_triangles(*CUBE), sound_triangles(*L_SHAPE)
+    cube, l_shape = clean_triangles(*CUBE), clean_triangles(*L_SHAPE)
     keys = {cache_key(m, s) for m in (cube, l_shape) for s in (QUICK, COARSE, CoacdSettings(), CoacdSettings(seed=1))}
     assert len(keys) == 8
 
@@ -235,5 +229,5 @@ def test_settings_out_of_range_are_refused(kind: Any, wrong: dict[str, Any], mes
 
 
 def test_importing_the_door_loads_no_engine() -> None:
-    code = "import meshforge.geometry.decompose, sys; print({'coacd', 'vhacdx'} & set(sys.modules))"
+    code = "import meshforge.geometry.decomposition, sys; print({'coacd', 'vhacdx'} & set(sys.modules))"
     assert subprocess.run([sys.executable, "-c", code], capture_output=True, text=True).stdout.strip() == "set()"

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from meshforge.geometry.decompose import worker
+from meshforge.geometry.decomposition import worker
 
 _CALLER = """
 import subprocess, sys

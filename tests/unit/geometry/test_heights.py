@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from meshforge.geometry import Floats, Ints, convex_hull, heights
+from meshforge.geometry import Floats, Ints, convex_hull, surface
 from meshforge.geometry.arrays import cross
-from meshforge.geometry.heights import planes_of, rises_above
+from meshforge.geometry.surface import planes_of, rises_above
 
 
 def cloud(rng: np.random.Generator, round_: bool) -> Floats:
@@ -22,7 +22,7 @@ def highest(points: Floats, vertices: Floats, faces: Ints) -> float:
 
 @pytest.mark.parametrize("round_", [True, False])
 def test_groups_find_what_rises_as_all_pairs_do(round_: bool, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(heights, "_ALL_PAIRS", 0)
+    monkeypatch.setattr(surface, "_MOST_PAIRS_AT_ONCE", 0)
     rng = np.random.default_rng(1)
     for _ in range(20):
         hull = convex_hull(cloud(rng, round_))
@@ -36,7 +36,7 @@ def test_a_hull_of_many_points_holds_them_all() -> None:
     rng = np.random.default_rng(2)
     points = np.concatenate([cloud(rng, True), 0.99999 * cloud(rng, True)])
     hull = convex_hull(points)
-    assert len(hull.vertices) * 2 * len(points) > heights._ALL_PAIRS
+    assert len(hull.vertices) * 2 * len(points) > surface._MOST_PAIRS_AT_ONCE
     assert not rises_above(points, hull.vertices, hull.faces, 1e-6)
     assert rises_above(points * 1.001, hull.vertices, hull.faces, 1e-6)
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from meshforge.errors import GeometryError
+from meshforge.common import GeometryError
 from meshforge.geometry import (
     Aabb,
     Box,
@@ -20,16 +20,16 @@ from meshforge.geometry import (
     cut,
     distance,
     longest_axis,
-    mapped_to,
+    map_to_box,
     overlap_volume,
     tight_box,
     tight_capsule,
     tight_cylinder,
     volume_of_union,
 )
-from meshforge.geometry.fit.circle import smallest_circle
+from meshforge.geometry.fit_round import smallest_circle
 
-CUBE = Box.filling(Aabb([0, 0, 0], [1, 1, 1]))
+CUBE = Box.of_bounds(Aabb([0, 0, 0], [1, 1, 1]))
 
 
 @pytest.mark.parametrize(
@@ -78,20 +78,20 @@ def test_a_box_without_extent_cannot_be_filled(fill: object) -> None:
 
 
 def test_a_template_is_mapped_axis_by_axis() -> None:
-    (shape,) = mapped_to([CUBE], CUBE.aabb, Aabb([1, 1, 1], [2, 3, 4]))
+    (shape,) = map_to_box([CUBE], CUBE.aabb, Aabb([1, 1, 1], [2, 3, 4]))
     assert shape.kind == "box"
     assert (shape.aabb.min.tolist(), shape.aabb.max.tolist()) == ([1, 1, 1], [2, 3, 4])
 
 
 def test_a_side_of_the_source_without_extent_is_moved_only() -> None:
-    (shape,) = mapped_to([CUBE], Aabb([0, 0, 0.5], [1, 1, 0.5]), Aabb([0, 0, 3], [2, 2, 5]))
+    (shape,) = map_to_box([CUBE], Aabb([0, 0, 0.5], [1, 1, 0.5]), Aabb([0, 0, 3], [2, 2, 5]))
     assert np.allclose(shape.aabb.size, [2, 2, 1])
     assert shape.aabb.center[2] == pytest.approx(4)
 
 
 def test_a_target_without_extent_is_refused() -> None:
     with pytest.raises(GeometryError, match="cannot be filled"):
-        mapped_to([CUBE], CUBE.aabb, Aabb([0, 0, 0], [1, 1, 0]))
+        map_to_box([CUBE], CUBE.aabb, Aabb([0, 0, 0], [1, 1, 0]))
 
 
 def test_the_tight_box_of_an_upright_box_is_that_box_unturned() -> None:
@@ -171,19 +171,19 @@ def test_a_plane_may_be_anywhere() -> None:
 
 
 def test_boxes_that_touch_have_no_overlap_and_no_distance() -> None:
-    beside = CUBE.moved(Pose.of_translation([1, 0, 0]))
+    beside = CUBE.move(Pose.of_translation([1, 0, 0]))
     assert overlap_volume(CUBE, beside) == 0
     assert distance(CUBE, beside) == pytest.approx(0, abs=1e-9)
     assert volume_of_union([CUBE, beside]) == pytest.approx(2)
 
 
 def test_a_shape_overlaps_itself_whole() -> None:
-    assert overlap_volume(CUBE, CUBE.tessellated()) == pytest.approx(1)
-    assert volume_of_union([CUBE, CUBE, CUBE.tessellated()]) == pytest.approx(1)
+    assert overlap_volume(CUBE, CUBE.tessellate()) == pytest.approx(1)
+    assert volume_of_union([CUBE, CUBE, CUBE.tessellate()]) == pytest.approx(1)
     assert volume_of_union([]) == 0
 
 
 def test_far_from_the_origin_an_overlap_is_the_same() -> None:
-    a, b = CUBE, CUBE.moved(Pose.of_translation([0.5, 0.5, 0.5]))
+    a, b = CUBE, CUBE.move(Pose.of_translation([0.5, 0.5, 0.5]))
     away = Pose.of_translation([1e6, 1e6, 1e6])
-    assert overlap_volume(a.moved(away), b.moved(away)) == pytest.approx(0.125, rel=1e-6)
+    assert overlap_volume(a.move(away), b.move(away)) == pytest.approx(0.125, rel=1e-6)

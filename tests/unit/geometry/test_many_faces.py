@@ -17,7 +17,7 @@ def ball() -> Floats:
 
 def test_the_hull_of_thousands_of_points_on_a_ball_has_them_all(ball: Floats) -> None:
     hull = convex_hull(ball)
-    assert len(hull.vertices) * len(hull.faces) > room._ALL_PAIRS
+    assert len(hull.vertices) * len(hull.faces) > room._MOST_PAIRS_CHECKED
     assert len(hull.vertices) == len(ball)
 
 
@@ -35,7 +35,7 @@ def test_judging_by_edges_and_by_all_pairs_agree(ball: Floats, monkeypatch: pyte
     rng = np.random.default_rng(1)
     for size in (0.0, 1e-7, 1e-3):
         moved = hull.vertices + size * rng.normal(size=hull.vertices.shape)
-        monkeypatch.setattr(room, "_ALL_PAIRS", 50_000_000)
+        monkeypatch.setattr(room, "_MOST_PAIRS_CHECKED", 50_000_000)
         by_pairs = is_convex(moved, hull.faces)
-        monkeypatch.setattr(room, "_ALL_PAIRS", 0)
+        monkeypatch.setattr(room, "_MOST_PAIRS_CHECKED", 0)
         assert is_convex(moved, hull.faces) == by_pairs == (size < 1e-5)

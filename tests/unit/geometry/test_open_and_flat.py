@@ -5,18 +5,11 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from meshforge.errors import GeometryError
+from meshforge.common import GeometryError
 from meshforge.geometry import Floats, Ints, is_closed, principal_extents
-from meshforge.geometry.decompose import (
-    CoacdSettings,
-    VhacdSettings,
-    decompose,
-    enclosed_volume,
-    is_sheet,
-    sheet_hulls,
-)
-from meshforge.geometry.decompose.holes import capped
-from meshforge.geometry.decompose.surface import sound_triangles
+from meshforge.geometry.decomposition.run import decompose
+from meshforge.geometry.decomposition.settings import CoacdSettings, VhacdSettings
+from meshforge.geometry.decomposition.triangles import cap_holes, clean_triangles, is_sheet, sheet_hulls, volume_inside
 from tests.unit.geometry.test_decompose import CUBE, L_SHAPE, QUICK
 
 CORNER = L_SHAPE[0][:6], np.array([[0, 1, 3], [1, 2, 3], [0, 3, 5], [3, 4, 5]])
@@ -39,10 +32,10 @@ def tube(around: int = 12) -> tuple[Floats, Ints]:
 @pytest.mark.parametrize("axis", [0, 1, 2])
 def test_rings_at_the_ends_of_a_tube_are_closed_as_rings(axis: int, turn: int) -> None:
     vertices, faces = tube()
-    mesh, holes = capped(sound_triangles(np.roll(vertices, axis, axis=1), faces[:, ::turn]))
+    mesh, holes = cap_holes(clean_triangles(np.roll(vertices, axis, axis=1), faces[:, ::turn]))
     assert holes == 4 and is_closed(mesh.faces)
     area = 12 / 2 * np.sin(2 * np.pi / 12) * (2**2 - 1**2)
-    assert enclosed_volume(vertices, faces[:, ::turn]) == pytest.approx(area)
+    assert volume_inside(vertices, faces[:, ::turn]) == pytest.approx(area)
 
 
 def test_a_hole_that_is_not_planar_stays_open() -> None:
@@ -50,7 +43,7 @@ def test_a_hole_that_is_not_planar_stays_open() -> None:
     bent = vertices.copy()
     bent[0, 2] -= 0.5
     kept = faces[[k for k, face in enumerate(faces) if not (face < 4).all()]]
-    mesh, holes = capped(sound_triangles(bent, kept))
+    mesh, holes = cap_holes(clean_triangles(bent, kept))
     assert holes == 0 and mesh.open_edges == 4
 
 
@@ -58,7 +51,7 @@ def test_holes_are_left_where_closing_them_leaves_others() -> None:
     vertices, faces = CUBE
     fan = np.concatenate([faces[2:], [[4, 5, 5 + 3]]])
     extra = np.concatenate([vertices, [[0.5, 0.5, 3.0]]])
-    mesh, holes = capped(sound_triangles(extra, fan))
+    mesh, holes = cap_holes(clean_triangles(extra, fan))
     assert holes == 0 and len(mesh.faces) == len(fan)
 
 
@@ -69,7 +62,7 @@ def test_an_open_corner_counts_as_solid_when_it_is_closed_first() -> None:
     hulls = decompose(vertices, open_below, QUICK, close=True, note=notes.append)
     assert notes == ["1 planar hole closed, so that it counts as solid"]
     assert sum(hull.volume for hull in hulls) == pytest.approx(5.0, rel=0.05)
-    assert enclosed_volume(vertices, open_below) == pytest.approx(5.0)
+    assert volume_inside(vertices, open_below) == pytest.approx(5.0)
 
 
 def test_a_convex_sheet_is_one_thin_hull() -> None:

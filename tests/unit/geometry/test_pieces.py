@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from meshforge.errors import GeometryError
-from meshforge.geometry import Ints, Piece, pieces
+from meshforge.common import GeometryError
+from meshforge.geometry import Ints, Piece, split_pieces
 from tests.soups import CORNERS, Soup, box, together, turned, unindexed, welded
 
 DOUBLE_SIDED = (box()[0], np.concatenate([box()[1], turned(box())[1]]))
@@ -15,7 +15,7 @@ L_SHAPE = together(box(), box((1, 0, 0)), box((0, 1, 0)))
 
 
 def found(soup: Soup, groups: Ints | None = None) -> list[Piece]:
-    made = pieces(soup[0], soup[1], name="soup", groups=groups)
+    made = split_pieces(soup[0], soup[1], name="soup", groups=groups)
     covered = np.concatenate([p.face_indices for p in made])
     assert sorted(covered.tolist()) == list(range(len(soup[1]))), "every face belongs to one piece"
     return made
@@ -157,7 +157,7 @@ def test_a_face_that_is_there_very_often_still_counts_once() -> None:
 
 
 def test_an_empty_surface_has_no_pieces() -> None:
-    assert pieces(np.zeros((0, 3)), np.zeros((0, 3), dtype=np.int64), name="nothing") == []
+    assert split_pieces(np.zeros((0, 3)), np.zeros((0, 3), dtype=np.int64), name="nothing") == []
 
 
 def test_a_vertex_that_no_face_has_may_be_anything() -> None:
@@ -168,12 +168,12 @@ def test_a_vertex_that_no_face_has_may_be_anything() -> None:
 def test_a_coordinate_that_is_not_finite_is_refused_by_name() -> None:
     vertices, faces = box()
     with pytest.raises(GeometryError, match="leg: a coordinate is not a finite number"):
-        pieces(np.where(vertices == 1, np.nan, vertices), faces, name="leg")
+        split_pieces(np.where(vertices == 1, np.nan, vertices), faces, name="leg")
 
 
 def test_an_index_without_vertex_is_refused_by_name() -> None:
     with pytest.raises(GeometryError, match="leg: a face names a vertex that is not there"):
-        pieces(box()[0], box()[1] + 1, name="leg")
+        split_pieces(box()[0], box()[1] + 1, name="leg")
 
 
 def test_pieces_do_not_depend_on_place_and_scale() -> None:

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from meshforge.geometry import convex_hull, pieces
-from meshforge.geometry.pieces import piece as room
+from meshforge.geometry import convex_hull, split_pieces
+from meshforge.geometry import pieces as room
 from tests.soups import box, together
 
 ROW = [(0, 0, 0), (3, 0, 0), (6, 0, 0)]
@@ -14,16 +14,16 @@ ROW = [(0, 0, 0), (3, 0, 0), (6, 0, 0)]
 
 def test_triangles_read_before_give_the_same_shapes() -> None:
     vertices, faces = together(*map(box, ROW))
-    first, again = (pieces(np.array(vertices), np.array(faces), name=name) for name in ("a", "b"))
+    first, again = (split_pieces(np.array(vertices), np.array(faces), name=name) for name in ("a", "b"))
     assert [p.shape for p in first] == [p.shape for p in again]
     assert first is not again
 
 
 def test_other_numbers_and_other_groups_are_read_anew() -> None:
     vertices, faces = together(*map(box, ROW))
-    first = pieces(vertices, faces, name="a")
-    moved = pieces(np.asarray(vertices) + 1e-9, faces, name="a")
-    grouped = pieces(vertices, faces, name="a", groups=np.repeat([0, 1, 2], len(faces) // 3))
+    first = split_pieces(vertices, faces, name="a")
+    moved = split_pieces(np.asarray(vertices) + 1e-9, faces, name="a")
+    grouped = split_pieces(vertices, faces, name="a", groups=np.repeat([0, 1, 2], len(faces) // 3))
     assert all(p.shape is not q.shape for p, q in zip(first, moved, strict=True))
     assert [p.group for p in first] == [0, 0, 0]
     assert [p.group for p in grouped] == [0, 1, 2]
@@ -32,10 +32,10 @@ def test_other_numbers_and_other_groups_are_read_anew() -> None:
 def test_what_is_remembered_does_not_change_with_the_arrays_it_was_read_from() -> None:
     corners, triangles = box((0, 0, 0))
     vertices, faces = np.array(corners, dtype=float), np.array(triangles)
-    first = pieces(vertices, faces, name="a")[0]
+    first = split_pieces(vertices, faces, name="a")[0]
     kept = np.array(vertices)
     vertices += 5
-    again = pieces(kept, faces, name="a")[0]
+    again = split_pieces(kept, faces, name="a")[0]
     assert first.shape is not None
     assert again.shape is first.shape
     assert (again.vertices.min(axis=0) == 0).all()
@@ -44,7 +44,7 @@ def test_what_is_remembered_does_not_change_with_the_arrays_it_was_read_from() -
 
 
 def test_very_many_triangles_are_not_remembered(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(room, "_SMALL", 11)
+    monkeypatch.setattr(room, "_MOST_MEMOIZED", 11)
     hull = convex_hull(np.asarray(box((0.5, 0, 0))[0]))
-    first, again = (pieces(hull.vertices, hull.faces, name="a")[0] for _ in range(2))
+    first, again = (split_pieces(hull.vertices, hull.faces, name="a")[0] for _ in range(2))
     assert first.shape is not again.shape

@@ -5,14 +5,14 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from meshforge.errors import ProgramError
+from meshforge.common import ProgramError
 from meshforge.geometry import Box, Cylinder, Floats, Pose, Sphere, convex_hull
 from meshforge.language import (
     ACTIONS,
     PRIMITIVES,
     Action,
+    ActionResult,
     Add,
-    Applied,
     Delete,
     Each,
     Merge,
@@ -26,13 +26,13 @@ from tests.unit.language.scenes import box, hull, mesh, table, wedge
 TEMPLATES = {"wedge.obj": wedge()}
 
 
-def applied(scene: SymbolicMesh, action: Action, *names: str, label: str | None = None) -> Applied:
+def applied(scene: SymbolicMesh, action: Action, *names: str, label: str | None = None) -> ActionResult:
     mask = sum(1 << scene.index[name] for name in names or scene.index)
     return apply_action(scene, mask, action, TEMPLATES, label)
 
 
 def bounds(scene: SymbolicMesh, name: str) -> list[list[float]]:
-    aabb = scene.named(name).aabb
+    aabb = scene.hull_of(name).aabb
     return [aabb.min.round(9).tolist(), aabb.max.round(9).tolist()]
 
 
@@ -48,7 +48,7 @@ def test_delete_removes_the_hulls_and_nothing_else() -> None:
 
 def test_merge_takes_the_name_label_and_body_of_the_largest_hull() -> None:
     result = applied(table(), Merge(), "leg0_low", "leg0_high")
-    made = result.mesh.named("leg0_high~1")
+    made = result.mesh.hull_of("leg0_high~1")
     assert result.made == ("leg0_high~1",) and result.sources == (("leg0_low", "leg0_high"),)
     assert (made.label, made.body, made.parent, made.source, made.confidence) == (
         "leg", "body", "leg0_high", "edit", 0.8,
@@ -97,7 +97,7 @@ def test_merging_one_hull_leaves_it_as_it_is() -> None:
 
 def test_merging_one_hull_under_a_label_relabels_it() -> None:
     scene = mesh(hull("ball", Sphere(Pose.identity(), 1.0), "knob"))
-    after = applied(scene, Merge(), label="handle").mesh.named("ball")
+    after = applied(scene, Merge(), label="handle").mesh.hull_of("ball")
     assert after.label == "handle" and after.source == "edit" and after.parent is None
     assert after.shape is scene.hulls[0].shape
 
@@ -116,7 +116,7 @@ def test_flat_input_is_thickened() -> None:
 
 def test_replace_by_a_box_fills_the_bounding_box() -> None:
     result = applied(table(), Replace("box"), "leg0_low", "top")
-    assert isinstance(result.mesh.named("top~1").shape, Box)
+    assert isinstance(result.mesh.hull_of("top~1").shape, Box)
     assert bounds(result.mesh, "top~1") == [[0, 0, 0], [2, 1, 1.1]]
 
 
@@ -196,7 +196,7 @@ def test_add_touches_the_middle_of_the_side_from_outside_as_large_as_fits() -> N
     result = applied(scene, Add("+X", "wedge.obj"), label="handle")
     assert [h.name for h in result.mesh.hulls] == ["door", "door~1"]
     assert bounds(result.mesh, "door~1") == [[1, 0, 0], [17, 8, 4]]
-    assert result.mesh.named("door~1").label == "handle" and result.mesh.named("door").label == "door"
+    assert result.mesh.hull_of("door~1").label == "handle" and result.mesh.hull_of("door").label == "door"
 
 
 def test_add_along_a_negative_direction_is_centred_on_the_other_side() -> None:
@@ -236,9 +236,9 @@ def test_names_count_on_and_are_never_given_twice() -> None:
     first = applied(scene, Scale("all", 2), "a")
     assert first.made == ("a~2",)
     second = apply_action(first.mesh, 0b10, Scale("all", 2), used=first.used)
-    assert second.made == ("a~3",) and second.mesh.named("a~3").parent == "a"
+    assert second.made == ("a~3",) and second.mesh.hull_of("a~3").parent == "a"
     third = apply_action(second.mesh, 0b01, Scale("all", 2), used=second.used)
-    assert third.made == ("a~1~1",) and third.mesh.named("a~1~1").parent == "a~1"
+    assert third.made == ("a~1~1",) and third.mesh.hull_of("a~1~1").parent == "a~1"
 
 
 def test_an_empty_selection_does_nothing_and_says_so() -> None:

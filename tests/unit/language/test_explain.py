@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from meshforge.language import ACTIONS, Program, explain, parse_action, parse_extractor, parse_orient
-from meshforge.language.program import Rule
+from meshforge.language.print import Rule
 
 _SENTENCES = [
     ("Is(misc) => Delete", "The misc hulls are deleted."),

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from meshforge.errors import ProgramError
+from meshforge.common import ProgramError
 from meshforge.language import Program
 
 GOLDEN = Path(__file__).parents[2] / "golden"

@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from meshforge.errors import ProgramError
+from meshforge.common import ProgramError
 from meshforge.geometry import Floats, Pose
 from meshforge.language import orient_mesh, parse_orient
-from meshforge.language.squaring import squaring_turn
+from meshforge.language.orient import square_up_angle
 from meshforge.symbolic import SymbolicMesh
 from tests.unit.language.scenes import box, hull, mesh, table
 
@@ -22,7 +22,7 @@ def about_z(degrees: float) -> Floats:
 
 def moved(scene: SymbolicMesh, rotation: Floats) -> SymbolicMesh:
     pose = Pose(rotation, np.zeros(3))
-    return scene.with_hulls(h.moved(pose) for h in scene.hulls)
+    return scene.with_hulls(h.move(pose) for h in scene.hulls)
 
 
 def size(scene: SymbolicMesh) -> list[float]:
@@ -75,7 +75,7 @@ def test_a_frame_within_five_percent_of_the_smallest_rectangle_is_kept() -> None
 
 def test_a_round_footprint_is_kept() -> None:
     angles = np.arange(64) * (2 * np.pi / 64)
-    assert squaring_turn(np.column_stack([np.cos(angles), np.sin(angles)])) == 0.0
+    assert square_up_angle(np.column_stack([np.cos(angles), np.sin(angles)])) == 0.0
 
 
 def test_the_opposite_direction_is_a_half_turn_about_a_fixed_axis() -> None:

@@ -11,7 +11,7 @@ from typing import Any
 import pytest
 
 import meshforge.language
-from meshforge.errors import ProgramError
+from meshforge.common import ProgramError
 from meshforge.language import (
     All,
     Delete,
@@ -28,7 +28,7 @@ from meshforge.language import (
     parse_extractor,
     parse_orient,
     show,
-    size,
+    size_of,
 )
 
 GEO = Geo(Is("leg"), "+X")
@@ -72,7 +72,7 @@ def test_a_program_names_its_templates_once_each_in_order() -> None:
 
 def test_sizes_are_those_of_the_paper() -> None:
     sizes = {"All": 1, "Is(a)": 1, "Geo(Is(a), +X)": 2, "Attach(Is(a), All)": 3, "Diff(Is(a), Geo(All, -Z))": 4}
-    assert {text: size(parse_extractor(text)) for text in sizes} == sizes
+    assert {text: size_of(parse_extractor(text)) for text in sizes} == sizes
 
 
 def test_parts_of_programs_parse_on_their_own() -> None:

@@ -8,11 +8,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from meshforge.asset import Asset, Body, Document, Geom
-from meshforge.errors import GeometryError, MeshForgeError, ProgramError
+from meshforge.common import GeometryError, MeshForgeError, ProgramError
 from meshforge.geometry import Box, Pose, convex_hull
-from meshforge.language import Delete, Is, Program, Rule, apply_rule, stage, unstage
-from meshforge.symbolic import Label, SymbolicMesh
+from meshforge.language import Delete, Is, Program, Rule, apply_rule, from_canonical_frame, to_canonical_frame
+from meshforge.symbolic import Asset, Body, Document, Geom, Label, SymbolicMesh
 from tests.unit.language.scenes import box, hull, mesh, table, wedge
 
 TABLES = """
@@ -28,7 +27,7 @@ def lying() -> SymbolicMesh:
     """The table on its side, turned by 30 degrees as well."""
     c, s = np.cos(np.pi / 6), np.sin(np.pi / 6)
     side = np.array([[1.0, 0, 0], [0, 0, -1], [0, 1, 0]]) @ np.array([[c, -s, 0], [s, c, 0], [0, 0, 1.0]])
-    return table().with_hulls(h.moved(Pose(side, np.array([1.0, 2, 3]))) for h in table().hulls)
+    return table().with_hulls(h.move(Pose(side, np.array([1.0, 2, 3]))) for h in table().hulls)
 
 
 def test_the_rules_run_in_order_and_the_trace_tells_what_each_did() -> None:
@@ -55,9 +54,9 @@ def test_the_edited_mesh_lies_where_the_mesh_lay() -> None:
     result = Program.parse(TABLES).run(scene)
     for before, after in zip(scene.hulls[1::2], result.mesh.hulls[1:], strict=False):
         assert np.linalg.norm(before.shape.centroid - after.shape.centroid) < 0.5
-    top = result.mesh.named("top~1").shape
+    top = result.mesh.hull_of("top~1").shape
     assert isinstance(top, Box) and np.allclose(sorted(top.half), [0.05, 0.5, 1.0])
-    assert np.allclose(top.centroid, scene.named("top").shape.centroid)
+    assert np.allclose(top.centroid, scene.hull_of("top").shape.centroid)
 
 
 def test_a_program_that_changes_nothing_gives_back_the_very_mesh() -> None:
@@ -69,8 +68,8 @@ def test_a_program_that_changes_nothing_gives_back_the_very_mesh() -> None:
 def test_hulls_of_an_edited_mesh_are_kept_in_a_second_run() -> None:
     first = Program.parse(TABLES).run(table()).mesh
     second = Program.parse("Is(panel) => Scale(all, 2)").run(first).mesh
-    assert second.named("leg0_high~1") is first.named("leg0_high~1")
-    assert second.named("top~2").parent == "top"
+    assert second.hull_of("leg0_high~1") is first.hull_of("leg0_high~1")
+    assert second.hull_of("top~2").parent == "top"
 
 
 def test_contact_is_measured_by_the_mesh_before_the_first_rule() -> None:
@@ -162,29 +161,29 @@ def test_names_of_the_file_are_not_given_again_though_their_hulls_are_gone() -> 
 
 
 def test_an_edited_mesh_lowers_to_an_asset_whose_made_geoms_name_their_parent() -> None:
-    geoms = Program.parse(TABLES).run(in_file(table())).mesh.lowered().geoms
+    geoms = Program.parse(TABLES).run(in_file(table())).mesh.to_asset().geoms
     assert [(g.name, g.parent) for g in geoms][:2] == [("top~1", "top"), ("leg0_high~1", "leg0_high")]
 
 
 def test_replaying_rule_by_rule_gives_what_the_run_gives() -> None:
     program = Program.parse(TABLES)
     scene = lying()
-    current, pose = stage(scene, program.orient, program.contact)
+    current, pose = to_canonical_frame(scene, program.orient, program.contact)
     assert current.scale == current.diagonal
     used = frozenset[str]()
     for rule, traced in zip(program.rules, program.run(scene).trace, strict=True):
         selected, applied = apply_rule(current, rule, used=used)
         assert (selected, applied.made) == (traced.selected, traced.made)
         current, used = applied.mesh, applied.used
-    result = unstage(scene, current, pose)
+    result = from_canonical_frame(scene, current, pose)
     assert [h.name for h in result.hulls] == [h.name for h in program.run(scene).mesh.hulls]
 
 
 def test_a_label_set_by_the_program_is_sure_and_one_taken_over_is_as_sure_as_before() -> None:
-    scene = table().labelled({"top": Label("panel", 0.3, "vlm")})
+    scene = table().with_labels({"top": Label("panel", 0.3, "vlm")})
     made = Program.parse("Is(panel) => Scale(X, 2)\nIs(leg) => Merge as foot").run(scene).mesh
-    assert made.named("top~1").annotation == Label("panel", 0.3, "edit")
-    assert made.named("leg0_high~1").annotation == Label("foot", 1.0, "edit")
+    assert made.hull_of("top~1").annotation == Label("panel", 0.3, "edit")
+    assert made.hull_of("leg0_high~1").annotation == Label("foot", 1.0, "edit")
 
 
 def test_a_program_is_a_value() -> None:

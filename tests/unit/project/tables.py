@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from meshforge.batch import IN_PROCESS
 from meshforge.language import Delete, Each, Merge
 from meshforge.project import Project
 from meshforge.synthesis import Step
@@ -45,5 +46,5 @@ def learned(folder: Path) -> Project:
 def applied(folder: Path) -> Project:
     """A project with edited assets."""
     project = learned(folder)
-    list(project.apply(workers=0))
+    list(project.apply(execution=IN_PROCESS))
     return project

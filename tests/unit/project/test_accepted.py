@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from pathlib import Path
 
+from meshforge.batch import IN_PROCESS
 from meshforge.language import Delete, Program
 from meshforge.project import Project
 from meshforge.synthesis import Ambiguous, Found, Options, Step
@@ -19,7 +20,7 @@ def applied(folder: Path) -> Project:
     project = ambiguous(folder)
     assert isinstance(project.synthesize(), Ambiguous)
     assert BOARDS in str(project.program())
-    list(project.apply(workers=0))
+    list(project.apply(execution=IN_PROCESS))
     return project
 
 
@@ -48,7 +49,7 @@ def test_who_accepts_many_at_once_or_flags_says_nothing_of_each(tmp_path: Path) 
 def test_an_edit_by_hand_is_not_what_the_program_did(tmp_path: Path) -> None:
     project = applied(tmp_path)
     project.correct(SHELVED, ["knob"], Delete())
-    list(project.apply(workers=0))
+    list(project.apply(execution=IN_PROCESS))
     project.review(SHELVED, "accepted")
     assert not project.reviews()[SHELVED].seen
     assert isinstance(project.synthesize(), Ambiguous)
@@ -78,7 +79,7 @@ def test_where_no_program_keeps_what_was_accepted_it_is_overruled_and_named(tmp_
     assert isinstance(outcome, Found)
     assert outcome.overruled == (SHELVED,)
     assert "Geo(Is(board), +Z) => Delete" in str(outcome.program)
-    list(project.apply(workers=0))
+    list(project.apply(execution=IN_PROCESS))
     assert all(asset.review is None for asset in project.status(workers=0).assets)
     again = project.synthesize(options=Options(repair=False))
     assert again.overruled == ()  # its output is another one now, which nobody accepted

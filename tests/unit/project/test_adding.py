@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from meshforge.errors import ProjectError
+from meshforge.common import ProjectError
 from meshforge.project import Project
 from tests.unit.batch.families import write_table, write_urdf_table
 from tests.unit.project.tables import FIRST, SECOND, THIRD, labelled

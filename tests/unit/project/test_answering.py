@@ -7,19 +7,19 @@ from pathlib import Path
 
 import pytest
 
-from meshforge.errors import ProjectError, UsageError
-from meshforge.project import Project, family, looked_at
+from meshforge.common import ProjectError, UsageError
+from meshforge.project import Project, family, select_assets
 from meshforge.symbolic import Label
-from meshforge.synthesis import Answer, Choice, Correction, Question
+from meshforge.synthesis import Answer, Choice, LabelCorrection, Question
 from tests.unit.project.shelves import OTHER, PLAIN, SHELVED, ambiguous, mislabelled
 
-WRONG = Correction(PLAIN, "knob", "leg", "knob")
+WRONG = LabelCorrection(PLAIN, "knob", "leg", "knob")
 QUESTION = Question(1, SHELVED, (Choice("1.1", ("top", "shelf")), Choice("1.2", ("top",))), 0.5, 0.0)
 MACHINE = Label("leg", 0.75, "vlm")
 
 
 def knob(project: Project) -> Label | None:
-    return project.mesh(PLAIN).named("knob").annotation
+    return project.mesh(PLAIN).hull_of("knob").annotation
 
 
 def test_an_answer_is_kept_as_one_can_read_it(tmp_path: Path) -> None:
@@ -39,7 +39,7 @@ def test_neither_keeps_what_was_refused(tmp_path: Path) -> None:
     project = ambiguous(tmp_path)
     project.answer(QUESTION, None)
     (line,) = project.answers().answers
-    assert line.answer == QUESTION.answered(None)
+    assert line.answer == QUESTION.answer_with(None)
     assert set(line.answer.refused) == {frozenset(choice.select) for choice in QUESTION.choices}
 
 
@@ -47,11 +47,11 @@ def test_of_very_many_assets_some_are_learned_from_and_all_of_which_something_wa
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     project = ambiguous(tmp_path)
-    assert looked_at(project) == project.assets()
-    monkeypatch.setattr(family, "MOST", 2)
+    assert select_assets(project) == project.assets()
+    monkeypatch.setattr(family, "MOST_ASSETS", 2)
     shown = set(project.demonstrations())
     project.add_answer(Answer(1, project.assets()[-1], ()))
-    some = looked_at(project)
+    some = select_assets(project)
     assert shown | {project.assets()[-1], project.assets()[0]} <= set(some) < set(project.assets())
     assert list(some) == [asset for asset in project.assets() if asset in some]
 
@@ -125,7 +125,7 @@ def test_a_confirmed_repair_becomes_the_label_and_remembers_the_one_before(tmp_p
 def test_a_missing_label_that_was_filled_in_is_missing_again(tmp_path: Path) -> None:
     project = mislabelled(tmp_path)
     project.set_labels(PLAIN, {"knob": None})
-    said = project.confirm(Correction(PLAIN, "knob", None, "knob"))
+    said = project.confirm(LabelCorrection(PLAIN, "knob", None, "knob"))
     assert knob(project) == Label("knob", 1.0, "repair")
     project.take_back(said)
     assert knob(project) is None
@@ -152,9 +152,9 @@ def test_a_repair_of_an_asset_that_is_gone_can_be_taken_back(tmp_path: Path) -> 
 def test_a_repair_that_no_longer_fits_is_refused(tmp_path: Path) -> None:
     project = mislabelled(tmp_path)
     with pytest.raises(ProjectError, match="no hull 'nob'; did you mean 'knob'"):
-        project.confirm(Correction(PLAIN, "nob", "leg", "knob"))
+        project.confirm(LabelCorrection(PLAIN, "nob", "leg", "knob"))
     with pytest.raises(ProjectError, match="not in the vocabulary"):
-        project.confirm(Correction(PLAIN, "knob", "leg", "handle"))
+        project.confirm(LabelCorrection(PLAIN, "knob", "leg", "handle"))
     project.set_labels(PLAIN, {"knob": "board"})
     with pytest.raises(ProjectError, match="knob is labelled board now, no longer leg"):
         project.confirm(WRONG)
@@ -182,6 +182,6 @@ def test_everything_can_be_forgotten(tmp_path: Path) -> None:
     project = mislabelled(tmp_path)
     project.answer(QUESTION, 0)
     project.confirm(WRONG)
-    project.reject(Correction(OTHER, "left", "leg", "knob"))
+    project.reject(LabelCorrection(OTHER, "left", "leg", "knob"))
     assert project.forget_answers() == ()
     assert project.answers().ids == () and knob(project) == MACHINE

@@ -17,6 +17,7 @@ HEAVY = (
     "trimesh",
     "coal",
     "manifold3d",
+    "jinja2",
     "lxml",
     "lark",
     "pydantic",

@@ -10,12 +10,12 @@ import pytest
 
 from meshforge.language import Delete, Merge, Program
 from meshforge.project import Project
-from meshforge.synthesis import Answer, Correction, Step
+from meshforge.synthesis import Answer, LabelCorrection, Step
 from tests.unit.batch.families import tree
 from tests.unit.deaths import deaths, needs_fork
 from tests.unit.project.tables import FIRST, THIRD, applied, fresh
 
-REPAIR = Correction(FIRST, "crumb", "misc", "leg")
+REPAIR = LabelCorrection(FIRST, "crumb", "misc", "leg")
 CHANGES: dict[str, Callable[[Project], object]] = {
     "vocabulary": lambda p: p.set_vocabulary(["top", "leg", "misc", "more"]),
     "labels": lambda p: p.set_labels(FIRST, {"crumb": "leg"}),

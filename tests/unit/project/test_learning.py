@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from meshforge.batch import IN_PROCESS
 from meshforge.language import Delete, Merge, Program
-from meshforge.project import Family, Project
+from meshforge.project import FamilyMeshes, Project
 from meshforge.symbolic import Label
 from meshforge.synthesis import Ambiguous, Answer, Found, NeedsRepair, NoProgram, Repair, Step, TimedOut
 from tests.unit.project.shelves import OTHER, PLAIN, SHELVED, ambiguous, mislabelled
@@ -34,7 +35,7 @@ def test_a_question_stays_open_until_it_is_answered(tmp_path: Path) -> None:
 def test_nobody_is_asked_who_applied_the_program_as_it_is(tmp_path: Path) -> None:
     project = ambiguous(tmp_path)
     project.synthesize()
-    list(project.apply(workers=0))
+    list(project.apply(execution=IN_PROCESS))
     status = project.status(workers=0)
     assert status.question and (status.next.command or "").startswith("meshforge check")
 
@@ -96,7 +97,7 @@ def test_a_confirmed_repair_is_kept_before_the_program_is(tmp_path: Path) -> Non
 
     outcome = project.synthesize(confirm=yes)
     assert isinstance(outcome, Found) and len(asked) == 1
-    assert project.mesh(PLAIN).named("knob").annotation == Label("knob", 1.0, "repair")
+    assert project.mesh(PLAIN).hull_of("knob").annotation == Label("knob", 1.0, "repair")
     assert not project.status(workers=0).outdated
     again = project.synthesize(confirm=yes)
     assert again.program == outcome.program and len(asked) == 1
@@ -116,7 +117,7 @@ def test_a_refused_repair_is_not_proposed_again(tmp_path: Path) -> None:
 def test_a_trial_keeps_no_repair(tmp_path: Path) -> None:
     project = mislabelled(tmp_path)
     assert project.synthesize(accept=False, confirm=lambda _: True).program
-    assert project.mesh(PLAIN).named("knob").label == "leg" and not project.answers().ids
+    assert project.mesh(PLAIN).hull_of("knob").label == "leg" and not project.answers().ids
 
 
 def test_learning_can_be_stopped(tmp_path: Path) -> None:
@@ -137,7 +138,7 @@ def test_an_answer_that_fits_nothing_leaves_the_program_as_it_was(tmp_path: Path
 
 def test_a_family_reads_assets_once_and_labels_anew(tmp_path: Path) -> None:
     project = ambiguous(tmp_path)
-    family = Family(project)
+    family = FamilyMeshes(project)
     before = family.meshes()
     project.set_labels(SHELVED, {"shelf": None, "knob": "leg"})
     after = family.meshes()
@@ -149,6 +150,13 @@ def test_a_family_reads_assets_once_and_labels_anew(tmp_path: Path) -> None:
 def test_an_asset_is_shown_as_the_rule_meets_it(tmp_path: Path) -> None:
     project = ambiguous(tmp_path)
     program = Program.parse("labels board, leg, knob\nIs(leg) => Merge\nIs(board) => Delete\n")
-    assert {hull.name for hull in project.met(SHELVED, 2, program).hulls} == {"top", "shelf", "knob", "left~1"}
-    assert project.met(SHELVED, 1, program).index == project.mesh(SHELVED).index
-    assert "left" in project.met(PLAIN, 2, program).index  # there it was shown that the rule does not take it
+    assert {hull.name for hull in project.mesh_before_rule(SHELVED, 2, program).hulls} == {
+        "top",
+        "shelf",
+        "knob",
+        "left~1",
+    }
+    assert project.mesh_before_rule(SHELVED, 1, program).index == project.mesh(SHELVED).index
+    assert (
+        "left" in project.mesh_before_rule(PLAIN, 2, program).index
+    )  # there it was shown that the rule does not take it

@@ -7,16 +7,16 @@ from pathlib import Path
 
 import pytest
 
-from meshforge.batch import Edited, Failed
-from meshforge.batch import status as word
-from meshforge.errors import AssetError, GeometryError, ProjectError
+from meshforge.batch import IN_PROCESS, Edited, ExecutionOptions, Failed
+from meshforge.batch import status_of as word
+from meshforge.common import AssetError, GeometryError, ProjectError
 from meshforge.formats import load
 from meshforge.language import Delete, Merge
-from meshforge.project import Prepared, Project
+from meshforge.project import PreparationResult, Project
 from meshforge.synthesis import Found, Step
 from tests.unit.batch.families import tree
+from tests.unit.batch.preparation.samples import QUICK, VOXELS, write_boxes, write_stand
 from tests.unit.deaths import deaths, needs_fork
-from tests.unit.preparation.samples import QUICK, VOXELS, write_boxes, write_stand
 from tests.unit.project.tables import FIRST, SECOND, applied, labelled
 
 HIGH, LOW = "high/stand.urdf", "low/stand.urdf"
@@ -43,7 +43,7 @@ def fresh(folder: Path) -> Project:
 def decomposed(folder: Path) -> Project:
     """The same with hulls for all."""
     project = fresh(folder)
-    assert [len(done.made) for done in project.decompose(settings=QUICK, workers=0)] == [2, 2]
+    assert [len(done.made) for done in project.decompose(settings=QUICK, execution=IN_PROCESS)] == [2, 2]
     return project
 
 
@@ -60,7 +60,7 @@ def test_what_has_no_hulls_gets_some_in_every_asset(tmp_path: Path) -> None:
     project = fresh(tmp_path)
     before = tree(tmp_path / "assets")
     assert names(project, HIGH) == ["frame/foot"]
-    done = list(project.decompose(settings=QUICK, workers=0))
+    done = list(project.decompose(settings=QUICK, execution=IN_PROCESS))
     assert [(d.asset, d.problems, d.notes) for d in done] == [(HIGH, (), ()), (LOW, (), ())]
     assert names(project, HIGH) == ["frame/foot", *done[0].hulls]
     assert project.mesh(HIGH).hulls[1].parent == "frame/body"
@@ -70,8 +70,8 @@ def test_what_has_no_hulls_gets_some_in_every_asset(tmp_path: Path) -> None:
 def test_doing_it_twice_does_nothing_new(tmp_path: Path) -> None:
     project = decomposed(tmp_path)
     before = tree(project.folder / "prepared")
-    again = list(Project.open(project.folder).decompose(settings=VOXELS, workers=0))
-    assert again == [Prepared(HIGH), Prepared(LOW)]
+    again = list(Project.open(project.folder).decompose(settings=VOXELS, execution=IN_PROCESS))
+    assert again == [PreparationResult(HIGH), PreparationResult(LOW)]
     assert tree(project.folder / "prepared") == before
 
 
@@ -80,7 +80,7 @@ def test_the_files_do_not_depend_on_the_workers(tmp_path: Path, monkeypatch: pyt
     for workers in (0, 2):
         monkeypatch.setenv("MESHFORGE_CACHE", str(tmp_path / f"cache{workers}"))
         project = fresh(tmp_path / str(workers))
-        list(project.decompose(settings=QUICK, workers=workers))
+        list(project.decompose(settings=QUICK, execution=ExecutionOptions(workers=workers)))
         found.append(tree(project.folder / "prepared"))
     assert len(found[0]) == 4 and found[0] == found[1]
 
@@ -88,24 +88,24 @@ def test_the_files_do_not_depend_on_the_workers(tmp_path: Path, monkeypatch: pyt
 def test_one_asset_that_fails_is_told_and_the_others_are_done(tmp_path: Path) -> None:
     project = fresh(tmp_path)
     (tmp_path / "assets" / HIGH).write_text("<robot")
-    high, low = project.decompose(settings=QUICK, workers=1)
+    high, low = project.decompose(settings=QUICK, execution=ExecutionOptions(workers=1))
     assert len(high.problems) == 1 and HIGH in high.problems[0]
     assert len(low.made) == 2
 
 
 def test_an_asset_that_takes_too_long_is_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("MESHFORGE_CACHE", str(tmp_path / "cache"))
-    (done,) = fresh(tmp_path).decompose([HIGH], workers=1, timeout=0.05)
+    (done,) = fresh(tmp_path).decompose([HIGH], execution=ExecutionOptions(workers=1, timeout=0.05))
     assert "longer than 0.05 seconds" in done.problems[0]
 
 
 def test_stopping_in_the_midst_keeps_what_is_done(tmp_path: Path) -> None:
     project = fresh(tmp_path)
-    work = project.decompose(settings=QUICK, workers=0)
+    work = project.decompose(settings=QUICK, execution=IN_PROCESS)
     next(work)
     work.close()  # type: ignore[attr-defined]  # a generator
     assert [len(project.preparation(asset).steps) for asset in (HIGH, LOW)] == [1, 0]
-    assert [len(done.made) for done in project.decompose(settings=QUICK, workers=0)] == [0, 2]
+    assert [len(done.made) for done in project.decompose(settings=QUICK, execution=IN_PROCESS)] == [0, 2]
 
 
 def test_a_changed_asset_is_told_to_be_prepared_again_and_then_is(tmp_path: Path) -> None:
@@ -116,7 +116,7 @@ def test_a_changed_asset_is_told_to_be_prepared_again_and_then_is(tmp_path: Path
         project.mesh(HIGH)
     error = project.status(workers=0).assets[0].error
     assert error and "cover has another geometry now" in error
-    (done,) = project.decompose([HIGH], QUICK, workers=0)
+    (done,) = project.decompose([HIGH], QUICK, execution=IN_PROCESS)
     assert done.notes == ("given up, since cover has another geometry now",)
     assert [entry.what for entry in done.made] == ["cover"]
     assert len(names(project, HIGH)) == 5
@@ -128,7 +128,7 @@ def test_the_program_runs_on_what_is_prepared(tmp_path: Path) -> None:
         label_all(project, asset)
     project.demonstrate(HIGH, [Step(1, {n for n in names(project, HIGH) if "cover" in n}, Merge())])
     assert isinstance(project.synthesize(), Found)
-    outcomes = list(project.apply(workers=0))
+    outcomes = list(project.apply(execution=IN_PROCESS))
     assert [(word(o), getattr(o, "before", 0), getattr(o, "after", 0)) for o in outcomes] == [("edited", 5, 4)] * 2
     edited = load(project.folder / "edited" / LOW)
     assert {hull.name.replace("#1~", "#0~"): hull.label for hull in edited.hulls} == {
@@ -139,13 +139,13 @@ def test_the_program_runs_on_what_is_prepared(tmp_path: Path) -> None:
     }
     assert edited.asset and edited.asset.opaque == ()
     assert all(asset.is_done for asset in project.status(workers=0).assets)
-    assert [word(o) for o in project.apply(workers=0)] == ["skipped"] * 2
+    assert [word(o) for o in project.apply(execution=IN_PROCESS)] == ["skipped"] * 2
 
 
 def test_an_asset_that_only_its_preparation_changes_is_edited(tmp_path: Path) -> None:
     project = decomposed(tmp_path)
     (project.folder / "program.mf").write_text("labels gone\nGeo(All, +Z) => Each(Merge)\n")
-    assert all(isinstance(outcome, Edited) for outcome in project.apply(workers=0))
+    assert all(isinstance(outcome, Edited) for outcome in project.apply(execution=IN_PROCESS))
 
 
 def test_outputs_programs_and_surveys_know_when_a_preparation_changed(tmp_path: Path) -> None:
@@ -154,7 +154,7 @@ def test_outputs_programs_and_surveys_know_when_a_preparation_changed(tmp_path: 
         label_all(project, asset)
     project.demonstrate(HIGH, [Step(1, {"frame/foot"}, Delete())])
     project.synthesize()
-    list(project.apply(workers=0))
+    list(project.apply(execution=IN_PROCESS))
     project.cut(HIGH, "frame/foot", (0, 0, -1), (1, 0, 0))
     found = project.status(workers=0)
     assert found.outdated
@@ -168,13 +168,13 @@ def test_outputs_programs_and_surveys_know_when_a_preparation_changed(tmp_path: 
 def test_an_outdated_preparation_fails_in_applying_and_is_mended_by_doing_it_again(tmp_path: Path) -> None:
     project = decomposed(tmp_path)
     (project.folder / "program.mf").write_text("All => Merge\n")
-    list(project.apply(workers=0))
+    list(project.apply(execution=IN_PROCESS))
     path = tmp_path / "assets" / HIGH
     path.write_text(path.read_text().replace('scale="1 1 0.5"', 'scale="1 1 0.7"'))
-    first, second = project.apply(workers=0)
+    first, second = project.apply(execution=IN_PROCESS)
     assert isinstance(first, Failed) and "out of date" in first.error and word(second) == "skipped"
-    list(project.decompose(settings=QUICK, workers=0))
-    assert [word(o) for o in project.apply(workers=0)] == ["edited", "skipped"]
+    list(project.decompose(settings=QUICK, execution=IN_PROCESS))
+    assert [word(o) for o in project.apply(execution=IN_PROCESS)] == ["edited", "skipped"]
 
 
 def test_an_asset_whose_preparation_cannot_be_read_is_not_edited_without_it(tmp_path: Path) -> None:
@@ -183,7 +183,7 @@ def test_an_asset_whose_preparation_cannot_be_read_is_not_edited_without_it(tmp_
     record = project.folder / "prepared" / HIGH / "preparation.json"
     record.unlink()
     record.mkdir()
-    first, second = project.apply(workers=0)
+    first, second = project.apply(execution=IN_PROCESS)
     assert isinstance(first, Failed) and str(record) in first.error and word(second) == "edited"
     assert "preparation.json" in (project.status(workers=0).assets[0].error or "")
 
@@ -195,7 +195,7 @@ def test_labels_of_a_split_hull_go_to_its_parts_and_come_back(tmp_path: Path) ->
     assert done.hulls == ("top#0", "top#1")
     assert done.notes == ("labels of top went to top#0, top#1",)
     mesh = project.mesh(FIRST)
-    assert [(mesh.named(n).label, mesh.named(n).source) for n in done.hulls] == [("top", "file")] * 2
+    assert [(mesh.hull_of(n).label, mesh.hull_of(n).source) for n in done.hulls] == [("top", "file")] * 2
     found = project.status(workers=0).assets[0]
     assert (found.hulls, found.labelled, found.doubtful) == (7, 7, ())
     project.unprepare(FIRST)
@@ -224,7 +224,7 @@ def test_labels_of_a_prepared_hull_that_is_split_come_back(tmp_path: Path) -> No
 
 def across(project: Project, hull: str) -> tuple[list[float], tuple[float, float, float]]:
     """A plane through the middle of a hull."""
-    return project.mesh(HIGH).named(hull).aabb.center.tolist(), (1, 0, 0)
+    return project.mesh(HIGH).hull_of(hull).aabb.center.tolist(), (1, 0, 0)
 
 
 def test_labels_of_split_hulls_go_to_those_of_the_same_decomposition_done_again(tmp_path: Path) -> None:
@@ -232,7 +232,7 @@ def test_labels_of_split_hulls_go_to_those_of_the_same_decomposition_done_again(
     label_all(project, HIGH)
     before = label_file(project, HIGH)
     project.cut(HIGH, "cover/geom0#0", *across(project, "cover/geom0#0"))
-    list(project.decompose([HIGH], QUICK, again=True, workers=0))
+    list(project.decompose([HIGH], QUICK, again=True, execution=IN_PROCESS))
     assert label_file(project, HIGH) == before
 
 
@@ -243,17 +243,17 @@ def test_labels_of_a_split_go_back_to_the_hull_though_the_asset_changed(tmp_path
     path = tmp_path / "assets" / HIGH
     path.write_text(path.read_text().replace("4 1 1", "4 1 1.2"))
     project.unprepare(HIGH)
-    assert project.mesh(HIGH).named("frame/foot").label == "foot"
+    assert project.mesh(HIGH).hull_of("frame/foot").label == "foot"
 
 
 def test_labels_go_to_the_hulls_of_another_decomposition_that_lie_there(tmp_path: Path) -> None:
     project = decomposed(tmp_path)
     label_all(project, HIGH)
-    (done,) = project.decompose([HIGH], VOXELS, only=["frame/body"], again=True, workers=0)
+    (done,) = project.decompose([HIGH], VOXELS, only=["frame/body"], again=True, execution=IN_PROCESS)
     mesh = project.mesh(HIGH)
-    made = [mesh.named(name) for name in done.hulls]
+    made = [mesh.hull_of(name) for name in done.hulls]
     assert {hull.label for hull in made} == {"body"}
-    assert mesh.named("frame/foot").label == "foot"
+    assert mesh.hull_of("frame/foot").label == "foot"
     assert project.status(workers=0).assets[0].doubtful == ()
 
 
@@ -263,7 +263,7 @@ def test_a_hull_between_two_labels_takes_that_of_its_greater_part_with_less_conf
     project.cut("row.obj", "geom0#1", (2.5, 0, 0), (1, 0, 0))
     project.set_labels("row.obj", {"geom0#1#0": "a", "geom0#1#1": "b"})
     done = project.unprepare("row.obj")
-    whole = project.mesh("row.obj").named("geom0#1")
+    whole = project.mesh("row.obj").hull_of("geom0#1")
     assert (whole.label, whole.source) == ("a", "propagated")
     assert whole.confidence == pytest.approx(0.75)
     assert done.undone == ("geom0#1 cut into 2 hulls",)
@@ -335,7 +335,7 @@ def test_the_status_says_what_could_be_decomposed(tmp_path: Path) -> None:
     found = project.status(workers=0)
     assert found.assets[0].hulls == 0
     assert found.next.command == f"meshforge prepare {project.folder} --decompose coacd"
-    list(project.decompose(settings=QUICK, workers=0))
+    list(project.decompose(settings=QUICK, execution=IN_PROCESS))
     assert "prepare" not in (project.status(workers=0).next.command or "")
 
 

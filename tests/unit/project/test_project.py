@@ -6,8 +6,9 @@ from pathlib import Path
 
 import pytest
 
-from meshforge.batch import status as word
-from meshforge.errors import DemonstrationError, MeshForgeError, ProgramError, ProjectError
+from meshforge.batch import IN_PROCESS, ExecutionOptions
+from meshforge.batch import status_of as word
+from meshforge.common import DemonstrationError, MeshForgeError, ProgramError, ProjectError
 from meshforge.formats import load
 from meshforge.language import Delete, Is, LandmarkPair, Merge, Orient, Program, Replace
 from meshforge.project import Project
@@ -102,7 +103,7 @@ def test_labels_are_kept_by_id_and_come_back_with_the_mesh(tmp_path: Path) -> No
     mesh = project.mesh(SECOND)
     assert {h.name: h.source for h in mesh.hulls if h.label} == {"top": "user", "left_low": "user"}
     project.set_labels(SECOND, {"top": None})
-    assert project.mesh(SECOND).named("top").label is None
+    assert project.mesh(SECOND).hull_of("top").label is None
 
 
 def test_a_machine_never_overwrites_what_a_person_said(tmp_path: Path) -> None:
@@ -113,8 +114,8 @@ def test_a_machine_never_overwrites_what_a_person_said(tmp_path: Path) -> None:
     reports = {report.asset: report for report in project.label_from_files()}
     assert (reports[FIRST].taken, reports[FIRST].kept) == (5, 1)
     mesh = project.mesh(FIRST)
-    assert (mesh.named("crumb").label, mesh.named("crumb").source) == ("leg", "user")
-    assert (mesh.named("top").label, mesh.named("top").source) == ("top", "file")
+    assert (mesh.hull_of("crumb").label, mesh.hull_of("crumb").source) == ("leg", "user")
+    assert (mesh.hull_of("top").label, mesh.hull_of("top").source) == ("top", "file")
     again = {report.asset: report for report in project.label_from_files()}
     assert (again[FIRST].taken, again[FIRST].same, again[FIRST].kept) == (0, 5, 1)
 
@@ -256,8 +257,8 @@ def test_the_program_is_applied_into_the_project(tmp_path: Path) -> None:
         "left_low~1": "leg",
         "right_low~1": "leg",
     }
-    assert [word(o) for o in project.apply(workers=0)] == ["skipped"] * 3
-    assert [word(o) for o in project.apply(workers=0, out=tmp_path / "else")] == ["edited"] * 3
+    assert [word(o) for o in project.apply(execution=IN_PROCESS)] == ["skipped"] * 3
+    assert [word(o) for o in project.apply(execution=IN_PROCESS, out=tmp_path / "else")] == ["edited"] * 3
 
 
 def test_applying_without_a_program_says_what_to_do(tmp_path: Path) -> None:
@@ -279,7 +280,7 @@ def test_templates_come_from_their_folder_and_must_be_convex(tmp_path: Path) -> 
 def test_an_edit_by_hand_is_replayed_after_the_program(tmp_path: Path) -> None:
     project = applied(tmp_path)
     project.correct(SECOND, ["left_low~1", "right_low~1"], Merge(), "top")
-    assert [word(o) for o in project.apply(workers=0)] == ["skipped", "edited", "skipped"]
+    assert [word(o) for o in project.apply(execution=IN_PROCESS)] == ["skipped", "edited", "skipped"]
     mesh = load(project.folder / "edited" / SECOND)
     assert {h.name: h.label for h in mesh.hulls} == {"top": "top", "left_low~2": "top"}
     project.correct(SECOND, ["left_low~2"], Delete())
@@ -294,7 +295,7 @@ def test_an_edit_by_hand_whose_hull_is_gone_or_changed_is_flagged_and_left_out(t
     project.correct(SECOND, ["top"], Replace("box"))
     (project.folder / "program.mf").write_text("labels top, leg, misc\nIs(misc) => Delete\n")
     write_table(tmp_path / "assets" / SECOND, 3.0)
-    outcomes = {o.asset: o for o in project.apply(workers=0)}
+    outcomes = {o.asset: o for o in project.apply(execution=IN_PROCESS)}
     assert getattr(outcomes[FIRST], "flags", None) == ("edit 1 by hand was left out: left_low~1 is gone",)
     assert getattr(outcomes[SECOND], "flags", None) == ("edit 1 by hand was left out: top has another shape now",)
     assert len(load(project.folder / "edited" / FIRST).hulls) == 5
@@ -304,14 +305,14 @@ def test_an_edit_by_hand_in_a_turned_frame_leaves_the_other_hulls_alone(tmp_path
     project = learned(tmp_path)
     text = PROGRAM.replace("\nIs(misc)", "\norient +X: Is(leg) -> Is(top)\n\nIs(misc)")
     (project.folder / "program.mf").write_text(text)
-    list(project.apply(workers=0))
+    list(project.apply(execution=IN_PROCESS))
     before = load(project.folder / "edited" / FIRST)
     project.correct(FIRST, ["top"], Delete())
-    list(project.apply(workers=0))
+    list(project.apply(execution=IN_PROCESS))
     after = load(project.folder / "edited" / FIRST)
     assert [h.name for h in after.hulls] == ["left_low~1", "right_low~1"]
     for hull in after.hulls:
-        assert hull.vertices.tobytes() == before.named(hull.name).vertices.tobytes()
+        assert hull.vertices.tobytes() == before.hull_of(hull.name).vertices.tobytes()
 
 
 def test_an_edit_by_hand_on_a_hull_that_is_not_there_is_refused(tmp_path: Path) -> None:
@@ -327,7 +328,7 @@ def test_assets_of_a_project_are_never_written_to(tmp_path: Path) -> None:
     project.label_from_files()
     project.demonstrate("table.urdf", [Step(1, {"body/crumb"}, Delete())])
     project.synthesize()
-    assert [word(o) for o in project.apply(workers=1)] == ["edited"]
+    assert [word(o) for o in project.apply(execution=ExecutionOptions(1))] == ["edited"]
     assert tree(tmp_path / "robots") == before
 
 
@@ -337,7 +338,7 @@ def test_a_project_among_its_assets_does_not_take_its_own_files_for_assets(tmp_p
     project.label_from_files()
     (project.folder / "program.mf").write_text(PROGRAM)
     write_table(project.folder / "templates/knob.obj")
-    list(project.apply(workers=0))
+    list(project.apply(execution=IN_PROCESS))
     assert Project.open(tmp_path).assets() == ("a.obj",)
 
 
@@ -347,4 +348,4 @@ def test_an_unreadable_asset_is_left_out_of_learning_and_fails_in_applying(tmp_p
     with pytest.raises(MeshForgeError):
         project.mesh(THIRD)
     project.synthesize()
-    assert [word(o) for o in project.apply(workers=0)] == ["edited", "edited", "failed"]
+    assert [word(o) for o in project.apply(execution=IN_PROCESS)] == ["edited", "edited", "failed"]

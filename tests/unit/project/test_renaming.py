@@ -5,10 +5,10 @@ from pathlib import Path
 
 import pytest
 
-from meshforge.errors import MeshForgeError, ProjectError
+from meshforge.common import MeshForgeError, ProjectError
 from meshforge.language import Delete, Merge, Program
 from meshforge.project import Project
-from meshforge.synthesis import Answer, Correction, Step
+from meshforge.synthesis import Answer, LabelCorrection, Step
 from tests.unit.batch.families import tree
 from tests.unit.deaths import deaths, needs_fork
 from tests.unit.project.tables import FIRST, LEGS, SECOND, THIRD, applied, demonstrated, labelled, learned
@@ -23,8 +23,8 @@ def saying(folder: Path) -> Project:
     project.accept(Program.parse(text))
     project.correct(SECOND, ["top"], Merge(), "leg")
     project.add_answer(Answer(2, THIRD, LEGS))
-    project.confirm(Correction(FIRST, "crumb", "misc", "leg"))
-    project.reject(Correction(SECOND, "top", "top", "leg"))
+    project.confirm(LabelCorrection(FIRST, "crumb", "misc", "leg"))
+    project.reject(LabelCorrection(SECOND, "top", "top", "leg"))
     return project
 
 
@@ -58,7 +58,7 @@ def test_what_was_said_means_the_same_by_the_other_name(tmp_path: Path) -> None:
     assert said.answers[0].action == "Merge as foot"
     assert said.ids == (f"2:{THIRD}", f"{FIRST}#crumb=foot", f"{SECOND}#top=foot")
     assert project.take_back(f"{FIRST}#crumb=foot") is None
-    assert project.mesh(FIRST).named("crumb").label == "misc"
+    assert project.mesh(FIRST).hull_of("crumb").label == "misc"
     program = project.program()
     assert program and program.labels == ("top", "foot", "misc")
     assert str(program.rules[0]) == "Diff(Attach(Is(foot), Is(top)), Geo(Is(foot), +Z)) => Merge as foot"
@@ -68,13 +68,13 @@ def test_what_was_said_means_the_same_by_the_other_name(tmp_path: Path) -> None:
 def test_a_learned_program_stands_as_it_stood(tmp_path: Path) -> None:
     project = learned(tmp_path / "a")
     project.rename_label("leg", "foot")
-    assert not project.standing().by_hand and not project.standing().outdated
+    assert not project.program_state().by_hand and not project.program_state().outdated
     project.set_labels(FIRST, {"crumb": "foot"})
     project.rename_label("foot", "leg")
-    assert project.standing().outdated and not project.standing().by_hand
+    assert project.program_state().outdated and not project.program_state().by_hand
     by_hand = saying(tmp_path / "b")
     by_hand.rename_label("leg", "foot")
-    assert by_hand.standing().by_hand
+    assert by_hand.program_state().by_hand
 
 
 def test_what_is_learned_after_a_renaming_is_the_renamed_program(tmp_path: Path) -> None:
@@ -138,7 +138,7 @@ def test_any_name_that_a_program_can_quote_will_do(tmp_path: Path, name: str) ->
     project = saying(tmp_path)
     project.rename_label("leg", name)
     program = project.program()
-    assert program and name in program.used_labels
+    assert program and name in program.labels_in_use
     assert [step.label for step in project.steps(FIRST)] == [None, name]
 
 

@@ -6,7 +6,7 @@ import pytest
 from hypothesis import HealthCheck, given
 from hypothesis import strategies as st
 
-from meshforge.errors import ProjectError, UsageError
+from meshforge.common import ProjectError, UsageError
 from meshforge.language import Action, Delete, Each, Merge, Replace, Scale
 from meshforge.project import Project
 from meshforge.synthesis import Answer, Step

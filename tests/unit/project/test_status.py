@@ -6,10 +6,11 @@ from pathlib import Path
 
 import pytest
 
-from meshforge.errors import ProjectError
+from meshforge.batch import IN_PROCESS
+from meshforge.common import ProjectError
 from meshforge.formats import load
 from meshforge.language import Delete, Program
-from meshforge.project import AssetStatus, Project, Standing, Status, first_to_show
+from meshforge.project import AssetStatus, ProgramState, Project, Status, suggest_first_demonstration
 from meshforge.synthesis import Step
 from tests.unit.batch.families import PROGRAM, label_of, table_boxes, write_table
 from tests.unit.project.tables import FIRST, SECOND, STEPS, THIRD, applied, demonstrated, fresh, labelled, learned
@@ -38,14 +39,14 @@ def test_the_next_step_leads_from_assets_to_checked_outputs(tmp_path: Path) -> N
 
 def test_the_asset_that_tells_most_is_advised_and_one_that_cannot_be_read_passed_over(tmp_path: Path) -> None:
     project = labelled(tmp_path)
-    first = first_to_show(project, project.assets())
+    first = suggest_first_demonstration(project, project.assets())
     advised = of(project).next
     assert first in project.assets()
     assert f"best first on {first}." in advised.say
     assert first in (advised.command or "")
     project.path(first).write_text("no obj")
-    assert first_to_show(project, project.assets()) not in (first, None)
-    assert first_to_show(project, ()) is None
+    assert suggest_first_demonstration(project, project.assets()) not in (first, None)
+    assert suggest_first_demonstration(project, ()) is None
 
 
 def test_labels_that_lie_nowhere_are_asked_for(tmp_path: Path) -> None:
@@ -69,7 +70,7 @@ def test_where_some_assets_are_labelled_their_labels_are_to_be_carried_over(tmp_
     assert "propagate" not in str(of(project).next.command)
     project.set_labels("a.obj", {name: label_of(name) for name in table_boxes()})
     advice = of(project).next
-    assert advice.say == "2 assets, first b.obj, have no label: carry over those of the labelled assets."
+    assert advice.say == "2 assets, first b.obj, have no label: propagate those of the labelled assets."
     assert advice.command == f"meshforge label {project.folder} --with propagate"
     project.propagate_labels()
     assert "demonstrate" in str(of(project).next.command)
@@ -105,7 +106,7 @@ def test_what_changed_since_the_output_was_made_is_named(tmp_path: Path) -> None
     (project.folder / "program.mf").write_text(PROGRAM.replace("Each(Merge)", "Delete"))
     assert [a.stale for a in of(project).assets] == [("asset", "program"), ("labels", "program"), ("program", "output")]
     assert of(project).next.command == f"meshforge apply {project.folder}"
-    list(project.apply(workers=0))
+    list(project.apply(execution=IN_PROCESS))
     assert all(a.is_done for a in of(project).assets)
 
 
@@ -126,7 +127,7 @@ def test_a_template_that_changed_makes_outputs_stale(tmp_path: Path) -> None:
     project = learned(tmp_path)
     (project.folder / "program.mf").write_text('labels top\nIs(top) => Replace("slab.obj")\n')
     write_table(project.folder / "templates/slab.obj")
-    list(project.apply(workers=0))
+    list(project.apply(execution=IN_PROCESS))
     assert asset(project, FIRST).stale == ()
     write_table(project.folder / "templates/slab.obj", 2.0)
     assert asset(project, FIRST).stale == ("templates",)
@@ -135,7 +136,7 @@ def test_a_template_that_changed_makes_outputs_stale(tmp_path: Path) -> None:
 def test_a_failure_is_told_with_its_message(tmp_path: Path) -> None:
     project = learned(tmp_path)
     (project.folder / "labels" / f"{THIRD}.json").unlink()
-    list(project.apply(workers=0))
+    list(project.apply(execution=IN_PROCESS))
     found = asset(project, THIRD)
     assert found.output == "failed" and found.error and "no labels" in found.error
     assert "fails on 1 of 3 assets, first on table2/model.obj" in of(project).next.say
@@ -176,7 +177,7 @@ def test_a_review_counts_until_the_output_changes(tmp_path: Path) -> None:
     kept = json.loads((project.folder / "review.json").read_text())["assets"]
     assert kept[SECOND]["verdict"] == "flagged" and kept[SECOND]["note"] == "left leg"
     project.set_labels(FIRST, {"crumb": "leg"})
-    list(project.apply(workers=0))
+    list(project.apply(execution=IN_PROCESS))
     assert [a.review for a in of(project).assets] == [None, "flagged", None]
     project.review(SECOND, None)
     assert project.reviews().keys() == {FIRST}
@@ -193,7 +194,7 @@ def test_several_outputs_are_reviewed_in_one_go_or_none_is(tmp_path: Path) -> No
     assert [a.review for a in of(project).assets] == ["accepted", None, "accepted"]
     assert [a.review_note for a in of(project).assets] == ["fine", None, "fine"]
     (project.folder / "labels" / f"{SECOND}.json").unlink()
-    list(project.apply(workers=0))
+    list(project.apply(execution=IN_PROCESS))
     before = (project.folder / "review.json").read_bytes()
     with pytest.raises(ProjectError, match=f"{SECOND} has no output to be flagged"):
         project.review([FIRST, SECOND], "flagged")
@@ -209,7 +210,7 @@ def test_the_status_of_some_assets_is_theirs_in_the_status_of_all(tmp_path: Path
     project.correct(SECOND, ["top"], Delete())
     project.accept(Program.parse('labels top\nIs(top) => Replace("slab.obj")\n'))
     write_table(project.folder / "templates/slab.obj")
-    list(project.apply(workers=0))
+    list(project.apply(execution=IN_PROCESS))
     project.set_labels(THIRD, {"crumb": "leg"})
     project.review(FIRST, "flagged")
     every = of(project)
@@ -254,7 +255,7 @@ def test_an_output_is_told_by_its_hulls_and_its_digest(tmp_path: Path) -> None:
     first = asset(project, FIRST)
     assert (first.hulls, first.after, first.corrections) == (6, 3, 0) and first.output_digest
     project.correct(FIRST, ["top"], Delete())
-    list(project.apply(workers=0))
+    list(project.apply(execution=IN_PROCESS))
     again = asset(project, FIRST)
     assert (again.after, again.corrections) == (2, 1)
     assert again.output_digest not in (first.output_digest, None)
@@ -264,23 +265,23 @@ def test_an_output_is_told_by_its_hulls_and_its_digest(tmp_path: Path) -> None:
 
 
 def test_a_program_stands_by_what_it_was_learned_from(tmp_path: Path) -> None:
-    assert demonstrated(tmp_path / "a").standing() == Standing()
+    assert demonstrated(tmp_path / "a").program_state() == ProgramState()
     project = learned(tmp_path / "b")
-    assert project.standing() == Standing()
+    assert project.program_state() == ProgramState()
     project.demonstrate(SECOND, STEPS[:1])
-    assert project.standing() == Standing(outdated=True)
+    assert project.program_state() == ProgramState(outdated=True)
     for text in ("labels top\nAll => Merge\n", "nonsense"):
         (project.folder / "program.mf").write_text(text)
-        assert project.standing() == Standing(by_hand=True)
+        assert project.program_state() == ProgramState(by_hand=True)
     project.synthesize()
-    assert project.standing() == Standing()
+    assert project.program_state() == ProgramState()
     (project.folder / ".meshforge/learned.json").unlink()
-    assert project.standing() == Standing(by_hand=True)
+    assert project.program_state() == ProgramState(by_hand=True)
 
 
 def test_only_some_assets_are_edited_where_that_is_asked(tmp_path: Path) -> None:
     project = learned(tmp_path)
-    assert [outcome.asset for outcome in project.apply([THIRD, FIRST], workers=0)] == [FIRST, THIRD]
+    assert [outcome.asset for outcome in project.apply([THIRD, FIRST], execution=IN_PROCESS)] == [FIRST, THIRD]
     assert [a.output for a in of(project).assets] == ["edited", "none", "edited"]
     with pytest.raises(ProjectError, match="there is no asset 'nobody'"):
         project.apply(["nobody"])

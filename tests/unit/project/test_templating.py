@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from meshforge.errors import ProjectError
+from meshforge.common import ProjectError
 from meshforge.language import Program, Replace
 from meshforge.synthesis import Step
 from tests.unit.batch.families import Corner, obj, tree

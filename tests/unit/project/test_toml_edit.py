@@ -6,8 +6,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from meshforge.errors import ProjectError
-from meshforge.project.toml_edit import Value, set_value
+from meshforge.common import ProjectError
+from meshforge.store.settings import TomlValue, set_value
 from tests.examples import examples
 
 TEXT = """\
@@ -87,6 +87,6 @@ def test_an_indented_array_line_that_looks_like_a_table_is_none() -> None:
     key=st.sampled_from(["name", "vocabulary", "orient", "fresh"]),
     value=st.text(st.characters(exclude_categories=["Cs"])) | st.lists(st.text("ab\"'#\\é\n"), max_size=3),
 )
-def test_whatever_is_set_reads_back_and_the_rest_as_before(key: str, value: Value) -> None:
+def test_whatever_is_set_reads_back_and_the_rest_as_before(key: str, value: TomlValue) -> None:
     before, after = tomllib.loads(TEXT), tomllib.loads(set_value(TEXT, key, value))
     assert after == {**before, key: value}

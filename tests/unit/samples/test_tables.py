@@ -8,12 +8,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from meshforge.asset import Asset
 from meshforge.formats import load, read
 from meshforge.language import (
     All,
     Attach,
-    Base,
+    BaseExtractor,
     Diff,
     Extractor,
     Geo,
@@ -26,12 +25,12 @@ from meshforge.language import (
     apply_rule,
     orient_mesh,
     select_mask,
-    size,
-    stage,
+    size_of,
+    to_canonical_frame,
 )
 from meshforge.language.syntax import DIRECTIONS
 from meshforge.samples import TABLES
-from meshforge.symbolic import SymbolicMesh, mask_of
+from meshforge.symbolic import Asset, SymbolicMesh, mask_of
 from script.samples.__main__ import make_table, write_common
 from script.samples.family import FAMILY
 from script.samples.part import LABELS
@@ -117,7 +116,7 @@ def test_it_comes_to_stand_upright_and_square(name: str) -> None:
 def test_the_edited_top_is_as_high_and_as_wide_as_the_top_was(name: str) -> None:
     back = recipe(name).pose.inverse()
     (box,) = (hull for hull in result(name).mesh.hulls if hull.name in result(name).trace[1].made)
-    made = box.moved(back).aabb
+    made = box.move(back).aabb
     parts = [part for part in recipe(name).parts if part.label == "panel"]
     bounds = np.array([part.solid.bounding_box() for part in parts])
     top = bounds[bounds[:, 5] > bounds[:, 5].max() - 0.1]
@@ -135,7 +134,7 @@ def test_drawers_stay_clear_of_the_top_the_legs_and_each_other(name: str) -> Non
 
 def small_extractors() -> list[Extractor]:
     """Every extractor of at most three nodes over the family's labels."""
-    base: list[Base] = [All(), *(Is(label) for label in LABELS)]
+    base: list[BaseExtractor] = [All(), *(Is(label) for label in LABELS)]
     pairs = [(a, b) for a in base for b in base]
     return [
         *base,
@@ -147,13 +146,15 @@ def small_extractors() -> list[Extractor]:
 
 def test_the_two_demonstrated_tables_leave_no_other_extractor_as_small() -> None:
     shown = ("table_03", "table_08")
-    current = [stage(mesh(name), program().orient)[0] for name in shown]
+    current = [to_canonical_frame(mesh(name), program().orient)[0] for name in shown]
     for number, rule in enumerate(program().rules):
         picked = [result(name).trace[number].selected for name in shown]
         wanted = [mask_of(m.index[n] for n in names) for names, m in zip(picked, current, strict=True)]
-        known = size(rule.extractor)
+        known = size_of(rule.extractor)
         fitting = [
-            e for e in small_extractors() if size(e) <= known and [select_mask(e, m, 0.05) for m in current] == wanted
+            e
+            for e in small_extractors()
+            if size_of(e) <= known and [select_mask(e, m, 0.05) for m in current] == wanted
         ]
         assert fitting == [rule.extractor]
         current = [apply_rule(m, rule, templates())[1].mesh for m in current]

@@ -5,10 +5,10 @@ from __future__ import annotations
 import pytest
 
 from meshforge.language import ACTIONS, OPERATORS, parse_action, parse_extractor
-from meshforge.studio.showing.language import language_view
-from meshforge.studio.wire.language import ActionForm
+from meshforge.studio.queries.programs import build_language_view
+from meshforge.studio.wire.program import ActionForm
 
-VIEW = language_view()
+VIEW = build_language_view()
 VALUES = {"file": '"part.obj"', "factor": "2"}
 
 

@@ -9,15 +9,15 @@ from pathlib import Path
 
 import pytest
 
-from meshforge.errors import MeshForgeError, ProgramError
+from meshforge.common import MeshForgeError, ProgramError
 from meshforge.language import Program, parse_action, parse_extractor, select
-from meshforge.project import Project, looked_at
+from meshforge.project import Project, select_assets
 from meshforge.samples import TABLES
-from meshforge.studio.learner import Learner, Superseded, work
-from meshforge.studio.learner.bell import Bell
-from meshforge.studio.learner.line import Line
-from meshforge.studio.learner.reach import Origins
-from meshforge.studio.learner.shelf import LIFE, Shelf, Stopped
+from meshforge.studio.learning import process
+from meshforge.studio.learning.process import RENEW_AFTER, FamilyCache, ReadInterrupted
+from meshforge.studio.learning.queue import CancelFlag, LatestOnlyQueue, Superseded
+from meshforge.studio.learning.results import HullOrigins
+from meshforge.studio.learning.scheduler import Learner
 from meshforge.studio.workers import Workers
 from meshforge.symbolic import SymbolicMesh
 from meshforge.synthesis import Step
@@ -68,7 +68,7 @@ def test_the_bundled_program_is_learned_and_kept(project: Project, learner: Lear
 
 
 def test_reach_is_what_the_program_selects_on_every_asset(project: Project, learner: Learner) -> None:
-    rows = learner.reach(1, BUNDLED).result()
+    rows = learner.reach(BUNDLED).result()
     assert [row.asset for row in rows] == list(project.assets())
     program = Program.parse(BUNDLED)
     templates = project.templates(program.templates)
@@ -82,14 +82,14 @@ def test_reach_is_what_the_program_selects_on_every_asset(project: Project, lear
 
 def test_reach_leads_made_hulls_back_to_what_they_were_made_of(project: Project, learner: Learner) -> None:
     text = "Is(leg) => Each(Merge) as post\nIs(post) => Scale(all, 2) as post\nIs(post) => Delete\n"
-    (row,) = (row for row in learner.reach(1, text).result() if row.asset == OTHER)
+    (row,) = (row for row in learner.reach(text).result() if row.asset == OTHER)
     legs = tuple(k for k, hull in enumerate(project.mesh(OTHER).hulls) if hull.label == "leg")
     assert row.rules == (legs, legs, legs)
 
 
 def test_a_hull_made_of_made_hulls_has_all_their_origins() -> None:
     mesh = SymbolicMesh(())
-    origins = Origins(mesh)
+    origins = HullOrigins(mesh)
     origins._own.update({"a": frozenset({0}), "b": frozenset({1}), "c": frozenset({2})})
     origins.add(["a~1"], [["a", "b"]])
     origins.add(["a~2"], [["a~1", "c"]])
@@ -100,7 +100,7 @@ def test_an_asset_on_which_the_program_fails_says_why(fresh: tuple[Project, Lear
     project, learner = fresh
     mesh = project.mesh(OTHER)
     project.set_labels(OTHER, {hull.name: None for hull in mesh.hulls if hull.label == "leg"})
-    (row,) = (row for row in learner.reach(1, BUNDLED).result() if row.asset == OTHER)
+    (row,) = (row for row in learner.reach(BUNDLED).result() if row.asset == OTHER)
     assert row.error
     assert "the landmark Is(leg) selects nothing" in row.error
 
@@ -111,7 +111,7 @@ def test_an_extractor_is_generalised_as_the_rule_meets_the_assets(project: Proje
     program, extractor = Program.parse(BUNDLED), parse_extractor("Geo(All, +Z)")
     before = Program(program.labels, program.orient, program.rules[:2])
     for asset, own in found.items():
-        mesh, met = project.mesh(asset), project.met(asset, 3, program)
+        mesh, met = project.mesh(asset), project.mesh_before_rule(asset, 3, program)
         made = {n: s for line in before.run(mesh).trace for n, s in zip(line.made, line.sources, strict=True)}
         names = [name for k in select(extractor, met) for name in made.get(met.hulls[k].name, (met.hulls[k].name,))]
         assert own == tuple(sorted(mesh.index[name] for name in names))
@@ -126,14 +126,14 @@ def test_without_a_program_an_extractor_is_generalised_on_the_turned_assets(proj
 def test_of_a_very_large_family_only_what_is_looked_at_while_learning_is_held_in_memory(
     project: Project, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("meshforge.project.family.MOST", 4)
-    bell = Bell()
-    rows = work.reach(project.folder, bell.ticket("reach"), BUNDLED)
-    found = work.generalise(project.folder, bell.ticket("generalise"), "Is(leg)", 1, None)
-    bell.close()
+    monkeypatch.setattr("meshforge.project.family.MOST_ASSETS", 4)
+    flag = CancelFlag()
+    rows = process.compute_reach(project.folder, flag.make_token("reach"), BUNDLED)
+    found = process.generalise(project.folder, flag.make_token("generalise"), "Is(leg)", 1, None)
+    flag.close()
     assert rows and found
     assert len(project.assets()) > len(rows) >= 4
-    assert [row.asset for row in rows] == list(found.assets) == list(looked_at(project))
+    assert [row.asset for row in rows] == list(found.assets) == list(select_assets(project))
 
 
 def test_a_wrong_extractor_is_one_clear_error(learner: Learner) -> None:
@@ -190,7 +190,7 @@ def test_an_interrupted_lesson_comes_to_its_end_and_the_next_one_is_whole(fresh:
 def test_of_many_calls_only_the_last_is_done(fresh: tuple[Project, Learner]) -> None:
     _, learner = fresh
     lessons = [learner.learn(number, take=False) for number in range(20)]
-    reaches = [learner.reach(number, BUNDLED) for number in range(20)]
+    reaches = [learner.reach(BUNDLED) for _ in range(20)]
     assert lessons[-1].result().status == "found"
     assert reaches[-1].result()
     for lesson in lessons[1:-1]:
@@ -201,15 +201,15 @@ def test_of_many_calls_only_the_last_is_done(fresh: tuple[Project, Learner]) -> 
 
 def test_the_death_of_the_process_is_one_message_and_the_next_call_has_a_new_one() -> None:
     workers = Workers(1)
-    line = Line(workers)
+    line = LatestOnlyQueue(workers)
     try:
-        died: Future[int] = line.put("lesson", os._exit, 3)
+        died: Future[int] = line.put("learn", os._exit, 3)
         waiting: Future[int] = line.put("reach", abs, -4)
         error = died.exception()
         assert isinstance(error, MeshForgeError)
         assert "died" in str(error)
         assert waiting.result() == 4
-        assert line.put("lesson", abs, -5).result() == 5
+        assert line.put("learn", abs, -5).result() == 5
     finally:
         line.close()
         workers.close()
@@ -217,16 +217,16 @@ def test_the_death_of_the_process_is_one_message_and_the_next_call_has_a_new_one
 
 def test_a_learner_goes_on_after_the_death_of_its_process(fresh: tuple[Project, Learner]) -> None:
     _, learner = fresh
-    died: Future[int] = learner._line.put("generalise", os._exit, 3)
+    died: Future[int] = learner._queue.put("generalise", os._exit, 3)
     assert isinstance(died.exception(), MeshForgeError)
     assert learner.learn(1, take=False).result().status == "found"
 
 
 def test_a_call_that_nobody_waits_for_any_more_is_passed_over() -> None:
     workers = Workers(1)
-    line = Line(workers)
+    line = LatestOnlyQueue(workers)
     try:
-        first: Future[int] = line.put("lesson", abs, -1)
+        first: Future[int] = line.put("learn", abs, -1)
         second: Future[int] = line.put("reach", abs, -2)
         second.cancel()
         third: Future[int] = line.put("generalise", abs, -3)
@@ -236,43 +236,43 @@ def test_a_call_that_nobody_waits_for_any_more_is_passed_over() -> None:
         workers.close()
 
 
-def test_the_bell_is_heard_by_work_of_its_kind_that_was_begun_before() -> None:
-    bell = Bell()
+def test_a_cancel_flag_stops_calls_of_its_kind_that_were_made_before() -> None:
+    flag = CancelFlag()
     try:
-        lesson, reach = bell.ticket("lesson"), bell.ticket("reach")
+        lesson, reach = flag.make_token("learn"), flag.make_token("reach")
         assert not lesson.stop()
-        bell.ring("lesson")
+        flag.cancel("learn")
         assert lesson.stop()
         assert not reach.stop()
-        assert not bell.ticket("lesson").stop()
+        assert not flag.make_token("learn").stop()
     finally:
-        bell.close()
-    assert not bell.path.exists()
+        flag.close()
+    assert not flag.path.exists()
 
 
 def test_the_shelf_reads_again_only_what_changed(tmp_path: Path) -> None:
-    project, shelf = demo_project(tmp_path), Shelf()
-    before = dict(shelf.meshes(project, project.assets(), go_on))
+    project, shelf = demo_project(tmp_path), FamilyCache()
+    before = dict(shelf.read_meshes(project, project.assets(), go_on))
     project.set_labels(OTHER, {"convex_00": "misc"})
     project.cut("table_03.obj", "convex_00", before["table_03.obj"].hulls[0].shape.centroid.tolist(), (1, 0, 0))
     project.path("table_04.obj").write_text("nonsense\n")
-    after = dict(shelf.meshes(project, project.assets(), go_on))
+    after = dict(shelf.read_meshes(project, project.assets(), go_on))
     assert after["table_01.obj"] is before["table_01.obj"]
-    assert after[OTHER].named("convex_00").label == "misc"
+    assert after[OTHER].hull_of("convex_00").label == "misc"
     assert after[OTHER].hulls[1].shape is before[OTHER].hulls[1].shape
     assert len(after["table_03.obj"].hulls) == len(before["table_03.obj"].hulls) + 1
     assert set(before) - set(after) == {"table_04.obj"}
-    with pytest.raises(Stopped):
-        list(shelf.meshes(project, project.assets(), lambda: True))
+    with pytest.raises(ReadInterrupted):
+        list(shelf.read_meshes(project, project.assets(), lambda: True))
 
 
 def test_after_many_lessons_the_shelf_hands_out_the_same_assets_anew(tmp_path: Path) -> None:
-    project, shelf = demo_project(tmp_path), Shelf()
-    before = dict(shelf.meshes(project, [OTHER], go_on))[OTHER]
+    project, shelf = demo_project(tmp_path), FamilyCache()
+    before = dict(shelf.read_meshes(project, [OTHER], go_on))[OTHER]
     known = dict(before.graph)
-    for _ in range(LIFE):
-        shelf.grow_older()
-    after = dict(shelf.meshes(project, [OTHER], go_on))[OTHER]
+    for _ in range(RENEW_AFTER):
+        shelf.count_run()
+    after = dict(shelf.read_meshes(project, [OTHER], go_on))[OTHER]
     assert after is not before
     assert after.hulls == before.hulls
     assert dict(after.graph) == known
@@ -285,7 +285,7 @@ def test_a_question_tells_what_each_choice_reads(fresh: tuple[Project, Learner])
     assert lesson.status == "ambiguous"
     assert lesson.question
     asked, program = lesson.question, Program.parse(lesson.program or "")
-    met = project.met(asked.asset, asked.rule, program)
+    met = project.mesh_before_rule(asked.asset, asked.rule, program)
     for choice in asked.choices:
         found = select(parse_extractor(choice.extractor), met)
         assert [met.hulls[k].name for k in sorted(found)] == list(choice.select)
@@ -302,6 +302,6 @@ def test_a_rule_that_no_extractor_fits_says_what_came_nearest(fresh: tuple[Proje
     assert (lesson.status, lesson.program) == ("none", None)
     assert lesson.why
     assert lesson.nearest
-    mesh = project.met("table_03.obj", 1, Program(orient=project.orientation))
+    mesh = project.mesh_before_rule("table_03.obj", 1, Program(orient=project.orientation))
     chosen = {mesh.hulls[k].name for k in select(parse_extractor(lesson.nearest.extractor), mesh)}
     assert (chosen - odd, odd - chosen) == (set(lesson.nearest.extra), set(lesson.nearest.missing))

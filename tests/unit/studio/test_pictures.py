@@ -11,9 +11,9 @@ import pytest
 from PIL import Image
 
 from meshforge.project import Project
-from meshforge.studio.showing import pictures
-from meshforge.studio.showing.shapes import upright
-from meshforge.views import thumbnail
+from meshforge.rendering import render_thumbnail
+from meshforge.studio.queries import assets
+from meshforge.studio.queries.assets import compute_upright
 from tests.studio_project import demo_project
 
 TABLE = "table_02.obj"
@@ -34,26 +34,28 @@ def of_png(data: bytes) -> np.ndarray[tuple[int, ...], np.dtype[np.uint8]]:
 
 def test_a_thumbnail_keeps_its_numbers_as_a_png(project: Project) -> None:
     mesh = project.mesh(TABLE)
-    pose = upright(project, mesh).pose
-    assert np.array_equal(of_png(pictures.thumbnail(mesh, pose)), thumbnail(mesh, pose))
+    pose = compute_upright(project, mesh).pose
+    assert np.array_equal(of_png(assets.draw_thumbnail(mesh, pose)), render_thumbnail(mesh, pose))
 
 
 @pytest.mark.parametrize("rule", [1, 4])
 def test_a_picture_for_a_question_shows_the_asset_as_the_rule_meets_it(project: Project, rule: int) -> None:
     mesh, program = project.mesh(TABLE), project.program()
     assert program
-    packet = pictures.met(project, TABLE, mesh, rule, program)
+    packet = assets.draw_rule_picture(project, TABLE, mesh, rule, program)
     length = int.from_bytes(packet[:4], "little")
-    seen = project.met(TABLE, rule, program)
+    seen = project.mesh_before_rule(TABLE, rule, program)
     names = json.loads(packet[4 : 4 + length])["names"]
     assert names == [hull.name for hull in seen.hulls]
     pixels = of_png(packet[4 + length :])
     assert pixels.shape == (540, 720, 4)
     assert pixels[..., 1].max() <= len(names)
-    assert np.array_equal(pixels, thumbnail(seen, size=(720, 540)))
+    assert np.array_equal(pixels, render_thumbnail(seen, size=(720, 540)))
 
 
 def test_without_a_program_the_picture_shows_the_asset_as_it_is_turned(project: Project, tmp_path: Path) -> None:
     fresh = demo_project(tmp_path)
     mesh, program = project.mesh(TABLE), project.program()
-    assert pictures.met(fresh, TABLE, mesh, 1, None) == pictures.met(project, TABLE, mesh, 1, program)
+    assert assets.draw_rule_picture(fresh, TABLE, mesh, 1, None) == assets.draw_rule_picture(
+        project, TABLE, mesh, 1, program
+    )

@@ -8,12 +8,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from meshforge.asset import Asset, Body, Document, Geom, Opaque, Surface
 from meshforge.geometry import Cylinder, Pose, Shape, Sphere, convex_hull
-from meshforge.language import parse_action, stage
+from meshforge.language import parse_action, to_canonical_frame
 from meshforge.project import Project
-from meshforge.studio.showing.shapes import asset_packet, asset_view, hull_view, upright, visual_packet
-from meshforge.symbolic import SymbolicMesh
+from meshforge.studio.queries.assets import build_asset_view, compute_upright
+from meshforge.studio.queries.packets import hull_view, pack_asset, pack_visual
+from meshforge.symbolic import Asset, Body, Document, Geom, Opaque, Surface, SymbolicMesh
 from meshforge.synthesis import Step
 from tests.studio_project import demo_project
 from tests.unit.studio.packets import read_packet
@@ -38,7 +38,7 @@ def triangle(color: tuple[float, float, float, float] | None = None) -> Surface:
 
 def test_a_packet_holds_every_hull_in_its_order(project: Project) -> None:
     mesh = project.mesh(TABLE)
-    header, shapes = read_packet(asset_packet(mesh))
+    header, shapes = read_packet(pack_asset(mesh))
     assert [row["name"] for row in header["rows"]] == [hull.name for hull in mesh.hulls]
     for hull, (vertices, faces) in zip(mesh.hulls, shapes, strict=True):
         assert np.allclose(vertices, hull.vertices, atol=1e-6)
@@ -47,7 +47,7 @@ def test_a_packet_holds_every_hull_in_its_order(project: Project) -> None:
 
 def test_round_primitives_come_as_round_as_they_look() -> None:
     mesh = of_shapes(Sphere(Pose.identity(), 0.5), Cylinder(Pose.identity(), 0.5, 1.0))
-    _, ((sphere, _), (cylinder, _)) = read_packet(asset_packet(mesh))
+    _, ((sphere, _), (cylinder, _)) = read_packet(pack_asset(mesh))
     assert len(sphere) > 5 * len(mesh.hulls[0].vertices)
     assert np.allclose(np.linalg.norm(sphere, axis=1), 0.5, atol=1e-6)
     assert np.allclose(cylinder.max(axis=0), (0.5, 0.5, 1.0), atol=1e-6)
@@ -55,16 +55,16 @@ def test_round_primitives_come_as_round_as_they_look() -> None:
 
 def test_opaque_pieces_with_a_surface_follow_the_hulls() -> None:
     opaque = (Opaque("floor", "base", "endless"), Opaque("shell", "base", "it is open", triangle()))
-    header, shapes = read_packet(asset_packet(of_shapes(Sphere(Pose.identity(), 1.0), opaque=opaque)))
+    header, shapes = read_packet(pack_asset(of_shapes(Sphere(Pose.identity(), 1.0), opaque=opaque)))
     assert [row["name"] for row in header["rows"]] == ["part0", "shell"]
     assert np.allclose(shapes[1][0], np.eye(3) + 0.1)
 
 
 def test_visuals_come_with_their_colour_and_none_is_an_empty_packet() -> None:
-    header, shapes = read_packet(visual_packet(of_shapes(visuals=(triangle((1, 0, 0, 1)), triangle()))))
+    header, shapes = read_packet(pack_visual(of_shapes(visuals=(triangle((1, 0, 0, 1)), triangle()))))
     assert [row["rgba"] for row in header["rows"]] == [[1, 0, 0, 1], None]
     assert len(shapes) == 2
-    assert read_packet(visual_packet(of_shapes())) == ({"rows": []}, [])
+    assert read_packet(pack_visual(of_shapes())) == ({"rows": []}, [])
 
 
 def test_a_hull_is_told_with_its_kind_and_measure() -> None:
@@ -77,15 +77,15 @@ def test_a_hull_is_told_with_its_kind_and_measure() -> None:
 
 def test_contacts_are_those_that_a_program_sees(project: Project) -> None:
     mesh = project.mesh(TABLE)
-    seen, _ = stage(mesh, project.orientation)
-    view = asset_view(project, TABLE, mesh)
+    seen, _ = to_canonical_frame(mesh, project.orientation)
+    view = build_asset_view(project, TABLE, mesh)
     assert set(view.contacts) == {(seen.hulls[i].name, seen.hulls[j].name) for i, j in seen.contacts}
     assert view.contact_distance == seen.contact_distance
     assert all(view.contact_distance < miss.gap <= 3 * view.contact_distance for miss in view.near_misses)
 
 
 def test_steps_tell_what_they_make_and_remove(project: Project) -> None:
-    steps = asset_view(project, TABLE, project.mesh(TABLE)).steps
+    steps = build_asset_view(project, TABLE, project.mesh(TABLE)).steps
     assert [step.error for step in steps] == [None] * 5
     assert (steps[0].made, steps[0].removed) == ((), steps[0].select)
     assert steps[2].action == "Each(Merge)"
@@ -98,7 +98,7 @@ def test_a_step_that_cannot_be_done_says_why_and_the_next_ones_go_on(tmp_path: P
     names = [hull.name for hull in mesh.hulls]
     delete = parse_action("Delete")
     project.demonstrate(TABLE, [Step(1, {names[0]}, delete), Step(2, {names[0]}, delete), Step(3, {names[1]}, delete)])
-    steps = asset_view(project, TABLE, mesh).steps
+    steps = build_asset_view(project, TABLE, mesh).steps
     assert steps[1].error
     assert "is gone: an earlier rule removed" in steps[1].error
     assert [step.removed for step in steps] == [(names[0],), (), (names[1],)]
@@ -106,8 +106,8 @@ def test_a_step_that_cannot_be_done_says_why_and_the_next_ones_go_on(tmp_path: P
 
 def test_an_asset_that_the_orientation_cannot_turn_says_so_at_every_step(project: Project) -> None:
     mesh = project.mesh(TABLE)
-    bare = mesh.labelled(dict.fromkeys(mesh.index))
-    view = asset_view(project, TABLE, bare)
+    bare = mesh.with_labels(dict.fromkeys(mesh.index))
+    view = build_asset_view(project, TABLE, bare)
     assert view.unturned is not None
     assert "the landmark Is(leg) selects nothing. Label the hulls that it should select" in view.unturned
     assert "\n" not in view.unturned
@@ -118,7 +118,7 @@ def test_an_asset_that_the_orientation_cannot_turn_says_so_at_every_step(project
 
 def test_upright_brings_the_legs_below_the_panel(project: Project) -> None:
     mesh = project.mesh(TABLE)
-    shown = asset_view(project, TABLE, mesh).upright
+    shown = build_asset_view(project, TABLE, mesh).upright
     assert shown
     turn = np.array(shown).reshape(4, 4)[:3, :3]
     height = {k: np.mean([turn @ h.shape.centroid for h in mesh.hulls if h.label == k], 0) for k in ("leg", "panel")}
@@ -129,9 +129,9 @@ def test_a_file_whose_y_points_up_is_shown_with_z_up(project: Project, tmp_path:
     plain = demo_project(tmp_path, orient="")
     mesh = plain.mesh(TABLE)
     assert mesh.asset
-    assert upright(plain, mesh).pose.rotation.tolist() == np.eye(3).tolist()
-    assert asset_view(plain, TABLE, mesh).upright is None
+    assert compute_upright(plain, mesh).pose.rotation.tolist() == np.eye(3).tolist()
+    assert build_asset_view(plain, TABLE, mesh).upright is None
     standing = replace(mesh, asset=replace(mesh.asset, up="y"))
-    assert upright(plain, standing).pose.apply(np.array([[0.0, 1.0, 0.0]])).tolist() == [[0.0, 0.0, 1.0]]
-    turned = upright(project, standing).pose.rotation
-    assert np.array_equal(turned, upright(project, mesh).pose.rotation)
+    assert compute_upright(plain, standing).pose.apply(np.array([[0.0, 1.0, 0.0]])).tolist() == [[0.0, 0.0, 1.0]]
+    turned = compute_upright(project, standing).pose.rotation
+    assert np.array_equal(turned, compute_upright(project, mesh).pose.rotation)

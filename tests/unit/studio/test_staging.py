@@ -8,10 +8,11 @@ from typing import Any
 import numpy as np
 import pytest
 
-from meshforge.errors import DemonstrationError, MeshForgeError, ProjectError
+from meshforge.batch import IN_PROCESS
+from meshforge.common import DemonstrationError, MeshForgeError, ProjectError
 from meshforge.language import Program, parse_action
 from meshforge.project import Project
-from meshforge.studio.showing import staging
+from meshforge.studio.queries import previews, programs
 from meshforge.studio.wire.requests import PreviewRequest, SelectRequest
 from meshforge.symbolic import SymbolicMesh
 from meshforge.synthesis import Step
@@ -59,7 +60,7 @@ def test_the_first_steps_do_what_as_many_rules_of_the_learned_program_do(
 ) -> None:
     mesh = project.mesh(SHOWN)
     wanted = ran(project, program, SHOWN, steps)
-    header = check_same(staging.staged(project, SHOWN, mesh, steps), mesh, wanted)
+    header = check_same(previews.preview_steps(project, SHOWN, mesh, steps), mesh, wanted)
     assert header["made"] == [hull.name for hull in wanted.hulls if hull.name not in mesh.index]
     assert len(header["trace"]) == steps
     assert header["note"] is None
@@ -71,12 +72,12 @@ def test_a_preview_shows_what_the_step_then_does(tmp_path: Path) -> None:
     mesh = project.mesh(SHOWN)
     legs = ("convex_06~1", "convex_10~1")
     request = PreviewRequest(asset=SHOWN, steps=3, select=legs, action="Each(Replace(cylinder)) as post")
-    header, shapes = read_packet(staging.preview(project, SHOWN, mesh, request))
+    header, shapes = read_packet(previews.preview_action(project, SHOWN, mesh, request))
     assert header["removed"] == list(legs)
     assert header["made"] == ["convex_06~2", "convex_10~2"]
     step = Step(4, legs, parse_action("Each(Replace(cylinder))"), "post")
     project.demonstrate(SHOWN, [*project.steps(SHOWN)[:3], step])
-    after, then = read_packet(staging.staged(project, SHOWN, mesh, 4))
+    after, then = read_packet(previews.preview_steps(project, SHOWN, mesh, 4))
     assert after["hulls"] == header["hulls"]
     assert [row["name"] for row in header["rows"]] == [row["name"] for row in after["rows"]]
     assert all(np.array_equal(a, b) for (a, _), (b, _) in zip(shapes, then, strict=True))
@@ -86,7 +87,7 @@ def test_a_preview_shows_what_the_step_then_does(tmp_path: Path) -> None:
 def test_a_preview_says_what_a_user_should_know(project: Project) -> None:
     mesh = project.mesh(SHOWN)
     request = PreviewRequest(asset=SHOWN, select=("convex_00",), action="Replace(capsule)")
-    header, _ = read_packet(staging.preview(project, SHOWN, mesh, request))
+    header, _ = read_packet(previews.preview_action(project, SHOWN, mesh, request))
     assert header["note"] == "sides of the capsule differ by more than 1%, so it is a hull mesh"
     assert header["trace"][0]["selected"] == ["convex_00"]
 
@@ -97,7 +98,7 @@ def test_a_preview_of_what_cannot_be_done_has_one_clear_message(project: Project
     def refused(select: str, action: str) -> MeshForgeError:
         with pytest.raises(MeshForgeError) as caught:
             request = PreviewRequest(asset=SHOWN, steps=1, select=(select,), action=action)
-            staging.preview(project, SHOWN, mesh, request)
+            previews.preview_action(project, SHOWN, mesh, request)
         return caught.value
 
     assert "'Replce(box)' is no action" in str(refused("convex_00", "Replce(box)"))
@@ -115,13 +116,13 @@ def test_a_step_left_open_does_what_the_program_does(tmp_path: Path) -> None:
     open_steps = [Step(step.rule, None, step.action, step.label) for step in project.steps(SHOWN)[:3]]
     project.demonstrate(OTHER, open_steps)
     mesh = project.mesh(OTHER)
-    check_same(staging.staged(project, OTHER, mesh, 3), mesh, ran(project, program, OTHER, 3))
+    check_same(previews.preview_steps(project, OTHER, mesh, 3), mesh, ran(project, program, OTHER, 3))
 
 
 @pytest.mark.parametrize("text", ["Is(leg)", "Geo(Is(panel), +Z)", "Diff(All, Attach(Is(leg), Is(panel)))"])
 def test_an_extractor_selects_on_the_turned_asset(project: Project, program: Program, text: str) -> None:
     mesh = project.mesh(OTHER)
-    found = staging.selected(project, OTHER, mesh, SelectRequest(asset=OTHER, extractor=text))
+    found = programs.select_hulls(project, OTHER, mesh, SelectRequest(asset=OTHER, extractor=text))
     (rule,) = Program.parse(f"{text} => Delete").rules
     (line,) = Program(orient=program.orient, rules=(rule,)).run(mesh).trace
     assert found.select == line.selected
@@ -131,7 +132,7 @@ def test_an_extractor_selects_on_the_turned_asset(project: Project, program: Pro
 
 def test_an_extractor_selects_what_a_rule_of_the_program_meets(project: Project, program: Program) -> None:
     request = SelectRequest(asset=OTHER, rule=4, extractor="Is(leg)")
-    found = staging.selected(project, OTHER, project.mesh(OTHER), request, program)
+    found = programs.select_hulls(project, OTHER, project.mesh(OTHER), request, program)
     met = ran(project, program, OTHER, 3)
     assert found.select == tuple(hull.name for hull in met.hulls if hull.label == "leg")
     assert "~" in "".join(found.select), "the rule before merged the legs"
@@ -139,7 +140,7 @@ def test_an_extractor_selects_what_a_rule_of_the_program_meets(project: Project,
 
 def test_an_extractor_sees_what_earlier_steps_made(project: Project) -> None:
     request = SelectRequest(asset=SHOWN, steps=3, extractor="Is(leg)")
-    found = staging.selected(project, SHOWN, project.mesh(SHOWN), request)
+    found = programs.select_hulls(project, SHOWN, project.mesh(SHOWN), request)
     assert found.select == ("convex_06~1", "convex_10~1", "convex_14~1", "convex_18~1")
 
 
@@ -154,7 +155,7 @@ def test_an_extractor_sees_what_earlier_steps_made(project: Project) -> None:
 def test_what_is_wrong_with_an_extractor_is_marked_where_it_stands(
     project: Project, text: str, line: int, column: int, message: str
 ) -> None:
-    found = staging.selected(project, OTHER, project.mesh(OTHER), SelectRequest(asset=OTHER, extractor=text))
+    found = programs.select_hulls(project, OTHER, project.mesh(OTHER), SelectRequest(asset=OTHER, extractor=text))
     assert found.mark
     assert (found.mark.line, found.mark.column) == (line, column)
     assert message in found.mark.message
@@ -162,7 +163,7 @@ def test_what_is_wrong_with_an_extractor_is_marked_where_it_stands(
 
 
 def test_guesses_on_a_demonstrated_asset_are_what_was_shown(project: Project, program: Program) -> None:
-    guessed = staging.guesses(project, SHOWN, project.mesh(SHOWN), program).guesses
+    guessed = programs.guess_selections(project, SHOWN, project.mesh(SHOWN), program).guesses
     shown = project.steps(SHOWN)
     assert [set(guess.select) for guess in guessed] == [set(step.select or ()) for step in shown]
     assert [guess.action for guess in guessed] == [str(step.action) for step in shown]
@@ -172,7 +173,7 @@ def test_guesses_on_a_demonstrated_asset_are_what_was_shown(project: Project, pr
 def test_guesses_on_another_asset_are_what_the_program_selects(project: Project, program: Program) -> None:
     mesh = project.mesh(OTHER)
     trace = program.run(mesh, project.templates(program.templates)).trace
-    guessed = staging.guesses(project, OTHER, mesh, program).guesses
+    guessed = programs.guess_selections(project, OTHER, mesh, program).guesses
     assert [guess.select for guess in guessed] == [line.selected for line in trace]
 
 
@@ -181,21 +182,23 @@ def test_a_guess_meets_what_was_shown_before_it(tmp_path: Path) -> None:
     program = project.synthesize().program
     assert program
     project.demonstrate(OTHER, [Step(1, {"convex_09"}, parse_action("Delete"))])
-    guessed = staging.guesses(project, OTHER, project.mesh(OTHER), program).guesses
+    guessed = programs.guess_selections(project, OTHER, project.mesh(OTHER), program).guesses
     assert "convex_09" not in guessed[2].select
     assert (
         "convex_09"
-        in staging.guesses(demo_project(tmp_path / "b"), OTHER, project.mesh(OTHER), program).guesses[2].select
+        in programs.guess_selections(demo_project(tmp_path / "b"), OTHER, project.mesh(OTHER), program)
+        .guesses[2]
+        .select
     )
 
 
 def test_the_result_is_what_the_program_makes_of_it(project: Project, program: Program) -> None:
     mesh = project.mesh(OTHER)
-    packet = staging.result(project, OTHER, mesh, "program", program)
+    packet = previews.preview_result(project, OTHER, mesh, "program", program)
     header = check_same(packet, mesh, ran(project, program, OTHER))
     assert header["removed"]
     assert [line["rule"] for line in header["trace"]] == [1, 2, 3, 4, 5]
-    nothing, _ = read_packet(staging.result(project, OTHER, mesh, "program", None))
+    nothing, _ = read_packet(previews.preview_result(project, OTHER, mesh, "program", None))
     assert (nothing["made"], nothing["removed"]) == ([], [])
 
 
@@ -205,16 +208,16 @@ def test_an_edit_by_hand_is_previewed_as_it_is_then_replayed(tmp_path: Path) -> 
     mesh = project.mesh(OTHER)
     panel = ran(project, program, OTHER).hulls[-1].name if program else ""
     request = PreviewRequest(asset=OTHER, select=(panel,), action="Scale(all, 0.5)", result=True)
-    header, shapes = read_packet(staging.preview(project, OTHER, mesh, request))
+    header, shapes = read_packet(previews.preview_action(project, OTHER, mesh, request))
     assert header["removed"] == [panel]
     assert len(header["made"]) == 1
     project.correct(OTHER, [panel], parse_action("Scale(all, 0.5)"))
-    after, then = read_packet(staging.result(project, OTHER, mesh, "program", program))
+    after, then = read_packet(previews.preview_result(project, OTHER, mesh, "program", program))
     assert after["hulls"] == header["hulls"]
     assert all(np.array_equal(a, b) for (a, _), (b, _) in zip(shapes, then, strict=True))
     with pytest.raises(ProjectError, match="after the program there is no hull 'nobody'"):
         wrong = PreviewRequest(asset=OTHER, select=("nobody",), action="Delete", result=True)
-        staging.preview(project, OTHER, mesh, wrong)
+        previews.preview_action(project, OTHER, mesh, wrong)
 
 
 @pytest.mark.slow
@@ -224,10 +227,10 @@ def test_the_output_is_what_was_written(tmp_path: Path) -> None:
     assert program
     mesh = project.mesh(OTHER)
     with pytest.raises(ProjectError, match="it has no output yet"):
-        staging.result(project, OTHER, mesh, "output", None)
-    list(project.apply(workers=0))
-    header, _ = read_packet(staging.result(project, OTHER, mesh, "output", None))
-    now, _ = read_packet(staging.result(project, OTHER, mesh, "program", program))
+        previews.preview_result(project, OTHER, mesh, "output", None)
+    list(project.apply(execution=IN_PROCESS))
+    header, _ = read_packet(previews.preview_result(project, OTHER, mesh, "output", None))
+    now, _ = read_packet(previews.preview_result(project, OTHER, mesh, "program", program))
     assert {hull["name"] for hull in header["hulls"]} == {hull["name"] for hull in now["hulls"]}
     assert {row["name"] for row in header["rows"]} == {row["name"] for row in now["rows"]}
     assert header["trace"] == now["trace"]
@@ -236,6 +239,6 @@ def test_the_output_is_what_was_written(tmp_path: Path) -> None:
 
 def test_steps_on_an_asset_that_cannot_be_turned_have_one_clear_message(project: Project) -> None:
     mesh = project.mesh(SHOWN)
-    bare = mesh.labelled(dict.fromkeys(mesh.index))
+    bare = mesh.with_labels(dict.fromkeys(mesh.index))
     with pytest.raises(MeshForgeError, match=r"the landmark Is\(leg\) selects nothing"):
-        staging.staged(project, SHOWN, bare, 1)
+        previews.preview_steps(project, SHOWN, bare, 1)

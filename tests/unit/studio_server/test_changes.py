@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from meshforge.studio.state.changes import Changes, changes_of
+from meshforge.studio.session.file_sync import FileChanges, changes_of
 from tests.unit.project.tables import FIRST, SECOND, fresh
 
 ONE = frozenset({FIRST})
@@ -13,26 +13,26 @@ ONE = frozenset({FIRST})
 @pytest.mark.parametrize(
     ("name", "means"),
     [
-        (f"labels/{FIRST}.json", Changes(assets=ONE, lesson=True)),
-        (f"demonstrations/{FIRST}.json", Changes(assets=ONE, lesson=True)),
-        (f"corrections/{FIRST}.json", Changes(assets=ONE)),
-        (f"edited/.meshforge/stamps/{FIRST}.json", Changes(assets=ONE)),
-        (f"prepared/{FIRST}/preparation.json", Changes(assets=ONE, shapes=ONE, lesson=True)),
-        (f"../assets/{FIRST}", Changes(assets=ONE, shapes=ONE, lesson=True)),
-        ("answers.json", Changes(lesson=True)),
-        ("review.json", Changes(reviews=True, lesson=True)),
-        ("program.mf", Changes(program=True, lesson=True)),
-        (".meshforge/learned.json", Changes(program=True)),
-        ("labels/gone.obj.json", Changes(lesson=True)),
-        ("notes.txt", Changes()),
+        (f"labels/{FIRST}.json", FileChanges(assets=ONE, learning=True)),
+        (f"demonstrations/{FIRST}.json", FileChanges(assets=ONE, learning=True)),
+        (f"corrections/{FIRST}.json", FileChanges(assets=ONE)),
+        (f"edited/.meshforge/stamps/{FIRST}.json", FileChanges(assets=ONE)),
+        (f"prepared/{FIRST}/preparation.json", FileChanges(assets=ONE, shapes=ONE, learning=True)),
+        (f"../assets/{FIRST}", FileChanges(assets=ONE, shapes=ONE, learning=True)),
+        ("answers.json", FileChanges(learning=True)),
+        ("review.json", FileChanges(reviews=True, learning=True)),
+        ("program.mf", FileChanges(program=True, learning=True)),
+        (".meshforge/learned.json", FileChanges(program=True)),
+        ("labels/gone.obj.json", FileChanges(learning=True)),
+        ("notes.txt", FileChanges()),
     ],
 )
-def test_a_file_that_changed_means_what_depends_on_it(tmp_path: Path, name: str, means: Changes) -> None:
+def test_a_file_that_changed_means_what_depends_on_it(tmp_path: Path, name: str, means: FileChanges) -> None:
     assert changes_of(fresh(tmp_path), [name]) == means
 
 
 def test_settings_concern_every_asset(tmp_path: Path) -> None:
     project = fresh(tmp_path)
     found = changes_of(project, ["meshforge.toml"])
-    assert found.assets == set(project.assets()) and found.settings and found.lesson
+    assert found.assets == set(project.assets()) and found.settings and found.learning
     assert SECOND in found.assets and not found.shapes

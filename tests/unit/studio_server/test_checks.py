@@ -7,18 +7,16 @@ from typing import Any, Literal
 
 import pytest
 
-from meshforge.batch import Wanted, examine
-from meshforge.batch.outputs.stamp import read_stamp, stamp_path
-from meshforge.checks import ENGINES, Measures
-from meshforge.errors import ProjectError
+from meshforge.batch import IN_PROCESS, CheckTask, check_asset
+from meshforge.batch.provenance import read_stamp, stamp_path
+from meshforge.checks import ENGINES, CheckOptions
+from meshforge.common import ProjectError
 from meshforge.project import Project
-from meshforge.studio.checking import Checks, check_key
-from meshforge.studio.checking.checks import _measure_all
-from meshforge.studio.checking.pair import Work
-from meshforge.studio.checking.shelf import PARTS, Shelf
-from meshforge.studio.jobs.check import check_line
-from meshforge.studio.wire.checks import Checked, Fault
-from meshforge.studio.workers import Workers, alone
+from meshforge.studio.jobs.outputs import to_line
+from meshforge.studio.output_checks import CHECK_PARTS, OutputChecks, ResultCache, _measure_all
+from meshforge.studio.output_measures import MeasureTask, check_key
+from meshforge.studio.wire.asset import Checked, Fault
+from meshforge.studio.workers import Workers, project_of_one
 from tests.cup_project import BARE, CUP, FILLED, cup_project
 
 
@@ -35,8 +33,8 @@ def project(tmp_path_factory: pytest.TempPathFactory) -> Project:
 
 
 @pytest.fixture(scope="module")
-def checks(project: Project, workers: Workers) -> Checks:
-    return Checks(project.folder / ".meshforge" / "studio" / "checks", workers)
+def checks(project: Project, workers: Workers) -> OutputChecks:
+    return OutputChecks(project.folder / ".meshforge" / "studio" / "checks", workers)
 
 
 def key_of(project: Project, asset: str) -> str:
@@ -49,93 +47,95 @@ def figures(checked: Checked) -> dict[str, tuple[float | None, float | None]]:
     return {figure.what: (figure.before, figure.after) for figure in checked.figures}
 
 
-def told(project: Project, of: Literal["asset", "output"], measures: Measures) -> dict[str, Any]:
+def told(project: Project, of: Literal["asset", "output"], measures: CheckOptions) -> dict[str, Any]:
     """What `meshforge check` tells of the cup, or of its output against it."""
     source, folder = project.path(CUP), project.layout.edited
     path, against = (source, None) if of == "asset" else (folder / CUP, source)
-    return examine(path, path.parent, None, Wanted(measures, against=against)).to_json()
+    return check_asset(path, path.parent, None, CheckTask(measures, against=against)).to_json()
 
 
 @pytest.mark.slow
-def test_the_figures_are_those_of_the_command_line(project: Project, checks: Checks) -> None:
-    everything = Measures(fit=True, clearance=True, physics=True)
+def test_the_figures_are_those_of_the_command_line(project: Project, checks: OutputChecks) -> None:
+    everything = CheckOptions(fit=True, clearance=True, physics=True)
     was, now = told(project, "asset", everything), told(project, "output", everything)
-    fit = figures(checks.part(project, CUP, "fit").result(60))
+    fit = figures(checks.check_part(project, CUP, "fit").result(60))
     assert fit["Hulls stick out, at most"] == (was["fit"]["out"], now["fit"]["out"])
     assert fit["Visual surface uncovered"] == (100 * was["fit"]["bare_share"], 100 * now["fit"]["bare_share"])
-    space = figures(checks.part(project, CUP, "clearance").result(60))
+    space = figures(checks.check_part(project, CUP, "clearance").result(60))
     assert space["Closed, against the visual"] == (was["clearance"]["closed"], now["clearance"]["closed"])
     assert space["Closed by the edit"] == (None, now["clearance_of_edit"]["closed"])
-    rest = figures(checks.part(project, CUP, "physics").result(60))
+    rest = figures(checks.check_part(project, CUP, "physics").result(60))
     assert rest["Turned"] == (now["physics_before"]["rest"]["tilt"], now["physics"]["rest"]["tilt"])
     assert rest["Mass"] == pytest.approx((0.424, 1.0))
-    parts = [checks.part(project, CUP, part).result(60) for part in PARTS]
+    parts = [checks.check_part(project, CUP, part).result(60) for part in CHECK_PARTS]
     found = [(f.rule, list(f.hulls), f.text) for part in parts for f in part.findings]
     assert sorted(found) == sorted((f["rule"], f["hulls"], f["message"]) for f in now["findings"])
     assert {name for _, hulls, _ in found for name in hulls} == {FILLED}
 
 
-def test_limits_of_every_engine_are_told_with_its_name(project: Project, checks: Checks) -> None:
-    limits = checks.part(project, CUP, "engines").result(60)
+def test_limits_of_every_engine_are_told_with_its_name(project: Project, checks: OutputChecks) -> None:
+    limits = checks.check_part(project, CUP, "engines").result(60)
     assert {f.engine for f in limits.findings} <= {None, *ENGINES}
     for engine in ENGINES:
-        wanted = {f["message"] for f in told(project, "output", Measures(engine))["findings"]}
+        wanted = {f["message"] for f in told(project, "output", CheckOptions(engine))["findings"]}
         assert {f.text for f in limits.findings if f.engine in (None, engine)} == wanted
 
 
-def test_an_asset_that_shows_nothing_says_so_and_is_measured_otherwise(project: Project, checks: Checks) -> None:
-    fit = checks.part(project, BARE, "fit").result(60)
+def test_an_asset_that_shows_nothing_says_so_and_is_measured_otherwise(project: Project, checks: OutputChecks) -> None:
+    fit = checks.check_part(project, BARE, "fit").result(60)
     assert fit.figures == () and not fit.pictured and "nothing is shown" in fit.notes[0]
-    space = checks.part(project, BARE, "clearance").result(60)
+    space = checks.check_part(project, BARE, "clearance").result(60)
     assert set(figures(space)) == {"Closed by the edit", "Opened by the edit"} and space.pictured
-    assert [picture.name for picture in checks.pictures(project, BARE, "clearance").result(60)] == ["clearance-of-edit"]
-    drawn = checks.picture(BARE, key_of(project, BARE), "clearance-of-edit")
+    assert [picture.name for picture in checks.draw_pictures(project, BARE, "clearance").result(60)] == [
+        "clearance-of-edit"
+    ]
+    drawn = checks.read_picture(BARE, key_of(project, BARE), "clearance-of-edit")
     assert drawn.startswith(b"\x89PNG")
     with pytest.raises(ProjectError, match="no such picture"):
-        checks.picture(BARE, key_of(project, BARE), "fit-out")
+        checks.read_picture(BARE, key_of(project, BARE), "fit-out")
 
 
-def test_all_results_are_checked_once_and_known_after_a_restart(project: Project, checks: Checks) -> None:
+def test_all_results_are_checked_once_and_known_after_a_restart(project: Project, checks: OutputChecks) -> None:
     over: list[None] = []
-    first = dict(checks.every(project, (CUP, BARE), lambda: over.append(None), lambda: False))
+    first = dict(checks.check_all(project, (CUP, BARE), lambda: over.append(None), lambda: False))
     assert len(over) == 2
     assert all(isinstance(found, tuple) and found for found in first.values())
     workers_never = Workers(1)
     workers_never.close()
-    again = Checks(project.folder / ".meshforge" / "studio" / "checks", workers_never)
-    assert dict(again.every(project, (CUP, BARE), lambda: None, lambda: True)) == first
-    assert again.faults(key_of(project, CUP)) == first[CUP]
-    assert again.part(project, CUP, "fit").result(0).part == "fit"
+    again = OutputChecks(project.folder / ".meshforge" / "studio" / "checks", workers_never)
+    assert dict(again.check_all(project, (CUP, BARE), lambda: None, lambda: True)) == first
+    assert again.faults_of(key_of(project, CUP)) == first[CUP]
+    assert again.check_part(project, CUP, "fit").result(0).part == "fit"
 
 
 def test_another_output_is_checked_anew_and_a_changed_asset_not_at_all(tmp_path: Path, workers: Workers) -> None:
     project = cup_project(tmp_path)
-    checks, before = Checks(tmp_path / "checks", workers), key_of(project, BARE)
+    checks, before = OutputChecks(tmp_path / "checks", workers), key_of(project, BARE)
     output = project.layout.edited / BARE
     text = output.read_text()
     output.write_text(text + " ")
     with pytest.raises(ProjectError, match="files of its output are gone or changed"):
-        checks.part(project, BARE, "engines").result(60)
+        checks.check_part(project, BARE, "engines").result(60)
     output.write_text(text)
     source = project.path(BARE)
     source.write_text(source.read_text() + " ")
     with pytest.raises(ProjectError, match="the asset changed since its output was made"):
-        checks.part(project, BARE, "engines").result(60)
-    list(project.apply([BARE], workers=0))
+        checks.check_part(project, BARE, "engines").result(60)
+    list(project.apply([BARE], execution=IN_PROCESS))
     assert key_of(project, BARE) != before
-    assert checks.faults(key_of(project, BARE)) is None
-    assert checks.part(project, BARE, "engines").result(60).findings == ()
-    gone = Work(alone(project, BARE), BARE, before)
-    assert "another by now" in (_measure_all((gone, Shelf(tmp_path / "other"))) or "")
+    assert checks.faults_of(key_of(project, BARE)) is None
+    assert checks.check_part(project, BARE, "engines").result(60).findings == ()
+    gone = MeasureTask(project_of_one(project, BARE), BARE, before)
+    assert "another by now" in (_measure_all((gone, ResultCache(tmp_path / "other"))) or "")
 
 
-def test_an_output_that_went_meanwhile_does_not_stop_the_others(project: Project, checks: Checks) -> None:
-    found = dict(checks.every(project, (CUP, BARE), lambda: None, lambda: False))
+def test_an_output_that_went_meanwhile_does_not_stop_the_others(project: Project, checks: OutputChecks) -> None:
+    found = dict(checks.check_all(project, (CUP, BARE), lambda: None, lambda: False))
     stamp = stamp_path(project.layout.edited, CUP)
     kept = stamp.read_bytes()
     stamp.unlink()
     try:
-        later = dict(checks.every(project, (CUP, BARE), lambda: None, lambda: False))
+        later = dict(checks.check_all(project, (CUP, BARE), lambda: None, lambda: False))
     finally:
         stamp.write_bytes(kept)
     assert "no output" in str(later[CUP]) and later[BARE] == found[BARE]
@@ -144,27 +144,27 @@ def test_an_output_that_went_meanwhile_does_not_stop_the_others(project: Project
 def test_what_nobody_waits_for_any_more_ends(project: Project, tmp_path: Path) -> None:
     workers = Workers(1)
     try:
-        running = Checks(tmp_path, workers).part(project, CUP, "fit")
+        running = OutputChecks(tmp_path, workers).check_part(project, CUP, "fit")
         assert running.cancel()
         with pytest.raises(CancelledError):
             running.result(60)
-        assert Checks(tmp_path, workers).part(project, BARE, "fit").result(60).part == "fit"
+        assert OutputChecks(tmp_path, workers).check_part(project, BARE, "fit").result(60).part == "fit"
     finally:
         workers.close()
 
 
 def test_a_file_that_cannot_be_read_counts_as_not_measured(tmp_path: Path) -> None:
-    shelf = Shelf(tmp_path)
-    for part in PARTS:
-        shelf.put("k", Checked(part=part))
-    assert shelf.missing("k") == () and shelf.faults("k") == ()
+    shelf = ResultCache(tmp_path)
+    for part in CHECK_PARTS:
+        shelf.write("k", Checked(part=part))
+    assert shelf.missing_parts("k") == () and shelf.read_faults("k") == ()
     (tmp_path / "k.fit.json").write_text("{")
-    assert shelf.checked("k", "fit") is None and shelf.faults("k") is None and shelf.missing("k") == ("fit",)
+    assert shelf.read("k", "fit") is None and shelf.read_faults("k") is None and shelf.missing_parts("k") == ("fit",)
 
 
 def test_a_line_tells_what_does_not_hold_or_why_that_is_not_known() -> None:
     own = Fault(rule="fit-out", severity="warning")
     engines = Fault(rule="unity-thin", severity="warning", engine="unity")
-    assert check_line("a", (own, engines)).text == "fit-out"
-    assert check_line("a", ()).status == "done"
-    assert check_line("a", "it died").status == "failed"
+    assert to_line("a", (own, engines)).text == "fit-out"
+    assert to_line("a", ()).status == "done"
+    assert to_line("a", "it died").status == "failed"

@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from meshforge.errors import ProjectError
+from meshforge.common import ProjectError
 from meshforge.studio.errors import ConflictError
 from meshforge.studio.history import History
 from tests.examples import examples
@@ -114,7 +114,7 @@ def test_entries_of_one_group_are_undone_together(tmp_path: Path) -> None:
     history.do(project, Write(files={"a": "1"}))
     for name in ("b", "c"):
         edit = Write(files={name: "1"})
-        with history.recorded(project, edit, group="job"):
+        with history.record(project, edit, group="job"):
             edit.apply(project)
     assert [entry.title for entry in history.undo(project)] == ["wrote c", "wrote b"]
     assert data(project) == {"a": b"1"}

@@ -3,8 +3,7 @@ from __future__ import annotations
 import asyncio
 import json
 
-from meshforge.studio.state.hub import Hub, Page
-from meshforge.studio.state.shown import Shown
+from meshforge.studio.pages import PageConnection, PageHub, PageState
 from meshforge.studio.wire.family import Card, HistoryView, Next, ProjectView
 
 PROJECT = ProjectView(name="p", folder="/p", vocabulary=(), next=Next(stage="label", say="Label."))
@@ -12,9 +11,9 @@ PROJECT = ProjectView(name="p", folder="/p", vocabulary=(), next=Next(stage="lab
 
 def test_a_page_is_told_everything_first_and_then_only_what_changes() -> None:
     async def told() -> list[str]:
-        shown = Shown(Hub(), PROJECT, HistoryView(), "1", tour=False)
+        shown = PageState(PageHub(), PROJECT, HistoryView(), "1", tour=False)
         shown.set_assets(["a", "b"])
-        page = Page(asyncio.get_running_loop())
+        page = PageConnection(asyncio.get_running_loop())
         shown.join(page)
         shown.set_cards([Card(asset="a"), Card(asset="b", hulls=1)])
         shown.set_project(PROJECT)
@@ -29,7 +28,7 @@ def test_a_page_is_told_everything_first_and_then_only_what_changes() -> None:
 
 
 def test_a_card_of_an_asset_that_went_meanwhile_does_not_bring_it_back() -> None:
-    shown = Shown(Hub(), PROJECT, HistoryView(), "1", tour=False)
+    shown = PageState(PageHub(), PROJECT, HistoryView(), "1", tour=False)
     shown.set_assets(["a", "b"])
     shown.set_assets(["a"])
     shown.set_cards([Card(asset="a", hulls=1), Card(asset="b", error="it is gone")])
@@ -38,11 +37,11 @@ def test_a_card_of_an_asset_that_went_meanwhile_does_not_bring_it_back() -> None
 
 def test_a_page_that_left_is_told_nothing() -> None:
     async def told() -> int:
-        hub = Hub()
-        page = Page(asyncio.get_running_loop())
+        hub = PageHub()
+        page = PageConnection(asyncio.get_running_loop())
         hub.join(page, PROJECT)
         hub.leave(page)
-        hub.tell(PROJECT)
+        hub.broadcast(PROJECT)
         await asyncio.sleep(0)
         return page.events.qsize()
 

@@ -5,10 +5,10 @@ from pathlib import Path
 
 import pytest
 
-from meshforge.errors import AssetError, ProjectError
-from meshforge.studio.assets import KeptProject, Meshes, Thumbnails
-from meshforge.studio.showing.cards import card
-from meshforge.studio.workers import Workers
+from meshforge.common import AssetError, ProjectError
+from meshforge.studio.queries.project import build_card
+from meshforge.studio.thumbnails import Thumbnails
+from meshforge.studio.workers import MeshCache, ProjectWithCache, Workers
 from tests.unit.project.tables import FIRST, SECOND, labelled
 
 
@@ -21,18 +21,18 @@ def workers() -> Iterator[Workers]:
 
 def test_an_asset_is_read_once_and_its_labels_are_followed(tmp_path: Path, workers: Workers) -> None:
     bare = labelled(tmp_path)
-    project = KeptProject.of(bare, Meshes(workers))
+    project = ProjectWithCache.of(bare, MeshCache(workers))
     first = project.mesh(FIRST)
     assert first.contacts == bare.mesh(FIRST).contacts
     assert project.mesh(FIRST) is first
     project.set_labels(FIRST, {"crumb": "leg"})
     second = project.mesh(FIRST)
-    assert second.named("crumb").label == bare.mesh(FIRST).named("crumb").label == "leg"
+    assert second.hull_of("crumb").label == bare.mesh(FIRST).hull_of("crumb").label == "leg"
     assert all(a.shape is b.shape for a, b in zip(first.hulls, second.hulls, strict=True))
 
 
 def test_a_file_that_changed_is_read_again(tmp_path: Path, workers: Workers) -> None:
-    project = KeptProject.of(labelled(tmp_path), Meshes(workers))
+    project = ProjectWithCache.of(labelled(tmp_path), MeshCache(workers))
     before = len(project.mesh(FIRST).hulls)
     text = project.path(FIRST).read_text()
     project.path(FIRST).write_text(text[: text.index("o crumb")])
@@ -51,7 +51,7 @@ def test_a_picture_is_drawn_of_what_its_digest_says_or_not_at_all(tmp_path: Path
     project = labelled(tmp_path)
     (row,) = project.status([FIRST]).assets
     settings = project.settings
-    shown = card(row, settings.vocabulary, settings.orient)
+    shown = build_card(row, settings.vocabulary, settings.orient)
     pictures = Thumbnails(tmp_path / "pictures", workers)
     assert shown.picture
     drawn = pictures.get(project, FIRST, "source", shown.picture).result(60)

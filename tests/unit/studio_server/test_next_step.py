@@ -2,10 +2,10 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from meshforge.studio.showing.next_step import next_step
+from meshforge.studio.queries.next_step import choose_next_step
 from meshforge.studio.wire.family import Card, Next
-from meshforge.studio.wire.labelling import CarriedOver
-from meshforge.studio.wire.lesson import LessonView, NearestView, QuestionView, RepairView
+from meshforge.studio.wire.jobs import CarriedOver
+from meshforge.studio.wire.program import LessonView, NearestView, QuestionView, RepairView
 
 BARE = Card(asset="a", hulls=2, labels=(-1, -1))
 LABELLED = Card(asset="a", hulls=2, labels=(0, -1))
@@ -25,7 +25,7 @@ def last(assets: Sequence[str]) -> str | None:
 def stage(
     card: Card, *, words: tuple[str, ...] = ("leg",), program: bool = False, lesson: LessonView | None = None
 ) -> str:
-    return next_step([card], words, program, lesson, None, last).stage
+    return choose_next_step([card], words, program, lesson, None, last).stage
 
 
 def test_the_stages_follow_one_another() -> None:
@@ -39,20 +39,23 @@ def test_the_stages_follow_one_another() -> None:
 
 
 def test_the_step_names_the_asset_to_go_to() -> None:
-    assert next_step([BARE, LABELLED.model_copy(update={"asset": "b"})], ("leg",), False, None, None, last).asset == "b"
-    assert next_step([SHOWN], ("leg",), True, ASKING, None, last).asset == "b"
+    assert (
+        choose_next_step([BARE, LABELLED.model_copy(update={"asset": "b"})], ("leg",), False, None, None, last).asset
+        == "b"
+    )
+    assert choose_next_step([SHOWN], ("leg",), True, ASKING, None, last).asset == "b"
     repairing = ASKING.model_copy(update={"repairs": (REPAIR,)})
-    assert next_step([SHOWN], ("leg",), True, repairing, None, last).asset == "c"
+    assert choose_next_step([SHOWN], ("leg",), True, repairing, None, last).asset == "c"
     flagged = DONE.model_copy(update={"asset": "d", "review": "flagged"})
-    assert next_step([DONE, flagged], ("leg",), True, FOUND, None, last).asset == "d"
-    assert next_step([DONE], ("leg",), True, FOUND, None, last).asset == "a"
+    assert choose_next_step([DONE, flagged], ("leg",), True, FOUND, None, last).asset == "d"
+    assert choose_next_step([DONE], ("leg",), True, FOUND, None, last).asset == "a"
 
 
 def test_the_asset_that_tells_most_is_shown_first_and_without_one_the_first_with_labels() -> None:
     other = LABELLED.model_copy(update={"asset": "b"})
-    step = next_step([LABELLED, other], ("leg",), False, None, None, last)
+    step = choose_next_step([LABELLED, other], ("leg",), False, None, None, last)
     assert (step.asset, step.say) == ("b", "Show the first step of the edit on one asset, best on b.")
-    step = next_step([LABELLED], ("leg",), False, None, None, last)
+    step = choose_next_step([LABELLED], ("leg",), False, None, None, last)
     assert (step.asset, step.say) == ("a", "Show the first step of the edit on one asset.")
 
 
@@ -62,15 +65,15 @@ def test_the_results_that_tell_most_are_looked_at_first_as_far_as_nobody_reviewe
 
     def step_with(*accepted: str) -> Next:
         seen = [c.model_copy(update={"review": "accepted"}) if c.asset in accepted else c for c in cards.values()]
-        return next_step(seen, ("leg",), True, lesson, None, last)
+        return choose_next_step(seen, ("leg",), True, lesson, None, last)
 
     step = step_with()
     assert (step.stage, step.asset) == ("review", "d")
-    assert step.say == "Look at 3 results that tell best whether the program is right, first d."
+    assert step.say == "Look at 3 results that show best whether the program is right, first d."
     step = step_with("d")
-    assert (step.asset, step.say) == ("b", "Look at 2 results that tell best whether the program is right, first b.")
+    assert (step.asset, step.say) == ("b", "Look at 2 results that show best whether the program is right, first b.")
     step = step_with("d", "b")
-    assert (step.asset, step.say) == ("c", "Look at 1 result that tells best whether the program is right: c.")
+    assert (step.asset, step.say) == ("c", "Look at 1 result that shows best whether the program is right: c.")
     step = step_with("d", "b", "c")
     assert (step.asset, step.say) == ("a", "Look through the results: 1 asset to accept or flag.")
     assert "export" in step_with(*cards).say
@@ -79,23 +82,23 @@ def test_the_results_that_tell_most_are_looked_at_first_as_far_as_nobody_reviewe
 def test_a_flagged_result_comes_before_those_that_tell_most() -> None:
     flagged = DONE.model_copy(update={"asset": "b", "review": "flagged"})
     telling = FOUND.model_copy(update={"sample": ("a", "b")})
-    assert next_step([DONE, flagged], ("leg",), True, telling, None, last).asset == "b"
+    assert choose_next_step([DONE, flagged], ("leg",), True, telling, None, last).asset == "b"
 
 
 def test_at_the_end_there_is_only_the_export() -> None:
     accepted = DONE.model_copy(update={"review": "accepted"})
-    assert "export" in next_step([accepted], ("leg",), True, FOUND, None, last).say
+    assert "export" in choose_next_step([accepted], ("leg",), True, FOUND, None, last).say
 
 
 def test_a_lesson_without_a_program_leads_to_what_came_nearest_and_does_not_repeat_its_reasons() -> None:
     near = NearestView(rule=2, extractor="Is(leg)", asset="b", extra=(), missing=("h",))
     failed = LessonView(number=1, status="none", why="no extractor of up to 9 symbols", nearest=near)
-    step = next_step([SHOWN], ("leg",), False, failed, None, last)
+    step = choose_next_step([SHOWN], ("leg",), False, failed, None, last)
     assert (step.stage, step.asset) == ("learn", "b")
     assert step.say == "No selection fits rule 2 yet: see what comes nearest."
     for status in ("none", "timeout", "error"):
         over = LessonView(number=1, status=status, why="a long reason", error="a long\n  message")
-        assert "long" not in next_step([SHOWN], ("leg",), False, over, None, last).say
+        assert "long" not in choose_next_step([SHOWN], ("leg",), False, over, None, last).say
 
 
 WHOLE = Card(asset="w", hulls=2, labels=(0, 0), given=2)
@@ -103,12 +106,12 @@ DOUBTFUL = Card(asset="d", hulls=5, labels=(0,) * 5, unsure=(1, 2, 3))
 
 
 def labelling(*cards: Card, carried: CarriedOver | None = None, program: bool = False) -> Next:
-    return next_step(cards, ("leg",), program, None, None, last, carried)
+    return choose_next_step(cards, ("leg",), program, None, None, last, carried)
 
 
 def test_labels_of_a_labelled_asset_are_carried_over_to_those_that_have_none() -> None:
     step = labelling(BARE, WHOLE)
-    assert (step.stage, step.say) == ("label", "a has no label: carry labels over.")
+    assert (step.stage, step.say) == ("label", "a has no label: propagate labels.")
     assert labelling(BARE, BARE.model_copy(update={"asset": "b"}), WHOLE).say.startswith("2 assets have no label")
     assert labelling(BARE, LABELLED.model_copy(update={"asset": "b"})).stage == "demonstrate", "none is whole"
     assert labelling(BARE, WHOLE.model_copy(update={"given": 1})).stage == "demonstrate", "a machine labelled it"
@@ -126,7 +129,7 @@ def test_unsure_labels_are_looked_through_unless_something_else_is_less_work() -
 
 def test_what_was_said_is_used_when_it_outweighs_what_is_unsure() -> None:
     step = labelling(WHOLE, DOUBTFUL, carried=CarriedOver(unused=3))
-    assert step.say == "Carry labels over again: 3 labels of yours not used yet."
+    assert step.say == "Propagate labels again: 3 labels of yours not used yet."
     assert "press N" in labelling(WHOLE, DOUBTFUL, carried=CarriedOver(unused=2)).say
 
 

@@ -1,4 +1,4 @@
-"""What the history tells of labels that were carried over: what changed, what was said since, and taking it back."""
+"""What the history says about propagated labels: what changed, which labels came since, and undo."""
 
 from __future__ import annotations
 
@@ -11,18 +11,17 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from meshforge.project import Project
-from meshforge.studio.edits import Edit
-from meshforge.studio.edits.labels import LabelFromNames, LabelHulls, RenameLabel
-from meshforge.studio.edits.own import Propagate
+from meshforge.studio.edits.base import Edit
+from meshforge.studio.edits.labels import LabelFromNames, LabelHulls, Propagate, RenameLabel
 from meshforge.studio.history import History
-from meshforge.studio.state.relabelling import Relabelling
+from meshforge.studio.label_changes import LabelChanges
 from meshforge.studio.wire.family import Card
-from meshforge.studio.wire.labelling import CarriedOver
+from meshforge.studio.wire.jobs import CarriedOver
 from meshforge.symbolic import GIVEN_SOURCES, HUMAN_SOURCES, Label
 from tests.examples import examples
 from tests.unit.batch.families import label_of, table_boxes, tree
 from tests.unit.deaths import deaths, needs_fork
-from tests.unit.project.labels.test_propagating import NAMES, family
+from tests.unit.labels.test_propagating import NAMES, family
 
 ASSETS = ("t0.obj", "t1.obj", "t2.obj")
 HULLS = dict.fromkeys(ASSETS, NAMES)
@@ -40,8 +39,8 @@ def labelled(folder: Path) -> tuple[Project, History]:
 
 
 def carry(project: Project, history: History, best: str | None = "t1.obj") -> None:
-    """Carry labels over, as the job does."""
-    with history.recorded(project, Propagate(used=history.view.undoable, next=best)):
+    """Propagate labels, as the job does."""
+    with history.record(project, Propagate(used=history.view.undoable, next=best)):
         project.propagate_labels()
 
 
@@ -56,7 +55,7 @@ def cards(project: Project) -> list[Card]:
 
 
 def carried(project: Project, history: History) -> CarriedOver | None:
-    return Relabelling(history).carried(project, cards(project))
+    return LabelChanges(history).propagation_state(project, cards(project))
 
 
 def test_it_is_one_step_back_and_one_forth_to_the_byte(tmp_path: Path) -> None:
@@ -73,23 +72,23 @@ def test_it_is_one_step_back_and_one_forth_to_the_byte(tmp_path: Path) -> None:
 
 def test_what_changed_is_told_until_the_next_edit_and_again_when_that_is_undone(tmp_path: Path) -> None:
     project, history = labelled(tmp_path)
-    relabelling = Relabelling(history)
-    assert relabelling.relabelled(HULLS) is None
+    relabelling = LabelChanges(history)
+    assert relabelling.last_change(HULLS) is None
     carry(project, history)
-    found = relabelling.relabelled(HULLS)
+    found = relabelling.last_change(HULLS)
     assert found and (found.entry, found.way, found.settled) == (1, "propagate", 0)
     assert [(one.asset, one.new, one.changed) for one in found.assets] == [
         (asset, tuple(range(len(NAMES))), ()) for asset in ASSETS[1:]
     ]
     history.do(project, label("t1.obj", "crumb", "leg"))
-    assert relabelling.relabelled(HULLS) is None
+    assert relabelling.last_change(HULLS) is None
     history.undo(project)
-    assert relabelling.relabelled(HULLS) == found
-    assert Relabelling(History(project)).relabelled(HULLS) == found, "a studio that is opened anew knows it, too"
+    assert relabelling.last_change(HULLS) == found
+    assert LabelChanges(History(project)).last_change(HULLS) == found, "a studio that is opened anew knows it, too"
     history.undo(project)
-    assert relabelling.relabelled(HULLS) is None
+    assert relabelling.last_change(HULLS) is None
     history.redo(project)
-    assert relabelling.relabelled(HULLS) == found
+    assert relabelling.last_change(HULLS) == found
 
 
 def test_labels_that_were_others_are_told_with_what_they_were(tmp_path: Path) -> None:
@@ -97,7 +96,7 @@ def test_labels_that_were_others_are_told_with_what_they_were(tmp_path: Path) ->
     carry(project, history)
     project.set_labels("t2.obj", {"top": "misc"}, source="propagated", confidence=0.2)
     carry(project, history)
-    found = Relabelling(history).relabelled(HULLS)
+    found = LabelChanges(history).last_change(HULLS)
     assert found and found.settled == 1
     assert [one.model_dump() for one in found.assets] == [
         {"asset": "t2.obj", "new": (), "changed": (NAMES.index("top"),), "was": ("misc",)}
@@ -107,10 +106,10 @@ def test_labels_that_were_others_are_told_with_what_they_were(tmp_path: Path) ->
 def test_assets_that_are_not_read_yet_are_told_later(tmp_path: Path) -> None:
     project, history = labelled(tmp_path)
     carry(project, history)
-    relabelling = Relabelling(history)
-    first = relabelling.relabelled({"t2.obj": NAMES})
+    relabelling = LabelChanges(history)
+    first = relabelling.last_change({"t2.obj": NAMES})
     assert first and [one.asset for one in first.assets] == ["t2.obj"]
-    both = relabelling.relabelled(HULLS)
+    both = relabelling.last_change(HULLS)
     assert both and [one.asset for one in both.assets] == ["t1.obj", "t2.obj"]
 
 
@@ -118,7 +117,7 @@ def test_labels_from_names_are_told_as_well(tmp_path: Path) -> None:
     project = family(tmp_path)
     history = History(project)
     history.do(project, LabelFromNames())
-    found = Relabelling(history).relabelled(HULLS)
+    found = LabelChanges(history).last_change(HULLS)
     assert found and found.way == "label-names"
     assert {(one.asset, one.new) for one in found.assets} == {(asset, (NAMES.index("top"),)) for asset in ASSETS}
 
@@ -139,7 +138,7 @@ def test_what_a_person_says_since_is_counted_until_labels_are_carried_over_again
     assert unused_after(label("t1.obj", "crumb", "misc")) == 1
     assert unused_after(label("t1.obj", "top", "top")) == 2, "a label that was right is news, now that a person says it"
     assert unused_after(label("t0.obj", "top", "misc")) == 3
-    assert unused_after(label("t0.obj", "top", "top")) == 2, "as it was when labels were carried over"
+    assert unused_after(label("t0.obj", "top", "top")) == 2, "as it was when labels were propagated"
     assert unused_after(RenameLabel(old="leg", new="foot")) == 2
     assert unused_after(label("t1.obj", "crumb", None)) == 1
     history.undo(project)
@@ -153,19 +152,21 @@ def test_what_a_person_says_since_is_counted_until_labels_are_carried_over_again
 
 def test_labels_are_used_also_where_that_changes_none(tmp_path: Path) -> None:
     project, history = labelled(tmp_path)
-    relabelling = Relabelling(history)
-    relabelling.stayed(0, "t2.obj")
-    assert relabelling.carried(project, cards(project)) == CarriedOver(unused=0, next="t2.obj")
+    relabelling = LabelChanges(history)
+    relabelling.note_no_change(0, "t2.obj")
+    assert relabelling.propagation_state(project, cards(project)) == CarriedOver(unused=0, next="t2.obj")
     carry(project, history)
     history.do(project, label("t1.obj", "top", "top"))
-    assert relabelling.carried(project, cards(project)) == CarriedOver(unused=1, next="t1.obj")
-    relabelling.stayed(2, "t2.obj")
-    assert relabelling.carried(project, cards(project)) == CarriedOver(unused=0, next="t2.obj")
+    assert relabelling.propagation_state(project, cards(project)) == CarriedOver(unused=1, next="t1.obj")
+    relabelling.note_no_change(2, "t2.obj")
+    assert relabelling.propagation_state(project, cards(project)) == CarriedOver(unused=0, next="t2.obj")
     history.do(project, label("t2.obj", "top", "top"))
-    assert relabelling.carried(project, cards(project)) == CarriedOver(unused=1, next="t2.obj")
+    assert relabelling.propagation_state(project, cards(project)) == CarriedOver(unused=1, next="t2.obj")
     history.undo(project)
     history.undo(project)
-    assert relabelling.carried(project, cards(project)) == CarriedOver(unused=0, next="t1.obj"), "before it was said"
+    assert relabelling.propagation_state(project, cards(project)) == CarriedOver(unused=0, next="t1.obj"), (
+        "before it was said"
+    )
 
 
 def test_what_is_said_while_labels_are_carried_over_is_kept_and_is_news(tmp_path: Path) -> None:
@@ -174,10 +175,10 @@ def test_what_is_said_while_labels_are_carried_over_is_kept_and_is_news(tmp_path
     @contextmanager
     def keeping(best: str | None) -> Iterator[None]:
         history.do(project, label("t1.obj", "crumb", "leg"))
-        with history.recorded(project, Propagate(used=0, next=best)):
+        with history.record(project, Propagate(used=0, next=best)):
             yield
 
-    project.propagate_labels(keeping=keeping)
+    project.propagate_labels(write_block=keeping)
     assert project.labels("t1.obj").labels["crumb"] == Label("leg")
     now = carried(project, history)
     assert now and now.unused == 1
@@ -207,7 +208,7 @@ def test_a_damaged_history_tells_less_and_fails_nowhere(tmp_path: Path) -> None:
     history.do(project, label("t1.obj", "crumb", "misc"))
     known = cards(project)
     project.layout.labels("t1.obj").write_text("{")
-    assert Relabelling(history).carried(project, known) == CarriedOver(unused=0, next="t1.obj")
+    assert LabelChanges(history).propagation_state(project, known) == CarriedOver(unused=0, next="t1.obj")
 
 
 MOVES = st.lists(
@@ -271,7 +272,7 @@ def test_carrying_over_that_is_killed_leaves_whole_labels_and_can_be_taken_back(
         if left == before:
             assert history.view.undoable == 1
             continue
-        assert history.view.undo == "labels carried over"
+        assert history.view.undo == "labels propagated"
         history.undo(project)
         assert {name: text for name, text in labels(project).items() if not name.endswith(".tmp")} == before
     assert _said(project) == said

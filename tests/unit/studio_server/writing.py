@@ -4,11 +4,10 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from meshforge.batch import Found
-from meshforge.errors import ProjectError
-from meshforge.files import write_atomically
+from meshforge.batch import AssetSet
+from meshforge.common import ProjectError, write_atomically
 from meshforge.project import Project
-from meshforge.studio.edits import Edit
+from meshforge.studio.edits.base import Edit
 from tests.unit.batch.families import tree
 
 
@@ -28,17 +27,17 @@ class Write(Edit):
             else:
                 write_atomically(path, content)
 
-    def touches(self, project: Project) -> tuple[Path, ...]:
+    def list_paths(self, project: Project) -> tuple[Path, ...]:
         return (project.folder / "data",)
 
-    def said(self, project: Project) -> str:
+    def describe(self, project: Project) -> str:
         return f"wrote {', '.join(self.files)}"
 
 
 def bare(folder: Path) -> Project:
     """A project that is nothing but a folder."""
     folder.mkdir(parents=True, exist_ok=True)
-    return Project(folder, Found(folder, ()))
+    return Project(folder, AssetSet(folder, ()))
 
 
 def data(project: Project) -> dict[str, bytes]:

@@ -4,29 +4,29 @@ import numpy as np
 import pytest
 
 from meshforge.geometry import Aabb, Box, Pose
-from meshforge.symbolic import DESCRIBED, Hull, SymbolicMesh, descriptors
+from meshforge.symbolic import DESCRIPTOR_NAMES, Hull, SymbolicMesh, descriptors
 from tests.synthesis_boxes import boxes, table
 
 
 def moved(mesh: SymbolicMesh, pose: Pose) -> SymbolicMesh:
-    return SymbolicMesh(tuple(hull.moved(pose) for hull in mesh.hulls))
+    return SymbolicMesh(tuple(hull.move(pose) for hull in mesh.hulls))
 
 
 def test_every_hull_has_a_row_of_finite_numbers() -> None:
     rows = descriptors([table(), boxes(), table(legs=2)])
-    assert rows.shape == (len(table().hulls) + len(table(legs=2).hulls), len(DESCRIBED))
+    assert rows.shape == (len(table().hulls) + len(table(legs=2).hulls), len(DESCRIPTOR_NAMES))
     assert np.isfinite(rows).all()
 
 
 def test_no_meshes_have_no_rows() -> None:
-    assert descriptors([]).shape == (0, len(DESCRIBED))
-    assert descriptors([boxes()]).shape == (0, len(DESCRIBED))
+    assert descriptors([]).shape == (0, len(DESCRIPTOR_NAMES))
+    assert descriptors([boxes()]).shape == (0, len(DESCRIPTOR_NAMES))
 
 
 def test_a_larger_copy_elsewhere_is_described_alike() -> None:
     mesh = table()
     large = [
-        Hull(hull.name, hull.body, Box.filling(Aabb(hull.aabb.min * 7 + 3, hull.aabb.max * 7 + 3)))
+        Hull(hull.name, hull.body, Box.of_bounds(Aabb(hull.aabb.min * 7 + 3, hull.aabb.max * 7 + 3)))
         for hull in mesh.hulls
     ]
     assert descriptors([SymbolicMesh(tuple(large))]) == pytest.approx(descriptors([mesh]), abs=1e-6)

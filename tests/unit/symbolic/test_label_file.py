@@ -6,13 +6,13 @@ from pathlib import Path
 
 import pytest
 
-from meshforge.errors import AssetError
+from meshforge.common import AssetError
 from meshforge.geometry import Aabb, Box, digest
 from meshforge.symbolic import Hull, Label, SymbolicMesh, read_labels, write_labels
 
 
 def box(x: float) -> Box:
-    return Box.filling(Aabb([x, 0, 0], [x + 1, 1, 1]))
+    return Box.of_bounds(Aabb([x, 0, 0], [x + 1, 1, 1]))
 
 
 def mesh() -> SymbolicMesh:

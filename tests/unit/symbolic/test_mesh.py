@@ -5,14 +5,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from meshforge.asset import Asset, Body, Document, Geom
-from meshforge.errors import MeshForgeError
+from meshforge.common import MeshForgeError
 from meshforge.geometry import Aabb, Box, Pose, Sphere
-from meshforge.symbolic import Hull, Label, SymbolicMesh, bits, mask_of
+from meshforge.symbolic import Asset, Body, Document, Geom, Hull, Label, SymbolicMesh, bits_of, mask_of
 
 
 def box(x: float, size: float = 1.0) -> Box:
-    return Box.filling(Aabb([x, 0, 0], [x + size, 1, 1]))
+    return Box.of_bounds(Aabb([x, 0, 0], [x + size, 1, 1]))
 
 
 def row(*places: float, epsilon: float = 0.002, scale: float | None = None) -> SymbolicMesh:
@@ -72,23 +71,23 @@ def test_hulls_that_share_one_shape_keep_their_contacts_through_an_edit() -> Non
 def test_labels_can_be_set_and_taken_away_without_measuring_again() -> None:
     mesh = row(0, 1)
     graph = mesh.graph
-    labelled = mesh.labelled({"a": Label("leg", 0.5, "vlm"), "b": Label("top")})
+    labelled = mesh.with_labels({"a": Label("leg", 0.5, "vlm"), "b": Label("top")})
     assert labelled.labels == {"a": Label("leg", 0.5, "vlm"), "b": Label("top")}
-    assert labelled.labelled({"a": None}).labels == {"b": Label("top")}
-    assert labelled.__dict__["graph"] == graph
+    assert labelled.with_labels({"a": None}).labels == {"b": Label("top")}
+    assert labelled.known_graph == graph
     assert mesh.labels == {}
 
 
 def test_a_hull_tells_label_confidence_and_source_or_none() -> None:
     hull = Hull("a", "b", box(0))
     assert (hull.label, hull.confidence, hull.source) == (None, None, None)
-    named = hull.labelled(Label("leg", 0.25, "name"))
+    named = hull.with_label(Label("leg", 0.25, "name"))
     assert (named.label, named.confidence, named.source) == ("leg", 0.25, "name")
 
 
 def test_a_box_is_its_own_primitive_and_a_polytope_has_none() -> None:
     assert Hull("a", "b", box(0)).primitive is not None
-    assert Hull("a", "b", box(0).tessellated()).primitive is None
+    assert Hull("a", "b", box(0).tessellate()).primitive is None
 
 
 def test_an_empty_mesh_has_no_box_and_no_contacts() -> None:
@@ -97,9 +96,9 @@ def test_an_empty_mesh_has_no_box_and_no_contacts() -> None:
 
 
 def test_a_hull_is_found_by_name_or_named_as_missing() -> None:
-    assert row(0, 1).named("b").aabb.min[0] == 1
+    assert row(0, 1).hull_of("b").aabb.min[0] == 1
     with pytest.raises(MeshForgeError, match="there is no hull 'z'"):
-        row(0).named("z")
+        row(0).hull_of("z")
 
 
 def asset() -> Asset:
@@ -115,16 +114,16 @@ def test_an_asset_becomes_a_mesh_with_the_labels_of_its_hulls() -> None:
 def test_a_mesh_becomes_its_asset_again_with_its_hulls_as_geoms() -> None:
     mesh = SymbolicMesh.of(asset())
     made = Hull("base/a~1", "base", box(5), parent="base/a")
-    lowered = mesh.with_hulls((mesh.hulls[1], made)).lowered()
+    lowered = mesh.with_hulls((mesh.hulls[1], made)).to_asset()
     assert [(g.name, g.parent) for g in lowered.geoms] == [("base/b", None), ("base/a~1", "base/a")]
     assert lowered.geoms[0].shape is mesh.hulls[1].shape
 
 
 def test_a_mesh_made_in_memory_has_no_asset_to_become() -> None:
     with pytest.raises(MeshForgeError, match="made in memory"):
-        row(0).lowered()
+        row(0).to_asset()
 
 
 def test_bit_sets_and_indices_are_inverse() -> None:
-    assert bits(mask_of([0, 3, 70])) == {0, 3, 70}
-    assert (bits(0), mask_of([])) == (frozenset(), 0)
+    assert bits_of(mask_of([0, 3, 70])) == {0, 3, 70}
+    assert (bits_of(0), mask_of([])) == (frozenset(), 0)

@@ -14,11 +14,11 @@ from meshforge.synthesis import (
     Answer,
     Demonstration,
     Found,
+    LearningOutcome,
     NoProgram,
     Options,
-    Outcome,
     Step,
-    outcome_json,
+    outcome_to_json,
     synthesize,
 )
 from tests.synthesis_cupboards import cupboard, cupboards, meant, selected, shown, with_rare_doors
@@ -28,11 +28,11 @@ DEMOS = shown(MESHES, ["c0"], "Is(handle) => Delete")
 BOTH, BY_DRAWER, BY_DOOR = {"pull", "knob"}, {"pull"}, {"knob"}
 
 
-def learned(*answers: Answer, demos: list[Demonstration] = DEMOS) -> Outcome:
+def learned(*answers: Answer, demos: list[Demonstration] = DEMOS) -> LearningOutcome:
     return synthesize(demos, MESHES, answers=answers, options=Options(repair=False))
 
 
-def rules(outcome: Outcome) -> list[str]:
+def rules(outcome: LearningOutcome) -> list[str]:
     return [show(rule.extractor) for rule in outcome.rules]
 
 
@@ -40,7 +40,7 @@ def rules(outcome: Outcome) -> list[str]:
 def test_a_choice_that_is_taken_is_what_the_program_selects(choice: int) -> None:
     asked = learned()
     assert isinstance(asked, Ambiguous)
-    answer = asked.question.answered(choice)
+    answer = asked.question.answer_with(choice)
     outcome = learned(answer)
     assert isinstance(outcome, Found)
     assert outcome.settled
@@ -58,7 +58,7 @@ def test_every_choice_of_every_question_about_a_family_can_be_taken() -> None:
         for choice in range(len(outcome.question.choices) if outcome and outcome.question else 0):
             assert outcome
             assert outcome.question
-            answer = outcome.question.answered(choice)
+            answer = outcome.question.answer_with(choice)
             taken = synthesize(demos, meshes, answers=[answer], options=Options(repair=False))
             assert isinstance(taken, Found | Ambiguous)
             assert selected(taken.program, 1, meshes[answer.asset]) == answer.select
@@ -73,7 +73,7 @@ def test_a_choice_is_never_larger_than_what_can_be_learned() -> None:
     assert isinstance(outcome, Ambiguous)
     assert {reading.size for reading in outcome.readings} == {1, 2}
     for choice in range(len(outcome.question.choices)):
-        answers = [outcome.question.answered(choice)]
+        answers = [outcome.question.answer_with(choice)]
         assert isinstance(synthesize(DEMOS, MESHES, answers=answers, options=options), Found | Ambiguous)
 
 
@@ -84,7 +84,7 @@ def test_neither_is_taken_note_of_and_not_asked_again_on_that_asset() -> None:
         if not isinstance(outcome, Ambiguous):
             break
         assert outcome.question.asset not in {answer.asset for answer in answers}
-        answers.append(outcome.question.answered(None))
+        answers.append(outcome.question.answer_with(None))
     assert isinstance(outcome, Found)
     assert len({answer.asset for answer in answers}) == len(answers) > 1
     assert not outcome.settled, "what was declined is still open"
@@ -95,7 +95,7 @@ def test_what_was_refused_on_an_asset_is_believed_less() -> None:
     assert isinstance(asked, Ambiguous)
     refused = {choice.reading for choice in asked.question.choices}
     offered = {show(reading.extractor) for reading in asked.readings if reading.id in refused}
-    after = learned(asked.question.answered(None))
+    after = learned(asked.question.answer_with(None))
     before = {show(reading.extractor): reading.belief for reading in asked.readings}
     others = [reading for reading in after.readings if show(reading.extractor) not in before.keys() & offered]
     assert sum(reading.belief for reading in others) > sum(before[show(reading.extractor)] for reading in others)
@@ -129,7 +129,7 @@ def test_of_several_answers_to_one_question_the_last_counts() -> None:
 
 def test_the_order_of_answers_about_different_assets_does_not_matter() -> None:
     answers = [Answer(1, "c1", BOTH), Answer(1, "c2", {"pull"}), Answer(1, "c5", None)]
-    one, other = (outcome_json(learned(*row)) for row in (answers, answers[::-1]))
+    one, other = (outcome_to_json(learned(*row)) for row in (answers, answers[::-1]))
     assert {**one, "seconds": 0} == {**other, "seconds": 0}
 
 
@@ -183,7 +183,7 @@ def test_an_answer_about_what_is_not_there_is_stale_and_counts_for_nothing(answe
 
 def test_stale_answers_are_told_once_even_where_labels_are_repaired_and_a_rule_is_learned_again() -> None:
     meshes = {**cupboards(12), "shown": cupboard(True, 2)}
-    wrong = meshes["shown"].labelled({"knob": None})
+    wrong = meshes["shown"].with_labels({"knob": None})
     demo = Demonstration(wrong, [Step(1, {"pull", "knob"}, Delete())], "shown")
     stale = Answer(1, "c1", {"gone"})
     outcome = synthesize([demo], meshes, answers=[stale, stale])
@@ -196,7 +196,7 @@ def test_an_answer_that_no_extractor_agrees_with_leaves_no_program_and_says_what
     outcome = synthesize(DEMOS, alike, answers=[Answer(1, "x", {"drawer"})], options=Options(repair=False))
     assert isinstance(outcome, NoProgram)
     assert "an answer was given for x: it can be taken back" in outcome.advice
-    json.dumps(outcome_json(outcome))
+    json.dumps(outcome_to_json(outcome))
 
 
 def test_answers_to_every_question_end_in_a_program_that_agrees_with_all_of_them() -> None:
@@ -205,7 +205,7 @@ def test_answers_to_every_question_end_in_a_program_that_agrees_with_all_of_them
     while isinstance(outcome, Ambiguous):
         truth = meant("Attach(Is(handle), Is(drawer))", MESHES[outcome.question.asset])
         offered = [frozenset(choice.select) for choice in outcome.question.choices]
-        answers.append(outcome.question.answered(offered.index(truth) if truth in offered else None))
+        answers.append(outcome.question.answer_with(offered.index(truth) if truth in offered else None))
         assert len(answers) <= len(MESHES)
         outcome = learned(*answers)
     assert isinstance(outcome, Found)

@@ -16,15 +16,15 @@ from meshforge.synthesis import (
     Answer,
     Demonstration,
     Found,
+    LearningOutcome,
     Options,
-    Outcome,
     Step,
-    outcome_json,
+    outcome_to_json,
     synthesize,
 )
-from meshforge.synthesis.agreement import agreed_rules
-from meshforge.synthesis.batch import Course, corrected, named_batch
-from meshforge.synthesis.correction import Correction
+from meshforge.synthesis.demonstration import collect_rule_specs
+from meshforge.synthesis.questions import LabelCorrection
+from meshforge.synthesis.task import ReplaySet, apply_corrections, name_batch
 from tests.synthesis_boxes import boxes
 from tests.synthesis_cupboards import cupboard, cupboards, shown, with_rare_doors
 
@@ -36,9 +36,9 @@ DEMOS = shown(MESHES, ["c0"], HANDLES)
 EMPTY = SymbolicMesh(())
 
 
-def shape(outcome: Outcome) -> dict[str, Any]:
+def shape(outcome: LearningOutcome) -> dict[str, Any]:
     """The outcome as JSON, without times."""
-    return {**json.loads(json.dumps(outcome_json(outcome))), "seconds": None}
+    return {**json.loads(json.dumps(outcome_to_json(outcome))), "seconds": None}
 
 
 def at(size: float) -> SymbolicMesh:
@@ -51,7 +51,7 @@ def at(size: float) -> SymbolicMesh:
 
 
 def test_meshes_made_in_memory_are_counted_from_one() -> None:
-    named = named_batch([cupboard(), cupboard(True)], DEMOS)
+    named = name_batch([cupboard(), cupboard(True)], DEMOS)
     assert list(named) == ["mesh 1", "mesh 2"]
 
 
@@ -61,19 +61,19 @@ def test_meshes_of_files_are_called_by_their_paths(tmp_path: Path) -> None:
         path.write_text("o x\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n")
     meshes = [mf.load(path) for path in paths]
     demo = Demonstration(meshes[1], [Step(1, [], Delete())])
-    assert list(named_batch(meshes, DEMOS)) == [str(paths[1]), str(paths[0])]
-    assert list(named_batch((mf.load(path) for path in paths), [demo])) == [str(paths[0])]
+    assert list(name_batch(meshes, DEMOS)) == [str(paths[1]), str(paths[0])]
+    assert list(name_batch((mf.load(path) for path in paths), [demo])) == [str(paths[0])]
 
 
 def test_demonstrated_meshes_are_left_out_by_name_and_by_identity() -> None:
-    assert "c0" not in named_batch({**MESHES, "c0": cupboard()}, DEMOS)
-    assert "again" not in named_batch({**MESHES, "again": MESHES["c0"]}, DEMOS)
+    assert "c0" not in name_batch({**MESHES, "c0": cupboard()}, DEMOS)
+    assert "again" not in name_batch({**MESHES, "again": MESHES["c0"]}, DEMOS)
     unnamed = Demonstration(MESHES["c0"], DEMOS[0].steps)
-    assert sorted(named_batch(MESHES, [unnamed])) == [f"c{k}" for k in range(1, 8)]
+    assert sorted(name_batch(MESHES, [unnamed])) == [f"c{k}" for k in range(1, 8)]
 
 
 def test_one_mesh_under_two_names_is_two_assets() -> None:
-    assert list(named_batch({"a": MESHES["c1"], "b": MESHES["c1"]}, DEMOS)) == ["a", "b"]
+    assert list(name_batch({"a": MESHES["c1"], "b": MESHES["c1"]}, DEMOS)) == ["a", "b"]
 
 
 @pytest.mark.parametrize("batch", [(), [], {}, iter(())])
@@ -133,13 +133,13 @@ def test_a_mesh_without_hulls_is_no_obstacle_and_never_asked_about() -> None:
 
 
 def test_labels_of_the_batch_are_part_of_the_vocabulary_unless_it_is_given() -> None:
-    odd = cupboard().labelled({"case": Label("carcass")})
+    odd = cupboard().with_labels({"case": Label("carcass")})
     assert "carcass" in synthesize_program(synthesize(DEMOS, {"odd": odd})).labels
     given = ("body", "drawer", "handle")
     assert synthesize_program(synthesize(DEMOS, {"odd": odd}, vocabulary=given)).labels == given
 
 
-def synthesize_program(outcome: Outcome) -> Program:
+def synthesize_program(outcome: LearningOutcome) -> Program:
     assert outcome.program
     return outcome.program
 
@@ -171,24 +171,26 @@ def test_the_strategy_of_the_paper_takes_a_batch_and_settles_nothing() -> None:
 
 def test_a_course_runs_the_last_rule_on_demonstrated_meshes_only() -> None:
     program = Program.parse(HANDLES)
-    course = Course(DEMOS, named_batch(MESHES, DEMOS), program, dict[str, Template](), ())
-    (rule,) = agreed_rules(DEMOS)
+    course = ReplaySet(DEMOS, name_batch(MESHES, DEMOS), program, dict[str, Template](), ())
+    (rule,) = collect_rule_specs(DEMOS)
     examples, rest = course.examples(rule)
     assert [example.name for example in examples] == ["c0"]
     assert [replay.name for replay in rest] == [f"c{k}" for k in range(1, 8)]
-    course.take(1, program.rules[0], last=True)
+    course.advance(1, program.rules[0], last=True)
     assert "pull" not in course.shown[0].mesh.index
     assert all("pull" in replay.mesh.index for replay in course.others)
-    before_another = Course(DEMOS, named_batch(MESHES, DEMOS), program, dict[str, Template](), ())
-    before_another.take(1, program.rules[0], last=False)
+    before_another = ReplaySet(DEMOS, name_batch(MESHES, DEMOS), program, dict[str, Template](), ())
+    before_another.advance(1, program.rules[0], last=False)
     assert len(before_another.others) == 7
     assert not any("pull" in replay.mesh.index for replay in before_another.others)
 
 
 def test_corrections_of_other_meshes_and_of_hulls_that_are_gone_change_nothing() -> None:
     mesh = MESHES["c1"]
-    assert corrected(mesh, "c1", [Correction("c2", "pull", "handle", "door")]) is mesh
-    after = corrected(mesh, "c1", [Correction("c1", "pull", "handle", "door"), Correction("c1", "gone", None, "door")])
-    assert (after.named("pull").label, after.named("pull").source) == ("door", "repair")
-    assert mesh.named("pull").label == "handle"
+    assert apply_corrections(mesh, "c1", [LabelCorrection("c2", "pull", "handle", "door")]) is mesh
+    after = apply_corrections(
+        mesh, "c1", [LabelCorrection("c1", "pull", "handle", "door"), LabelCorrection("c1", "gone", None, "door")]
+    )
+    assert (after.hull_of("pull").label, after.hull_of("pull").source) == ("door", "repair")
+    assert mesh.hull_of("pull").label == "handle"
     assert {hull.name for hull in after.hulls} == {hull.name for hull in mesh.hulls}

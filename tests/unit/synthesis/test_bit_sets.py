@@ -7,9 +7,9 @@ from hypothesis import strategies as st
 
 from meshforge.language import EXTREMITY, Extractor, select_mask
 from meshforge.symbolic import SymbolicMesh
-from meshforge.synthesis.search.columns import Columns, positions
-from meshforge.synthesis.search.field import Field
-from meshforge.synthesis.search.miss import Errors
+from meshforge.synthesis.search.bank import Columns, positions
+from meshforge.synthesis.search.observation_table import ObservationTable
+from meshforge.synthesis.search.smallest import ErrorCounter
 from tests.examples import examples
 from tests.strategies import extractors, grid_boxes, meshes
 from tests.synthesis_boxes import boxes, table
@@ -22,7 +22,7 @@ batches = st.lists(meshes(grid_boxes(), vocabulary=LABELS), min_size=1, max_size
 @given(st.lists(masks, max_size=30), masks, masks)
 def test_the_index_finds_the_rows_that_hold_one_set_and_avoid_another(rows: list[int], need: int, avoid: int) -> None:
     columns = Columns(rows, 12)
-    found = columns.avoiding(avoid, columns.holding(need, columns.every))
+    found = columns.rows_without(avoid, columns.rows_with(need, columns.every))
     assert list(positions(found)) == [k for k, row in enumerate(rows) if row & need == need and not row & avoid]
 
 
@@ -31,7 +31,7 @@ def test_the_index_finds_the_rows_that_hold_one_set_and_avoid_another(rows: list
 def test_what_an_extractor_selects_is_a_set_of_groups(
     batch: list[SymbolicMesh], extractor: Extractor, group: bool, extremity: float
 ) -> None:
-    field = Field(batch, LABELS, extremity=extremity, group=group)
+    field = ObservationTable(batch, LABELS, extremity=extremity, group=group)
     chosen = field.bits(extractor)
     assert [field.on(chosen, k) for k in range(len(batch))] == [select_mask(extractor, m, extremity) for m in batch]
 
@@ -39,7 +39,7 @@ def test_what_an_extractor_selects_is_a_set_of_groups(
 @examples(50)
 @given(batches)
 def test_leaves_tell_the_first_hulls_of_two_groups_apart(batch: list[SymbolicMesh]) -> None:
-    field = Field(batch, LABELS)
+    field = ObservationTable(batch, LABELS)
     seen = {tuple(term.bits >> group & 1 for term in field.terms) for group in range(field.width)}
     assert len(seen) == field.width
 
@@ -47,23 +47,23 @@ def test_leaves_tell_the_first_hulls_of_two_groups_apart(batch: list[SymbolicMes
 @examples(50)
 @given(batches, st.integers(0, 2**32 - 1), masks)
 def test_errors_are_counted_by_hulls(batch: list[SymbolicMesh], shown: int, chosen: int) -> None:
-    field = Field(batch, LABELS)
+    field = ObservationTable(batch, LABELS)
     selections = [shown >> 8 * k & ((1 << len(mesh.hulls)) - 1) for k, mesh in enumerate(batch)]
     wrong = sum((field.on(chosen, k) ^ selection).bit_count() for k, selection in enumerate(selections))
-    assert Errors(field, selections, field.width).count(chosen & ((1 << field.width) - 1)) == wrong
+    assert ErrorCounter(field, selections, field.width).count(chosen & ((1 << field.width) - 1)) == wrong
 
 
 def test_groups_of_the_first_meshes_come_first() -> None:
-    field = Field([table(), table(drawers=2)], LABELS)
+    field = ObservationTable([table(), table(drawers=2)], LABELS)
     assert field.width_of(0) == 0
     assert set(field.groups[0]) == set(range(field.width_of(1)))
 
 
 def test_two_like_hulls_of_which_one_is_selected_are_named() -> None:
     mesh = boxes(*((f"leg{k}", "a", (2.0 * k, 0, 0), (1, 1, 1)) for k in range(4)))
-    assert Field([mesh], LABELS).unlike([0b0010]) == ((0, 1), (0, 2))
-    assert Field([mesh], LABELS).unlike([0b0110]) is None
+    assert ObservationTable([mesh], LABELS).find_conflict([0b0010]) == ((0, 1), (0, 2))
+    assert ObservationTable([mesh], LABELS).find_conflict([0b0110]) is None
 
 
 def test_a_field_without_meshes_has_no_groups() -> None:
-    assert Field([], LABELS).width == 0
+    assert ObservationTable([], LABELS).width == 0

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from dataclasses import replace
 from itertools import count
 
 import pytest
@@ -12,15 +13,15 @@ from meshforge.symbolic import Label, SymbolicMesh
 from meshforge.synthesis import (
     Ambiguous,
     Answer,
-    Correction,
     Demonstration,
     Found,
+    LabelCorrection,
+    LearningOutcome,
     NeedsRepair,
     Options,
-    Outcome,
     Repair,
     TimedOut,
-    outcome_json,
+    outcome_to_json,
     synthesize,
 )
 from meshforge.synthesis.options import Strategy
@@ -35,14 +36,14 @@ BATCH = {
     for litter in (0, 1)
 }
 TRUE = {"one": table(), "two": table(drawers=2)}
-LEG = Correction("one", "leg0_low", "drawer", "leg")
+LEG = LabelCorrection("one", "leg0_low", "drawer", "leg")
 WRONG = {"leg0_low": "drawer"}
 
 
 def labelled(mesh: SymbolicMesh, wrong: Mapping[str, str | None]) -> SymbolicMesh:
     labels: dict[str, Label | None] = {hull.name: Label(hull.label, 0.95, "vlm") for hull in mesh.hulls if hull.label}
     labels.update({name: Label(label, 0.6, "vlm") if label else None for name, label in wrong.items()})
-    return mesh.labelled(labels)
+    return mesh.with_labels(labels)
 
 
 def planted(wrong: Mapping[str, str | None], program: str = "Is(leg) => Delete") -> list[Demonstration]:
@@ -57,7 +58,7 @@ def planted(wrong: Mapping[str, str | None], program: str = "Is(leg) => Delete")
 class Person:
     """Says yes to what is in `right`, and remembers what was asked."""
 
-    def __init__(self, *right: Correction) -> None:
+    def __init__(self, *right: LabelCorrection) -> None:
         self.right, self.asked = right, list[Repair]()
 
     def __call__(self, repair: Repair) -> bool:
@@ -65,7 +66,7 @@ class Person:
         return repair.correction in self.right
 
     @property
-    def corrections(self) -> list[Correction]:
+    def corrections(self) -> list[LabelCorrection]:
         return [repair.correction for repair in self.asked]
 
 
@@ -74,16 +75,15 @@ def learned(
     confirm: Callable[[Repair], bool] | None = None,
     options: Options | None = None,
     answers: tuple[Answer, ...] = (),
-    rejected: tuple[Correction, ...] = (),
-) -> Outcome:
+    rejected: tuple[LabelCorrection, ...] = (),
+) -> LearningOutcome:
     return synthesize(
         demos,
         {name: labelled(mesh, {}) for name, mesh in BATCH.items()},
         vocabulary=VOCABULARY,
-        options=options or Options(max_size=9),
+        options=replace(options or Options(max_size=9), rejected=rejected),
         confirm=confirm,
         answers=answers,
-        rejected=rejected,
     )
 
 
@@ -100,7 +100,7 @@ def test_without_a_person_repairs_are_proposed_with_what_the_program_would_be() 
 
 def test_a_proposal_as_json() -> None:
     outcome = learned(planted(WRONG))
-    shape = outcome_json(outcome)
+    shape = outcome_to_json(outcome)
     (repair,) = shape["repairs"]
     assert (shape["status"], shape["program"], shape["question"]) == ("repair", None, None)
     assert {**repair, "belief": None, "why": None} == {
@@ -136,15 +136,15 @@ def test_what_was_refused_before_is_not_asked_at_all() -> None:
 
 
 def test_the_reverse_of_what_was_confirmed_is_never_proposed() -> None:
-    person = Person(LEG, Correction("one", "leg0_low", "leg", "drawer"))
+    person = Person(LEG, LabelCorrection("one", "leg0_low", "leg", "drawer"))
     learned(planted(WRONG), person)
     assert all(correction.reverse not in person.corrections for correction in person.corrections)
 
 
 def test_the_reverse_of_a_correction_undoes_it_and_a_filled_gap_has_none() -> None:
-    assert LEG.reverse == Correction("one", "leg0_low", "leg", "drawer")
+    assert LEG.reverse == LabelCorrection("one", "leg0_low", "leg", "drawer")
     assert LEG.reverse.reverse == LEG
-    assert Correction("one", "leg0_low", None, "leg").reverse is None
+    assert LabelCorrection("one", "leg0_low", None, "leg").reverse is None
 
 
 def test_after_a_repair_for_a_later_rule_the_first_is_learned_anew() -> None:
@@ -158,7 +158,7 @@ def test_after_a_repair_for_a_later_rule_the_first_is_learned_anew() -> None:
 def test_a_person_is_asked_only_so_often_about_a_mesh_over_all_rules_and_rounds() -> None:
     program = "Is(leg) => Delete\nIs(misc) => Delete\nIs(handle) => Delete"
     wrong = {"leg0_low": "drawer", "leg3_high": "panel", "handle0": "drawer", "residue_0": "panel"}
-    right = [Correction("one", hull, was, TRUE["one"].named(hull).label or "") for hull, was in wrong.items()]
+    right = [LabelCorrection("one", hull, was, TRUE["one"].hull_of(hull).label or "") for hull, was in wrong.items()]
     person = Person(*right)
     learned(planted(wrong, program), person, Options(max_size=9, eta=2))
     agreed = [correction for correction in person.corrections if correction in right]
@@ -186,7 +186,7 @@ def test_right_labels_raise_no_question() -> None:
 def test_an_answer_may_show_that_a_label_of_the_batch_is_wrong() -> None:
     meshes = {name: labelled(mesh, WRONG if name == "t410" else {}) for name, mesh in BATCH.items()}
     legs = {hull.name for hull in BATCH["t410"].hulls if hull.label == "leg"}
-    person = Person(Correction("t410", "leg0_low", "drawer", "leg"))
+    person = Person(LabelCorrection("t410", "leg0_low", "drawer", "leg"))
     outcome = synthesize(
         planted({}), meshes, vocabulary=VOCABULARY, confirm=person, answers=[Answer(1, "t410", legs)],
         options=Options(max_size=9),
@@ -209,8 +209,7 @@ def test_time_does_not_run_while_a_person_thinks(strategy: Strategy) -> None:
         planted(WRONG),
         vocabulary=VOCABULARY,
         confirm=thinking,
-        options=Options(strategy=strategy, max_size=9, budget=1e5),
-        clock=lambda: next(ticks) + thought[0],
+        options=Options(strategy=strategy, max_size=9, budget=1e5, clock=lambda: next(ticks) + thought[0]),
     )
     assert thought[0] > 0
     assert not isinstance(outcome, TimedOut)
@@ -225,7 +224,8 @@ def test_a_person_who_stops_while_being_asked_is_not_asked_again() -> None:
         return False
 
     program = "Union(Is(leg), Is(handle)) => Delete"
-    outcome = synthesize(planted(WRONG, program), vocabulary=VOCABULARY, confirm=confirm, stop=lambda: bool(asked))
+    options = Options(stop=lambda: bool(asked))
+    outcome = synthesize(planted(WRONG, program), vocabulary=VOCABULARY, confirm=confirm, options=options)
     assert len(asked) == 1
     assert isinstance(outcome, TimedOut)
     assert outcome.program is None

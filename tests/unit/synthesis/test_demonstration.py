@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from meshforge.errors import DemonstrationError
+from meshforge.common import DemonstrationError
 from meshforge.language import Action, Delete, Each, Merge, Replace
 from meshforge.symbolic import SymbolicMesh
 from meshforge.synthesis import Demonstration, Found, Step, synthesize

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from meshforge.synthesis.readings.doubt import CHOICES, PRICE, SEEN, UNSEEN, Doubt
+from meshforge.synthesis.readings.rank import MAX_CHOICES, QUESTION_PRICE, SAMPLE_SEEN, UNSEEN_COST, QuestionValue
 
 
 def askable(*assets: int) -> dict[int, float]:
@@ -13,91 +13,93 @@ def askable(*assets: int) -> dict[int, float]:
 
 
 def test_readings_that_agree_everywhere_do_no_harm_and_raise_no_question() -> None:
-    doubt = Doubt([["a", "b"], ["a", "b"]], [0.6, 0.4])
-    assert (doubt.harm, doubt.best(askable(*range(2))), doubt.gains(0)) == (0.0, None, {})
+    doubt = QuestionValue([["a", "b"], ["a", "b"]], [0.6, 0.4])
+    assert (doubt.harm, doubt.best_question(askable(*range(2))), doubt.gains(0)) == (0.0, None, {})
 
 
 def test_one_reading_alone_does_no_harm() -> None:
-    doubt = Doubt([["a", "b"]], [1.0])
-    assert (doubt.harm, doubt.best(askable(*range(2)))) == (0.0, None)
+    doubt = QuestionValue([["a", "b"]], [1.0])
+    assert (doubt.harm, doubt.best_question(askable(*range(2)))) == (0.0, None)
 
 
 def test_without_assets_nothing_is_at_stake() -> None:
-    doubt = Doubt([[], []], [0.5, 0.5])
-    assert (doubt.harm, doubt.best({}), doubt.gains(0)) == (0.0, None, {})
+    doubt = QuestionValue([[], []], [0.5, 0.5])
+    assert (doubt.harm, doubt.best_question({}), doubt.gains(0)) == (0.0, None, {})
 
 
 def test_harm_is_the_believed_share_of_assets_on_which_others_differ_from_the_program() -> None:
-    doubt = Doubt([[1, 1, 1, 1], [1, 1, 2, 2], [9, 9, 9, 9]], [0.7, 0.2, 0.1])
+    doubt = QuestionValue([[1, 1, 1, 1], [1, 1, 2, 2], [9, 9, 9, 9]], [0.7, 0.2, 0.1])
     assert doubt.harm == pytest.approx(0.2 * 0.5 + 0.1 * 1.0)
 
 
 def test_the_harm_counts_from_the_programs_reading_even_where_another_is_believed_more() -> None:
-    assert Doubt([[1], [2]], [0.25, 0.75]).harm == pytest.approx(0.75)
+    assert QuestionValue([[1], [2]], [0.25, 0.75]).harm == pytest.approx(0.75)
 
 
 def test_what_differs_everywhere_is_seen_and_costs_a_demonstration() -> None:
-    for belief, worth in ((PRICE * 0.99, False), (PRICE * 1.01, True)):
-        best = Doubt([["a"] * 5, ["b"] * 5], [1 - belief, belief]).best(askable(*range(5)))
+    for belief, worth in ((QUESTION_PRICE * 0.99, False), (QUESTION_PRICE * 1.01, True)):
+        best = QuestionValue([["a"] * 5, ["b"] * 5], [1 - belief, belief]).best_question(askable(*range(5)))
         assert best is not None
         assert best.spared == pytest.approx(belief)
-        assert best.worth_asking is worth
+        assert best.is_worth_asking is worth
 
 
 def test_what_differs_on_few_assets_is_likely_not_seen_and_costs_more() -> None:
-    best = Doubt([["a"] * 50, ["a"] * 49 + ["b"]], [0.9, 0.1]).best(askable(*range(50)))
+    best = QuestionValue([["a"] * 50, ["a"] * 49 + ["b"]], [0.9, 0.1]).best_question(askable(*range(50)))
     assert best is not None
     assert best.asset == 49
-    assert best.spared == pytest.approx(0.1 * (1 + UNSEEN * 0.98**SEEN))
+    assert best.spared == pytest.approx(0.1 * (1 + UNSEEN_COST * 0.98**SAMPLE_SEEN))
 
 
 def test_the_best_question_leaves_least_harm_and_of_equals_is_about_the_first_asset() -> None:
     selections = [["a", "a", "a", "a"], ["a", "b", "b", "b"], ["a", "a", "c", "c"]]
-    doubt = Doubt(selections, [0.5, 0.3, 0.2])
-    best = doubt.best(askable(*range(4)))
+    doubt = QuestionValue(selections, [0.5, 0.3, 0.2])
+    best = doubt.best_question(askable(*range(4)))
     assert best is not None
     assert (best.asset, best.left) == (2, 0.0)
-    assert doubt.best(askable(3, 1)) == doubt.best(askable(1, 3))
-    other = doubt.best(askable(1))
+    assert doubt.best_question(askable(3, 1)) == doubt.best_question(askable(1, 3))
+    other = doubt.best_question(askable(1))
     assert other is not None
     assert other.left == pytest.approx(0.2 * 0.5)
-    assert doubt.best(askable(0)) is None
+    assert doubt.best_question(askable(0)) is None
 
 
 def test_an_answer_where_labels_are_doubtful_is_worth_less() -> None:
-    doubt = Doubt([["a", "a", "a"], ["a", "b", "b"]], [0.7, 0.3])
+    doubt = QuestionValue([["a", "a", "a"], ["a", "b", "b"]], [0.7, 0.3])
     for trust, asset in (({1: 1.0, 2: 1.0}, 1), ({1: 0.5, 2: 0.6}, 2), ({0: 1.0, 1: 0.1, 2: 0.0}, 1)):
-        best = doubt.best(trust)
+        best = doubt.best_question(trust)
         assert best is not None
         assert best.asset == asset
-        assert best.spared == pytest.approx(0.3 * (1 + UNSEEN * (1 / 3) ** SEEN)), "what it spares is as much"
+        assert best.spared == pytest.approx(0.3 * (1 + UNSEEN_COST * (1 / 3) ** SAMPLE_SEEN)), (
+            "what it spares is as much"
+        )
 
 
 def test_choices_are_told_apart_the_most_believed_first_and_each_stands_for_its_most_believed_reading() -> None:
-    best = Doubt([["a"], ["b"], ["a"], ["b"], ["c"]], [0.1, 0.15, 0.25, 0.3, 0.2]).best(askable(0))
+    best = QuestionValue([["a"], ["b"], ["a"], ["b"], ["c"]], [0.1, 0.15, 0.25, 0.3, 0.2]).best_question(askable(0))
     assert best is not None
     assert best.choices == (3, 0, 4), "the program's own reading stands for its choice, whatever is believed"
 
 
 def test_a_person_compares_three_pictures_at_most() -> None:
-    best = Doubt([[k] for k in range(7)], [0.4, *[0.1] * 6]).best(askable(0))
+    best = QuestionValue([[k] for k in range(7)], [0.4, *[0.1] * 6]).best_question(askable(0))
     assert best is not None
     assert best.choices == (0, 1, 2)
-    assert len(best.choices) == CHOICES
+    assert len(best.choices) == MAX_CHOICES
 
 
 def test_gains_are_of_assets_from_a_place_on_where_an_answer_spares_harm() -> None:
-    doubt = Doubt([["a", "a", "a"], ["b", "a", "b"]], [0.75, 0.25])
+    doubt = QuestionValue([["a", "a", "a"], ["b", "a", "b"]], [0.75, 0.25])
     assert doubt.gains(1) == {2: pytest.approx(doubt.harm)}
     assert sorted(doubt.gains(0)) == [0, 2]
 
 
 def test_what_is_selected_may_be_anything_that_can_be_compared() -> None:
-    as_sets = Doubt([[frozenset({1, 2})], [frozenset({2, 1})], [frozenset()]], [0.5, 0.3, 0.2])
-    as_masks = Doubt([[6], [6], [0]], [0.5, 0.3, 0.2])
+    as_sets = QuestionValue([[frozenset({1, 2})], [frozenset({2, 1})], [frozenset()]], [0.5, 0.3, 0.2])
+    as_masks = QuestionValue([[6], [6], [0]], [0.5, 0.3, 0.2])
     assert as_sets.harm == as_masks.harm == pytest.approx(0.2)
-    assert as_sets.best(askable(0)) == as_masks.best(askable(0))
+    assert as_sets.best_question(askable(0)) == as_masks.best_question(askable(0))
 
 
 def test_masks_wider_than_a_machine_word_are_told_apart() -> None:
-    assert Doubt([[1 << 300], [1 << 301]], [0.5, 0.5]).harm == pytest.approx(0.5)
+    assert QuestionValue([[1 << 300], [1 << 301]], [0.5, 0.5]).harm == pytest.approx(0.5)

@@ -8,8 +8,15 @@ import pytest
 
 from meshforge.language import parse_extractor, select_mask
 from meshforge.symbolic import SymbolicMesh
-from meshforge.synthesis.readings.evidence import NO_EVIDENCE, STRANGE_LABEL, Evidence, evidence, unneeded, untried
-from meshforge.synthesis.search.field import Field
+from meshforge.synthesis.readings.belief import (
+    NO_EVIDENCE,
+    STRANGE_LABEL,
+    ReadingEvidence,
+    count_idle,
+    count_untested,
+    measure_evidence,
+)
+from meshforge.synthesis.search.observation_table import ObservationTable
 from tests.synthesis_boxes import boxes
 
 LABELS = ("leg", "panel", "misc")
@@ -27,11 +34,11 @@ def row(legs: int, misc: int = 0) -> SymbolicMesh:
 
 def said(
     texts: Sequence[str], shown: Sequence[SymbolicMesh], batch: Sequence[SymbolicMesh], rule: str = "Is(leg)"
-) -> tuple[Evidence, ...]:
+) -> tuple[ReadingEvidence, ...]:
     """The evidence on some extractors, where a rule was demonstrated."""
-    field = Field([*shown, *batch], LABELS)
+    field = ObservationTable([*shown, *batch], LABELS)
     selections = [select_mask(parse_extractor(rule), mesh) for mesh in shown]
-    return evidence(field, selections, [field.bits(parse_extractor(text)) for text in texts])
+    return measure_evidence(field, selections, [field.bits(parse_extractor(text)) for text in texts])
 
 
 @pytest.mark.parametrize("batch", [[], [NONE_AT_ALL], [NONE_AT_ALL, NONE_AT_ALL]])
@@ -60,7 +67,7 @@ def test_a_mesh_without_hulls_is_one_where_nothing_is_selected() -> None:
 
 
 def test_a_reading_that_never_selects_is_idle_and_nothing_else() -> None:
-    assert said(["Is(misc)"], [row(2, 1)], [row(2), row(3)]) == (Evidence(1.0, 0.0),)
+    assert said(["Is(misc)"], [row(2, 1)], [row(2), row(3)]) == (ReadingEvidence(1.0, 0.0),)
 
 
 def test_hulls_like_those_demonstrated_are_not_strange_and_others_are_the_more_the_less_alike() -> None:
@@ -106,8 +113,8 @@ def test_the_evidence_does_not_depend_on_the_unit_of_length() -> None:
     ],
 )
 def test_operands_that_make_no_difference_where_it_was_shown_are_untried(text: str, count: int) -> None:
-    field = Field([row(2), row(2, 2)], LABELS)
-    assert untried(field.term(parse_extractor(text)), (1 << field.width_of(1)) - 1) == count
+    field = ObservationTable([row(2), row(2, 2)], LABELS)
+    assert count_untested(field.term(parse_extractor(text)), (1 << field.width_of(1)) - 1) == count
 
 
 @pytest.mark.parametrize(
@@ -121,5 +128,5 @@ def test_operands_that_make_no_difference_where_it_was_shown_are_untried(text: s
     ],
 )
 def test_a_limit_that_leaves_nothing_out_where_it_was_shown_is_unneeded(text: str, count: int) -> None:
-    field = Field([row(2, 1), row(3, 2)], ("leg", "panel", "misc"))
-    assert unneeded(field.term(parse_extractor(text)), (1 << field.width_of(1)) - 1, field) == count
+    field = ObservationTable([row(2, 1), row(3, 2)], ("leg", "panel", "misc"))
+    assert count_idle(field.term(parse_extractor(text)), (1 << field.width_of(1)) - 1, field) == count

@@ -9,9 +9,9 @@ import pytest
 from meshforge.language import Delete, parse_extractor
 from meshforge.symbolic import SymbolicMesh
 from meshforge.synthesis import Answer, Demonstration, NoProgram, Options, Step, synthesize
-from meshforge.synthesis.example import Example
-from meshforge.synthesis.failure import advice
-from meshforge.synthesis.search.miss import NearMiss
+from meshforge.synthesis.demonstration import Example
+from meshforge.synthesis.diagnosis import give_advice
+from meshforge.synthesis.search.smallest import NearestExtractor
 from tests.synthesis_boxes import boxes
 
 ROW = boxes(
@@ -35,8 +35,8 @@ def told(
     extractor: str = "Is(leg)",
     answered: Sequence[str] = (),
 ) -> tuple[str, ...]:
-    miss = NearMiss(parse_extractor(extractor), examples[0].name, tuple(extra), tuple(missing))
-    return advice(miss, examples, answered)
+    miss = NearestExtractor(parse_extractor(extractor), examples[0].name, tuple(extra), tuple(missing))
+    return give_advice(miss, examples, answered)
 
 
 @pytest.mark.parametrize(("extra", "missing", "said"), [
@@ -68,7 +68,7 @@ def test_hulls_that_are_left_out_are_told_from_those_with_another_label() -> Non
 
 
 def test_missing_labels_come_first_all_in_one_sentence() -> None:
-    bare = ROW.labelled({"a": None, "b": None})
+    bare = ROW.with_labels({"a": None, "b": None})
     assert told(["b"], ["a"], example("row", bare, "a")) == ("a, b of row have no label",)
 
 
@@ -120,7 +120,7 @@ def test_no_more_is_said_than_a_person_reads_and_nothing_twice() -> None:
 
 def test_an_outcome_without_a_program_carries_the_advice_and_names_answers_of_that_rule_only() -> None:
     demo = Demonstration(ROW, [Step(1, {"a", "b"}, Delete())], "row")
-    batch = {"x": ROW.labelled({})}
+    batch = {"x": ROW.with_labels({})}
     answers = [Answer(1, "x", {"a"}), Answer(2, "x", {"b"}), Answer(1, "row", {"a"}), Answer(1, "gone", {"a"})]
     outcome = synthesize([demo], batch, answers=answers, options=Options(repair=False))
     assert isinstance(outcome, NoProgram)
@@ -132,7 +132,7 @@ def test_an_outcome_without_a_program_carries_the_advice_and_names_answers_of_th
 
 
 def test_a_hull_without_label_and_one_of_two_like_ones_are_pointed_at() -> None:
-    demo = Demonstration(ROW.labelled({"b": None}), [Step(1, {"a", "b"}, Delete())], "row")
+    demo = Demonstration(ROW.with_labels({"b": None}), [Step(1, {"a", "b"}, Delete())], "row")
     outcome = synthesize([demo], options=Options(repair=False, max_size=1))
     assert isinstance(outcome, NoProgram)
     assert outcome.advice == (

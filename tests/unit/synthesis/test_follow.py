@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import pytest
 
 from benchmark.learning.families import family
@@ -21,8 +23,7 @@ def followed(
         shown(MESHES, ["c0"], demonstrated),
         MESHES,
         orient=orient,
-        options=options or Options(repair=False),
-        follow=Program.parse(wanted),
+        options=replace(options or Options(repair=False), follow=Program.parse(wanted)),
     ).followed
 
 
@@ -52,7 +53,8 @@ def test_each_rule_is_told_of_in_one_sentence(wanted: str, told: str) -> None:
 
 def test_one_asset_is_it_and_not_one_of_these() -> None:
     few = {name: MESHES[name] for name in ("c0", "c1", "c2")}
-    outcome = synthesize(shown(few, ["c0"], HANDLES), few, follow=Program.parse("Geo(Is(handle), -Z) => Delete"))
+    options = Options(follow=Program.parse("Geo(Is(handle), -Z) => Delete"))
+    outcome = synthesize(shown(few, ["c0"], HANDLES), few, options=options)
     (line,) = outcome.followed
     assert line.endswith("They differ on 1 asset: c1; demonstrate it")
 
@@ -63,9 +65,8 @@ def test_a_larger_reading_that_is_believed_more_but_not_taken_is_told_so() -> No
     beliefs = {r.extractor: r.belief for r in synthesize(demos, meshes, options=Options(repair=False)).readings}
     taken, rival, *_ = beliefs
     assert beliefs[taken] < beliefs[rival], "else this family shows nothing"
-    (line,) = synthesize(
-        demos, meshes, options=Options(repair=False), follow=Program.parse(f"{show(rival)} => Delete")
-    ).followed
+    options = Options(repair=False, follow=Program.parse(f"{show(rival)} => Delete"))
+    (line,) = synthesize(demos, meshes, options=options).followed
     assert f"; {show(taken)} is smaller, though less believable ({beliefs[taken]:.0%} against" in line
 
 
@@ -141,8 +142,11 @@ def test_a_rule_that_nothing_matches_is_told_of_and_those_after_it_are_not() -> 
     steps = [Step(1, {"pull"}, Delete()), Step(2, {"foot0"}, Delete()), Step(3, {"case"}, Delete())]
     outcome = synthesize(
         [Demonstration(MESHES["c2"], steps, "c2")],
-        options=Options(repair=False, layers="S"),
-        follow=Program.parse("Is(handle) => Delete\nIs(foot) => Delete\nIs(body) => Delete"),
+        options=Options(
+            repair=False,
+            layers="S",
+            follow=Program.parse("Is(handle) => Delete\nIs(foot) => Delete\nIs(body) => Delete"),
+        ),
     )
     assert outcome.status == "none"
     assert outcome.followed == ("rule 1, Is(handle): learned", "rule 2, Is(foot): on c2 it selects foot1 too")

@@ -8,26 +8,16 @@ from itertools import permutations
 import numpy as np
 import pytest
 
-from meshforge.errors import DemonstrationError
+from meshforge.common import DemonstrationError
 from meshforge.geometry import Pose
-from meshforge.language import (
-    Action,
-    Delete,
-    Merge,
-    Orient,
-    Program,
-    Replace,
-    parse_orient,
-    show,
-    stage,
-)
+from meshforge.language import Action, Delete, Merge, Orient, Program, Replace, parse_orient, show, to_canonical_frame
 from meshforge.symbolic import SymbolicMesh
 from meshforge.synthesis import Demonstration, Found, Options, Step, synthesize
-from meshforge.synthesis.agreement import agreed_rules
-from meshforge.synthesis.frames import Suggested, suggest_orientation
-from meshforge.synthesis.frames.directives import Directives
-from meshforge.synthesis.frames.turning import Turning
-from meshforge.synthesis.watch import OutOfTime, Watch
+from meshforge.synthesis.demonstration import collect_rule_specs
+from meshforge.synthesis.options import OutOfTime, TimeBudget
+from meshforge.synthesis.orientation.attempts import MeshTurner
+from meshforge.synthesis.orientation.directives import Directives
+from meshforge.synthesis.orientation.suggest import OrientationSuggestion, suggest_orientation
 from tests.synthesis_boxes import Piece, boxes, table, turned
 
 LABELS = ("panel", "leg", "handle", "drawer", "misc")
@@ -59,19 +49,19 @@ def suggested(
     labels: Sequence[str] = LABELS,
     batch: Sequence[SymbolicMesh] = (),
     options: Options | None = None,
-) -> Suggested | None:
+) -> OrientationSuggestion | None:
     """The suggestion, whose sizes are those that learning finds in its frame."""
     orient, options = parse_orient(now) if now else None, options or Options()
     before = sizes_now(demos, orient, labels, options)
-    rules, frame, watch = agreed_rules(demos), Program(tuple(labels), orient), Watch(60.0)
-    found = suggest_orientation(demos, rules, frame, {}, options, watch, before, batch)
+    rules, frame, budget = collect_rule_specs(demos), Program(tuple(labels), orient), TimeBudget(60.0)
+    found = suggest_orientation(demos, rules, frame, {}, options, budget, before, batch)
     if found:
         assert found.sizes == sizes_now(demos, found.orient, labels, options)
         assert before is None or sum(found.sizes) <= sum(before) - 3
     return found
 
 
-def directive(found: Suggested | None) -> str | None:
+def directive(found: OrientationSuggestion | None) -> str | None:
     return show(found.orient) if found else None
 
 
@@ -86,7 +76,7 @@ def rack(off: float = 0.0, tops: int = 1, extra: Sequence[Piece] = ()) -> Symbol
 def posed(mesh: SymbolicMesh, x: Sequence[float], y: Sequence[float]) -> SymbolicMesh:
     """The mesh turned so that its X and Y axes come to lie along two unit vectors."""
     pose = Pose(np.column_stack([x, y, np.cross(x, y)]), np.zeros(3))
-    return mesh.with_hulls(hull.moved(pose) for hull in mesh.hulls)
+    return mesh.with_hulls(hull.move(pose) for hull in mesh.hulls)
 
 
 def fronted(tops: int, height: float, depth: float) -> SymbolicMesh:
@@ -244,7 +234,7 @@ def test_without_directions_no_frame_is_better_than_another() -> None:
 def test_the_budget_ends_the_search() -> None:
     demos, frame = tops(TOPS), Program(LABELS)
     with pytest.raises(OutOfTime):
-        suggest_orientation(demos, agreed_rules(demos), frame, {}, Options(), Watch(0.0), None)
+        suggest_orientation(demos, collect_rule_specs(demos), frame, {}, Options(), TimeBudget(0.0), None)
 
 
 @pytest.mark.parametrize("text", [UP, UP.replace("orient", "orient snap"), "orient +X: All -> Is(drawer)"])
@@ -252,8 +242,8 @@ def test_the_budget_ends_the_search() -> None:
 def test_a_mesh_is_turned_as_a_run_does_it(text: str, contact: float | None) -> None:
     orient = parse_orient(text)
     for mesh in (table(drawers=2), turned(table(), "YZX")):
-        staged, _ = stage(mesh, orient, contact)
-        mine, _ = Turning(mesh, contact).turned(orient)
+        staged, _ = to_canonical_frame(mesh, orient, contact)
+        mine, _ = MeshTurner(mesh, contact).turn(orient)
         assert mine.contacts == staged.contacts and mine.contacts
         assert mine.graph.keys() == staged.graph.keys()
         assert mine.contact_distance == staged.contact_distance

@@ -7,15 +7,16 @@ from collections.abc import Mapping, Sequence
 import pytest
 
 from meshforge.symbolic import SymbolicMesh
-from meshforge.synthesis import Ambiguous, Found, Hint, Options, Outcome, synthesize
-from meshforge.synthesis.guidance import hint, reading_id
+from meshforge.synthesis import Ambiguous, Found, Hint, LearningOutcome, Options, synthesize
+from meshforge.synthesis.asset_selection import suggest_demonstration
+from meshforge.synthesis.outcome import reading_id
 from tests.synthesis_boxes import boxes
 from tests.synthesis_cupboards import cupboard, cupboards, shown, with_rare_doors
 
 ALIKE = "believable readings of the rules differ there"
 
 
-def learned(meshes: Mapping[str, SymbolicMesh], names: Sequence[str], program: str) -> Outcome:
+def learned(meshes: Mapping[str, SymbolicMesh], names: Sequence[str], program: str) -> LearningOutcome:
     return synthesize(shown(meshes, names, program), meshes, options=Options(repair=False))
 
 
@@ -116,4 +117,4 @@ def test_where_readings_agree_the_asset_with_most_hulls_unlike_those_shown_is_na
 
 def test_without_other_assets_there_is_no_hint() -> None:
     assert learned({"c0": cupboard()}, ["c0"], "Is(handle) => Delete").hint is None
-    assert hint([]) is None
+    assert suggest_demonstration([]) is None

@@ -6,7 +6,7 @@ from itertools import count
 
 import pytest
 
-from meshforge.errors import DemonstrationError, ProgramError
+from meshforge.common import DemonstrationError, ProgramError
 from meshforge.language import (
     All,
     Attach,
@@ -23,7 +23,7 @@ from meshforge.language import (
 )
 from meshforge.symbolic import SymbolicMesh
 from meshforge.synthesis import Ambiguous, Demonstration, Found, NoProgram, Options, Step, TimedOut, synthesize
-from meshforge.synthesis.watch import Clock
+from meshforge.synthesis.options import Clock
 from tests.synthesis_boxes import boxes
 from tests.unit.language.scenes import box
 
@@ -40,7 +40,7 @@ WITH_DOOR = boxes(
 
 
 def found(*demos: Demonstration, **settings: float) -> Found | Ambiguous:
-    outcome = synthesize(demos, **settings)  # type: ignore[arg-type]
+    outcome = synthesize(demos, options=Options(**settings))  # type: ignore[arg-type]
     assert isinstance(outcome, Found | Ambiguous)
     return outcome
 
@@ -167,7 +167,7 @@ def ticking() -> Clock:
 def test_time_that_runs_out_gives_the_rules_so_far_and_the_nearest_miss() -> None:
     steps_apart = boxes(*((f"h{k}", f"l{k}", (3 * k, 5 * k % 7, 3 * k % 5), (1, 1, 1)) for k in range(9)))
     steps = [Step(1, {"h8"}, Delete()), Step(2, {"h1", "h3", "h5", "h7"}, Delete())]
-    outcome = synthesize([Demonstration(steps_apart, steps)], options=Options(budget=20), clock=ticking())
+    outcome = synthesize([Demonstration(steps_apart, steps)], options=Options(budget=20, clock=ticking()))
     assert isinstance(outcome, TimedOut)
     assert [rule.extractor for rule in outcome.rules] == [Is("l8")]
     assert [(reading.rule, reading.extractor) for reading in outcome.readings] == [(1, Is("l8"))]
@@ -179,7 +179,7 @@ def test_time_that_runs_out_gives_the_rules_so_far_and_the_nearest_miss() -> Non
 
 def test_no_time_at_all_gives_no_rule() -> None:
     demo = Demonstration(CUPBOARD, [Step(1, {"case", "pull"}, Delete())])
-    outcome = synthesize([demo], options=Options(budget=0), clock=ticking())
+    outcome = synthesize([demo], options=Options(budget=0, clock=ticking()))
     assert isinstance(outcome, TimedOut)
     assert outcome.rules == ()
 

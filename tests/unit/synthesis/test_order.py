@@ -5,8 +5,8 @@ from __future__ import annotations
 import pytest
 from hypothesis import given
 
-from meshforge.language import All, Attach, Diff, Extractor, Geo, Intersect, Is, Union, size
-from meshforge.synthesis.search.order import order
+from meshforge.language import All, Attach, Diff, Extractor, Geo, Intersect, Is, Union, size_of
+from meshforge.synthesis.search.terms import order_key
 from tests.examples import examples
 from tests.strategies import VOCABULARY, extractors
 
@@ -34,25 +34,25 @@ EARLIER: list[tuple[Extractor, Extractor]] = [
 
 @pytest.mark.parametrize(("earlier", "later"), EARLIER, ids=str)
 def test_the_more_believable_comes_first(earlier: Extractor, later: Extractor) -> None:
-    assert order(earlier, LABELS) < order(later, LABELS)
+    assert order_key(earlier, LABELS) < order_key(later, LABELS)
 
 
 def test_operands_of_union_and_intersect_may_change_places_and_those_of_diff_may_not() -> None:
     for joint in (Union, Intersect):
-        assert order(joint(LEG, PANEL), LABELS) == order(joint(PANEL, LEG), LABELS)
-    assert order(Diff(LEG, PANEL), LABELS) != order(Diff(PANEL, LEG), LABELS)
+        assert order_key(joint(LEG, PANEL), LABELS) == order_key(joint(PANEL, LEG), LABELS)
+    assert order_key(Diff(LEG, PANEL), LABELS) != order_key(Diff(PANEL, LEG), LABELS)
 
 
 @given(extractors())
 def test_smaller_comes_first(extractor: Extractor) -> None:
-    assert order(extractor, LABELS)[0] == size(extractor)
+    assert order_key(extractor, LABELS)[0] == size_of(extractor)
 
 
 @examples(200)
 @given(extractors(max_leaves=2), extractors(max_leaves=2), extractors(max_leaves=2))
 def test_an_earlier_part_makes_the_whole_earlier(one: Extractor, other: Extractor, third: Extractor) -> None:
-    one, other = sorted((one, other), key=lambda extractor: order(extractor, LABELS))
-    strict = order(one, LABELS) < order(other, LABELS)
+    one, other = sorted((one, other), key=lambda extractor: order_key(extractor, LABELS))
+    strict = order_key(one, LABELS) < order_key(other, LABELS)
     for joint in (Union, Intersect, Diff):
-        assert (order(joint(one, third), LABELS) < order(joint(other, third), LABELS)) == strict
-        assert (order(joint(third, one), LABELS) < order(joint(third, other), LABELS)) == strict
+        assert (order_key(joint(one, third), LABELS) < order_key(joint(other, third), LABELS)) == strict
+        assert (order_key(joint(third, one), LABELS) < order_key(joint(third, other), LABELS)) == strict

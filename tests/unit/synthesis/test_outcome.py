@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 
 from meshforge.language import Attach, Delete, Is, Merge
-from meshforge.synthesis import Demonstration, Found, NoProgram, Step, outcome_json, synthesize
+from meshforge.synthesis import Demonstration, Found, NoProgram, Step, outcome_to_json, synthesize
 from tests.synthesis_boxes import boxes
 
 KEYS = [
@@ -34,7 +34,7 @@ TWINS = boxes(
 
 def test_a_found_program_as_json() -> None:
     outcome = synthesize([Demonstration(TWINS, [Step(1, {"top"}, Delete())])])
-    shape = outcome_json(outcome)
+    shape = outcome_to_json(outcome)
     assert list(shape) == KEYS
     assert sorted(shape.pop("seconds")) == ["replay", "search"]
     assert json.loads(json.dumps(shape)) == {
@@ -61,7 +61,7 @@ def test_hulls_that_nothing_tells_apart_give_a_nearest_miss_and_say_why() -> Non
         "'middle' of twins was selected and 'right' of twins was not, yet every extractor treats them alike; "
         "a label of its own for one of them would tell them apart"
     )
-    shape = outcome_json(outcome)
+    shape = outcome_to_json(outcome)
     assert shape["status"] == "none"
     assert shape["program"] is None
     assert [reading["extractor"] for reading in shape["readings"]] == ["Is(panel)"]

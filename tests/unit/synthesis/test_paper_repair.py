@@ -8,33 +8,34 @@ import pytest
 
 from meshforge.language import Attach, Diff, Extractor, Is, select_mask
 from meshforge.symbolic import Label, SymbolicMesh
-from meshforge.synthesis.correction import Correction
-from meshforge.synthesis.example import Example
-from meshforge.synthesis.options import Options
-from meshforge.synthesis.paper import Explained, paper_search
-from meshforge.synthesis.search import Answer, Hit, Miss, Unfinished
-from meshforge.synthesis.watch import Watch
+from meshforge.synthesis.demonstration import Example
+from meshforge.synthesis.options import Options, TimeBudget
+from meshforge.synthesis.paper.search import HitWithCorrections, PaperSearch
+from meshforge.synthesis.questions import LabelCorrection
+from meshforge.synthesis.search.smallest import Hit, Miss, SearchResult, Unfinished
 from tests.synthesis_boxes import table
 
 LABELS = ("panel", "leg", "drawer", "handle", "misc")
-WRONG_LEG = Correction("table", "leg2_low", "panel", "leg")
+WRONG_LEG = LabelCorrection("table", "leg2_low", "panel", "leg")
 
 
 def misread(right: SymbolicMesh, wanted: Extractor, name: str = "table", **labels: str | None) -> Example:
     """A mesh with some labels wrong, and what an extractor selects on it as it should be."""
     right.contacts  # noqa: B018 (measured now, and taken over by the relabelled mesh)
-    wrong = right.labelled({hull: Label(label) if label else None for hull, label in labels.items()})
+    wrong = right.with_labels({hull: Label(label) if label else None for hull, label in labels.items()})
     return Example(name, wrong, select_mask(wanted, right))
 
 
 def run(
     *examples: Example,
     options: Options = Options(max_size=3),  # noqa: B008 (frozen)
-    confirm: Callable[[Correction], bool] | None = None,
-    rejected: Container[Correction] = (),
+    confirm: Callable[[LabelCorrection], bool] | None = None,
+    rejected: Container[LabelCorrection] = (),
     spent: Mapping[str, int] | None = None,
-) -> Answer | Explained:
-    return paper_search(examples, LABELS, Watch(60), options, confirm=confirm, rejected=rejected, spent=spent or {})
+) -> SearchResult | HitWithCorrections:
+    return PaperSearch(
+        examples, LABELS, TimeBudget(60), options, confirm=confirm, rejected=rejected, spent=spent or {}
+    ).run()
 
 
 def one_leg_wrong() -> Example:
@@ -44,33 +45,33 @@ def one_leg_wrong() -> Example:
 def test_relabelling_keeps_the_contact_graph() -> None:
     mesh = table()
     before = mesh.contacts
-    other = mesh.labelled({"leg0_low": Label("panel")})
-    assert "graph" in vars(other)
+    other = mesh.with_labels({"leg0_low": Label("panel")})
+    assert other.known_graph is not None
     assert other.contacts == before
 
 
 def test_a_wrong_label_is_found_and_proposed() -> None:
     answer = run(one_leg_wrong(), misread(table(legs=5), Is("leg"), "other"))
-    assert isinstance(answer, Explained)
+    assert isinstance(answer, HitWithCorrections)
     assert (answer.extractor, answer.corrections) == (Is("leg"), (WRONG_LEG,))
 
 
 def test_a_missing_label_is_filled() -> None:
     answer = run(misread(table(), Is("leg"), leg2_low=None))
-    assert isinstance(answer, Explained)
-    assert answer.corrections == (Correction("table", "leg2_low", None, "leg"),)
+    assert isinstance(answer, HitWithCorrections)
+    assert answer.corrections == (LabelCorrection("table", "leg2_low", None, "leg"),)
 
 
 def test_a_hull_leaves_for_the_most_frequent_label_that_is_not_mentioned() -> None:
     answer = run(misread(table(legs=4, drawers=2), Is("leg"), top_0="leg"))
-    assert isinstance(answer, Explained)
-    assert answer.corrections == (Correction("table", "top_0", "leg", "drawer"),)
+    assert isinstance(answer, HitWithCorrections)
+    assert answer.corrections == (LabelCorrection("table", "top_0", "leg", "drawer"),)
 
 
 def test_of_labels_as_frequent_the_first_of_the_vocabulary_is_taken() -> None:
     answer = run(misread(table(legs=1, drawers=0, litter=2, knob=None), Is("leg"), residue_0="leg", shelf="misc"))
-    assert isinstance(answer, Explained)
-    assert answer.corrections == (Correction("table", "residue_0", "leg", "panel"),)
+    assert isinstance(answer, HitWithCorrections)
+    assert answer.corrections == (LabelCorrection("table", "residue_0", "leg", "panel"),)
 
 
 def test_without_repair_labels_are_taken_as_they_are() -> None:
@@ -82,21 +83,21 @@ def test_a_match_needs_no_repair() -> None:
 
 
 def test_what_is_confirmed_ends_the_search() -> None:
-    asked: list[Correction] = []
+    asked: list[LabelCorrection] = []
 
-    def confirm(correction: Correction) -> bool:
+    def confirm(correction: LabelCorrection) -> bool:
         asked.append(correction)
         return True
 
     answer = run(one_leg_wrong(), confirm=confirm)
-    assert isinstance(answer, Explained)
+    assert isinstance(answer, HitWithCorrections)
     assert asked == [WRONG_LEG] == list(answer.corrections)
 
 
 def test_what_is_refused_is_not_asked_again_and_the_search_goes_on() -> None:
-    asked: list[Correction] = []
+    asked: list[LabelCorrection] = []
 
-    def refuse(correction: Correction) -> bool:
+    def refuse(correction: LabelCorrection) -> bool:
         asked.append(correction)
         return False
 
@@ -111,7 +112,7 @@ def test_corrections_are_asked_about_one_by_one_until_one_is_refused() -> None:
     example = misread(table(), Is("leg"), leg1_low="panel", leg2_low="panel")
     asked: list[str] = []
 
-    def confirm(correction: Correction) -> bool:
+    def confirm(correction: LabelCorrection) -> bool:
         asked.append(correction.hull)
         return correction.hull != "leg2_low"
 
@@ -121,25 +122,25 @@ def test_corrections_are_asked_about_one_by_one_until_one_is_refused() -> None:
 
 def test_a_rejected_correction_is_not_proposed() -> None:
     answer = run(one_leg_wrong(), rejected={WRONG_LEG})
-    assert not isinstance(answer, Explained) or WRONG_LEG not in answer.corrections
+    assert not isinstance(answer, HitWithCorrections) or WRONG_LEG not in answer.corrections
 
 
 @pytest.mark.parametrize(("eta", "explained"), [(1, False), (2, False), (3, True)])
 def test_no_more_labels_of_a_mesh_are_corrected_than_allowed(eta: int, explained: bool) -> None:
     example = misread(table(), Is("leg"), leg1_low="panel", leg2_low="panel", leg3_low="panel")
-    assert isinstance(run(example, options=Options(max_size=1, eta=eta)), Explained) == explained
+    assert isinstance(run(example, options=Options(max_size=1, eta=eta)), HitWithCorrections) == explained
 
 
 def test_the_allowance_is_that_of_each_mesh() -> None:
     examples = [misread(table(), Is("leg"), name, leg1_low="panel") for name in ("one", "two")]
     answer = run(*examples, options=Options(max_size=1, eta=1))
-    assert isinstance(answer, Explained)
+    assert isinstance(answer, HitWithCorrections)
     assert [correction.asset for correction in answer.corrections] == ["one", "two"]
 
 
 @pytest.mark.parametrize(("spent", "explained"), [({}, True), ({"other": 2}, True), ({"table": 2}, False)])
 def test_what_was_spent_on_a_mesh_is_no_longer_allowed(spent: Mapping[str, int], explained: bool) -> None:
-    assert isinstance(run(one_leg_wrong(), options=Options(max_size=1), spent=spent), Explained) == explained
+    assert isinstance(run(one_leg_wrong(), options=Options(max_size=1), spent=spent), HitWithCorrections) == explained
 
 
 HANDLES = Attach(Is("handle"), Is("drawer"))
@@ -152,9 +153,9 @@ def test_a_wrong_label_is_found_through_contact() -> None:
         misread(table(drawers=3, knob=0.9), HANDLES, "other"),
     ]
     answer = run(*examples, options=CONTACT)
-    assert isinstance(answer, Explained)
+    assert isinstance(answer, HitWithCorrections)
     assert answer.extractor == HANDLES
-    assert answer.corrections == (Correction("table", "drawer1_front", "handle", "drawer"),)
+    assert answer.corrections == (LabelCorrection("table", "drawer1_front", "handle", "drawer"),)
 
 
 def test_bounds_cut_what_only_a_repair_would_complete() -> None:
@@ -165,9 +166,12 @@ def test_bounds_cut_what_only_a_repair_would_complete() -> None:
 def test_time_may_run_out_amid_relabelings() -> None:
     wanted = Diff(Is("leg"), Is("panel"))
     ticks = iter([0.0, 0.0, 0.0, 0.0] + [100.0] * 100)
-    answer = paper_search(
-        [misread(table(), wanted, leg1_low="panel")], LABELS, Watch(60, clock=lambda: next(ticks)), Options(max_size=3)
-    )
+    answer = PaperSearch(
+        [misread(table(), wanted, leg1_low="panel")],
+        LABELS,
+        TimeBudget(60, clock=lambda: next(ticks)),
+        Options(max_size=3),
+    ).run()
     assert isinstance(answer, Unfinished)
     assert answer.nearest is not None
     assert answer.nearest.extractor == Is("panel")

@@ -7,16 +7,13 @@ from itertools import count
 
 import pytest
 
-from meshforge.language import All, Attach, Diff, Extractor, Geo, Intersect, Is, Union, select_mask, size
+from meshforge.language import All, Attach, Diff, Extractor, Geo, Intersect, Is, Union, select_mask, size_of
 from meshforge.symbolic import SymbolicMesh
-from meshforge.synthesis.example import Example
-from meshforge.synthesis.options import Layers, Options
-from meshforge.synthesis.paper import Explained, paper_search
-from meshforge.synthesis.paper.partial import Grammar, Hole, Open
-from meshforge.synthesis.paper.worklist import Worklist
-from meshforge.synthesis.search import Answer, Hit, Miss, Unfinished
-from meshforge.synthesis.search.miss import NearMiss
-from meshforge.synthesis.watch import Watch
+from meshforge.synthesis.demonstration import Example
+from meshforge.synthesis.options import Layers, Options, TimeBudget
+from meshforge.synthesis.paper.partial import Hole, HoleGrammar, Open, Worklist
+from meshforge.synthesis.paper.search import HitWithCorrections, PaperSearch
+from meshforge.synthesis.search.smallest import Hit, Miss, NearestExtractor, SearchResult, Unfinished
 from tests.synthesis_boxes import table
 
 LABELS = ("panel", "leg", "drawer", "handle", "misc")
@@ -33,8 +30,8 @@ def shown(extractor: Extractor, *meshes: SymbolicMesh) -> list[Example]:
     return [Example(f"table {k}", mesh, select_mask(extractor, mesh)) for k, mesh in enumerate(meshes)]
 
 
-def run(examples: list[Example], options: Options = EXACT) -> Answer | Explained:
-    return paper_search(examples, LABELS, Watch(60), options)
+def run(examples: list[Example], options: Options = EXACT) -> SearchResult | HitWithCorrections:
+    return PaperSearch(examples, LABELS, TimeBudget(60), options).run()
 
 
 @pytest.mark.parametrize(
@@ -51,17 +48,17 @@ def test_it_finds_what_was_shown_on_all_tables(wanted: Extractor, layers: Layers
     answer = run(shown(wanted, *TABLES), replace(EXACT, layers=layers))
     assert isinstance(answer, Hit)
     assert answer.extractor == wanted
-    assert answer.tried.size == size(wanted) - 1
+    assert answer.tried.size == size_of(wanted) - 1
 
 
 def test_of_equal_size_labels_come_first_then_all_then_contact_then_position_then_sets() -> None:
     first: list[Extractor] = []
-    worklist, grammar = Worklist(3), Grammar(("a",), "S+T+G")
+    worklist, grammar = Worklist(3), HoleGrammar(("a",), "S+T+G")
     worklist.put(Hole())
     while popped := worklist.pop():
         partial = popped[1]
         if isinstance(partial, Open):
-            for candidate in grammar.filled(partial):
+            for candidate in grammar.fill(partial):
                 worklist.put(candidate)
         else:
             first.append(partial)
@@ -77,12 +74,12 @@ def test_a_layer_left_out_is_not_used(layers: Layers, barred: set[type]) -> None
         return {type(extractor)}.union(*map(parts, inner))
 
     seen: set[type] = set()
-    worklist, grammar = Worklist(5), Grammar(("a",), layers)
+    worklist, grammar = Worklist(5), HoleGrammar(("a",), layers)
     worklist.put(Hole())
     while popped := worklist.pop():
         partial = popped[1]
         if isinstance(partial, Open):
-            for candidate in grammar.filled(partial):
+            for candidate in grammar.fill(partial):
                 worklist.put(candidate)
         else:
             seen |= parts(partial)
@@ -100,16 +97,16 @@ def test_what_nothing_selects_is_a_miss_with_the_nearest() -> None:
     answer = run([Example("table", mesh, masked(mesh, "handle0", "leg0_low"))], CONTACT)
     assert isinstance(answer, Miss)
     assert answer.why == "no extractor of up to 3 nodes matches"
-    assert answer.nearest == NearMiss(Is("handle"), "table", extra=("knob",), missing=("leg0_low",))
+    assert answer.nearest == NearestExtractor(Is("handle"), "table", extra=("knob",), missing=("leg0_low",))
     assert answer.tried.size == 3
 
 
 def test_when_the_time_is_out_the_nearest_so_far_is_kept() -> None:
     ticks = count()
-    watch = Watch(30, clock=lambda: next(ticks))
+    budget = TimeBudget(30, clock=lambda: next(ticks))
     mesh = table()
     example = Example("table", mesh, select_mask(Diff(Is("drawer"), Geo(Is("drawer"), "-Z")), mesh))
-    answer = paper_search([example], LABELS, watch, EXACT)
+    answer = PaperSearch([example], LABELS, budget, EXACT).run()
     assert isinstance(answer, Unfinished)
     assert answer.nearest is not None
     assert answer.nearest.extractor == Is("drawer")
@@ -118,6 +115,6 @@ def test_when_the_time_is_out_the_nearest_so_far_is_kept() -> None:
 
 
 def test_when_there_is_no_time_at_all_there_is_no_nearest() -> None:
-    answer = paper_search(shown(Is("leg"), table()), LABELS, Watch(0), EXACT)
+    answer = PaperSearch(shown(Is("leg"), table()), LABELS, TimeBudget(0), EXACT).run()
     assert isinstance(answer, Unfinished)
     assert answer.nearest is None

@@ -7,14 +7,14 @@ from dataclasses import replace
 
 import pytest
 
+from meshforge.label_model.odds import LabelBeliefs
 from meshforge.language import Extractor, parse_extractor, select_mask, show
-from meshforge.symbolic import Label, Source, SymbolicMesh
-from meshforge.synthesis.correction import Correction
-from meshforge.synthesis.example import Example
-from meshforge.synthesis.options import Options
-from meshforge.synthesis.repair import Explanation, Labels, explain
-from meshforge.synthesis.search import Hit, Search
-from meshforge.synthesis.watch import OutOfTime, Watch
+from meshforge.symbolic import Label, LabelSource, SymbolicMesh
+from meshforge.synthesis.demonstration import Example
+from meshforge.synthesis.options import Options, OutOfTime, TimeBudget
+from meshforge.synthesis.questions import LabelCorrection
+from meshforge.synthesis.repair.explain import CorrectionSearch, Explanation
+from meshforge.synthesis.search.smallest import Hit, Search
 from tests.synthesis_boxes import boxes, table
 
 VOCABULARY = ("drawer", "handle", "leg", "misc", "panel")
@@ -31,15 +31,15 @@ FIRST, SECOND = table(), table(drawers=2)
 Wrong = Mapping[str, str | None]
 
 
-def labelled(mesh: SymbolicMesh, wrong: Wrong, confidence: float = 0.6, source: Source = "vlm") -> SymbolicMesh:
+def labelled(mesh: SymbolicMesh, wrong: Wrong, confidence: float = 0.6, source: LabelSource = "vlm") -> SymbolicMesh:
     """The mesh with labels of a model that is sure of all but the wrong ones."""
     labels: dict[str, Label | None] = {hull.name: Label(hull.label, 0.95, "vlm") for hull in mesh.hulls if hull.label}
     for name, label in wrong.items():
         labels[name] = Label(label, confidence, source) if label else None
-    return mesh.labelled(labels)
+    return mesh.with_labels(labels)
 
 
-def examples_of(rule: str, *wrongs: Wrong, confidence: float = 0.6, source: Source = "vlm") -> list[Example]:
+def examples_of(rule: str, *wrongs: Wrong, confidence: float = 0.6, source: LabelSource = "vlm") -> list[Example]:
     """What a rule selects on the tables with their true labels, shown on wrong ones."""
     hidden = parse_extractor(rule)
     return [
@@ -50,21 +50,28 @@ def examples_of(rule: str, *wrongs: Wrong, confidence: float = 0.6, source: Sour
 
 def explained(
     examples: Sequence[Example],
-    rejected: Collection[Correction] = (),
+    rejected: Collection[LabelCorrection] = (),
     spent: Mapping[str, int] | None = None,
     options: Options = OPTIONS,
     batch: Sequence[SymbolicMesh] = FAMILY,
 ) -> Explanation | None:
     others = {f"other {k}": labelled(mesh, {}) for k, mesh in enumerate(batch)}
-    labels = Labels({example.name: example.mesh for example in examples}, others, VOCABULARY)
+    labels = LabelBeliefs({example.name: example.mesh for example in examples}, others, VOCABULARY)
     exact = exact_of(examples)
-    return explain(
-        examples, VOCABULARY, labels, options, Watch(60), exact=exact, spent=spent or {}, rejected=frozenset(rejected)
-    )
+    return CorrectionSearch(
+        examples,
+        VOCABULARY,
+        labels,
+        options,
+        TimeBudget(60),
+        exact=exact,
+        spent=spent or {},
+        rejected=frozenset(rejected),
+    ).run()
 
 
 def exact_of(examples: Sequence[Example]) -> Extractor | None:
-    answer = Search(examples, VOCABULARY, Watch(60), OPTIONS).run()
+    answer = Search(examples, VOCABULARY, TimeBudget(60), OPTIONS).run()
     return answer.extractor if isinstance(answer, Hit) else None
 
 
@@ -186,6 +193,6 @@ def test_the_reason_names_similar_hulls_confidence_and_the_program() -> None:
 
 def test_the_time_is_kept() -> None:
     examples = examples_of("Is(leg)", {"leg0_low": "drawer"}, {})
-    labels = Labels({example.name: example.mesh for example in examples}, {}, VOCABULARY)
+    labels = LabelBeliefs({example.name: example.mesh for example in examples}, {}, VOCABULARY)
     with pytest.raises(OutOfTime):
-        explain(examples, VOCABULARY, labels, OPTIONS, Watch(0))
+        CorrectionSearch(examples, VOCABULARY, labels, OPTIONS, TimeBudget(0)).run()

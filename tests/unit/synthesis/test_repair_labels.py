@@ -8,8 +8,8 @@ from dataclasses import replace
 import pytest
 
 from meshforge.geometry import Aabb, Box
-from meshforge.symbolic import Hull, Label, Source, SymbolicMesh
-from meshforge.synthesis.repair import Labels
+from meshforge.label_model.odds import LabelBeliefs
+from meshforge.symbolic import Hull, Label, LabelSource, SymbolicMesh
 from tests.synthesis_boxes import boxes, table
 
 VOCABULARY = ("drawer", "handle", "leg", "misc", "panel")
@@ -19,12 +19,14 @@ def said(name: str, label: Label | None) -> SymbolicMesh:
     """A table whose labels come from a model, one hull's label given."""
     mesh = table()
     labels: dict[str, Label | None] = {hull.name: Label(hull.label or "", 0.9, "vlm") for hull in mesh.hulls}
-    return mesh.labelled({**labels, name: label})
+    return mesh.with_labels({**labels, name: label})
 
 
 def cost(label: Label | None, to: str, name: str = "leg0_low") -> float:
     mesh = said(name, label)
-    return Labels({"table": mesh}, {"a": table(), "b": table(legs=3)}, VOCABULARY).cost("table", mesh.named(name), to)
+    return LabelBeliefs({"table": mesh}, {"a": table(), "b": table(legs=3)}, VOCABULARY).cost(
+        "table", mesh.hull_of(name), to
+    )
 
 
 def test_a_label_that_similar_hulls_have_costs_less() -> None:
@@ -39,7 +41,7 @@ def test_a_surer_label_costs_more() -> None:
 
 
 @pytest.mark.parametrize("source", ["vlm", "propagated", "name", "file"])
-def test_a_persons_label_costs_most(source: Source) -> None:
+def test_a_persons_label_costs_most(source: LabelSource) -> None:
     assert cost(Label("drawer", 1.0, "user"), "leg") > cost(Label("drawer", 1.0, source), "leg") + 2
     assert cost(Label("drawer", 1.0, "repair"), "leg") == cost(Label("drawer", 1.0, "user"), "leg")
 
@@ -54,25 +56,30 @@ def test_every_correction_costs_something() -> None:
 
 def test_a_hull_that_a_rule_made_or_relabelled_has_no_standing() -> None:
     mesh = table()
-    labels, hull = Labels({"table": mesh}, {}, VOCABULARY), mesh.hulls[0]
-    made = Hull("leg0_low~1", "body", Box.filling(Aabb([0, 0, 0], [1, 1, 1])), Label("leg", source="edit"), "leg0_low")
+    labels, hull = LabelBeliefs({"table": mesh}, {}, VOCABULARY), mesh.hulls[0]
+    made = Hull(
+        "leg0_low~1", "body", Box.of_bounds(Aabb([0, 0, 0], [1, 1, 1])), Label("leg", source="edit"), "leg0_low"
+    )
     assert labels.cost("table", hull, "leg") < math.inf
     assert labels.cost("table", made, "panel") == math.inf
-    assert labels.cost("table", hull.labelled(Label("leg")), "panel") == math.inf
+    assert labels.cost("table", hull.with_label(Label("leg")), "panel") == math.inf
     assert labels.cost("table", hull, "unheard of") == math.inf
     assert labels.cost("another", hull, "leg") == math.inf
 
 
 def test_a_demonstrated_mesh_in_the_batch_is_not_asked_about_itself() -> None:
     mesh = table()
-    alone, twice = Labels({"table": mesh}, {}, VOCABULARY), Labels({"table": mesh}, {"again": mesh}, VOCABULARY)
+    alone, twice = (
+        LabelBeliefs({"table": mesh}, {}, VOCABULARY),
+        LabelBeliefs({"table": mesh}, {"again": mesh}, VOCABULARY),
+    )
     for hull in mesh.hulls:
         assert alone.cost("table", hull, "misc") == twice.cost("table", hull, "misc")
 
 
 def test_a_label_outside_the_vocabulary_and_meshes_without_labels_do_no_harm() -> None:
     bare = boxes(("a", None, (0, 0, 0), (1, 1, 1)), ("b", "other", (1, 0, 0), (1, 1, 1)))
-    labels = Labels({"bare": bare}, {"again": replace(bare), "none": boxes()}, VOCABULARY)
+    labels = LabelBeliefs({"bare": bare}, {"again": replace(bare), "none": boxes()}, VOCABULARY)
     for hull in bare.hulls:
         assert 0 < labels.cost("bare", hull, "leg") < math.inf
 
@@ -81,20 +88,20 @@ def test_wrong_and_missing_labels_are_expected_where_look_alikes_disagree() -> N
     others = {f"table {k}": said("leg1_low", Label("leg", 0.9, "vlm")) for k in range(4)}
     right, missing = said("leg0_low", Label("leg", 0.9, "vlm")), said("leg0_low", None)
     wrong = said("leg0_low", Label("drawer", 0.6, "vlm"))
-    errors = Labels({"shown": right}, {"wrong": wrong, "missing": missing, **others}, VOCABULARY).errors
+    errors = LabelBeliefs({"shown": right}, {"wrong": wrong, "missing": missing, **others}, VOCABULARY).errors
     assert set(errors) == {"shown", "wrong", "missing", *others}
     assert errors["shown"] < 0.5 < errors["wrong"] < 1.5
     assert 1 < errors["missing"] < 1.5
-    persons = {name: mesh.labelled({hull.name: Label(hull.label or "", 1.0, "user") for hull in mesh.hulls})
+    persons = {name: mesh.with_labels({hull.name: Label(hull.label or "", 1.0, "user") for hull in mesh.hulls})
                for name, mesh in others.items()}  # fmt: skip
-    assert max(Labels({}, persons, VOCABULARY).errors.values()) < 0.05
+    assert max(LabelBeliefs({}, persons, VOCABULARY).errors.values()) < 0.05
 
 
 def test_no_meshes_and_no_labels_are_no_trouble() -> None:
-    assert Labels({}, {}, ()).errors == {}
-    assert Labels({}, {"bare": boxes(), "one": boxes(("a", "x", (0, 0, 0), (1, 1, 1)))}, ()).errors == {
+    assert LabelBeliefs({}, {}, ()).errors == {}
+    assert LabelBeliefs({}, {"bare": boxes(), "one": boxes(("a", "x", (0, 0, 0), (1, 1, 1)))}, ()).errors == {
         "bare": 0,
         "one": 1,
     }
-    assert Labels({}, {}, ()).cost("table", table().hulls[0], "leg") == math.inf
-    assert Labels({"none": boxes()}, {}, VOCABULARY).cost("none", table().hulls[0], "leg") == math.inf
+    assert LabelBeliefs({}, {}, ()).cost("table", table().hulls[0], "leg") == math.inf
+    assert LabelBeliefs({"none": boxes()}, {}, VOCABULARY).cost("none", table().hulls[0], "leg") == math.inf

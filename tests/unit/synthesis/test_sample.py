@@ -5,11 +5,10 @@ from __future__ import annotations
 from dataclasses import replace
 from pathlib import Path
 
-from meshforge.asset import Asset, Body, Document, Geom
 from meshforge.geometry import Pose
-from meshforge.symbolic import Label
+from meshforge.symbolic import Asset, Body, Document, Geom, Label
 from meshforge.synthesis import Answer, Demonstration, Step, synthesize
-from meshforge.synthesis.sample import SAMPLE
+from meshforge.synthesis.asset_selection import SAMPLE_SIZE
 from tests.synthesis_boxes import boxes
 from tests.synthesis_cupboards import cupboards, meant, selected, shown, with_rare_doors
 
@@ -20,14 +19,14 @@ def test_the_first_one_is_where_most_belief_is_in_other_readings() -> None:
     meshes = with_rare_doors()
     outcome = synthesize(shown(meshes, ["c0"], HANDLES), meshes)
     assert outcome.sample[0] in ("c1", "c16")  # those with a door, on which a second handle is
-    assert len(set(outcome.sample)) == len(outcome.sample) == SAMPLE
+    assert len(set(outcome.sample)) == len(outcome.sample) == SAMPLE_SIZE
     assert "c0" not in outcome.sample
 
 
 def test_every_believable_reading_differs_on_one_of_a_dozen_where_so_few_suffice() -> None:
     meshes = cupboards(40, every=8)
     outcome = synthesize(shown(meshes, ["c0"], HANDLES), meshes)
-    assert len(outcome.sample) == SAMPLE
+    assert len(outcome.sample) == SAMPLE_SIZE
     for reading in outcome.readings:
         assert not reading.differs_on or reading.belief < 0.005 or set(reading.differs_on) & set(outcome.sample)
 
@@ -57,7 +56,7 @@ def test_of_meshes_that_tell_as_much_the_one_with_sure_labels_comes_first() -> N
     meshes = with_rare_doors()
     unsure: dict[str, Label | None] = {hull.name: Label(str(hull.label), 0.6, "vlm") for hull in meshes["c1"].hulls}
     for doubted, first in (("c1", "c16"), ("c16", "c1")):
-        batch = {**meshes, doubted: meshes[doubted].labelled(unsure)}
+        batch = {**meshes, doubted: meshes[doubted].with_labels(unsure)}
         assert synthesize(shown(meshes, ["c0"], HANDLES), batch).sample[0] == first
 
 

@@ -1,105 +1,282 @@
-"""The report: one HTML file that holds everything it shows."""
+"""The report: one HTML file that holds everything it shows. What `page.html.j2` says is worked out here."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+import re
+from collections import Counter
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from functools import partial
 from importlib.resources import files
 from pathlib import Path
+from typing import Any, NamedTuple, get_args
 
-from meshforge.batch.report.asset import ReportAsset
-from meshforge.batch.report.card import card
-from meshforge.batch.report.figures import Figures
-from meshforge.batch.report.headline import headline, legend, legend_of_changes
-from meshforge.batch.report.html import Node, document, tag
-from meshforge.batch.report.pictures import Manner, Pictures, pictures
-from meshforge.batch.report.program_panel import program_panel
-from meshforge.batch.report.tools import tools
-from meshforge.files import write_atomically
-from meshforge.language import Program
-from meshforge.symbolic import SymbolicMesh
-from meshforge.views import UNLABELLED, label_colors
+from meshforge.batch.report.contents import (
+    ORDINARY,
+    REMARKABLE,
+    CheckStatus,
+    ReportAsset,
+    ReportStatus,
+    RunFigures,
+    format_change,
+    format_duration,
+)
+from meshforge.batch.report.pictures import CHECK_PICTURE_SIZE, PICTURE_SIZE, AssetPictures, PictureOptions, draw_asset
+from meshforge.checks import Finding
+from meshforge.common import join_names, pluralize, write_atomically
+from meshforge.language import ACTIONS, OPERATORS, Program, Rule, explain, show, show_label
+from meshforge.rendering import DIFFERENCE_COLORS, SELECTED, UNLABELLED, UNSURE, label_colors
 
-PICTURED = 120
+MOST_PICTURED = 120
 """Assets with pictures by default: about 60 kB each in the page."""
-_ALLOWED = "default-src 'none'; img-src data:; style-src 'unsafe-inline'; script-src 'unsafe-inline'"
+STATUSES: tuple[ReportStatus, ...] = (
+    "edited",
+    "unchanged",
+    "written",
+    "skipped",
+    "labelled",
+    "clean",
+    "doubtful",
+    "warnings",
+    "problems",
+    "errors",
+    "failed",
+)
+"""In the order of the page."""
+_SETTINGS = {
+    "picture_size": PICTURE_SIZE,
+    "check_size": CHECK_PICTURE_SIZE,
+    "ordinary": ORDINARY,
+    "names_shown": 60,  # of hulls in one cell of the table; the rest is counted
+    "notes_shown": 6,  # at once
+    "findings_shown": 40,  # of one asset, errors first
+}
+_UNPRINTABLE = re.compile(r"[^\t\n\r\x20-\uD7FF\uE000-\uFFFD\U00010000-\U0010FFFF]")
+"""Characters that no document can hold."""
+_TOKEN = re.compile(
+    r'(?P<text>"(?:[^"\\]|\\.)*")|(?P<direction>[+-][XYZ]\b)|(?P<number>\d[\d.eE+-]*)|(?P<word>[^\W\d]\w*)|=>|->'
+)
+_KEYWORDS = frozenset({"labels", "orient", "contact", "extremity", "snap", "as"})
+
+
+@dataclass(frozen=True, slots=True)
+class ReportHeader:
+    """What stands at the top of a report.
+
+    about: a line below the title; seconds: that the run took; figures: of the whole run, of which the assets shown may
+    be some; without them, they are those of the assets shown.
+    """
+
+    title: str
+    about: str | None = None
+    seconds: float | None = None
+    figures: RunFigures | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class ReportOptions:
+    """What a report shows of its assets.
+
+    vocabulary: where it is about labels, those that hulls can have; changes: whether with pictures of what became of
+    each hull, by its name; pictured: how many assets get pictures, demonstrated and failed ones first; progress: called
+    for each asset.
+    """
+
+    vocabulary: Sequence[str] = ()
+    changes: bool = True
+    pictured: int = MOST_PICTURED
+    progress: Callable[[], None] | None = None
+
+
+REPORT_DEFAULTS = ReportOptions()
 
 
 def write_report(
     path: Path,
-    *,
-    title: str,
+    header: ReportHeader,
     assets: Sequence[ReportAsset],
+    *,
     program: Program | None = None,
-    vocabulary: Sequence[str] = (),
-    figures: Figures | None = None,
-    seconds: float | None = None,
-    about: str | None = None,
-    changes: bool = True,
-    pictured: int = PICTURED,
-    progress: Callable[[], None] | None = None,
+    options: ReportOptions = REPORT_DEFAULTS,
 ) -> None:
     """Write the report of a batch: figures, the program if one ran, and every asset, with what each rule did.
 
-    Where assets were checked, those that failed come first, then those with findings.
-
-    vocabulary: where it is about labels, those that hulls can have; figures: of the whole run, of which `assets` may be
-    some; seconds: that it took; about: a line below the title; changes: whether with pictures of what became of each
-    hull, by its name; pictured: how many get pictures, demonstrated and failed ones first; progress: called for each
-    asset. The page refers to no other file.
+    Where assets were checked, those that failed come first, then those with findings. The page refers to no other file.
     """
     if any(asset.checked for asset in assets):
-        assets = sorted(assets, key=lambda asset: (not asset.broken, not asset.doubtful))
+        assets = sorted(assets, key=lambda asset: (not asset.is_broken, not asset.findings))
     meshes = [mesh for asset in assets for mesh in (asset.before, asset.after) if mesh]
-    labelled = bool(vocabulary) or any(hull.label for mesh in meshes for hull in mesh.hulls)
-    words = _words(vocabulary or (program.labels if program else ()), meshes)
-    colors = label_colors(words)
-    manner = Manner(tuple(words), by_label=labelled, changes=changes)
-    chosen, cards, drawn = _pictured(assets, pictured), list[Node](), list[Pictures]()
+    known = tuple(options.vocabulary) or (program.labels if program else ())
+    labels = (*known, *sorted({hull.label for mesh in meshes for hull in mesh.hulls if hull.label} - set(known)))
+    labelled = bool(options.vocabulary) or any(hull.label for mesh in meshes for hull in mesh.hulls)
+    colors, pictures = label_colors(labels), PictureOptions(labels, labelled, options.changes)
+    cards, chosen = list[tuple[ReportAsset, AssetPictures | None]](), _choose_pictured(assets, options.pictured)
     for k, asset in enumerate(assets):
-        shown = pictures(asset, manner) if k in chosen else None
-        cards.append(card(asset, program, shown, colors))
-        drawn += [shown] if shown else []
-        if progress:
-            progress()
-    main = tag(
-        "main",
-        headline(title, figures or Figures.of_assets(assets), len(assets), seconds, about),
-        program_panel(program, assets, colors) if program else None,
-        tag(
-            "section",
-            tag("h2", "Assets"),
-            legend(assets, colors if labelled else {}, UNLABELLED, blamed=any(shown.blamed for shown in drawn))
-            if meshes
-            else None,
-            legend_of_changes(assets) if any(shown.changes for shown in drawn) else None,
-            tools(assets, pairs=any(shown.after for shown in drawn), changes=any(shown.changes for shown in drawn)),
-            tag("div", *cards, class_="grid"),
-        ),
+        cards.append((asset, draw_asset(asset, pictures) if k in chosen else None))
+        if options.progress:
+            options.progress()
+    drawn = [shown for _, shown in cards if shown]
+    figures = header.figures or RunFigures.of_assets(assets)
+    page = _load_template().render(
+        **_SETTINGS,
+        header=header,
+        figures=figures,
+        counts=[(status, figures.counts[status]) for status in STATUSES if figures.counts.get(status)],
+        selection=_describe_selection(len(assets), figures),
+        has_program=program is not None,
+        header_lines=list(_header_lines(program)) if program else [],
+        rules=[_rule_row(k, rule, assets) for k, rule in enumerate(program.rules, 1)] if program else [],
+        highlight=partial(_tokenize, colors={show_label(label): color for label, color in colors.items()}),
+        label_legend=_label_legend(assets, colors if labelled else {}, any(s.has_blame for s in drawn)),
+        change_legend=_change_legend(assets) if any(shown.changes for shown in drawn) else None,
+        kinds=_kinds(assets),
+        has_pairs=any(shown.after for shown in drawn),
+        cards=cards,
     )
-    write_atomically(Path(path), document(_page(title, main)))
+    write_atomically(Path(path), _UNPRINTABLE.sub("\N{REPLACEMENT CHARACTER}", page) + "\n")
 
 
-def _page(title: str, main: Node) -> Node:
-    """The document around the content. Style and script come as they are: the serializer does not escape them."""
+def _load_template() -> Any:
+    from jinja2 import Environment, StrictUndefined  # lazy: 0.05 s, only reports need it
+
     own = files("meshforge.batch.report")
-    head = tag(
-        "head",
-        tag("meta", charset="utf-8"),
-        tag("meta", name="viewport", content="width=device-width, initial-scale=1"),
-        tag("meta", name="color-scheme", content="light dark"),
-        tag("meta", http_equiv="Content-Security-Policy", content=_ALLOWED),
-        tag("title", title),
-        tag("style", (own / "page.css").read_text("utf-8")),
+    lines = (own / "page.html.j2").read_text("utf-8").splitlines()
+    template = Environment(autoescape=True, undefined=StrictUndefined).from_string("".join(map(str.strip, lines)))
+    template.globals.update(
+        style=(own / "page.css").read_text("utf-8"),
+        script=(own / "page.js").read_text("utf-8"),
+        pluralize=pluralize,
+        join_names=join_names,
+        format_change=format_change,
+        format_duration=format_duration,
+        describe_findings=_describe_findings,
     )
-    return tag("html", head, tag("body", main, tag("script", (own / "page.js").read_text("utf-8"))), lang="en")
+    return template
 
 
-def _words(known: Sequence[str], meshes: Sequence[SymbolicMesh]) -> list[str]:
-    """The known labels, then others of the meshes in order of the alphabet."""
-    others = {h.label for m in meshes for h in m.hulls if h.label} - set(known)
-    return [*known, *sorted(others)]
-
-
-def _pictured(assets: Sequence[ReportAsset], count: int) -> frozenset[int]:
-    order = sorted(range(len(assets)), key=lambda k: not (assets[k].demonstrated or assets[k].broken))
+def _choose_pictured(assets: Sequence[ReportAsset], count: int) -> frozenset[int]:
+    order = sorted(range(len(assets)), key=lambda k: not (assets[k].demonstrated or assets[k].is_broken))
     return frozenset(order[:count])
+
+
+def _describe_selection(shown: int, figures: RunFigures) -> str | None:
+    """How many of very many assets are on the page, None where all are."""
+    if shown >= figures.total:
+        return None
+    some = f"{shown:,} of {figures.total:,} assets are shown"
+    odd = any(n and word in REMARKABLE for word, n in figures.counts.items())
+    return f"{some}, {figures.first} first." if odd else f"{some}."
+
+
+def _describe_findings(found: Sequence[Finding]) -> str:
+    errors = sum(finding.severity == "error" for finding in found)
+    return f"{pluralize(errors, 'error')}, {pluralize(len(found) - errors, 'warning')}" if found else "all is well"
+
+
+def _kinds(assets: Sequence[ReportAsset]) -> list[str]:
+    """The kinds of assets that there are, in the order of their buttons."""
+    kinds: list[str] = [status for status in STATUSES if any(asset.status == status for asset in assets)]
+    if any(asset.demonstrated for asset in assets):
+        kinds.append("demonstrated")
+    if any(asset.findings and asset.status not in get_args(CheckStatus) for asset in assets):
+        kinds.append("doubtful")
+    return kinds
+
+
+class _LegendRow(NamedTuple):
+    color: str | None
+    name: str
+    text: str
+
+    @staticmethod
+    def of(name: str, color: str, before: int, after: int) -> _LegendRow:
+        """A name and its numbers of hulls."""
+        return _LegendRow(color, name, f"{before:,}" if before == after else f"{before:,} → {after:,}")
+
+
+def _label_legend(assets: Sequence[ReportAsset], colors: Mapping[str, str], blamed: bool) -> list[_LegendRow]:
+    """Each label with its colour, and its hulls before and after; empty where there is no mesh.
+
+    colors: empty where each hull has its own; blamed: whether hulls stand out for findings.
+    """
+    meshes = [mesh for asset in assets for mesh in (asset.before, asset.after) if mesh]
+    if not meshes:
+        return []
+    known = [(asset.before, asset.after) for asset in assets if asset.before and asset.after]
+    before, after = (Counter(hull.label for pair in known for hull in pair[k].hulls) for k in (0, 1))
+    entries = [_LegendRow.of(label, color, before[label], after[label]) for label, color in colors.items()]
+    if not colors:
+        entries.append(_LegendRow(None, "", "nothing is labelled: each hull has its own colour"))
+    elif before[None] or after[None]:
+        entries.append(_LegendRow.of("no label", UNLABELLED, before[None], after[None]))
+    if any(hull.confidence is not None and hull.confidence < UNSURE for mesh in meshes for hull in mesh.hulls):
+        entries.append(_LegendRow(None, "", "hatched: an unsure label"))
+    if blamed:
+        entries.append(_LegendRow(SELECTED, "", "named by a finding, the rest pale"))
+    return entries
+
+
+def _change_legend(assets: Sequence[ReportAsset]) -> list[_LegendRow]:
+    """What the colours of the pictures of changes mean, and how many hulls are of each kind."""
+    pairs = [(asset.before, asset.after) for asset in assets if asset.before and asset.after]
+    removed = sum(hull.name not in after.index for before, after in pairs for hull in before.hulls)
+    kept = sum(hull.name in before.index for before, after in pairs for hull in after.hulls)
+    made = sum(len(after.hulls) for _, after in pairs) - kept
+    counts = (("removed", removed), ("made", made), ("kept", kept))
+    return [_LegendRow.of(word, DIFFERENCE_COLORS[word], n, n) for word, n in counts]
+
+
+def _header_lines(program: Program) -> Iterator[tuple[str, str | None]]:
+    """The lines above the rules, with a sentence where they need one."""
+    if program.labels:
+        yield f"labels {', '.join(map(show_label, program.labels))}", None
+    if program.contact is not None:
+        yield f"contact {program.contact:g}", "Hulls this near each other touch (a share of the diagonal)."
+    if program.extremity is not None:
+        sentence = "Hulls this near the boundary are extreme (a share of the diagonal)."
+        yield f"extremity {program.extremity:g}", sentence
+    if program.orient:
+        yield show(program.orient), explain(program.orient)
+
+
+class _RuleRow(NamedTuple):
+    """A rule in the program's panel. selected, made: what it did over all assets, in words."""
+
+    text: str
+    sentence: str
+    comment: str
+    selected: str
+    made: str | None
+
+
+def _rule_row(number: int, rule: Rule, assets: Sequence[ReportAsset]) -> _RuleRow:
+    above = [line.strip() for line in rule.comments.above if line]
+    comment = " ".join([*above, *([rule.comments.beside.strip()] if rule.comments.beside else [])])
+    traces = [line for asset in assets for line in asset.trace if line.rule == number]
+    active = [line for line in traces if line.selected]
+    selected, made = "selected nothing", None
+    if active:
+        hulls = pluralize(sum(len(line.selected) for line in active), "hull")
+        selected = f"{hulls} on {len(active)} of {pluralize(len(traces), 'asset')}"
+        made = f"{sum(len(line.made) for line in active):,} made"
+    return _RuleRow(show(rule), explain(rule), comment, selected, made)
+
+
+def _tokenize(text: str, colors: Mapping[str, str]) -> Iterator[tuple[str, str | None, str | None]]:
+    """Program text in pieces, each with its kind, None for what is none; labels also with their colours."""
+    done = 0
+    for match in _TOKEN.finditer(text):
+        yield text[done : match.start()], None, None
+        token, done = match.group(), match.end()
+        yield token, _token_kind(match, token), colors.get(token)
+    yield text[done:], None, None
+
+
+def _token_kind(match: re.Match[str], token: str) -> str:
+    if token in OPERATORS:
+        return "operator"
+    if token in ACTIONS:
+        return "action"
+    if token in _KEYWORDS or match.lastgroup is None:
+        return "keyword"
+    return match.lastgroup

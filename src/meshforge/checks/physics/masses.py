@@ -1,4 +1,4 @@
-"""Whether the masses and inertias that a file tells can be those of its bodies."""
+"""Whether the masses and inertias in a file can be those of its bodies."""
 
 from __future__ import annotations
 
@@ -7,11 +7,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from meshforge.asset import Inertial
-from meshforge.checks.finding import Finding
+from meshforge.checks.legality import Finding
+from meshforge.common import join_names
 from meshforge.geometry import Aabb, inertia
-from meshforge.symbolic import Hull, SymbolicMesh
-from meshforge.words import listed
+from meshforge.symbolic import Hull, Inertial, SymbolicMesh
 
 LIGHTEST, HEAVIEST = 5.0, 25_000.0
 """Densities [kg/m^3] beyond which a mass is doubted: below any foam, and above osmium."""
@@ -19,14 +18,6 @@ OFF = 10.0
 """Inertias that differ by more than this factor from those of the hulls are doubted."""
 _ROUNDING = 1e-4  # of inertias that are written with few digits
 _OUTSIDE = 0.1  # of the size of the hulls, by which a centre of mass may lie outside of their box
-
-
-@dataclass(frozen=True, slots=True)
-class _Doubt:
-    rule: str
-    body: str
-    problem: str
-
 
 _REMEDIES = {
     "mass": "Correct mass and inertia in the file.",
@@ -36,26 +27,35 @@ _REMEDIES = {
 }
 
 
-def masses(mesh: SymbolicMesh) -> Iterator[Finding]:
-    """What is odd about the masses that the asset of a mesh tells: a finding for each rule, with its bodies."""
-    doubts = list(_all_doubts(mesh))
+@dataclass(frozen=True, slots=True)
+class _MassDoubt:
+    rule: str
+    body: str
+    problem: str
+
+
+def check_masses(mesh: SymbolicMesh) -> Iterator[Finding]:
+    """What is odd about the masses in the asset of a mesh: a finding for each rule, with its bodies."""
+    doubts = list(_find_doubts(mesh))
     for rule, remedy in _REMEDIES.items():
-        told = [f"body {doubt.body!r}: {doubt.problem}" for doubt in doubts if doubt.rule == rule]
-        if told:
-            yield Finding(f"physics-{rule}", "error" if rule == "mass" else "warning", (), listed(told, 3), remedy)
+        problems = [f"body {doubt.body!r}: {doubt.problem}" for doubt in doubts if doubt.rule == rule]
+        if problems:
+            yield Finding(
+                f"physics-{rule}", "error" if rule == "mass" else "warning", (), join_names(problems, 3), remedy
+            )
 
 
-def _all_doubts(mesh: SymbolicMesh) -> Iterator[_Doubt]:
+def _find_doubts(mesh: SymbolicMesh) -> Iterator[_MassDoubt]:
     for inertial in mesh.asset.mechanism.inertials if mesh.asset else ():
         hulls = [hull for hull in mesh.hulls if hull.body == inertial.body]
-        problem = broken(inertial)
+        problem = find_inertial_problem(inertial)
         if problem:
-            yield _Doubt("mass", inertial.body, problem)
+            yield _MassDoubt("mass", inertial.body, problem)
         elif hulls:
-            yield from _doubts(inertial, hulls)
+            yield from _compare_with_hulls(inertial, hulls)
 
 
-def broken(inertial: Inertial) -> str | None:
+def find_inertial_problem(inertial: Inertial) -> str | None:
     """Why no solid has such a mass and inertia, None where one may."""
     if not (np.isfinite(inertial.mass) and np.isfinite(inertial.inertia).all() and np.isfinite(inertial.centre).all()):
         return "mass or inertia is not a finite number"
@@ -69,21 +69,21 @@ def broken(inertial: Inertial) -> str | None:
     return None
 
 
-def _doubts(inertial: Inertial, hulls: list[Hull]) -> Iterator[_Doubt]:
+def _compare_with_hulls(inertial: Inertial, hulls: list[Hull]) -> Iterator[_MassDoubt]:
     shapes = [hull.shape for hull in hulls]
     volume = sum(shape.volume for shape in shapes)
     density = inertial.mass / volume
     if not LIGHTEST <= density <= HEAVIEST:
-        told = f"{inertial.mass:.3g} kg on hulls of {1000 * volume:.3g} l are {density:.3g} kg/m³"
-        yield _Doubt("density", inertial.body, told)
+        problem = f"{inertial.mass:.3g} kg on hulls of {1000 * volume:.3g} l are {density:.3g} kg/m³"
+        yield _MassDoubt("density", inertial.body, problem)
     box = Aabb.union(shape.aabb for shape in shapes)
     beyond = float(np.maximum(box.min - inertial.centre, inertial.centre - box.max).max())
     if beyond > _OUTSIDE * box.diagonal:
-        told = f"its centre of mass lies {beyond:.3g} m outside of the box of its hulls"
-        yield _Doubt("centre", inertial.body, told)
+        problem = f"its centre of mass lies {beyond:.3g} m outside of the box of its hulls"
+        yield _MassDoubt("centre", inertial.body, problem)
     _, solid = inertia(shapes, inertial.mass)
     ratio = np.linalg.eigvalsh(inertial.inertia) / np.linalg.eigvalsh(solid)
     worst = float(ratio[np.abs(np.log(ratio)).argmax()])
     if not 1 / OFF <= worst <= OFF:
-        told = f"its inertia is {worst:.3g} times that of its hulls at that mass"
-        yield _Doubt("inertia", inertial.body, told)
+        problem = f"its inertia is {worst:.3g} times that of its hulls at that mass"
+        yield _MassDoubt("inertia", inertial.body, problem)

@@ -1,4 +1,4 @@
-"""A model of MuJoCo's of the hulls of a mesh on a plane, made from the mesh itself, whatever its format."""
+"""A MuJoCo model of the hulls of a mesh on a plane, made from the mesh itself, whatever its format."""
 
 from __future__ import annotations
 
@@ -6,12 +6,10 @@ from typing import Any
 
 import numpy as np
 
-from meshforge.asset import Inertial, Joint
-from meshforge.checks.physics.masses import broken
-from meshforge.checks.physics.touching import Contact, Touching
-from meshforge.checks.physics.tree import WELDED, Tree
+from meshforge.checks.physics.masses import find_inertial_problem
+from meshforge.checks.physics.mechanism import WELDED_JOINTS, ContactAttributes, ContactRules, JointTree
 from meshforge.geometry import Box, Capsule, Cylinder, Ellipsoid, Pose, Shape, Sphere
-from meshforge.symbolic import Hull, SymbolicMesh
+from meshforge.symbolic import Hull, Inertial, Joint, SymbolicMesh
 
 DENSITY = 1000.0
 """Of hulls of bodies without a mass that can be [kg/m^3]."""
@@ -24,14 +22,14 @@ _LEAST = 1e-3  # [kg], of a moving body that has neither hulls nor mass
 _UPRIGHT = Pose([[1, 0, 0], [0, 0, -1], [0, 1, 0]], [0, 0, 0])  # z-up_T_y-up
 
 
-def compiled(mesh: SymbolicMesh, tree: Tree, *, everything: bool = False) -> Any:
+def compile_model(mesh: SymbolicMesh, tree: JointTree, *, everything: bool = False) -> Any:
     """MuJoCo's model of a mesh that stands on a plane; geoms are numbered as the hulls, after the plane's.
 
     everything: whether all touches, which else bodies do not that a joint holds together, and what the file keeps
     apart. On the plane, a hull rubs as the file has it. Joints are damped, so that what swings comes to rest. Raises
     ValueError where MuJoCo refuses the model.
     """
-    import mujoco
+    import mujoco  # lazy: 0.3 s, only the physics checks need it
 
     spec = mujoco.MjSpec()
     spec.option.timestep = STEP
@@ -39,23 +37,23 @@ def compiled(mesh: SymbolicMesh, tree: Tree, *, everything: bool = False) -> Any
     if everything:
         spec.option.disableflags = int(mujoco.mjtDisableBit.mjDSBL_FILTERPARENT)
     spec.worldbody.add_geom(type=mujoco.mjtGeom.mjGEOM_PLANE, size=[0, 0, 1], name=FLOOR)
-    shown = _standing(mesh)
-    tops = tree.tops({hull.body for hull in mesh.hulls})
+    shown = _pose_on_floor(mesh)
+    tops = tree.roots_of({hull.body for hull in mesh.hulls})
     for root in tree.bodies:
         if root in tops:
-            _add(spec, spec.worldbody, root, Pose.identity(), mesh, tree, shown)
+            _add_body(spec, spec.worldbody, root, Pose.identity(), mesh, tree, shown)
     if not everything:
-        _filter(spec, Touching(mesh))
+        _filter_contacts(spec, ContactRules(mesh))
     return spec.compile()
 
 
-def _filter(spec: Any, touching: Touching) -> None:
+def _filter_contacts(spec: Any, touching: ContactRules) -> None:
     """Let touch what the file lets touch, as it rubs there; the plane meets all, and is of no weight in how."""
     plane = spec.geom(FLOOR)
     plane.contype, plane.conaffinity = 0, _FLOOR_BIT
     plane.priority = min(contact.priority for contact in touching.contacts) - 1
     for k, contact in enumerate(touching.contacts):
-        _contact(spec.geom(f"hull {k}"), contact)
+        _set_contact(spec.geom(f"hull {k}"), contact)
     known = {body.name for body in spec.bodies}
     for pair in sorted(sorted(f"body {name}" for name in pair) for pair in touching.apart if len(pair) == 2):
         if known.issuperset(pair):
@@ -64,12 +62,12 @@ def _filter(spec: Any, touching: Touching) -> None:
         spec.add_pair(geomname1=f"hull {first}", geomname2=f"hull {second}")
 
 
-def _contact(geom: Any, contact: Contact) -> None:
+def _set_contact(geom: Any, contact: ContactAttributes) -> None:
     geom.contype, geom.conaffinity = contact.contype | _FLOOR_BIT, contact.conaffinity & ~_FLOOR_BIT
     geom.condim, geom.priority, geom.friction = contact.condim, contact.priority, contact.friction
 
 
-def _standing(mesh: SymbolicMesh) -> Pose:
+def _pose_on_floor(mesh: SymbolicMesh) -> Pose:
     """The pose shown_T_root that puts the lowest point of all hulls on the plane, with Z up."""
     turn = _UPRIGHT if mesh.asset and mesh.asset.up == "y" else Pose.identity()
     down = -turn.rotation[2]
@@ -77,7 +75,7 @@ def _standing(mesh: SymbolicMesh) -> Pose:
     return Pose(turn.rotation, [0.0, 0.0, -lowest])
 
 
-def _add(spec: Any, parent: Any, name: str, above: Pose, mesh: SymbolicMesh, tree: Tree, shown: Pose) -> None:
+def _add_body(spec: Any, parent: Any, name: str, above: Pose, mesh: SymbolicMesh, tree: JointTree, shown: Pose) -> None:
     """Add a body and all below it; above: the pose world_T_parent."""
     pose = shown @ tree.bodies[name]
     local = above.inverse() @ pose
@@ -85,20 +83,20 @@ def _add(spec: Any, parent: Any, name: str, above: Pose, mesh: SymbolicMesh, tre
     if name not in tree.above:
         body.add_freejoint()
     for joint in tree.joints.get(name, ()):
-        if joint.kind not in WELDED:
-            _join(body, joint, pose.inverse() @ shown, _reach(joint, mesh, tree))
+        if joint.kind not in WELDED_JOINTS:
+            _add_joint(body, joint, pose.inverse() @ shown, _estimate_load(joint, mesh, tree))
     hulls = [(k, hull) for k, hull in enumerate(mesh.hulls) if hull.body == name]
     given = next((i for i in mesh.asset.mechanism.inertials if i.body == name), None) if mesh.asset else None
-    _weigh(body, given, pose.inverse() @ shown, bool(hulls), name in tree.joints)
+    _set_mass(body, given, pose.inverse() @ shown, bool(hulls), name in tree.joints)
     for k, hull in hulls:
-        _shape(spec, body, f"hull {k}", hull, pose.inverse() @ shown)
-    for child in tree.below(name):
-        _add(spec, body, child, pose, mesh, tree, shown)
+        _add_hull(spec, body, f"hull {k}", hull, pose.inverse() @ shown)
+    for child in tree.children_of(name):
+        _add_body(spec, body, child, pose, mesh, tree, shown)
 
 
-def _weigh(body: Any, given: Inertial | None, local: Pose, has_hulls: bool, moves: bool) -> None:
+def _set_mass(body: Any, given: Inertial | None, local: Pose, has_hulls: bool, moves: bool) -> None:
     """Give a body its mass; without one that can be, its hulls have the density of water."""
-    if given is not None and broken(given) is None:
+    if given is not None and find_inertial_problem(given) is None:
         turned = local.rotation @ given.inertia @ local.rotation.T
         body.explicitinertial = True
         body.mass = given.mass
@@ -111,8 +109,8 @@ def _weigh(body: Any, given: Inertial | None, local: Pose, has_hulls: bool, move
         body.inertia = np.full(3, _LEAST * 1e-3)
 
 
-def _join(body: Any, joint: Joint, local: Pose, reach: tuple[float, float]) -> None:
-    import mujoco
+def _add_joint(body: Any, joint: Joint, local: Pose, reach: tuple[float, float]) -> None:
+    import mujoco  # lazy: 0.3 s, only the physics checks need it
 
     mass, length = reach
     kinds = {
@@ -129,26 +127,26 @@ def _join(body: Any, joint: Joint, local: Pose, reach: tuple[float, float]) -> N
         added.range = [limit * factor for limit in joint.limits]
 
 
-def _reach(joint: Joint, mesh: SymbolicMesh, tree: Tree) -> tuple[float, float]:
+def _estimate_load(joint: Joint, mesh: SymbolicMesh, tree: JointTree) -> tuple[float, float]:
     """What hangs on a joint: about how heavy [kg] that is, and how far [m] it reaches from the anchor."""
     names = [joint.child]
     for body in names:
-        names += tree.below(body)
+        names += tree.children_of(body)
     hulls = [hull for hull in mesh.hulls if hull.body in names]
     inertials = [i for i in mesh.asset.mechanism.inertials if i.body in names] if mesh.asset else []
-    told = {i.body: i.mass for i in inertials if broken(i) is None}
-    mass = sum(told.get(body, DENSITY * sum(h.volume for h in hulls if h.body == body)) for body in names)
+    known = {i.body: i.mass for i in inertials if find_inertial_problem(i) is None}
+    mass = sum(known.get(body, DENSITY * sum(h.volume for h in hulls if h.body == body)) for body in names)
     ends = np.concatenate([np.zeros((0, 3)), *(h.aabb.corners for h in hulls), *(i.centre[None] for i in inertials)])
     length = float(np.linalg.norm(ends - joint.anchor, axis=1).max(initial=0.01))
     return max(mass, _LEAST), length
 
 
-def _shape(spec: Any, body: Any, name: str, hull: Hull, local: Pose) -> None:
+def _add_hull(spec: Any, body: Any, name: str, hull: Hull, local: Pose) -> None:
     """Add a hull: a native shape as itself, any other as a mesh."""
-    import mujoco
+    import mujoco  # lazy: 0.3 s, only the physics checks need it
 
     geoms = mujoco.mjtGeom
-    shape: Shape = hull.shape.moved(local)
+    shape: Shape = hull.shape.move(local)
     match shape:
         case Box():
             kind, size = geoms.mjGEOM_BOX, list(shape.half)

@@ -1,4 +1,4 @@
-"""What is kept of a glTF file to write it back: its bytes, and which hulls were read from which of its nodes."""
+"""What is kept of a glTF file to write it back: its bytes, and which hulls were read from which nodes."""
 
 from __future__ import annotations
 
@@ -6,19 +6,19 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal
 
-from meshforge.asset import Document
 from meshforge.geometry import Ints
+from meshforge.symbolic import Document
 
 Convention = Literal["khr", "omi", "omi collider", "unreal", "godot", "unity", "plain"]
-"""How a file tells its collision geometry: by an extension, by names, or not at all, then all meshes are collision."""
+"""How a file marks its collision geometry: by an extension, by names, or not at all, then all meshes are collision."""
 
 BODY = "body"
 """The name of the body of all collision that is part of no rigid body."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class Authored:
-    """A node of the file with collision: its body, the names of its pieces in order, hulls and opaque ones.
+class NodeRecord:
+    """A node of the file with collision: its body, the names of its pieces in order, hulls and non-convex ones.
 
     owner: the piece (m,) of each triangle of its mesh; None where the pieces are not parts of a mesh.
     """
@@ -39,6 +39,6 @@ class GltfDocument(Document):
 
     source: bytes
     convention: Convention
-    authored: tuple[Authored, ...]
+    authored: tuple[NodeRecord, ...]
     bodies: tuple[tuple[int, str], ...] = ()
     digests: tuple[tuple[Path, str], ...] = ()

@@ -1,4 +1,4 @@
-"""Reading Collada by pycollada: a surface for each geometry in each node, node transforms applied.
+"""Read Collada by pycollada: a surface for each geometry in each node, node transforms applied.
 
 The tags `unit` and `up_axis` are not: PyBullet, MoveIt and yourdfpy ignore both, so descriptions scale the mesh
 themselves. `RawSurface.unit` tells readers of formats whose engines obey it (Gazebo).
@@ -14,21 +14,20 @@ from typing import Any
 
 import numpy as np
 
-from meshforge.errors import AssetError
-from meshforge.formats.meshfile.surface import RawSurface, checked
-from meshforge.formats.xml import Text, blanked
-from meshforge.geometry import Floats
-from meshforge.words import counted
+from meshforge.common import AssetError, pluralize
+from meshforge.formats.meshfile.surface import RawSurface, check_surfaces, stack_triangles
+from meshforge.formats.xml import XmlText, blank_markup
+from meshforge.geometry import Floats, Ints
 
 _NOT_FINITE = re.compile(r"\b(nan|inf)", re.I)
 
 
 def parse_dae(data: bytes, where: str) -> list[RawSurface]:
     """The surfaces of a Collada file. Raises AssetError: not such a file, or no scene in it."""
-    import collada
-    from collada.common import DaeBrokenRefError, DaeError, DaeUnsupportedError
+    import collada  # lazy: 0.1 s, only Collada needs it
+    from collada.common import DaeBrokenRefError, DaeError, DaeUnsupportedError  # lazy: as collada
 
-    data = blanked(Text.of(data).data)
+    data = blank_markup(XmlText.of(data).data)
     if b"<!ENTITY" in data or b"<!DOCTYPE" in data:
         raise AssetError("it declares XML entities, which are not read", where=where)
     try:
@@ -43,16 +42,16 @@ def parse_dae(data: bytes, where: str) -> list[RawSurface]:
         raise AssetError("its nodes lie too deep in each other", where=where, remedy="Export it again.") from error
     except (DaeError, ValueError, TypeError, AttributeError, IndexError, KeyError, SyntaxError) as error:
         reason = " ".join(str(error).split())
-        raise AssetError(
-            f"this Collada file cannot be read: {reason}", where=where, remedy="Export it again."
-        ) from error
+        problem = f"this Collada file cannot be read: {reason}"
+        raise AssetError(problem, where=where, remedy="Export it again.") from error
     if not found and geometries:
-        raise AssetError(f"its scene shows no triangle of {counted(geometries, 'geometry', 'geometries')}", where=where)
-    return checked(found, where)
+        problem = f"its scene shows no triangle of {pluralize(geometries, 'geometry', 'geometries')}"
+        raise AssetError(problem, where=where)
+    return check_surfaces(found, where)
 
 
 def _walk(node: Any, world: Floats, unit: float) -> Iterator[RawSurface]:
-    from collada.scene import GeometryNode, Node, NodeNode
+    from collada.scene import GeometryNode, Node, NodeNode  # lazy: as collada
 
     if isinstance(node, NodeNode):
         node = node.node
@@ -63,7 +62,7 @@ def _walk(node: Any, world: Floats, unit: float) -> Iterator[RawSurface]:
         elif isinstance(child, GeometryNode):
             _refuse_numbers(child.geometry)
             for bound in child.objects("geometry", inside):
-                yield from _surface(bound, node.name or node.id, unit)
+                yield from _read_surface(bound, node.name or node.id, unit)
 
 
 def _refuse_numbers(geometry: Any) -> None:
@@ -75,9 +74,9 @@ def _refuse_numbers(geometry: Any) -> None:
                 raise ValueError(f"a coordinate of geometry {geometry.id!r} is not a finite number")
 
 
-def _surface(bound: Any, name: str | None, unit: float) -> Iterator[RawSurface]:
+def _read_surface(bound: Any, name: str | None, unit: float) -> Iterator[RawSurface]:
     """The surface of a geometry; its sets of triangles, one a material, are joined."""
-    vertices, faces, start = [], [], 0
+    parts: list[tuple[Floats, Ints]] = []
     for part in bound.primitives():
         counts = getattr(part.original, "vcounts", None)
         if counts is not None and int(np.sum(counts)) != len(part.index):
@@ -86,8 +85,7 @@ def _surface(bound: Any, name: str | None, unit: float) -> Iterator[RawSurface]:
         if not hasattr(triangles, "vertex_index") or np.ndim(triangles.vertex_index) != 2 or not len(triangles):
             continue
         if triangles.vertex_index.shape[1] == 3:
-            vertices.append(np.asarray(triangles.vertex, dtype=np.float64))
-            faces.append(np.asarray(triangles.vertex_index, dtype=np.int64) + start)
-            start += len(vertices[-1])
-    if faces:
-        yield RawSurface(name, np.concatenate(vertices), np.concatenate(faces), unit)
+            faces = np.asarray(triangles.vertex_index, dtype=np.int64)
+            parts.append((np.asarray(triangles.vertex, dtype=np.float64), faces))
+    if parts:
+        yield RawSurface(name, *stack_triangles(parts), unit)

@@ -1,23 +1,35 @@
-"""Reading Wavefront OBJ: vertices, faces and groups, each with its statement, so that edits keep the text."""
+"""Read Wavefront OBJ: vertices, faces and groups, each with its statement, so that edits keep the text. Plain
+statements are read many at once, ten times as fast as the rest, which goes one by one and knows its line."""
 
 from __future__ import annotations
 
 import codecs
-import itertools
 import re
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
-from meshforge.errors import AssetError
-from meshforge.formats.meshfile.obj_rows import keywords, plain_faces, plain_vertices
-from meshforge.formats.meshfile.surface import RawSurface, Soup, checked, is_number, remedy_for, text_of
+from meshforge.common import AssetError
+from meshforge.formats.meshfile.surface import (
+    RawSurface,
+    Soup,
+    check_surfaces,
+    cut_fans,
+    is_number,
+    remedy_for,
+    text_of,
+)
 from meshforge.geometry import Floats, Ints
 
-Group = tuple[str, str]
+ObjGroup = tuple[str, str]
 """The object (`o`) and the group (`g`) that a face is in; an empty text where there is none."""
 _STATEMENTS = frozenset((b"v", b"vn", b"vt", b"vp", b"f", b"fo", b"l", b"p", b"o", b"g", b"s", b"mtllib", b"usemtl"))
 _SHOWN = 60  # characters of a statement in a message
+
+_UNUSUAL = (b"#", b"\\", b"_", b" /", b"\t/", b"\x0b/", b"\x0c/")
+_BEHIND = re.compile(rb"/\S*")  # texture and normal numbers behind a vertex number
+_QUICK = {word + blank: word for word in (b"v", b"f", b"vn", b"vt") for blank in (b" ", b"\t")}
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -35,15 +47,15 @@ class ObjText:
     faces: Ints
     face_at: Ints
     face_group: Ints
-    groups: tuple[Group, ...]
+    groups: tuple[ObjGroup, ...]
 
     def soup(self, where: str) -> Soup:
         """All triangles in file order. Raises AssetError: there is none, or a coordinate is not finite."""
-        checked([RawSurface(None, self.vertices, self.faces)], where)
+        check_surfaces([RawSurface(None, self.vertices, self.faces)], where)
         named = tuple(group_names(self.groups))
         within = tuple(g if o and g and o == name != g else "" for (o, g), name in zip(self.groups, named, strict=True))
-        spoken = ("group", self.face_group, within), ("material", *self._materials())
-        return Soup(self.vertices, self.faces, self.face_group, named, spoken)
+        mentions = ("group", self.face_group, within), ("material", *self._materials())
+        return Soup(self.vertices, self.faces, self.face_group, named, mentions)
 
     def _materials(self) -> tuple[Ints, tuple[str, ...]]:
         """The material (m,) of each triangle, and the names of all; the first has none."""
@@ -55,7 +67,7 @@ class ObjText:
         """A surface for each group that has faces; they share the vertices of the file. Raises AssetError."""
         names = group_names(self.groups)
         parts = [RawSurface(names[k], self.vertices, self.faces[self.face_group == k]) for k in range(len(names))]
-        return checked(parts, where)
+        return check_surfaces(parts, where)
 
 
 def statements_of(data: bytes) -> list[bytes]:
@@ -74,7 +86,7 @@ def statements_of(data: bytes) -> list[bytes]:
     return joined
 
 
-def group_names(groups: tuple[Group, ...]) -> list[str | None]:
+def group_names(groups: tuple[ObjGroup, ...]) -> list[str | None]:
     """The name of each group: its object where that holds one group only, else object and group."""
     objects = [o for o, _ in groups]
     names: list[str | None] = []
@@ -92,9 +104,9 @@ def parse_obj(data: bytes, where: str) -> ObjText:
     words = keywords(statements)
     _refuse_others(statements, words, where)
     vertex_at = np.array([k for k, word in enumerate(words) if word == b"v"], dtype=np.int64)
-    vertices = _vertices(statements, vertex_at, where)
-    face_at, faces = _faces(statements, words, vertex_at, where)
-    groups, used = _groups(statements, words, face_at)
+    vertices = _parse_vertices(statements, vertex_at, where)
+    face_at, faces = _parse_faces(statements, words, vertex_at, where)
+    groups, used = _parse_groups(statements, words, face_at)
     kept, first, face_group = np.unique(used, return_index=True, return_inverse=True)
     order = np.argsort(first)
     rank = np.argsort(order)
@@ -127,10 +139,10 @@ def _refuse_others(statements: list[bytes], words: list[bytes], where: str) -> N
     if first is None:
         raise AssetError("the file holds no statement", where=where)
     if _STATEMENTS.isdisjoint(words):
-        raise _error(f"this is no OBJ file: it begins with {_quoted(statements[first])}", statements, first, where)
+        raise _error_at(f"this is no OBJ file: it begins with {_quote(statements[first])}", statements, first, where)
 
 
-def _vertices(statements: list[bytes], at: Ints, where: str) -> Floats:
+def _parse_vertices(statements: list[bytes], at: Ints, where: str) -> Floats:
     plain = plain_vertices([statements[k] for k in at.tolist()])
     if plain is not None:
         return plain
@@ -141,63 +153,129 @@ def _vertices(statements: list[bytes], at: Ints, where: str) -> Floats:
         return np.array([[float(x) for x in row] for row in rows], dtype=np.float64).reshape(len(rows), 3)
     except ValueError:
         k = next(int(k) for k, row in zip(at, rows, strict=True) if len(row) < 3 or not all(map(is_number, row)))
-        problem = f"a vertex needs three numbers, here is {_quoted(statements[k])}"
-        raise _error(problem, statements, k, where, remedy_for(arguments(statements[k]))) from None
+        problem = f"a vertex needs three numbers, here is {_quote(statements[k])}"
+        raise _error_at(problem, statements, k, where, remedy_for(arguments(statements[k]))) from None
 
 
-def _faces(statements: list[bytes], words: list[bytes], vertex_at: Ints, where: str) -> tuple[Ints, Ints]:
+def _parse_faces(statements: list[bytes], words: list[bytes], vertex_at: Ints, where: str) -> tuple[Ints, Ints]:
     """The statement of each triangle, and the triangles (m, 3)."""
     rows = np.array([k for k, word in enumerate(words) if word in (b"f", b"fo")], dtype=np.int64)
     ahead = np.searchsorted(vertex_at, rows)
     plain = plain_faces([statements[k] for k in rows.tolist()], ahead, len(vertex_at))
     if plain is not None:
         return rows[plain[0]], plain[1]
-    at: list[int] = []
-    triangles: list[tuple[int, int, int]] = []
+    polygons: list[list[int]] = []
     for k, before in zip(rows.tolist(), ahead.tolist(), strict=True):
         try:
             if b"_" in statements[k]:
                 raise ValueError
             corners = [int(w.partition(b"/")[0]) for w in arguments(statements[k])]
         except ValueError:
-            problem = f"a face needs vertex numbers, here is {_quoted(statements[k])}"
-            raise _error(problem, statements, k, where) from None
+            problem = f"a face needs vertex numbers, here is {_quote(statements[k])}"
+            raise _error_at(problem, statements, k, where) from None
         indices = [c - 1 if c > 0 else before + c for c in corners]
         for corner, index in zip(corners, indices, strict=True):
             if corner == 0 or not 0 <= index < len(vertex_at):
                 there = f"the file has {len(vertex_at)}" if corner >= 0 else f"{before} lie ahead of it"
                 problem = f"a face names vertex {corner}, {there}"
-                raise _error(problem, statements, k, where)
-        for second, third in itertools.pairwise(indices[1:]):
-            at.append(k)
-            triangles.append((indices[0], second, third))
-    return np.array(at, dtype=np.int64), np.array(triangles, dtype=np.int64).reshape(-1, 3)
+                raise _error_at(problem, statements, k, where)
+        polygons.append(indices)
+    at, triangles = cut_fans(polygons)
+    return rows[at], triangles
 
 
-def _groups(statements: list[bytes], words: list[bytes], at: Ints) -> tuple[list[Group], Ints]:
+def _parse_groups(statements: list[bytes], words: list[bytes], at: Ints) -> tuple[list[ObjGroup], Ints]:
     """All groups in order of appearance, and the group in force at each of some statements (n,)."""
-    known: dict[Group, int] = {("", ""): 0}
-    current: Group = ("", "")
+    known: dict[ObjGroup, int] = {("", ""): 0}
+    current: ObjGroup = ("", "")
     lines, in_force = [-1], [0]
     for k, word in enumerate(words):
         if word in (b"o", b"g"):
-            current = (name_in(statements[k]), "") if word == b"o" else (current[0], name_in(statements[k]))
+            current = (group_name_of(statements[k]), "") if word == b"o" else (current[0], group_name_of(statements[k]))
             lines.append(k)
             in_force.append(known.setdefault(current, len(known)))
     return list(known), np.array(in_force)[np.searchsorted(lines, at) - 1]
 
 
-def name_in(statement: bytes) -> str:
+def group_name_of(statement: bytes) -> str:
     """The name that an `o` or `g` statement gives: all after the keyword, spaces within included."""
-    rest = statement.strip()[1:].strip()
-    return text_of(rest)
+    return text_of(statement.strip()[1:].strip())
 
 
-def _quoted(statement: bytes) -> str:
+def _quote(statement: bytes) -> str:
     """A statement as messages show it, of a long one the beginning."""
     text = text_of(statement.strip())
     return repr(text if len(text) <= _SHOWN else f"{text[:_SHOWN]}...")
 
 
-def _error(problem: str, statements: list[bytes], index: int, where: str, remedy: str | None = None) -> AssetError:
+def _error_at(problem: str, statements: list[bytes], index: int, where: str, remedy: str | None = None) -> AssetError:
     return AssetError(problem, where=f"{where}:{line_of(statements, index)}", remedy=remedy)
+
+
+def keywords(statements: Sequence[bytes]) -> list[bytes]:
+    """The first word of each statement, none where it is empty."""
+    return [_QUICK.get(s[:2]) or _QUICK.get(s[:3]) or keyword(s) for s in statements]
+
+
+def keyword(statement: bytes) -> bytes:
+    """The first word of a statement, none where it is empty."""
+    words = statement.split(None, 1)
+    return words[0] if words else b""
+
+
+def plain_vertices(rows: Sequence[bytes]) -> Floats | None:
+    """The vertices (n, 3) of `v` statements; None where these are not plain, or not of the same length."""
+    text = b"".join(rows)
+    if not rows or any(mark in text for mark in _UNUSUAL):
+        return None
+    words = text.split()
+    width = len(words) // len(rows)
+    if width < 4 or len(words) != width * len(rows) or not _is_only_at_starts(words, b"v", width, len(rows)):
+        return None
+    try:
+        return np.column_stack([np.array(list(map(float, words[k::width]))) for k in (1, 2, 3)])
+    except ValueError:
+        return None
+
+
+def plain_faces(rows: Sequence[bytes], before: Ints, total: int) -> tuple[Ints, Ints] | None:
+    """The statement (m,) of each triangle of `f` statements, and the triangles (m, 3), polygons cut into fans.
+
+    before: (n,) the vertices ahead of each statement, from which negative numbers count; total: those of the file.
+    None where the statements are not plain, or name a vertex that is not there.
+    """
+    text = b"".join(rows)
+    if not rows or any(mark in text for mark in _UNUSUAL):
+        return None
+    words = (_BEHIND.sub(b"", text) if b"/" in text else text).split()
+    width = len(words) // len(rows)
+    if len(words) == width * len(rows) and _is_only_at_starts(words, b"f", width, len(rows)):
+        del words[::width]
+        counts = np.full(len(rows), width - 1)
+    else:
+        words = [word for word in words if word != b"f"]
+        counts = np.array([len(row.split()) - 1 for row in rows])
+    try:
+        corners = np.array(list(map(int, words)), dtype=np.int64)
+    except (ValueError, OverflowError):
+        return None
+    if counts.sum() != len(corners):
+        return None
+    corners = np.where(corners > 0, corners - 1, np.where(corners < 0, corners + np.repeat(before, counts), -1))
+    if corners.min(initial=0) < 0 or corners.max(initial=-1) >= total:
+        return None
+    return _cut_many_fans(corners, counts)
+
+
+def _is_only_at_starts(words: list[bytes], word: bytes, width: int, count: int) -> bool:
+    """Whether a word is every width-th one of others, and none besides."""
+    return words[::width].count(word) == count == words.count(word)
+
+
+def _cut_many_fans(corners: Ints, counts: Ints) -> tuple[Ints, Ints]:
+    """Polygons of so many corners (n,), one after the other, as triangles (m, 3); first the polygon (m,) of each."""
+    triangles = np.maximum(counts - 2, 0)
+    polygon = np.repeat(np.arange(len(counts)), triangles)
+    first = np.repeat(np.cumsum(counts) - counts, triangles)
+    second = first + 1 + np.arange(len(first)) - np.repeat(np.cumsum(triangles) - triangles, triangles)
+    return polygon, corners[np.column_stack([first, second, second + 1])]

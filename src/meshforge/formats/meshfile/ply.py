@@ -1,8 +1,9 @@
-"""Reading PLY, ASCII and binary, each row where it stands in the file, so that edits keep all its properties."""
+"""Read PLY, ASCII and binary, each row where it stands in the file, so that edits keep all its properties."""
 
 from __future__ import annotations
 
-import itertools
+import codecs
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -10,22 +11,58 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from meshforge.errors import AssetError
-from meshforge.formats.meshfile.ply_header import Element, Header, parse_header
-from meshforge.formats.meshfile.surface import RawSurface, as_doubles, checked, remedy_for, text_of
+from meshforge.common import AssetError
+from meshforge.formats.meshfile.surface import RawSurface, check_surfaces, cut_fans, remedy_for, text_of, to_doubles
 from meshforge.geometry import Floats, Ints
 
-_SHOWN = 60  # characters of a row in a message
+TYPES = {
+    **{"char": "i1", "uchar": "u1", "short": "i2", "ushort": "u2", "int": "i4", "uint": "u4", "float": "f4"},
+    **{"double": "f8", "int8": "i1", "uint8": "u1", "int16": "i2", "uint16": "u2", "int32": "i4", "uint32": "u4"},
+    **{"float32": "f4", "float64": "f8"},
+}
+_ORDERS = {"ascii": "", "binary_little_endian": "<", "binary_big_endian": ">"}
+_SHOWN = 60  # characters of a row, or a line of the header, in a message
 NEWLINE = b"\n"
-INDICES = ("vertex_indices", "vertex_index")
+INDEX_NAMES = ("vertex_indices", "vertex_index")
 """The names under which files keep the corners of a face."""
 
 
+@dataclass(frozen=True, slots=True)
+class PlyProperty:
+    """A property of an element: its name, numpy type, and the type of its length where it is a list."""
+
+    name: str
+    type: str
+    count: str | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class PlyElement:
+    """An element: its name, how many rows it has, its properties."""
+
+    name: str
+    rows: int
+    properties: tuple[PlyProperty, ...]
+
+    @property
+    def has_lists(self) -> bool:
+        return any(p.count for p in self.properties)
+
+
+@dataclass(frozen=True, slots=True)
+class PlyHeader:
+    """size: bytes of the header with its last line end; order: of the bytes in numpy's letters, empty for ASCII."""
+
+    size: int
+    order: str
+    elements: tuple[PlyElement, ...]
+
+
 @dataclass(frozen=True, eq=False, slots=True)
-class Rows:
+class PlyRows:
     """The rows of an element: spans (n, 2), the bytes of each in the file; values of each property by its name."""
 
-    element: Element
+    element: PlyElement
     spans: Ints
     values: dict[str, Any]
 
@@ -37,35 +74,82 @@ class PlyText:
     vertices: (n, 3); faces: (m, 3) triangles, polygons cut into fans; face_at: (m,) the face row of each triangle.
     """
 
-    header: Header
-    rows: tuple[Rows, ...]
+    header: PlyHeader
+    rows: tuple[PlyRows, ...]
     vertices: Floats
     faces: Ints
     face_at: Ints
 
     def surfaces(self, where: str) -> list[RawSurface]:
         """The one surface of the file. Raises AssetError."""
-        return checked([RawSurface(None, self.vertices, self.faces)], where)
+        return check_surfaces([RawSurface(None, self.vertices, self.faces)], where)
 
 
 def parse_ply(data: bytes, where: str) -> PlyText:
     """A PLY file taken apart. Raises AssetError: cut short, damaged, or not a PLY file."""
     header = parse_header(data, where)
-    rows: list[Rows] = []
+    rows: list[PlyRows] = []
     at = header.size
     for element in header.elements:
         if element.rows > len(data) - at:  # before any memory is taken for them
-            raise _cut_short(element, where)
+            raise _truncation_error(element, where)
         try:
-            rows.append((_binary if header.order else _ascii)(data, at, element, header.order))
+            rows.append((_read_binary if header.order else _read_ascii)(data, at, element, header.order))
         except _OddRowError as odd:
-            raise odd.told(element, data, where) from None
+            raise odd.describe(element, data, where) from None
         except (ValueError, IndexError):
-            raise _cut_short(element, where) from None
+            raise _truncation_error(element, where) from None
         at = int(rows[-1].spans[-1, 1]) if element.rows else at
-    vertices = _vertices(rows, where)
-    faces, face_at = _faces(rows, len(vertices), where)
+    vertices = _find_vertices(rows, where)
+    faces, face_at = _find_faces(rows, len(vertices), where)
     return PlyText(header, tuple(rows), vertices, faces, face_at)
+
+
+def parse_header(data: bytes, where: str) -> PlyHeader:
+    """The header at the start of a PLY file. Raises AssetError with the line: this is none, or it makes no sense."""
+    if data.removeprefix(codecs.BOM_UTF8)[:3] != b"ply":
+        raise AssetError("this is no PLY file", where=where, remedy="Export it again.")
+    end = re.search(rb"^end_header[ \t]*(\r\n|\n|\r)", data, re.M)
+    if end is None and re.search(rb"\rend_header\r", data):
+        raise AssetError("its lines end in CR alone", where=where, remedy="Convert its line ends, or export it again.")
+    if end is None:
+        raise AssetError("the file is cut short: its header does not end", where=where, remedy="Export it again.")
+    order: str | None = None
+    elements: list[PlyElement] = []
+    for number, line in enumerate(data[: end.start()].splitlines(), start=1):
+        words = line.decode("ascii", "replace").split()
+        try:
+            match words:
+                case ["format", kind, _]:
+                    order = _ORDERS[kind]
+                case ["element", name, rows]:
+                    elements.append(PlyElement(name, _parse_count(rows), ()))
+                case ["property", *rest]:
+                    last, made = elements.pop(), _parse_property(rest)
+                    if any(p.name == made.name for p in last.properties):
+                        raise ValueError(made.name)
+                    elements.append(PlyElement(last.name, last.rows, (*last.properties, made)))
+        except (KeyError, IndexError, ValueError):
+            shown = " ".join(words)[:_SHOWN]
+            raise AssetError(f"this line of the header makes no sense: {shown!r}", where=f"{where}:{number}") from None
+    if order is None:
+        raise AssetError("the header names no format", where=where)
+    return PlyHeader(end.end(), order, tuple(elements))
+
+
+def _parse_count(text: str) -> int:
+    if not text.isdecimal():
+        raise ValueError(text)
+    return int(text)
+
+
+def _parse_property(words: list[str]) -> PlyProperty:
+    match words:
+        case ["list", count, kind, name]:
+            return PlyProperty(name, TYPES[kind], TYPES[count])
+        case [kind, name]:
+            return PlyProperty(name, TYPES[kind])
+    raise ValueError(words)
 
 
 class _OddRowError(Exception):
@@ -75,27 +159,27 @@ class _OddRowError(Exception):
         super().__init__(row)
         self.row, self.at, self.text = row, at, text
 
-    def told(self, element: Element, data: bytes, where: str) -> AssetError:
+    def describe(self, element: PlyElement, data: bytes, where: str) -> AssetError:
         if not self.text.strip():
-            return _cut_short(element, where)
+            return _truncation_error(element, where)
         place = f"{where}:{data.count(NEWLINE, 0, self.at) + 1}"
         shown = text_of(self.text.strip())[:_SHOWN]
         problem = f"row {self.row} of {element.name} is cut short or damaged: {shown!r}"
         return AssetError(problem, where=place, remedy=remedy_for(self.text.split()))
 
 
-def _cut_short(element: Element, where: str) -> AssetError:
+def _truncation_error(element: PlyElement, where: str) -> AssetError:
     problem = f"the file is cut short or damaged: its {element.rows} rows of {element.name} are not all there"
     return AssetError(problem, where=where, remedy="Export it again.")
 
 
-def _ascii(data: bytes, at: int, element: Element, _: str) -> Rows:
+def _read_ascii(data: bytes, at: int, element: PlyElement, _: str) -> PlyRows:
     spans = np.empty((element.rows, 2), dtype=np.int64)
     read: list[list[float]] = []
     for k in range(element.rows):
-        stop = _end_of_line(data, at)
+        stop = _line_end_of(data, at)
         while element.properties and stop < len(data) and not data[at:stop].strip():  # blank lines between rows
-            at, stop = stop, _end_of_line(data, stop)
+            at, stop = stop, _line_end_of(data, stop)
         spans[k] = at, stop
         try:
             read.append([float(word) for word in data[at:stop].split()])
@@ -106,39 +190,39 @@ def _ascii(data: bytes, at: int, element: Element, _: str) -> Rows:
     for k, row in enumerate(read):
         place = 0
         for p in element.properties:
-            length = _whole(row[place : place + 1]) if p.count else 1
+            length = _to_whole(row[place : place + 1]) if p.count else 1
             place += 1 if p.count else 0
             if length < 0 or place + length > len(row):
                 raise _OddRowError(k, int(spans[k, 0]), data[slice(*spans[k])])
             values[p.name].append(row[place : place + length] if p.count else row[place])
             place += length
-    return Rows(element, spans, values)
+    return PlyRows(element, spans, values)
 
 
-def _end_of_line(data: bytes, at: int) -> int:
+def _line_end_of(data: bytes, at: int) -> int:
     stop = data.find(b"\n", at)
     return len(data) if stop < 0 else stop + 1
 
 
-def _whole(values: Sequence[float]) -> int:
+def _to_whole(values: Sequence[float]) -> int:
     """The one value, -1 where there is none, or one that is no whole number."""
     return int(values[0]) if len(values) and float(values[0]).is_integer() else -1
 
 
-def _binary(data: bytes, at: int, element: Element, order: str) -> Rows:
+def _read_binary(data: bytes, at: int, element: PlyElement, order: str) -> PlyRows:
     if not element.has_lists:
-        return _table(data, at, element, np.dtype([(p.name, order + p.type) for p in element.properties]))
-    return _alike(data, at, element, order) or _one_by_one(data, at, element, order)
+        return _read_table(data, at, element, np.dtype([(p.name, order + p.type) for p in element.properties]))
+    return _read_triangle_rows(data, at, element, order) or _read_one_by_one(data, at, element, order)
 
 
-def _table(data: bytes, at: int, element: Element, row: np.dtype[Any]) -> Rows:
+def _read_table(data: bytes, at: int, element: PlyElement, row: np.dtype[Any]) -> PlyRows:
     table = np.frombuffer(data, row, element.rows, at)
     starts = at + row.itemsize * np.arange(element.rows, dtype=np.int64)
     spans = np.column_stack([starts, starts + row.itemsize])
-    return Rows(element, spans, {p.name: table[p.name] for p in element.properties})
+    return PlyRows(element, spans, {p.name: table[p.name] for p in element.properties})
 
 
-def _alike(data: bytes, at: int, element: Element, order: str) -> Rows | None:
+def _read_triangle_rows(data: bytes, at: int, element: PlyElement, order: str) -> PlyRows | None:
     """The rows where all their lists are three long, as those of triangles are; else None."""
     fields: list[tuple[Any, ...]] = []
     for p in element.properties:
@@ -152,10 +236,10 @@ def _alike(data: bytes, at: int, element: Element, order: str) -> Rows | None:
     table: npt.NDArray[Any] = np.frombuffer(data, row, element.rows, at)
     if any((table[f"{p.name}:count"] != 3).any() for p in element.properties if p.count):
         return None
-    return _table(data, at, element, row)
+    return _read_table(data, at, element, row)
 
 
-def _one_by_one(data: bytes, at: int, element: Element, order: str) -> Rows:
+def _read_one_by_one(data: bytes, at: int, element: PlyElement, order: str) -> PlyRows:
     spans = np.empty((element.rows, 2), dtype=np.int64)
     values: dict[str, Any] = {p.name: [] for p in element.properties}
     for k in range(element.rows):
@@ -163,7 +247,7 @@ def _one_by_one(data: bytes, at: int, element: Element, order: str) -> Rows:
         for p in element.properties:
             length = 1
             if p.count:
-                length = _whole(np.frombuffer(data, order + p.count, 1, at).tolist())
+                length = _to_whole(np.frombuffer(data, order + p.count, 1, at).tolist())
                 if length < 0:
                     raise ValueError(length)
                 at += np.dtype(p.count).itemsize
@@ -171,51 +255,48 @@ def _one_by_one(data: bytes, at: int, element: Element, order: str) -> Rows:
             at += length * np.dtype(p.type).itemsize
             values[p.name].append(read if p.count else read[0])
         spans[k] = start, at
-    return Rows(element, spans, values)
+    return PlyRows(element, spans, values)
 
 
-def _vertices(rows: list[Rows], where: str) -> Floats:
+def _find_vertices(rows: list[PlyRows], where: str) -> Floats:
     found = next((r for r in rows if r.element.name == "vertex"), None)
     if found is None or not all(axis in found.values for axis in "xyz"):
         raise AssetError("there are no vertices with x, y and z in this file", where=where)
     if any(p.count for p in found.element.properties if p.name in ("x", "y", "z")):
         raise AssetError("its coordinates are lists, not numbers", where=where)
-    return np.column_stack([as_doubles(found.values[axis]) for axis in "xyz"]).reshape(-1, 3)
+    return np.column_stack([to_doubles(found.values[axis]) for axis in "xyz"]).reshape(-1, 3)
 
 
-def _corners(rows: list[Rows], where: str) -> Any:
+def _find_corners(rows: list[PlyRows], where: str) -> Any:
     """The lists of vertices of all faces."""
     found = next((r for r in rows if r.element.name == "face"), None)
     if found is None and any(r.element.name == "tristrips" for r in rows):
         raise AssetError("its faces are triangle strips, which are not read", where=where, remedy="Export triangles.")
     if found is None:
         return []
-    numbers = [p.name for p in found.element.properties if p.name in INDICES and not p.count]
+    numbers = [p.name for p in found.element.properties if p.name in INDEX_NAMES and not p.count]
     if numbers:
         problem = f"the {numbers[0]} of its faces is a number, not a list"
         raise AssetError(problem, where=where, remedy="Export it again.")
-    key = next((k for k in INDICES if k in found.values), None)
+    key = next((k for k in INDEX_NAMES if k in found.values), None)
     if key is None:
-        raise AssetError(f"its faces have no list {' or '.join(INDICES)}", where=where)
+        raise AssetError(f"its faces have no list {' or '.join(INDEX_NAMES)}", where=where)
     return found.values[key]
 
 
-def _faces(rows: list[Rows], count: int, where: str) -> tuple[Ints, Ints]:
+def _find_faces(rows: list[PlyRows], count: int, where: str) -> tuple[Ints, Ints]:
     """Triangles (m, 3) and the row of each (m,)."""
-    read = _corners(rows, where)
+    read = _find_corners(rows, where)
     if isinstance(read, np.ndarray) and read.dtype.kind in "iu":
         table = read.astype(np.int64)  # first, since -1 is out of bounds for a type without sign
         if table.min(initial=0) >= 0 and table.max(initial=-1) < count:
             return table, np.arange(len(table))
-    at: list[int] = []
-    triangles: list[tuple[int, int, int]] = []
+    polygons: list[list[int]] = []
     for k, corners in enumerate(read):
         if not all(0 <= c < count and c == int(c) for c in corners):
             names = ", ".join(f"{c:g}" for c in corners[:8])
             problem = f"face {k} names vertices {names}, where the file has 0 to {count - 1}"
             raise AssetError(problem, where=where)
-        indices = [int(c) for c in corners]
-        for second, third in itertools.pairwise(indices[1:]):
-            at.append(k)
-            triangles.append((indices[0], second, third))
-    return np.array(triangles, dtype=np.int64).reshape(-1, 3), np.array(at, dtype=np.int64)
+        polygons.append([int(c) for c in corners])
+    at, triangles = cut_fans(polygons)
+    return triangles, at

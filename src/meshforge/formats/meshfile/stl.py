@@ -1,4 +1,4 @@
-"""Reading STL, binary and ASCII: triangles without shared vertices, each where it stands in the file."""
+"""Read STL, binary and ASCII: triangles without shared vertices, each where it stands in the file."""
 
 from __future__ import annotations
 
@@ -8,8 +8,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from meshforge.errors import AssetError
-from meshforge.formats.meshfile.surface import RawSurface, as_doubles, checked, is_number, remedy_for, text_of
+from meshforge.common import AssetError
+from meshforge.formats.meshfile.surface import RawSurface, check_surfaces, is_number, remedy_for, text_of, to_doubles
 from meshforge.geometry import Floats, Ints
 
 HEADER = 84  # bytes before the first triangle of a binary file: 80 of text, 4 of count
@@ -48,18 +48,15 @@ class StlText:
     def surfaces(self, where: str) -> list[RawSurface]:
         """A surface for each solid, named where there are several. Raises AssetError."""
         if len(self.solids) == 1:
-            corners = self.corners.reshape(-1, 3)
-            return checked([RawSurface(None, corners, _in_order(corners))], where)
+            return check_surfaces([_surface_of(None, self.corners)], where)
         several = len(np.unique(self.solid)) > 1
-        parts = []
-        for k, name in enumerate(self.solids):
-            corners = self.corners[self.solid == k].reshape(-1, 3)
-            parts.append(RawSurface((name or None) if several else None, corners, _in_order(corners)))
-        return checked(parts, where)
+        names = [(name or None) if several else None for name in self.solids]
+        return check_surfaces([_surface_of(name, self.corners[self.solid == k]) for k, name in enumerate(names)], where)
 
 
-def _in_order(corners: Floats) -> Ints:
-    return np.arange(len(corners), dtype=np.int64).reshape(-1, 3)
+def _surface_of(name: str | None, corners: Floats) -> RawSurface:
+    """Triangles (m, 3, 3) in their order, without shared vertices."""
+    return RawSurface(name, corners.reshape(-1, 3), np.arange(3 * len(corners), dtype=np.int64).reshape(-1, 3))
 
 
 def parse_stl(data: bytes, where: str) -> StlText:
@@ -70,9 +67,9 @@ def parse_stl(data: bytes, where: str) -> StlText:
     if 0 <= count <= room and (not text or len(data) == HEADER + count * RECORD.itemsize):
         if count == 0 and room > 0:
             raise AssetError(f"it says it has no triangle, yet {room} may follow", where=where, remedy=_AGAIN)
-        return _binary(data, count)
+        return _parse_binary(data, count)
     if text:
-        return _ascii(data, where)
+        return _plain_ascii(data) or _any_ascii(data, where)
     if count < 0 or _is_prose(data[:HEADER]):
         raise AssetError("this is no STL file", where=where, remedy=_AGAIN)
     raise AssetError(f"the file is cut short: it says {count} triangles and holds {room}", where=where, remedy=_AGAIN)
@@ -87,23 +84,19 @@ def _is_prose(head: bytes) -> bool:
     return all(byte in b"\t\n\r" or 32 <= byte < 127 for byte in head)
 
 
-def _binary(data: bytes, count: int) -> StlText:
-    corners = as_doubles(np.frombuffer(data, RECORD, count, HEADER)["corners"])
+def _parse_binary(data: bytes, count: int) -> StlText:
+    corners = to_doubles(np.frombuffer(data, RECORD, count, HEADER)["corners"])
     return StlText(corners, np.zeros(count, dtype=np.int64), ("",), True)
 
 
 def facet_spans(data: bytes) -> Ints:
     """The bytes (m, 2) of each triangle in an ASCII file."""
-    return np.array([f.span() for f in _FACET.finditer(_without_names(data))], dtype=np.int64).reshape(-1, 2)
+    return np.array([f.span() for f in _FACET.finditer(_blank_names(data))], dtype=np.int64).reshape(-1, 2)
 
 
-def _without_names(data: bytes) -> bytes:
+def _blank_names(data: bytes) -> bytes:
     """The text with blanks for titles of solids, which may hold any word, but for those that go on with a facet."""
     return _NAME.sub(lambda title: b" " * len(title[0]), data)
-
-
-def _ascii(data: bytes, where: str) -> StlText:
-    return _plain_ascii(data) or _any_ascii(data, where)
 
 
 def _plain_ascii(data: bytes) -> StlText | None:
@@ -128,7 +121,7 @@ def _plain_ascii(data: bytes) -> StlText | None:
 
 def _any_ascii(data: bytes, where: str) -> StlText:
     solids = [(m.start(), text_of(m[1].strip())) for m in _SOLID.finditer(data)]
-    plain = _without_names(data)
+    plain = _blank_names(data)
     facets = list(_FACET.finditer(plain))
     numbers: list[tuple[bytes, ...]] = []
     for facet in facets:
@@ -136,7 +129,7 @@ def _any_ascii(data: bytes, where: str) -> StlText:
         if len(found) != 3:
             whole = len(re.findall(rb"\bvertex\b", facet[0], re.I)) == 3
             problem = "a vertex needs three numbers" if whole else "a facet needs three vertices"
-            raise AssetError(problem, where=f"{where}:{_line(data, facet.start())}")
+            raise AssetError(problem, where=f"{where}:{_line_of(data, facet.start())}")
         numbers += found
     if len(_OPENED.findall(plain)) > len(facets):
         raise AssetError("the file is cut short: a facet does not end", where=where, remedy=_AGAIN)
@@ -146,7 +139,7 @@ def _any_ascii(data: bytes, where: str) -> StlText:
             raise ValueError
     except ValueError:
         k = next(k for k, row in enumerate(numbers) if not all(map(is_number, row)))
-        line = _line(data, facets[k // 3].start())
+        line = _line_of(data, facets[k // 3].start())
         problem = f"a vertex needs three numbers, here is {text_of(b' '.join(numbers[k]))!r}"
         raise AssetError(problem, where=f"{where}:{line}", remedy=remedy_for(numbers[k])) from None
     starts = [facet.start() for facet in facets]
@@ -154,5 +147,5 @@ def _any_ascii(data: bytes, where: str) -> StlText:
     return StlText(corners, np.maximum(solid, 0), tuple(name for _, name in solids) or ("",), False)
 
 
-def _line(data: bytes, offset: int) -> int:
+def _line_of(data: bytes, offset: int) -> int:
     return data.count(b"\n", 0, offset) + 1

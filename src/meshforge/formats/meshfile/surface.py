@@ -10,9 +10,8 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from meshforge.errors import AssetError
+from meshforge.common import AssetError, pluralize
 from meshforge.geometry import Floats, Ints
-from meshforge.words import counted
 
 _NUMBER = re.compile(rb"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?|[+-]?(nan|inf(inity)?)", re.I)
 FARTHEST = 1e15
@@ -32,7 +31,7 @@ class RawSurface:
     unit: float = 1.0
 
 
-def checked(surfaces: Iterable[RawSurface], where: str) -> list[RawSurface]:
+def check_surfaces(surfaces: Iterable[RawSurface], where: str) -> list[RawSurface]:
     """The surfaces that have triangles.
 
     Raises AssetError at `where`: no triangle at all, an index without a vertex, a coordinate that is not finite or
@@ -42,7 +41,7 @@ def checked(surfaces: Iterable[RawSurface], where: str) -> list[RawSurface]:
     found = [s for s in surfaces if len(s.faces)]
     if not found:
         points = max((len(s.vertices) for s in surfaces), default=0)
-        holds = f", only {counted(points, 'vertex', 'vertices')}" if points else ""
+        holds = f", only {pluralize(points, 'vertex', 'vertices')}" if points else ""
         raise AssetError(f"there is no triangle in this file{holds}", where=where, remedy="Export it with its faces.")
     arrays = {id(s.vertices): s.vertices for s in found}
     fine = {key for key, vertices in arrays.items() if np.abs(vertices).max(initial=0.0) <= FARTHEST}
@@ -59,29 +58,40 @@ def _refuse_far(used: Floats, where: str) -> None:
     if not np.isfinite(used).all():
         x, y, z = used[~np.isfinite(used).all(axis=1)][0]
         problem = f"a coordinate is not a finite number, at the vertex {x:.6g} {y:.6g} {z:.6g}"
-        raise AssetError(problem, where=where, remedy="Mend or export it again.")
+        raise AssetError(problem, where=where, remedy="Fix or export it again.")
     if (largest := float(np.abs(used).max())) > FARTHEST:
-        remedy = "No mesh is that large: mend or export it again."
+        remedy = "No mesh is that large: fix or export it again."
         raise AssetError(f"a coordinate is {largest:.3g}", where=where, remedy=remedy)
 
 
-def as_doubles(values: npt.ArrayLike) -> Floats:
+def to_doubles(values: npt.ArrayLike) -> Floats:
     """Numbers in double precision; signalling NaN, which a damaged file may hold, stays NaN without a warning."""
     with np.errstate(invalid="ignore"):
         return np.asarray(values).astype(np.float64)
 
 
-def fans(polygons: Iterable[Sequence[int]]) -> Ints:
-    """The triangles (m, 3) of polygons, each cut into a fan about its first corner."""
-    triangles = [(p[0], b, c) for p in polygons for b, c in itertools.pairwise(p[1:])]
-    return np.array(triangles, dtype=np.int64).reshape(-1, 3)
+def cut_fans(polygons: Iterable[Sequence[int]]) -> tuple[Ints, Ints]:
+    """The polygon (m,) of each triangle, and the triangles (m, 3) of polygons, each cut into a fan about its start."""
+    triangles = [(k, p[0], b, c) for k, p in enumerate(polygons) for b, c in itertools.pairwise(p[1:])]
+    table = np.array(triangles, dtype=np.int64).reshape(-1, 4)
+    return table[:, 0].copy(), table[:, 1:].copy()
+
+
+def stack_triangles(surfaces: Iterable[tuple[Floats, Ints]], start: int = 0) -> tuple[Floats, Ints]:
+    """The vertices (n, 3) of surfaces one after the other, and all their faces (m, 3), numbered from `start`."""
+    vertices, faces = [np.zeros((0, 3))], [np.zeros((0, 3), dtype=np.int64)]
+    for points, triangles in surfaces:
+        vertices.append(points)
+        faces.append(triangles + start)
+        start += len(points)
+    return np.concatenate(vertices), np.concatenate(faces)
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Soup:
     """The triangles of a whole file in file order: vertices (n, 3), faces (m, 3), group (m,) into `names`.
 
-    spoken: what else the file says of its triangles: of what kind (as of `Mentions`), (m,) into the names, the names.
+    mentions: what else the file says of its triangles: the kind (see `Mentions`), (m,) into the names, the names.
     marked: whether names mark collision, so that each group is one hull; -1 is the group of what is only seen.
     """
 
@@ -89,16 +99,16 @@ class Soup:
     faces: Ints
     group: Ints
     names: tuple[str | None, ...]
-    spoken: tuple[tuple[str, Ints, tuple[str, ...]], ...] = ()
+    mentions: tuple[tuple[str, Ints, tuple[str, ...]], ...] = ()
     marked: bool = False
 
 
-def joined(surfaces: Sequence[RawSurface]) -> Soup:
+def join_surfaces(surfaces: Sequence[RawSurface]) -> Soup:
     """Surfaces as one soup, a group each."""
-    shared = all(s.vertices is surfaces[0].vertices for s in surfaces)
-    starts = np.cumsum([0, *(0 if shared else len(s.vertices) for s in surfaces)])
-    vertices = surfaces[0].vertices if shared else np.concatenate([s.vertices for s in surfaces])
-    faces = np.concatenate([s.faces + start for s, start in zip(surfaces, starts, strict=False)])
+    if all(s.vertices is surfaces[0].vertices for s in surfaces):
+        vertices, faces = surfaces[0].vertices, np.concatenate([s.faces for s in surfaces])
+    else:
+        vertices, faces = stack_triangles((s.vertices, s.faces) for s in surfaces)
     group = np.repeat(np.arange(len(surfaces)), [len(s.faces) for s in surfaces])
     return Soup(vertices, faces, group, tuple(s.name for s in surfaces))
 
@@ -119,4 +129,4 @@ def is_number(word: bytes) -> bool:
 def remedy_for(words: Sequence[bytes]) -> str:
     """What to do about words that are no numbers."""
     commas = any(b"," in word for word in words)
-    return "Decimal commas are not read: export it with points." if commas else "Mend or export it again."
+    return "Decimal commas are not read: export it with points." if commas else "Fix or export it again."

@@ -1,5 +1,1 @@
 """MJCF: the models of MuJoCo, main file and includes; read through MuJoCo itself, written back losslessly."""
-
-from meshforge.formats.mjcf.mjcf import MjcfFormat
-
-__all__ = ["MjcfFormat"]

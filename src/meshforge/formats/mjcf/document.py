@@ -1,17 +1,24 @@
-"""What is kept of an MJCF to write it back: its files, and which hulls were read from which of its elements."""
+"""What is kept of an MJCF to write it back: its files as one tree with includes resolved, and which hulls were read
+from which elements."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+import os
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
 
-from meshforge.asset import Document, unique_names
-from meshforge.formats.mjcf.files.sources import Source, Tree, gather
+from meshforge.common import AssetError, is_file, plain_path, relative_name
+from meshforge.formats.mesh_reader import read_content
+from meshforge.formats.xml import Element, XmlText, parse_xml
 from meshforge.geometry import Floats, Pose
+from meshforge.symbolic import Document, unique_names
+
+_DEEPEST = 100  # includes one in another; no author nests so far
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class Authored:
+class GeomRecord:
     """A `<geom>` of the file that MuJoCo makes geoms of, or geoms that have no element in these files.
 
     source, start: the file and the byte offset in its text, as in the tree's nodes; source -1 for geoms out of a
@@ -34,7 +41,7 @@ class MjcfBody:
 
     name: as in the asset; parent: None for the world. source, start: its element, source -1 where it has none here.
     pose: root_T_body in the reference configuration; inertial: body_T_inertial; mass [kg]; inertia: (3,) moments about
-    the axes of `inertial` [kg m^2]; explicit: whether an `<inertial>` of the file tells them.
+    the axes of `inertial` [kg m^2]; explicit: whether an `<inertial>` of the file says them.
     """
 
     name: str
@@ -57,15 +64,15 @@ class MjcfDocument(Document):
     then only the collision geometry was read, with masses that may be none.
     """
 
-    sources: tuple[Source, ...]
-    authored: tuple[Authored, ...]
+    sources: tuple[MjcfSource, ...]
+    authored: tuple[GeomRecord, ...]
     bodies: tuple[MjcfBody, ...]
     refusal: str = ""
 
     @property
-    def tree(self) -> Tree:
+    def tree(self) -> MjcfTree:
         """The elements of all files, parsed from the kept bytes."""
-        return gather(self.sources[0].path, {source.path: source.raw for source in self.sources})
+        return read_tree(self.sources[0].path, {source.path: source.raw for source in self.sources})
 
 
 def geom_names(geoms: Sequence[tuple[str, str]]) -> list[str]:
@@ -87,3 +94,145 @@ def geom_names(geoms: Sequence[tuple[str, str]]) -> list[str]:
 def body_names(names: Sequence[str]) -> list[str]:
     """The names of bodies in MuJoCo's order; the K-th is `bodyK` where it has none, the world is the 0-th."""
     return unique_names(name or f"body{k}" for k, name in enumerate(names))
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class MjcfSource:
+    """An authored file: the main one, or one that is included.
+
+    path: absolute; place: its path relative to the main file's folder, where an output has it too, None for one that
+    is included by an absolute path; reference: as the `<include>` has it, empty for the main file.
+    """
+
+    path: Path
+    place: str | None
+    reference: str
+    raw: bytes
+
+    @property
+    def text(self) -> XmlText:
+        """The text in which offsets of elements count."""
+        return XmlText.of(self.raw)
+
+
+@dataclass(slots=True, eq=False)
+class MjcfNode:
+    """An element in the tree of all files, and which of the sources it stands in."""
+
+    element: Element
+    source: int
+    children: list[MjcfNode] = field(default_factory=list)
+
+    @property
+    def tag(self) -> str:
+        return self.element.tag
+
+    @property
+    def attributes(self) -> dict[str, str]:
+        return self.element.attributes
+
+    def each(self, tag: str) -> Iterator[MjcfNode]:
+        """The direct children of that tag."""
+        return (child for child in self.children if child.tag == tag)
+
+    def walk(self) -> Iterator[MjcfNode]:
+        """This node and all below it, in document order."""
+        waiting = [self]
+        while waiting:
+            node = waiting.pop()
+            yield node
+            waiting.extend(reversed(node.children))
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class MjcfTree:
+    """All files of an MJCF as one tree without includes.
+
+    faults: what MuJoCo refuses of the includes themselves; files: contents that count instead of those on disk.
+    """
+
+    root: MjcfNode
+    sources: tuple[MjcfSource, ...]
+    faults: tuple[str, ...]
+    files: Mapping[Path, bytes]
+
+    @property
+    def main(self) -> MjcfSource:
+        return self.sources[0]
+
+    def where(self, node: MjcfNode) -> str:
+        """`file:line` of an element."""
+        return f"{self.sources[node.source].path}:{node.element.line}"
+
+    def has(self, path: Path) -> bool:
+        """Whether a file is there."""
+        return path in self.files or is_file(path)
+
+
+def read_tree(main: Path, files: Mapping[Path, bytes] | None = None) -> MjcfTree:
+    """The tree of a main file and all that it includes; files: contents that count instead of those on disk.
+
+    An include is searched from the main file's folder, then from that of the file it stands in.
+    Raises AssetError with `file:line`: a file that cannot be read, is not well formed, or is included twice.
+    """
+    return _TreeReader(plain_path(main), {plain_path(p): data for p, data in (files or {}).items()}).read()
+
+
+class _TreeReader:
+    """Reads files in the order of mention."""
+
+    def __init__(self, main: Path, files: Mapping[Path, bytes]) -> None:
+        self.main, self.files = main, files
+        self.sources: list[MjcfSource] = []
+        self.faults: list[str] = []
+
+    def read(self) -> MjcfTree:
+        root = self._parse(self.main, "")
+        return MjcfTree(self._build_node(root, 0), tuple(self.sources), tuple(self.faults), self.files)
+
+    def _parse(self, path: Path, reference: str) -> Element:
+        raw = self.files[path] if path in self.files else read_content(path)
+        absolute = bool(reference) and Path(reference).is_absolute()
+        place = None if absolute else relative_name(path, self.main.parent)
+        text = XmlText.of(raw)
+        self.sources.append(MjcfSource(path, place, reference, raw))
+        if text.encoding.startswith("utf-16"):
+            self.faults.append(f"{path.name} is text in UTF-16")
+        return parse_xml(text.data, str(path))
+
+    def _build_node(self, element: Element, source: int, depth: int = 0) -> MjcfNode:
+        top = MjcfNode(element, source)
+        waiting = [top]
+        while waiting:
+            node = waiting.pop()
+            for child in node.element.children:
+                if child.tag == "include":
+                    made = self._resolve_include(child, node.source, depth)
+                else:
+                    made = [MjcfNode(child, node.source)]
+                    waiting.extend(made)
+                node.children += made
+        return top
+
+    def _resolve_include(self, include: Element, source: int, depth: int) -> list[MjcfNode]:
+        """What stands in the place of an `<include>`."""
+        where = f"{self.sources[source].path}:{include.line}"
+        reference = include.attributes.get("file", "").strip()
+        if not reference:
+            raise AssetError("this <include> names no file", where=where)
+        folders = (self.main.parent, self.sources[source].path.parent)
+        candidates = [Path(os.path.normpath(folder / reference.replace("\\", "/"))) for folder in folders]
+        path = next((path for path in candidates if path in self.files or is_file(path)), None)
+        if path is None:
+            remedy = f"Looked for {' and '.join(dict.fromkeys(map(str, candidates)))}."
+            raise AssetError(f"the included file {reference!r} is not there", where=where, remedy=remedy)
+        if any(known.path == path for known in self.sources) or depth > _DEEPEST:
+            raise AssetError(
+                f"{reference!r} is included twice, or includes itself",
+                where=where,
+                remedy="MuJoCo includes a file at most once; take this <include> away.",
+            )
+        root = self._parse(path, reference)
+        if not root.children:
+            self.faults.append(f"the included file {reference!r} is empty")
+        return self._build_node(root, len(self.sources) - 1, depth + 1).children

@@ -1,26 +1,48 @@
-"""XML text of MJCF elements: geoms, meshes, bodies and masses, their numbers in full precision."""
+"""XML text of MJCF elements: geoms, meshes, joints, masses, and the edits by which a body says its mass."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+import posixpath
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import replace
 from typing import assert_never
 
 import numpy as np
 
-from meshforge.formats.xml import escaped, shown
-from meshforge.geometry import Box, Capsule, Cylinder, Ellipsoid, Floats, Pose, Sphere
+from meshforge.common import AssetError
+from meshforge.formats.kinematic_tree import claim_name, drop_rounding, perpendicular_to, place_inertial
+from meshforge.formats.mesh_output import HullFiles
+from meshforge.formats.mjcf.document import MjcfNode, MjcfTree
+from meshforge.formats.mjcf.model import MjcfModel
+from meshforge.formats.xml import Splice, escape, format_numbers, indent_of, newline_of, remove_element, set_attribute
+from meshforge.geometry import Box, Capsule, Cylinder, Ellipsoid, Floats, Polytope, Pose, Sphere, principal_axes
+from meshforge.symbolic import Inertial, Joint, JointKind
 
-Native = Box | Capsule | Cylinder | Ellipsoid | Sphere
+MjcfShape = Box | Capsule | Cylinder | Ellipsoid | Sphere
 """The shapes that MuJoCo has of its own."""
+
+_TINY = 1e-12  # [m^3], below which MuJoCo cannot compute a mass from the volume of a mesh
+
+_TYPES = {"revolute": "hinge", "prismatic": "slide", "ball": "ball"}
+
+LIGHT_MASS = 1e-6
+"""The mass [kg] of a moving body that has none; MuJoCo refuses to move nothing."""
+LEAST_MASS = 1e-9
+"""The least mass [kg] that a moving body is left with."""
+_LEAST_MOMENT = 1e-14  # [kg m^2]; MuJoCo refuses less than 1e-15
+_LIGHT_MOMENT = 1e-9  # [kg m^2], that of LIGHT about 3 cm away
+_SLIGHT = 1e-6  # of the largest moment, by which two may fall short of the third through rounding
+
+FROM_GEOMS = "inertiafromgeom"
 
 
 def tag(name: str, attributes: Mapping[str, str], closed: bool = True) -> bytes:
     """An element without children; closed: else only its start tag."""
-    said = "".join(f' {key}="{escaped(value).decode()}"' for key, value in attributes.items())
-    return f"<{name}{said}{'/' if closed else ''}>".encode()
+    text = "".join(f' {key}="{escape(value).decode()}"' for key, value in attributes.items())
+    return f"<{name}{text}{'/' if closed else ''}>".encode()
 
 
-def geom_attributes(shape: Native) -> dict[str, str]:
+def geom_attributes(shape: MjcfShape) -> dict[str, str]:
     """Type, size and pose of a native shape, in the frame in which the shape is."""
     match shape:
         case Box():
@@ -33,7 +55,7 @@ def geom_attributes(shape: Native) -> dict[str, str]:
             size = (shape.radius,)
         case _:
             assert_never(shape)
-    return {"type": shape.kind, "size": shown(size), **pose_attributes(shape.pose)}
+    return {"type": shape.kind, "size": format_numbers(size), **pose_attributes(shape.pose)}
 
 
 def mesh_geom_attributes(mesh: str, pose: Pose) -> dict[str, str]:
@@ -45,13 +67,184 @@ def pose_attributes(pose: Pose) -> dict[str, str]:
     """Position and rotation; what is zero is left out."""
     found = {}
     if pose.translation.any():
-        found["pos"] = shown(pose.translation)
+        found["pos"] = format_numbers(pose.translation)
     if not np.array_equal(pose.rotation, np.eye(3)):
-        found["quat"] = shown(pose.to_quaternion())
+        found["quat"] = format_numbers(pose.to_quaternion())
     return found
 
 
 def inertial_attributes(mass: float, pos: Floats, quaternion: Floats, diagonal: Floats) -> dict[str, str]:
     """A mass [kg], its centre (3,), and the moments (3,) about axes that a quaternion (4,) w x y z turns."""
-    turned = {} if np.array_equal(quaternion, (1, 0, 0, 0)) else {"quat": shown(quaternion)}
-    return {"pos": shown(pos), **turned, "mass": shown([mass]), "diaginertia": shown(diagonal)}
+    turned = {} if np.array_equal(quaternion, (1, 0, 0, 0)) else {"quat": format_numbers(quaternion)}
+    weight = {"mass": format_numbers([mass]), "diaginertia": format_numbers(diagonal)}
+    return {"pos": format_numbers(pos), **turned, **weight}
+
+
+class MeshAssets:
+    """Collects `<mesh>` elements and the files that are made for them; stem: of the main file."""
+
+    def __init__(self, stem: str) -> None:
+        self.files = HullFiles(stem)
+        self._names: set[str] = set()
+        self._elements: list[bytes] = []
+        self._shown: dict[tuple[str, tuple[float, ...]], str] = {}
+
+    def add_hull(self, name: str, shape: Polytope) -> str:
+        """The name of the mesh of a hull, whose file is made."""
+        extra = {"inertia": "shell"} if shape.volume < _TINY else {}
+        return self._add(self.files.add(name, "", shape.vertices, shape.faces), extra)
+
+    def add_visual(self, file: str, scale: Floats) -> str:
+        """The name of the mesh of a visual file under scales (3,); nothing of it counts for masses or collisions."""
+        key = file, tuple(scale.tolist())
+        if key not in self._shown:
+            scaled = {} if np.array_equal(scale, np.ones(3)) else {"scale": format_numbers(scale)}
+            self._shown[key] = self._add(file, {**scaled, "inertia": "shell"})
+        return self._shown[key]
+
+    def lines(self) -> list[bytes]:
+        """The lines of the `<asset>`; none where there is no mesh."""
+        inside = [b"    " + element for element in self._elements]
+        return [b"  <asset>", *inside, b"  </asset>"] if inside else []
+
+    def _add(self, file: str, attributes: dict[str, str]) -> str:
+        stem = posixpath.splitext(posixpath.basename(file))[0]
+        name = claim_name(stem.removeprefix(f"{self.files.stem}--"), self._names)
+        self._elements.append(tag("mesh", {"name": name, "file": file, **attributes}))
+        return name
+
+
+def split_joint(joint: Joint, top: bool, taken: set[str]) -> Sequence[Joint]:
+    """The joints that move together as one does; top: whether its body may have a free joint.
+
+    A planar joint is two slides and a hinge; a floating one that is not at the top three slides and a ball.
+    """
+    match joint.kind:
+        case "fixed":
+            return []
+        case "planar":
+            across = perpendicular_to(joint.axis)
+            parts: list[tuple[str, JointKind, Floats]] = [("x", "prismatic", across)]
+            parts += [("y", "prismatic", np.cross(joint.axis, across)), ("turn", "revolute", joint.axis)]
+        case "floating" if not top:
+            axes = np.eye(3)
+            parts = [(name, "prismatic", axes[k]) for k, name in enumerate("xyz")]
+            parts.append(("turn", "ball", axes[2]))
+        case _:
+            return [joint]
+    name = joint.name or joint.child
+    bare = replace(joint, limits=None, effort=None)
+    return [replace(bare, name=claim_name(f"{name}_{k}", taken), kind=kind, axis=axis) for k, kind, axis in parts]
+
+
+def joint_tag(joint: Joint, root_t_body: Pose) -> bytes:
+    """The element of a joint that is neither fixed nor planar, in its body."""
+    named = {"name": joint.name} if joint.name else {}
+    if joint.kind == "floating":
+        return tag("freejoint", named)
+    attributes = {**named, "type": _TYPES[joint.kind]}
+    pos = drop_rounding(root_t_body.rotation.T @ (joint.anchor - root_t_body.translation), 1.0)
+    if joint.kind != "prismatic" and pos.any():
+        attributes["pos"] = format_numbers(pos)
+    if joint.kind != "ball":
+        attributes["axis"] = format_numbers(drop_rounding(root_t_body.rotation.T @ joint.axis))
+        if joint.limits:
+            attributes["range"] = format_numbers(joint.limits)
+        if joint.effort:
+            attributes["actuatorfrcrange"] = format_numbers([-joint.effort, joint.effort])
+    if joint.damping:
+        attributes["damping"] = format_numbers([joint.damping])
+    if joint.friction:
+        attributes["frictionloss"] = format_numbers([joint.friction])
+    return tag("joint", attributes)
+
+
+def inertial_tag(inertial: Inertial, root_t_body: Pose) -> tuple[bytes, bool]:
+    """The `<inertial>` of a body; and whether its moments had to be changed, being those of no rigid body."""
+    centre, tensor = place_inertial(inertial, root_t_body)
+    moments, axes = principal_axes(tensor)
+    legal = _legal_moments(moments, inertial.mass)
+    quaternion = Pose(axes, np.zeros(3)).to_quaternion()
+    text = tag("inertial", inertial_attributes(inertial.mass, drop_rounding(centre, 1.0), quaternion, legal))
+    return text, not np.allclose(legal, moments, rtol=_SLIGHT, atol=0)
+
+
+def light_tag() -> bytes:
+    """The `<inertial>` of a body without a mass."""
+    moments = np.full(3, _LIGHT_MOMENT)
+    return tag("inertial", inertial_attributes(LIGHT_MASS, np.zeros(3), np.array([1.0, 0, 0, 0]), moments))
+
+
+def _legal_moments(moments: Floats, mass: float) -> Floats:
+    """Moments that a rigid body can have: positive, no one larger than the two others together.
+
+    Others become their mean, as MuJoCo has it where `balanceinertia` asks it to repair them.
+    """
+    largest = int(np.argmax(moments))
+    others = float(moments.sum() - moments[largest])
+    excess = float(moments[largest]) - others
+    if moments.min() > _LEAST_MOMENT and excess <= 0:
+        return moments
+    if moments.min() > _LEAST_MOMENT and excess <= _SLIGHT * moments[largest]:
+        repaired = moments.copy()
+        repaired[largest] = others * (1 - 1e-12)
+        return repaired
+    return np.full(3, max(float(moments.mean()), _LIGHT_MOMENT * mass, _LEAST_MOMENT))
+
+
+def is_inertial_ignored(tree: MjcfTree) -> bool:
+    """Whether the compiler settings say that every `<inertial>` is ignored."""
+    settings = [c.attributes[FROM_GEOMS] for c in tree.root.each("compiler") if FROM_GEOMS in c.attributes]
+    return settings[-1:] == ["true"]
+
+
+def stop_ignoring_inertials(tree: MjcfTree) -> list[tuple[int, Splice]]:
+    """The edits, with their files, by which an `<inertial>` counts where there is one."""
+    return [
+        (node.source, set_attribute(tree.sources[node.source].text.data, node.element, FROM_GEOMS, "auto"))
+        for node in tree.root.each("compiler")
+        if node.attributes.get(FROM_GEOMS) == "true"
+    ]
+
+
+def inertial_tag_of_model(reading: MjcfModel, body: int) -> bytes:
+    """The `<inertial>` of a body as MuJoCo compiled it; reading: of the unedited document, masses not scaled."""
+    model = reading.model
+    pos, quaternion, moments = model.body_ipos[body], model.body_iquat[body], model.body_inertia[body]
+    return tag("inertial", inertial_attributes(float(model.body_mass[body]), pos, quaternion, moments))
+
+
+def insert_inertial(tree: MjcfTree, node: MjcfNode, text: bytes) -> list[tuple[int, Splice]]:
+    """The edits, with their files, that put an `<inertial>` before the children of a body's element.
+
+    One that was ignored so far gives way.
+    """
+    data = tree.sources[node.source].text.data
+    texts = [source.text.data for source in tree.sources]
+    gone = [(old.source, remove_element(texts[old.source], old.element)) for old in _inertials_of(node)]
+    at = node.element.inside
+    lead = indent_of(data, node.element.children[0].start)
+    return [*gone, (node.source, Splice(at, at, (b"" if lead is None else newline_of(data) + lead) + text))]
+
+
+def has_inertial(node: MjcfNode | None, tree: MjcfTree) -> bool:
+    """Whether a body's element has an `<inertial>` that counts."""
+    return node is not None and any(True for _ in _inertials_of(node)) and not is_inertial_ignored(tree)
+
+
+def mass_error(body: str, why: str, tree: MjcfTree) -> AssetError:
+    """The error about a body that cannot say its mass."""
+    return AssetError(
+        f"the mass of body {body!r} cannot be kept: {why}",
+        where=str(tree.main.path),
+        remedy="Let MuJoCo take it from the edited hulls (--mass recompute).",
+    )
+
+
+def _inertials_of(node: MjcfNode) -> Iterable[MjcfNode]:
+    """The `<inertial>` of a body, which may stand in a frame."""
+    for child in node.children:
+        if child.tag == "inertial":
+            yield child
+        elif child.tag == "frame":
+            yield from _inertials_of(child)

@@ -1,23 +1,27 @@
-"""Wavefront OBJ: each connected convex piece of a group is a hull, or each group that is named so for Unreal."""
+"""Wavefront OBJ, and OBJ for Unreal: each connected convex piece of a group is a hull, or, where names mark
+collision for Unreal, each group that is marked."""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
-from pathlib import Path
+from pathlib import Path, PurePosixPath
+from typing import ClassVar
 
-from meshforge.asset import Asset, Feature, Geom, What
-from meshforge.formats.meshfile import Soup
-from meshforge.formats.meshfile.obj import parse_obj
-from meshforge.formats.naming.marks import unreal_kind
-from meshforge.formats.naming.unreal_shapes import unreal_shape
-from meshforge.formats.plain.marked import HOW, marked_soup, next_names
-from meshforge.formats.plain.obj_edit import edited_obj
-from meshforge.formats.plain.obj_text import parts_text
-from meshforge.formats.plain.parts import Part, PlainDocument
-from meshforge.formats.plain.plain import Edit, PlainFormat
+import numpy as np
+
+from meshforge.formats.base import Output
+from meshforge.formats.engine_names.base import fallbacks_of, unreal_kind, visible_mesh_of
+from meshforge.formats.engine_names.bodies import EngineBody, name_bodies
+from meshforge.formats.engine_names.unreal import UnrealNames, interpret_unreal_shape, next_name
+from meshforge.formats.meshfile.obj import ObjGroup, ObjText, parse_obj
+from meshforge.formats.meshfile.surface import Soup
+from meshforge.formats.plain.base import MeshFileEdit, PlainFormat
+from meshforge.formats.plain.obj_text import edit_obj, format_obj
+from meshforge.formats.plain.parts import VISUAL_ONLY, MeshPart, PlainDocument, TargetTriangles, corners_of
 from meshforge.geometry import Piece, Shape
+from meshforge.symbolic import Asset, Feature, FeatureKind, Geom, Surface
 
 _MATERIAL = re.compile(rb"^[ \t]*usemtl[ \t]+([^\r\n]+)", re.M)
 _COORDINATE = re.compile(rb"^[ \t]*vt[ \t]", re.M)
@@ -26,45 +30,119 @@ _COMMENT = re.compile(rb"^[ \t]*#", re.M)
 _OTHER = re.compile(rb"^[ \t]*([lp])[ \t]", re.M)
 _KINDS = {b"l": "line", b"p": "point"}
 
+_UNREAL = UnrealNames()
+_SCALE = (
+    "numbers are metres: Unreal's importers of OBJ take them for centimetres, so import it with a uniform scale of 100"
+)
 
-class Obj(PlainFormat):
+MARKED_NOTE = "its collision is the groups that Unreal takes by their names, UCX_ and the like; the rest is only seen"
+
+
+class ObjFormat(PlainFormat):
     """OBJ files."""
 
     name = "obj"
     title = "OBJ"
-    holds = frozenset({What.NAMES, What.OPAQUE})
-    could = frozenset({What.MATERIALS, What.TEXTURES, What.TEXTURE_COORDINATES, What.VERTEX_COLORS, What.COMMENTS})
+    holds = frozenset({FeatureKind.NAMES, FeatureKind.OPAQUE})
+    could = frozenset(
+        {
+            FeatureKind.MATERIALS,
+            FeatureKind.TEXTURES,
+            FeatureKind.TEXTURE_COORDINATES,
+            FeatureKind.VERTEX_COLORS,
+            FeatureKind.COMMENTS,
+        }
+    )
     suffixes = (".obj",)
 
-    def soup(self, data: bytes, path: Path) -> Soup:
+    def parse_soup(self, data: bytes, path: Path) -> Soup:
         text = parse_obj(data, str(path))
-        return marked_soup(text, text.soup(str(path)))
+        return regroup_by_marks(text, text.soup(str(path)))
 
-    def meant(self, document: PlainDocument, found: Sequence[Piece]) -> tuple[dict[str, Shape], tuple[str, ...]]:
-        shapes, _ = super().meant(document, found)
+    def interpret_hulls(
+        self, document: PlainDocument, found: Sequence[Piece]
+    ) -> tuple[dict[str, Shape], tuple[str, ...]]:
+        shapes, _ = super().interpret_hulls(document, found)
         if not document.marked:
             return shapes, ()
-        meant = {name: unreal_shape(name, hull) for name, hull in shapes.items()}
-        notes = (HOW, *(note for _, note in meant.values() if note))
-        return {name: shape for name, (shape, _) in meant.items()}, notes
+        readings = {name: interpret_unreal_shape(name, hull) for name, hull in shapes.items()}
+        notes = (MARKED_NOTE, *(note for _, note in readings.values() if note))
+        return {name: shape for name, (shape, _) in readings.items()}, notes
 
-    def called(self, document: PlainDocument, geoms: Sequence[Geom]) -> list[str]:
-        return next_names(parse_obj(document.data, ""), geoms) if document.marked else super().called(document, geoms)
+    def name_hulls(self, document: PlainDocument, geoms: Sequence[Geom]) -> list[str]:
+        if not document.marked:
+            return super().name_hulls(document, geoms)
+        return next_hull_names(parse_obj(document.data, ""), geoms)
 
-    def edited(self, edit: Edit) -> bytes:
-        return edited_obj(parse_obj(edit.document.data, str(edit.path)), edit)
+    def apply_edit(self, edit: MeshFileEdit) -> bytes:
+        return edit_obj(parse_obj(edit.document.data, str(edit.path)), edit)
 
-    def made(self, parts: Sequence[Part]) -> bytes:
-        return parts_text([replace(part, name="_" * bool(unreal_kind(part.name)) + part.name) for part in parts])
+    def format_parts(self, parts: Sequence[MeshPart]) -> bytes:
+        return format_obj([replace(part, name="_" * bool(unreal_kind(part.name)) + part.name) for part in parts])
 
     def features(self, asset: Asset) -> Iterator[Feature]:
         if isinstance(asset.document, PlainDocument):
             data = asset.document.data
             materials = dict.fromkeys(name.decode("utf-8", "replace").strip() for name in _MATERIAL.findall(data))
-            yield Feature(What.MATERIALS, tuple(materials))
-            yield Feature(What.TEXTURE_COORDINATES, unnamed=len(_COORDINATE.findall(data)))
-            yield Feature(What.VERTEX_COLORS, unnamed=1 if _COLOR.search(data) else 0)
+            yield Feature(FeatureKind.MATERIALS, tuple(materials))
+            yield Feature(FeatureKind.TEXTURE_COORDINATES, unnamed=len(_COORDINATE.findall(data)))
+            yield Feature(FeatureKind.VERTEX_COLORS, unnamed=1 if _COLOR.search(data) else 0)
             others = _OTHER.findall(data)
             kinds = tuple(_KINDS[word] for word in dict.fromkeys(others))
-            yield Feature(What.OTHERS, kinds, len(others) - len(kinds))
-            yield Feature(What.COMMENTS, unnamed=len(_COMMENT.findall(data)))
+            yield Feature(FeatureKind.OTHERS, kinds, len(others) - len(kinds))
+            yield Feature(FeatureKind.COMMENTS, unnamed=len(_COMMENT.findall(data)))
+
+
+class ObjForUnreal(ObjFormat):
+    """OBJ files whose collision Unreal knows by name."""
+
+    title = "OBJ for Unreal"
+    up = "z"  # Interchange's translator of OBJ turns nothing, and Unreal is z-up
+    holds = _UNREAL.holds - {FeatureKind.COLORS}
+    instead: ClassVar[Mapping[FeatureKind, str]] = {**fallbacks_of(_UNREAL), FeatureKind.BODIES: "written as groups"}
+
+    def can_write_back(self, asset: Asset) -> bool:
+        return isinstance(asset.document, PlainDocument) and asset.document.marked and super().can_write_back(asset)
+
+    def create(self, asset: Asset, name: str) -> Output:
+        found = name_bodies(asset, _UNREAL, PurePosixPath(name).stem)
+        parts = [part for family in found.each for part in _parts_of(family)]
+        hulls = set(found.names.values())
+        whose = [part.name if part.name in hulls else VISUAL_ONLY for part in parts for _ in part.surface.faces]
+        data = format_obj(parts, words=(b"o", b"g"))
+        read = self._check_output(data, Path(name), TargetTriangles(whose, corners_of(parts)), hulls, asset.path)
+        names = {name: read.get(now, now) for name, now in found.names.items() if read.get(now, now) != name}
+        return Output(data, names=names, lost=found.lost, notes=(_SCALE, *found.notes))
+
+
+def _parts_of(family: EngineBody) -> Sequence[MeshPart]:
+    """What is seen of a body, and its hulls."""
+    seen = [MeshPart(family.name, surface) for surface in family.surfaces]
+    hulls = {name: geom.shape.tessellate() for name, geom in family.hulls.items()}
+    return [*seen, *(MeshPart(name, Surface(hull.vertices, hull.faces)) for name, hull in hulls.items())]
+
+
+def marks_of(groups: Sequence[ObjGroup]) -> list[str | None]:
+    """For each group, the name by which Unreal takes it for a hull: its object's, or its own; None for others."""
+    return [next((name for name in group if unreal_kind(name)), None) for group in groups]
+
+
+def regroup_by_marks(text: ObjText, soup: Soup) -> Soup:
+    """The triangles of a file with a group for each hull, and -1 for what is only seen; as they are without marks."""
+    marks = marks_of(text.groups)
+    names = list(dict.fromkeys(name for name in marks if name is not None))
+    if not names:
+        return soup
+    hull_of = np.array([names.index(name) if name is not None else -1 for name in marks], dtype=np.int64)
+    return Soup(soup.vertices, soup.faces, hull_of[soup.group], tuple(names), soup.mentions, marked=True)
+
+
+def next_hull_names(text: ObjText, geoms: Sequence[Geom]) -> list[str]:
+    """The names of made hulls in a file with marks, each after the mesh that its parent stands for."""
+    names = [name for group in text.groups for name in group if name]
+    rendered = [name for name in names if not unreal_kind(name)]
+    made: list[str] = []
+    for geom in geoms:
+        base = visible_mesh_of(geom.parent, rendered) if geom.parent else next(iter(rendered), "hull")
+        made.append(next_name(geom, base, [*names, *made]))
+    return made

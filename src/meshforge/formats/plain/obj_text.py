@@ -1,16 +1,146 @@
-"""Writing shapes as the text of an OBJ, in full precision."""
+"""The text of an OBJ: of shapes, in full precision, and edits of authored text, of which only vertex numbers and
+group lines change."""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
-from meshforge.formats.plain.parts import Part
+import numpy as np
+
+from meshforge.common import AssetError
+from meshforge.formats.meshfile.obj import ObjGroup, ObjText, arguments, group_name_of, keywords
+from meshforge.formats.plain.base import MeshFileEdit
+from meshforge.formats.plain.parts import VISUAL_ONLY, MeshPart
 from meshforge.geometry import Floats, Ints
 
+_NUMBER = re.compile(rb"(\s)([+-]?\d+)")
+_FACES = (b"f", b"fo")
+_OTHERS = (b"l", b"p")
+_FREE_FORM = (b"curv", b"curv2", b"surf", b"bzp", b"bsp", b"cdc", b"cdp")
 
-def parts_text(
-    parts: Sequence[Part], start: int = 0, end: bytes = b"\n", colors: int = 0, words: Sequence[bytes] = (b"o",)
+
+def edit_obj(text: ObjText, edit: MeshFileEdit) -> bytes:
+    """The bytes of the edited file. Raises AssetError: free-form surfaces, which also use the vertices."""
+    return _ObjEditor(text, edit).to_bytes()
+
+
+class _ObjEditor:
+    def __init__(self, text: ObjText, edit: MeshFileEdit) -> None:
+        self.text = text
+        self.edit = edit
+        self.words = keywords(text.statements)
+        if any(word in _FREE_FORM for word in self.words):
+            raise AssetError("files with free-form surfaces cannot be edited", where=str(edit.path))
+        self.stays = dict(zip(text.face_at.tolist(), edit.stays.tolist(), strict=True))
+        self.bare = {  # statements that name vertices and make no triangle, which stay
+            k for k, word in enumerate(self.words) if word in _OTHERS or (word in _FACES and k not in self.stays)
+        }
+        self.wanted = self._target_groups()
+        self.end = line_end_of(text.statements)
+        self._number_vertices()
+
+    def to_bytes(self) -> bytes:
+        body = b"".join(self._lines())
+        if body and not body.endswith((b"\n", b"\r")):
+            body += self.end
+        if self.edit.parts and body.rstrip(b"\r\n").endswith(b"\\"):  # what follows would be of the last statement
+            body += self.end
+        width = len(arguments(self.text.statements[self.text.vertex_at[0]]))
+        colors = width - 3 if width in (6, 7) else 0
+        words = (b"o", b"g") if self.edit.document.marked else (b"o",)
+        return body + format_obj(self.edit.parts, int(self.kept.sum()), self.end, colors, words)
+
+    def _target_groups(self) -> dict[int, ObjGroup]:
+        """The group that each face statement which stays should be in."""
+        document, text = self.edit.document, self.text
+        touched = set(text.face_group[~self.edit.stays].tolist())
+        wanted: dict[int, ObjGroup] = {}
+        for at, group, owner in zip(text.face_at.tolist(), text.face_group.tolist(), document.owners, strict=True):
+            if self.stays[at]:
+                rename = (self.edit.explicit or group in touched) and owner != VISUAL_ONLY
+                wanted[at] = (owner, "") if rename else text.groups[group]
+        return wanted
+
+    def _number_vertices(self) -> None:
+        """Which vertices stay, all but those that only faces which go have used, and their new numbers."""
+        text = self.text
+        self.kept = np.ones(len(text.vertices), dtype=bool)
+        self.kept[np.unique(text.faces[~self.edit.stays])] = False
+        self.kept[np.unique(text.faces[self.edit.stays])] = True
+        for k in self.bare:
+            before = int(np.searchsorted(text.vertex_at, k))
+            numbers = [int(w.partition(b"/")[0]) for w in arguments(text.statements[k])]
+            self.kept[[n - 1 if n > 0 else before + n for n in numbers]] = True
+        self.kept_before = np.concatenate([[0], np.cumsum(self.kept)])
+        self.number = self.kept_before[1:] - 1
+        self.gone_at = set(text.vertex_at[~self.kept].tolist())
+
+    def _lines(self) -> Iterator[bytes]:
+        force: ObjGroup = ("", "")
+        idle = self._idle_group_lines()
+        for k, statement in enumerate(self.text.statements):
+            word = self.words[k]
+            if word in (b"o", b"g"):
+                if k not in idle:
+                    force = (group_name_of(statement), "") if word == b"o" else (force[0], group_name_of(statement))
+                    yield statement
+            elif k in self.stays:
+                if self.stays[k]:
+                    yield from self._group_lines(force, self.wanted[k])
+                    force = self.wanted[k]
+                    yield self._renumber(k)
+            elif k in self.bare:
+                yield self._renumber(k)
+            elif k not in self.gone_at:
+                yield statement
+
+    def _idle_group_lines(self) -> set[int]:
+        """The group lines that no face needs any more: those below them have gone, or are named otherwise."""
+        faces = {b"o": 0, b"g": 0}  # face statements between here and the next line of that kind
+        needed = {b"o": 0, b"g": 0}  # those of them that stay as they are named
+        authored = {at: self.text.groups[g] for at, g in zip(self.text.face_at, self.text.face_group, strict=True)}
+        idle: set[int] = set()
+        for k in reversed(range(len(self.words))):
+            word = self.words[k]
+            if k in self.stays:
+                for kind in faces:
+                    faces[kind] += 1
+                    needed[kind] += self.stays[k] and self.wanted[k] == authored[k]
+            elif word in faces:
+                if faces[word] and not needed[word]:
+                    idle.add(k)
+                for kind in (b"g", b"o") if word == b"o" else (b"g",):
+                    faces[kind] = needed[kind] = 0
+        return idle
+
+    def _group_lines(self, force: ObjGroup, wanted: ObjGroup) -> Iterator[bytes]:
+        """What leads from the group in force to the wanted one."""
+        if force[0] != wanted[0]:
+            yield format_group_line(b"o", wanted[0]) + self.end
+            force = (wanted[0], "")
+        if force[1] != wanted[1]:
+            yield format_group_line(b"g", wanted[1]) + self.end
+
+    def _renumber(self, k: int) -> bytes:
+        """A statement of an element with the new numbers of its vertices; relative numbers stay relative."""
+        if not self.gone_at:
+            return self.text.statements[k]
+        statement, hash_mark, comment = self.text.statements[k].partition(b"#")
+        before = int(np.searchsorted(self.text.vertex_at, k))
+        now = int(self.kept_before[before])
+
+        def renumber(match: re.Match[bytes]) -> bytes:
+            old = int(match[2])
+            if old < 0:
+                return match[1] + str(int(self.number[before + old]) - now).encode()
+            return match[1] + str(int(self.number[old - 1]) + 1).encode()
+
+        return _NUMBER.sub(renumber, statement) + hash_mark + comment
+
+
+def format_obj(
+    parts: Sequence[MeshPart], start: int = 0, end: bytes = b"\n", colors: int = 0, words: Sequence[bytes] = (b"o",)
 ) -> bytes:
     """Parts as text, an object each.
 
@@ -20,13 +150,13 @@ def parts_text(
     text: list[bytes] = []
     for part in parts:
         vertices, faces = part.surface.vertices, part.surface.faces
-        text += [line for word in words for line in (named(word, part.name), end)]
-        text.append(rows_text(vertices, faces + start, end, " 1.0" * colors))
+        text += [line for word in words for line in (format_group_line(word, part.name), end)]
+        text.append(format_obj_rows(vertices, faces + start, end, " 1.0" * colors))
         start += len(vertices)
     return b"".join(text)
 
 
-def rows_text(vertices: Floats, faces: Ints, end: bytes = b"\n", tail: str = "") -> bytes:
+def format_obj_rows(vertices: Floats, faces: Ints, end: bytes = b"\n", tail: str = "") -> bytes:
     """The statements of vertices (n, 3) in full precision and of triangles (m, 3), whose numbers count from 0.
 
     end: the line end; tail: what follows the coordinates of each vertex.
@@ -36,13 +166,13 @@ def rows_text(vertices: Floats, faces: Ints, end: bytes = b"\n", tail: str = "")
     return (corners + f"f %d %d %d{last}" * len(faces) % tuple((faces + 1).ravel().tolist())).encode()
 
 
-def named(word: bytes, name: str) -> bytes:
+def format_group_line(word: bytes, name: str) -> bytes:
     """An `o` or `g` statement without its line end; a line break in the name becomes a blank, a last backslash goes."""
     clean = re.sub(r"[\r\n]+", " ", name).rstrip("\\")
     return word + b" " + clean.encode("utf-8", "surrogateescape")
 
 
-def line_end(statements: Sequence[bytes]) -> bytes:
+def line_end_of(statements: Sequence[bytes]) -> bytes:
     """The line end that a text uses."""
     first = statements[0] if statements else b"\n"
     return first[len(first.rstrip(b"\r\n")) :] or b"\n"

@@ -4,27 +4,26 @@ from __future__ import annotations
 
 import re
 from collections import Counter
-from collections.abc import Collection, Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
-from meshforge.asset import Asset, Document, Geom, Surface, unique_names
-from meshforge.errors import AssetError
-from meshforge.formats.meshfile import Soup
+from meshforge.common import AssetError
+from meshforge.formats.meshfile.surface import Soup
 from meshforge.geometry import Box, Floats, Ints, Piece, Polytope
-from meshforge.words import listed
+from meshforge.symbolic import Asset, Document, Geom, Surface, unique_names
 
-SEEN = ""
-"""Whose triangles are that are only seen; no piece has this name."""
+VISUAL_ONLY = ""
+"""The owner of triangles that are only seen; no piece has this name."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class PlainDocument(Document):
     """A mesh file as it was read: its bytes, the names of its pieces, and the piece (m,) of each triangle.
 
-    groups: how many groups of the file have faces; marked: whether names mark its hulls, as of `Soup`; then -1 is the
+    groups: how many groups of the file have faces; marked: whether names mark its hulls (see `Soup`); then -1 is the
     owner of what is only seen.
     """
 
@@ -36,13 +35,13 @@ class PlainDocument(Document):
 
     @property
     def owners(self) -> list[str]:
-        """The name of the piece of each triangle, SEEN for what is only seen."""
-        names = [*self.names, SEEN]  # -1 is the last
+        """The name of the piece of each triangle, VISUAL_ONLY for what is only seen."""
+        names = [*self.names, VISUAL_ONLY]  # -1 is the last
         return [names[k] for k in self.owner.tolist()]
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class Part:
+class MeshPart:
     """Triangles to be written under a name."""
 
     name: str
@@ -50,7 +49,7 @@ class Part:
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class Wanted:
+class TargetTriangles:
     """The triangles that a written file should hold: the owner of each, and the corners (m, 3, 3).
 
     kept: how many of them, the first, stay as they were; the others are made.
@@ -61,18 +60,18 @@ class Wanted:
     kept: int = 0
 
 
-def owners(parts: Sequence[Part]) -> list[str]:
-    """Whose each triangle of a file of these parts should be."""
+def owners_of(parts: Sequence[MeshPart]) -> list[str]:
+    """The owner that each triangle of a file of these parts should have."""
     return [part.name for part in parts for _ in part.surface.faces]
 
 
-def corners_of(parts: Sequence[Part]) -> Floats:
+def corners_of(parts: Sequence[MeshPart]) -> Floats:
     """The corners (m, 3, 3) of the triangles of parts."""
     corners = [part.surface.vertices[part.surface.faces] for part in parts]
     return np.concatenate([np.zeros((0, 3, 3)), *corners]) + 0.0
 
 
-def piece_names(pieces: Sequence[Piece], groups: Sequence[str | None]) -> list[str]:
+def name_file_pieces(pieces: Sequence[Piece], groups: Sequence[str | None]) -> list[str]:
     """A unique name for each piece: its group's, `geomK` where that has none, with `#k` where it has several pieces."""
     unnamed = {k: f"geom{n}" for n, k in enumerate(k for k, name in enumerate(groups) if not name)}
     several = Counter(piece.group for piece in pieces)
@@ -85,7 +84,7 @@ def piece_names(pieces: Sequence[Piece], groups: Sequence[str | None]) -> list[s
     return unique_names(names)
 
 
-def member_names(files: Sequence[str], documents: Sequence[PlainDocument]) -> list[dict[str, str]]:
+def name_members(files: Sequence[str], documents: Sequence[PlainDocument]) -> list[dict[str, str]]:
     """For each file of a folder, the name in the folder of each of its pieces.
 
     That is the file's stem where it has one piece, else the stem and the number of the piece, or the stem and the
@@ -105,18 +104,18 @@ def member_names(files: Sequence[str], documents: Sequence[PlainDocument]) -> li
     return [{piece: next(unique) for piece in document.names} for document in documents]
 
 
-def natural(name: str) -> tuple[tuple[bool, int, str], ...]:
+def natural_key(name: str) -> tuple[tuple[bool, int, str], ...]:
     """A key that sorts names as people do: `2` before `10`."""
     words = re.findall(r"\d+|\D+", name)
     return (*((not word.isdigit(), int(word) if word.isdigit() else 0, word) for word in words),)
 
 
-def as_parts(geoms: Iterable[Geom], native: Collection[str] = ()) -> tuple[tuple[Part, ...], tuple[str, ...]]:
+def to_parts(geoms: Iterable[Geom], native: Collection[str] = ()) -> tuple[tuple[MeshPart, ...], tuple[str, ...]]:
     """Geoms as triangles, and notes on those that lose by it; native: kinds of round shapes that come back."""
     parts, round_ones = [], Counter[str]()
     for geom in geoms:
-        shape = geom.shape.tessellated()
-        parts.append(Part(geom.name, Surface(shape.vertices, shape.faces)))
+        shape = geom.shape.tessellate()
+        parts.append(MeshPart(geom.name, Surface(shape.vertices, shape.faces)))
         if not isinstance(geom.shape, Polytope | Box) and geom.shape.kind not in native:
             round_ones[geom.shape.kind] += 1
     notes = tuple(
@@ -126,17 +125,22 @@ def as_parts(geoms: Iterable[Geom], native: Collection[str] = ()) -> tuple[tuple
     return tuple(parts), notes
 
 
-def all_parts(asset: Asset) -> tuple[Part, ...]:
-    """The hulls and the opaque surfaces of an asset. Raises AssetError where there are none."""
-    seen = tuple(Part(piece.name, piece.surface) for piece in asset.opaque if piece.surface)
-    parts = as_parts(asset.geoms)[0] + seen
+def collect_parts(asset: Asset) -> tuple[MeshPart, ...]:
+    """The hulls and the non-convex surfaces of an asset. Raises AssetError where there are none."""
+    seen = tuple(MeshPart(piece.name, piece.surface) for piece in asset.opaque if piece.surface)
+    parts = to_parts(asset.geoms)[0] + seen
     if not parts:
         raise AssetError("there is no hull to write", where=str(asset.path))
     return parts
 
 
-def read_back(
-    document: PlainDocument, found: Sequence[Piece], soup: Soup, wanted: Wanted, hulls: Collection[str], where: str
+def find_renamed_hulls(
+    document: PlainDocument,
+    found: Sequence[Piece],
+    soup: Soup,
+    wanted: TargetTriangles,
+    hulls: Collection[str],
+    where: str,
 ) -> dict[str, str]:
     """The hulls that read back under another name, with that name.
 
@@ -152,19 +156,16 @@ def read_back(
     for name, piece in zip(wanted.owners, document.owners, strict=True):
         back.setdefault(name, set()).add(piece)
     shared = Counter(piece for pieces in back.values() for piece in pieces)
-    for name in sorted(hulls, key=natural):
+    for name in sorted(hulls, key=natural_key):
         held = back.get(name, set())
         if len(held) != 1 or any(shared[piece] > 1 or piece not in convex for piece in held):
-            raise AssetError(
-                f"the hull {name} cannot be told apart from others in this file",
-                where=where,
-                remedy="Write an OBJ, which has groups, or a folder of files.",
-            )
+            problem = f"the hull {name} cannot be told apart from others in this file"
+            raise AssetError(problem, where=where, remedy="Write an OBJ, which has groups, or a folder of files.")
     read = {name: min(back[name]) for name in back if name in hulls}
     return {name: now for name, now in read.items() if now != name}
 
 
-def _refuse_moved(soup: Soup, wanted: Wanted, where: str) -> None:
+def _refuse_moved(soup: Soup, wanted: TargetTriangles, where: str) -> None:
     """Raise AssetError where a corner is not where it should be; those of made triangles may be single precision."""
     corners = soup.vertices[soup.faces]
     there = corners == wanted.corners
@@ -172,11 +173,3 @@ def _refuse_moved(soup: Soup, wanted: Wanted, where: str) -> None:
     if not there.all():
         x, y, z = wanted.corners[~there.all(axis=2)][0]
         raise AssetError(f"the written file would have the vertex {x:.6g} {y:.6g} {z:.6g} elsewhere", where=where)
-
-
-def renaming(names: Mapping[str, str]) -> tuple[str, ...]:
-    """A note on hulls that the file holds under other names."""
-    if not names:
-        return ()
-    shown = listed([f"{old} is now {new}" for old, new in names.items()], 3)
-    return (f"hulls are called otherwise in what is written: {shown}",)

@@ -3,19 +3,20 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
+from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 
-from meshforge.asset import Asset, Feature, What
-from meshforge.errors import AssetError
-from meshforge.formats.meshfile import Soup, joined
-from meshforge.formats.meshfile.ply import INDICES, PlyText, Rows, parse_ply
-from meshforge.formats.plain.parts import Part, PlainDocument
-from meshforge.formats.plain.plain import Edit, PlainFormat
-from meshforge.formats.plain.ply_rows import ended, made_row, misfits, renumbered
+from meshforge.common import AssetError
+from meshforge.formats.meshfile.ply import INDEX_NAMES, PlyProperty, PlyRows, PlyText, parse_ply
+from meshforge.formats.meshfile.surface import Soup, join_surfaces, stack_triangles
+from meshforge.formats.plain.base import MeshFileEdit, PlainFormat
+from meshforge.formats.plain.parts import MeshPart, PlainDocument
 from meshforge.geometry import Floats, Ints
+from meshforge.symbolic import Asset, Feature, FeatureKind
 
 _HEADER = """ply
 format binary_little_endian 1.0
@@ -32,48 +33,45 @@ end_header
 _HEAD = 10_000  # bytes, more than headers have
 _COLOR = re.compile(rb"^property\s+\w+\s+red\s*$", re.M)
 
+_COLOR_NAME = re.compile(r"(diffuse_|ambient_|specular_)?(red|green|blue|alpha)|[rgba]")
 
-class Ply(PlainFormat):
+
+class PlyFormat(PlainFormat):
     """PLY files; new ones are binary, in double precision."""
 
     name = "ply"
     title = "PLY"
-    could = frozenset({What.VERTEX_COLORS, What.TEXTURE_COORDINATES, What.COMMENTS})
+    could = frozenset({FeatureKind.VERTEX_COLORS, FeatureKind.TEXTURE_COORDINATES, FeatureKind.COMMENTS})
     suffixes = (".ply",)
 
-    def soup(self, data: bytes, path: Path) -> Soup:
-        return joined(parse_ply(data, str(path)).surfaces(str(path)))
+    def parse_soup(self, data: bytes, path: Path) -> Soup:
+        return join_surfaces(parse_ply(data, str(path)).surfaces(str(path)))
 
-    def edited(self, edit: Edit) -> bytes:
-        return _Editor(parse_ply(edit.document.data, str(edit.path)), edit).written()
+    def apply_edit(self, edit: MeshFileEdit) -> bytes:
+        return _PlyEditor(parse_ply(edit.document.data, str(edit.path)), edit).to_bytes()
 
     def features(self, asset: Asset) -> Iterator[Feature]:
         if isinstance(asset.document, PlainDocument):
             colors = len(_COLOR.findall(asset.document.data[:_HEAD].partition(b"end_header")[0]))
-            yield Feature(What.VERTEX_COLORS, unnamed=colors)
+            yield Feature(FeatureKind.VERTEX_COLORS, unnamed=colors)
 
-    def made(self, parts: Sequence[Part]) -> bytes:
-        vertices, faces = _stacked(parts, 0)
+    def format_parts(self, parts: Sequence[MeshPart]) -> bytes:
+        vertices, faces = _stack_parts(parts, 0)
         rows = np.zeros(len(faces), dtype=[("count", "u1"), ("corners", "<i4", (3,))])
         rows["count"], rows["corners"] = 3, faces
         head = _HEADER.format(len(vertices), len(faces)).encode()
         return head + vertices.astype("<f8").tobytes() + rows.tobytes()
 
 
-def _stacked(parts: Sequence[Part], start: int) -> tuple[Floats, Ints]:
+def _stack_parts(parts: Sequence[MeshPart], start: int) -> tuple[Floats, Ints]:
     """All vertices (n, 3) of parts and their faces (m, 3), numbered from `start`."""
-    vertices, faces = [np.zeros((0, 3))], [np.zeros((0, 3), dtype=np.int64)]
-    for part in parts:
-        faces.append(part.surface.faces + start)
-        vertices.append(part.surface.vertices + 0.0)
-        start += len(part.surface.vertices)
-    return np.concatenate(vertices), np.concatenate(faces)
+    return stack_triangles(((part.surface.vertices + 0.0, part.surface.faces) for part in parts), start)
 
 
-class _Editor:
+class _PlyEditor:
     """Writes the rows of a file that stay, with new vertex numbers, and rows for the parts."""
 
-    def __init__(self, text: PlyText, edit: Edit) -> None:
+    def __init__(self, text: PlyText, edit: MeshFileEdit) -> None:
         self.text = text
         self.edit = edit
         first = {r.element.name: r for r in reversed(text.rows)}
@@ -85,23 +83,23 @@ class _Editor:
         self.kept = np.ones(len(text.vertices), dtype=bool)
         self.kept[np.unique(text.faces[~edit.stays])] = False
         self.kept[np.unique(text.faces[edit.stays])] = True
-        self.kept[self._of_faces_without_triangles(first["face"])] = True
+        self.kept[self._corners_of_bare_faces(first["face"])] = True
         self.number = np.cumsum(self.kept) - 1
         self.gone = set(text.face_at[~edit.stays].tolist())
-        self.vertices, self.faces = _stacked(edit.parts, int(self.kept.sum()))
+        self.vertices, self.faces = _stack_parts(edit.parts, int(self.kept.sum()))
         self._refuse_misfits()
 
-    def _of_faces_without_triangles(self, faces: Rows) -> list[int]:
+    def _corners_of_bare_faces(self, faces: PlyRows) -> list[int]:
         """The vertices of faces of two corners, which stay."""
         bare = set(range(faces.element.rows)).difference(self.text.face_at.tolist())
-        lists = [faces.values[key] for key in INDICES if key in faces.values]
+        lists = [faces.values[key] for key in INDEX_NAMES if key in faces.values]
         return [int(corner) for read in lists for k in bare for corner in read[k]]
 
-    def written(self) -> bytes:
+    def to_bytes(self) -> bytes:
         head = self.edit.document.data[: self.text.header.size]
         body = b""
         for rows in self.text.rows:
-            written = list(self._rows(rows))
+            written = list(self._edit_rows(rows))
             count = b"element %s %d" % (rows.element.name.encode(), len(written))
             head = re.sub(rb"(?m)^element\s+%s\s+\d+" % rows.element.name.encode(), count, head, count=1)
             body += b"".join(written)
@@ -109,22 +107,93 @@ class _Editor:
 
     def _refuse_misfits(self) -> None:
         """Raise AssetError where a new row has a number that the type of its property cannot hold."""
-        made = {"vertex": dict(zip("xyz", self.vertices.T, strict=True)), "face": dict.fromkeys(INDICES, self.faces)}
+        made = {
+            "vertex": dict(zip("xyz", self.vertices.T, strict=True)),
+            "face": dict.fromkeys(INDEX_NAMES, self.faces),
+        }
         for element in (rows.element for rows in self.text.rows):
             columns = made.get(element.name, {})
             for kind in (p for p in element.properties if p.name in columns):
-                if (wrong := misfits(kind, columns[kind.name])).size:
+                if (wrong := find_misfits(kind, columns[kind.name])).size:
                     problem = f"a made hull needs {wrong[0]:.6g} in the property {kind.name}, whose type cannot hold it"
                     raise AssetError(problem, where=str(self.edit.path), remedy="Convert it to OBJ first.")
 
-    def _rows(self, rows: Rows) -> Iterator[bytes]:
+    def _edit_rows(self, rows: PlyRows) -> Iterator[bytes]:
         data, order, properties = self.edit.document.data, self.text.header.order, rows.element.properties
         cut = [data[start:stop] for start, stop in rows.spans.tolist()]
         if rows.element.name == "vertex":
-            yield from (ended(row, order) for row, keep in zip(cut, self.kept.tolist(), strict=True) if keep)
-            yield from (made_row({"x": x, "y": y, "z": z}, properties, order) for x, y, z in self.vertices.tolist())
+            yield from (end_row(row, order) for row, keep in zip(cut, self.kept.tolist(), strict=True) if keep)
+            yield from (make_row({"x": x, "y": y, "z": z}, properties, order) for x, y, z in self.vertices.tolist())
         elif rows.element.name == "face":
             yield from (
-                renumbered(row, properties, order, self.number) for k, row in enumerate(cut) if k not in self.gone
+                renumber_row(row, properties, order, self.number) for k, row in enumerate(cut) if k not in self.gone
             )
-            yield from (made_row(dict.fromkeys(INDICES, face), properties, order) for face in self.faces.tolist())
+            yield from (make_row(dict.fromkeys(INDEX_NAMES, face), properties, order) for face in self.faces.tolist())
+
+
+def end_row(row: bytes, order: str) -> bytes:
+    """A row with a line end, which the last of an ASCII file may lack."""
+    return row if order or row.endswith(b"\n") else row + b"\n"
+
+
+def renumber_row(row: bytes, properties: Sequence[PlyProperty], order: str, number: Ints) -> bytes:
+    """The row of a face with the new numbers of its corners; all else is as it was."""
+    return _renumber_bytes(row, properties, order, number) if order else _renumber_text(row, properties, number)
+
+
+def _renumber_text(row: bytes, properties: Sequence[PlyProperty], number: Ints) -> bytes:
+    words, at = row.split(), 0
+    for kind in properties:
+        length = int(words[at]) if kind.count else 0
+        if kind.name in INDEX_NAMES:
+            words[at + 1 : at + 1 + length] = [
+                b"%d" % number[int(float(word))] for word in words[at + 1 : at + 1 + length]
+            ]
+        at += 1 + length
+    return b" ".join(words) + (row[len(row.rstrip()) :] or b"\n")
+
+
+def _renumber_bytes(row: bytes, properties: Sequence[PlyProperty], order: str, number: Ints) -> bytes:
+    out, at = row, 0
+    for kind in properties:
+        length = 1
+        if kind.count:
+            length = int(np.frombuffer(row, order + kind.count, 1, at)[0])
+            at += np.dtype(kind.count).itemsize
+        stop = at + length * np.dtype(kind.type).itemsize
+        if kind.name in INDEX_NAMES and length:
+            corners = np.frombuffer(row, order + kind.type, length, at).astype(np.int64)
+            out = out[:at] + number[corners].astype(order + kind.type).tobytes() + out[stop:]
+        at = stop
+    return out
+
+
+def find_misfits(kind: PlyProperty, values: npt.NDArray[Any]) -> npt.NDArray[Any]:
+    """The new values that the type of a property cannot hold; a coordinate may be rounded to single precision."""
+    if kind.type[0] == "f" and not kind.count:
+        return values[:0]
+    with np.errstate(invalid="ignore"):
+        wrong: npt.NDArray[np.bool_] = values.astype(kind.type) != values
+    return values[wrong]
+
+
+def make_row(values: Mapping[str, Any], properties: Sequence[PlyProperty], order: str) -> bytes:
+    """A new row; colours that are not given are full, the rest is zero."""
+    cells = [
+        _format_cell(kind, values.get(kind.name, [] if kind.count else _default_of(kind)), order) for kind in properties
+    ]
+    return b"".join(cells) if order else b" ".join(cells) + b"\n"
+
+
+def _default_of(kind: PlyProperty) -> float:
+    if not _COLOR_NAME.fullmatch(kind.name):
+        return 0
+    return int(np.iinfo(kind.type).max) if kind.type[0] in "iu" else 1.0
+
+
+def _format_cell(kind: PlyProperty, value: Any, order: str) -> bytes:
+    if order:
+        head = np.array([len(value)], order + kind.count).tobytes() if kind.count else b""
+        return head + np.asarray(value).astype(order + kind.type).tobytes()
+    numbers = [str(int(x)) if kind.type[0] in "iu" else repr(float(x)) for x in (value if kind.count else [value])]
+    return " ".join([str(len(numbers)), *numbers] if kind.count else numbers).encode()

@@ -5,16 +5,16 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
-from meshforge.asset import Asset
-from meshforge.errors import AssetError
+from meshforge.common import AssetError
 from meshforge.formats.base import Output
-from meshforge.formats.meshfile import Soup, joined
+from meshforge.formats.meshfile.surface import Soup, join_surfaces
 from meshforge.formats.meshfile.vrml import parse_vrml
-from meshforge.formats.plain.parts import Part
-from meshforge.formats.plain.plain import Edit, PlainFormat
+from meshforge.formats.plain.base import MeshFileEdit, PlainFormat
+from meshforge.formats.plain.parts import MeshPart
+from meshforge.symbolic import Asset
 
 
-class Wrl(PlainFormat):
+class WrlFormat(PlainFormat):
     """VRML files, to be read only."""
 
     name = "wrl"
@@ -22,18 +22,18 @@ class Wrl(PlainFormat):
     suffixes = (".wrl",)
     writable = False
 
-    def soup(self, data: bytes, path: Path) -> Soup:
-        return joined(parse_vrml(data, str(path)))
+    def parse_soup(self, data: bytes, path: Path) -> Soup:
+        return join_surfaces(parse_vrml(data, str(path)))
 
-    def edited(self, edit: Edit) -> bytes:
-        raise _read_only(str(edit.path))
+    def apply_edit(self, edit: MeshFileEdit) -> bytes:
+        raise _read_only_error(str(edit.path))
 
-    def made(self, parts: Sequence[Part]) -> bytes:
-        raise _read_only(None)
+    def format_parts(self, parts: Sequence[MeshPart]) -> bytes:
+        raise _read_only_error(None)
 
     def create(self, asset: Asset, name: str) -> Output:
-        raise _read_only(str(asset.path))
+        raise _read_only_error(str(asset.path))
 
 
-def _read_only(where: str | None) -> AssetError:
+def _read_only_error(where: str | None) -> AssetError:
     return AssetError("VRML files are read, not written", where=where, remedy="Write an .obj, which keeps the names.")

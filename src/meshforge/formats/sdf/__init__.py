@@ -1,5 +1,1 @@
 """SDF: the models of Gazebo, with what they include; read, and written back losslessly; worlds are read only."""
-
-from meshforge.formats.sdf.sdf import SdfFormat
-
-__all__ = ["SdfFormat"]

@@ -1,17 +1,64 @@
-"""What is kept of an SDF to write it back: its files, and which hulls were read from which of their elements."""
+"""What is kept of an SDF to write it back: its files, where their references lead, the `model.config` of a folder,
+and their roots and versions."""
 
 from __future__ import annotations
 
+import os
+import posixpath
+import re
+from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
-from meshforge.asset import Document
-from meshforge.formats.element_plan import Authored
-from meshforge.formats.sdf.files.sources import Source
+from meshforge.common import AssetError, is_file
+from meshforge.formats.collision_pieces import CollisionElement
+from meshforge.formats.references import Resolver, placement
+from meshforge.formats.xml import Element, XmlText, parse_numbers, parse_xml
+from meshforge.symbolic import Document
+
+Version = tuple[int, int]
+OLDEST: Version = (1, 2)
+"""The first with elements as they are now; 1.0 had attributes."""
+NEWEST: Version = (1, 12)
+AXIS_IN_JOINT: Version = (1, 5)
+"""From here on the axis of a joint is given in the joint's frame, not in the model's."""
+RELATIVE_TO: Version = (1, 7)
+"""From here on `relative_to` counts; before, `frame` said the same, and few readers took notice of it."""
+ROUND_SHAPES: Version = (1, 8)
+"""From here on there are capsules and ellipsoids."""
+
+_VERSION_TEXT = re.compile(r"\s*(\d{1,4})\.(\d{1,4})\s*")
+
+_MODEL = re.compile(r"(?:package|model)://+([^/]+)/(.*)", re.S)
+_FILE = "file://"
+
+CONFIG = "model.config"
+"""The file that makes a folder a Gazebo model."""
+_USUAL_NAME = "model.sdf"
+
+GEOMETRY_TAGS = (
+    *("box", "sphere", "cylinder", "capsule", "ellipsoid", "cone"),
+    *("plane", "mesh", "polyline", "heightmap", "image", "empty"),
+)
+"""The elements of a `<geometry>` that there are."""
+_MAPS = (
+    *("albedo_map", "normal_map", "roughness_map", "metalness_map", "emissive_map", "light_map"),
+    *("environment_map", "ambient_occlusion_map", "glossiness_map", "specular_map", "diffuse", "normal"),
+)
+_BUILT_IN = ("file://media/", "__default__")
+"""References to what Gazebo brings along."""
+
+_MOST_SCRIPTS = 1000  # files of one folder of material scripts
+
+
+def parse_version(text: str) -> Version | None:
+    """The version in a text, None where there is none."""
+    found = _VERSION_TEXT.fullmatch(text)
+    return (int(found[1]), int(found[2])) if found else None
 
 
 @dataclass(frozen=True, slots=True)
-class InFile:
+class ElementPlace:
     """Where an element is: the number of its file, and the byte offset in that file's text."""
 
     source: int
@@ -27,10 +74,187 @@ class SdfDocument(Document):
     bodies whose masses Gazebo computes of their collisions; digests: of mesh files that hold several pieces.
     """
 
-    sources: tuple[Source, ...]
-    authored: tuple[Authored, ...]
-    at: tuple[InFile, ...]
-    links: dict[str, InFile]
+    sources: tuple[SdfSource, ...]
+    authored: tuple[CollisionElement, ...]
+    at: tuple[ElementPlace, ...]
+    links: dict[str, ElementPlace]
     worlds: tuple[str, ...] = ()
     computed: tuple[str, ...] = ()
     digests: tuple[tuple[Path, str], ...] = ()
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class SdfSource:
+    """An authored file.
+
+    path: absolute; place: where an output has it, relative to the main file's folder, None for one that is included by
+    an absolute path; reference: as the `<include>` has it, empty for the main file; count: how often it is included.
+    """
+
+    path: Path
+    place: str | None
+    reference: str
+    raw: bytes
+    resolver: ModelResolver
+    count: int = 1
+
+    @property
+    def text(self) -> XmlText:
+        """The text in which offsets of elements count."""
+        return XmlText.of(self.raw)
+
+
+@dataclass(frozen=True, slots=True)
+class ModelResolver(Resolver):
+    """Finds what a file refers to, from its folder, upwards, and in the roots."""
+
+    def candidates(self, reference: str) -> Iterator[Path]:
+        """The places where the file may be; what no model of that name has may be in this one, under another name."""
+        reference = reference.strip()
+        rest = reference.removeprefix(_FILE)
+        if rest != reference and not rest.startswith("/"):  # Gazebo takes it for a path
+            yield self._join(self.folder, rest)
+        yield from Resolver.candidates(self, reference)
+        if model := _MODEL.fullmatch(reference):
+            yield self._join(self.folder, model[2])
+
+    def place(self, reference: str) -> str | None:
+        """Where the file goes in an output: what is in the model's own folder stays there."""
+        reference = reference.strip()
+        rest = reference.removeprefix(_FILE)
+        if rest != reference and not rest.startswith("/") and self.find(reference) == self._join(self.folder, rest):
+            return posixpath.normpath(rest)
+        model = _MODEL.fullmatch(reference)
+        if model and self._is_own(model[1], model[2]):
+            return posixpath.normpath(model[2])
+        return placement(reference)
+
+    def _is_own(self, name: str, rest: str) -> bool:
+        """Whether a model's file is, or is to be, in the folder itself."""
+        found = next((path for path in Resolver.candidates(self, f"model://{name}/{rest}") if is_file(path)), None)
+        if found is not None:
+            return found == self._join(self.folder, rest)
+        return self.folder.name == name or not any(home.is_dir() for home in self._homes(name))
+
+    def find_model_file(self, reference: str) -> Path | None:
+        """The file of a model that an `<include>` names: a file, or the folder of a model; None where it is not there.
+
+        Raises AssetError: the folder's `model.config` is no XML.
+        """
+        reference = reference.strip().rstrip("/")
+        if (path := next((p for p in Resolver.candidates(self, reference) if _exists(p, "file")), None)) is not None:
+            return path
+        for beside in self.candidates(f"{reference}/{CONFIG}"):
+            if _exists(beside.parent, "dir") and (path := find_main_file(beside.parent)) is not None:
+                return path
+        return None
+
+    def advise_on_model(self, reference: str) -> str:
+        """Where the model of an `<include>` was looked for, and what to do about it."""
+        is_folder = reference.strip().startswith("model:") and not _MODEL.fullmatch(reference.strip())
+        return self.advice(f"{reference.strip()}/model.sdf" if is_folder else reference)
+
+
+def _exists(path: Path, kind: str) -> bool:
+    try:
+        return path.is_file() if kind == "file" else path.is_dir()
+    except (OSError, ValueError):  # a name longer than those of files, or with a zero byte
+        return False
+
+
+def find_main_file(folder: Path) -> Path | None:
+    """The SDF file of a model's folder: that of the newest known version which `model.config` names, or `model.sdf`.
+
+    None where there is none. Raises AssetError: `model.config` is no XML.
+    """
+    named = sorted(read_versions(folder).items(), reverse=True)
+    names = [name for version, name in named if version <= NEWEST] or [name for _, name in named]
+    found = (Path(os.path.normpath(folder / name)) for name in (*names, _USUAL_NAME))
+    return next((path for path in found if is_file(path)), None)
+
+
+def is_main_file(path: Path) -> bool:
+    """Whether a file is the one of its folder's model, or none of those that `model.config` names."""
+    try:
+        named = read_versions(path.parent)
+        return path.name not in named.values() or find_main_file(path.parent) == path
+    except AssetError:
+        return True
+
+
+def read_versions(folder: Path) -> dict[tuple[int, int], str]:
+    """The files that a folder's `model.config` names, by the version of SDF they are in; none where there is none."""
+    path = folder / CONFIG
+    if not is_file(path):
+        return {}
+    try:
+        root = parse_xml(XmlText.of(path.read_bytes()).data, str(path))
+    except OSError as error:
+        raise AssetError(f"cannot be read: {error.strerror}", where=str(path)) from error
+    return {parse_version(e.attributes.get("version", "")) or (0, 0): e.text for e in root.each("sdf") if e.text}
+
+
+def parse_root(data: bytes, where: str) -> tuple[Element, Version]:
+    """The root element of an SDF text in UTF-8, and its version.
+
+    Raises AssetError: not well formed, of another kind, or of a version that is too old or not known.
+    """
+    root = parse_xml(data, where)
+    place = f"{where}:{root.line}"
+    if root.tag not in ("sdf", "gazebo"):
+        remedy = "It is a URDF: name it .urdf, or convert it first." if root.tag == "robot" else None
+        raise AssetError(f"is no SDF: its root element is <{root.tag}>, not <sdf>", where=place, remedy=remedy)
+    text = root.attributes.get("version", "")
+    version = parse_version(text)
+    if version is None:
+        problem = f"version={text!r} of this <sdf> is no version" if text else "this <sdf> has no version"
+        raise AssetError(problem, where=place, remedy='Give it one, as in <sdf version="1.7">.')
+    if not version >= OLDEST or version[0] != NEWEST[0]:
+        known = f"{'.'.join(map(str, OLDEST))} to {'.'.join(map(str, NEWEST))}"
+        raise AssetError(f"SDF {text} is not read, only {known}", where=place, remedy="Convert it: gz sdf -p FILE.")
+    return root, version
+
+
+def geometry_of(element: Element) -> Element | None:
+    """What the `<geometry>` of a collision or visual holds, None where there is nothing."""
+    geometry = element.first("geometry")
+    if geometry is None or not geometry.children:
+        return None
+    return next((child for child in geometry.children if child.tag in GEOMETRY_TAGS), geometry.children[0])
+
+
+def mesh_uri(mesh: Element) -> str:
+    """The reference of a `<mesh>`; up to version 1.2 it was called `<filename>`."""
+    found = mesh.first("uri") or mesh.first("filename")
+    return found.text if found else ""
+
+
+def references(root: Element) -> list[str]:
+    """Every mesh and texture that a file refers to, in order of mention, each once; not what Gazebo brings along."""
+    return [text for text in dict.fromkeys(_iterate_references(root)) if text and not text.startswith(_BUILT_IN)]
+
+
+def _iterate_references(root: Element) -> Iterator[str]:
+    for element in root.walk():
+        if element.tag == "mesh":
+            yield mesh_uri(element)
+        elif element.tag in ("heightmap", "image"):
+            uri = element.first("uri")
+            yield uri.text if uri else ""
+        elif element.tag in _MAPS and parse_numbers(element.text) is None:  # <diffuse> is a colour, too
+            yield element.text
+
+
+def find_scripts(source: SdfSource) -> Iterator[tuple[str, Path]]:
+    """The files of material scripts: how a file refers to each, or to the folder of it, and where it is."""
+    root, _ = parse_root(source.text.data, str(source.path))
+    scripts = (element for element in root.walk() if element.tag == "script")
+    found = dict.fromkeys(uri.text for script in scripts for uri in script.each("uri"))
+    for reference in (text for text in found if text and not text.startswith(_BUILT_IN)):
+        if (path := source.resolver.find(reference)) is not None:
+            yield reference, path
+            continue
+        folder = next((path for path in source.resolver.candidates(reference) if path.is_dir()), None)
+        if folder is not None:
+            inside = sorted(path for path in folder.iterdir() if path.is_file())
+            yield from ((f"{reference.rstrip('/')}/{path.name}", path) for path in inside[:_MOST_SCRIPTS])

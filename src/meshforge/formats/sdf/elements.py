@@ -1,84 +1,145 @@
-"""XML text of SDF elements: poses, shapes, collisions, and the edits that give a copy of one another geometry."""
+"""XML text of SDF elements: collisions new or edited, joints, masses and visuals."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from typing import assert_never
 
-from meshforge.formats.sdf.files.elements import geometry_of
-from meshforge.formats.xml import Element, Splice, escaped, indent, newline, removed, shown
-from meshforge.geometry import Box, Capsule, Cylinder, Ellipsoid, Floats, Pose, Sphere
+import numpy as np
 
-Native = Box | Capsule | Cylinder | Ellipsoid | Sphere
+from meshforge.formats.kinematic_tree import LinkJoint, drop_rounding, name_moments, place_inertial
+from meshforge.formats.mesh_output import LinkVisual
+from meshforge.formats.sdf.document import geometry_of
+from meshforge.formats.xml import Element, Splice, escape, format_numbers, indent_of, newline_of, remove_element
+from meshforge.geometry import Box, Capsule, Cylinder, Ellipsoid, Floats, Pose, Sphere
+from meshforge.symbolic import Inertial
+
+SdfShape = Box | Capsule | Cylinder | Ellipsoid | Sphere
 """The shapes that SDF has of its own and MeshForge knows, the round ones from 1.8 on."""
 STEP = b"  "
+
+_ENDLESS = (-1e16, 1e16)
+"""Limits that stand for none, which PyBullet asks for."""
 
 
 def leaf(tag: str, text: str) -> bytes:
     """An element that holds a text."""
-    return b"<%s>%s</%s>" % (tag.encode(), escaped(text), tag.encode())
+    return b"<%s>%s</%s>" % (tag.encode(), escape(text), tag.encode())
 
 
-def nested(tag: str, *inside: bytes) -> list[bytes]:
+def _number_leaf(tag: str, number: float) -> bytes:
+    return leaf(tag, format_numbers([number]))
+
+
+def nest(tag: str, *inside: bytes) -> list[bytes]:
     """The lines of an element that holds others, each line of which is indented."""
     return [b"<%s>" % tag.encode(), *(STEP + line for line in inside), b"</%s>" % tag.encode()]
 
 
 def pose_leaf(pose: Pose) -> bytes:
     """The element of a pose, its numbers in full precision."""
-    return leaf("pose", shown([*pose.translation, *pose.to_rpy()]))
+    return leaf("pose", format_numbers([*pose.translation, *pose.to_rpy()]))
 
 
-def native_lines(shape: Native) -> list[bytes]:
+def native_lines(shape: SdfShape) -> list[bytes]:
     """The lines of the element of a native shape, without its pose."""
     match shape:
         case Box():
-            inside = [leaf("size", shown(2 * shape.half))]
+            inside = [leaf("size", format_numbers(2 * shape.half))]
         case Ellipsoid():
-            inside = [leaf("radii", shown(shape.radii))]
+            inside = [leaf("radii", format_numbers(shape.radii))]
         case Sphere():
-            inside = [leaf("radius", shown([shape.radius]))]
+            inside = [_number_leaf("radius", shape.radius)]
         case Cylinder() | Capsule():
-            inside = [leaf("radius", shown([shape.radius])), leaf("length", shown([2 * shape.half_length]))]
+            inside = [_number_leaf("radius", shape.radius), _number_leaf("length", 2 * shape.half_length)]
         case _:
             assert_never(shape)
-    return nested(shape.kind, *inside)
+    return nest(shape.kind, *inside)
 
 
 def mesh_lines(reference: str, scale: Floats | None = None) -> list[bytes]:
     """The lines of the element of a mesh file in metres."""
-    scaled = [] if scale is None else [leaf("scale", shown(scale))]
-    return nested("mesh", leaf("uri", reference), *scaled)
+    scaled = [] if scale is None else [leaf("scale", format_numbers(scale))]
+    return nest("mesh", leaf("uri", reference), *scaled)
 
 
-def fresh(pose: Pose, kind: Sequence[bytes], lead: bytes, line_end: bytes) -> bytes:
+def build_collision(pose: Pose, kind: Sequence[bytes], lead: bytes, line_end: bytes) -> bytes:
     """A `<collision>` without a name, whose lines but the first are indented by `lead`."""
-    return (line_end + lead).join(nested("collision", pose_leaf(pose), *nested("geometry", *kind)))
+    return (line_end + lead).join(nest("collision", pose_leaf(pose), *nest("geometry", *kind)))
 
 
-def reshaped(data: bytes, collision: Element, pose: Pose, kind: Sequence[bytes]) -> tuple[Splice, ...]:
+def replace_geometry(data: bytes, collision: Element, pose: Pose, kind: Sequence[bytes]) -> tuple[Splice, ...]:
     """The edits that give a copy of a collision another pose and geometry, all else of it being inherited."""
     geometry, old = collision.first("geometry"), geometry_of(collision)
     assert geometry is not None and old is not None  # only elements with pieces are copied
-    lead = indent(data, old.start)
-    gap = newline(data) + lead if lead is not None else b""
-    others = (removed(data, child) for child in geometry.children if child.tag == "polyline" and child is not old)
-    return (_moved(data, collision, geometry, pose), Splice(old.start, old.end, gap.join(kind)), *others)
+    lead = indent_of(data, old.start)
+    gap = newline_of(data) + lead if lead is not None else b""
+    others = (
+        remove_element(data, child) for child in geometry.children if child.tag == "polyline" and child is not old
+    )
+    return (_replace_pose(data, collision, geometry, pose), Splice(old.start, old.end, gap.join(kind)), *others)
 
 
-def refiled(data: bytes, mesh: Element, reference: str) -> tuple[Splice, ...]:
+def replace_mesh_file(data: bytes, mesh: Element, reference: str) -> tuple[Splice, ...]:
     """The edits that give a copy of a mesh another file, of the same scale and place, which is used whole."""
     uri, submesh = mesh.first("uri") or mesh.first("filename"), mesh.first("submesh")
-    assert uri is not None  # only meshes have pieces to be parted
+    assert uri is not None  # only meshes have several pieces
     new = Splice(uri.start, uri.end, leaf(uri.tag, reference))
-    return (new, removed(data, submesh)) if submesh else (new,)
+    return (new, remove_element(data, submesh)) if submesh else (new,)
 
 
-def _moved(data: bytes, collision: Element, geometry: Element, pose: Pose) -> Splice:
+def _replace_pose(data: bytes, collision: Element, geometry: Element, pose: Pose) -> Splice:
     """The edit that gives a collision another pose in its link."""
     old = collision.first("pose")
     if old is not None:
         return Splice(old.start, old.end, pose_leaf(pose))
-    lead = indent(data, geometry.start)
-    gap = newline(data) + lead if lead is not None else b""
+    lead = indent_of(data, geometry.start)
+    gap = newline_of(data) + lead if lead is not None else b""
     return Splice(geometry.start, geometry.start, pose_leaf(pose) + gap)
+
+
+def nest_with_name(tag: str, name: str, *inside: bytes, more: bytes = b"") -> list[bytes]:
+    """The lines of an element with a name; more: further attributes."""
+    first, *rest = nest(tag, *inside)
+    return [first[:-1] + b' name="%s"%s>' % (escape(name), more), *rest]
+
+
+def joint_lines(made: LinkJoint, parent: str, child: str) -> list[bytes]:
+    """The lines of a `<joint>`, whose frame is that of its child."""
+    joint = made.joint
+    kind = joint.kind if joint else "fixed"
+    inside = [leaf("parent", parent), leaf("child", child)]
+    if joint and kind in ("revolute", "prismatic"):
+        lower, upper = joint.limits or _ENDLESS
+        most = (("effort", joint.effort), ("velocity", joint.velocity))
+        losses = (("damping", joint.damping), ("friction", joint.friction))
+        limit = [_number_leaf("lower", lower), _number_leaf("upper", upper)]
+        limit += [_number_leaf(tag, number) for tag, number in most if number]
+        dynamics = [_number_leaf(tag, number) for tag, number in losses if number]
+        axis = [leaf("xyz", format_numbers(drop_rounding(made.axis))), *nest("limit", *limit)]
+        inside += nest("axis", *axis, *(nest("dynamics", *dynamics) if dynamics else []))
+    return nest_with_name("joint", made.name, *inside, more=b' type="%s"' % kind.encode())
+
+
+def inertial_lines(inertial: Inertial, root_t_link: Pose) -> list[bytes]:
+    """The lines of an `<inertial>`, its axes those of the link."""
+    centre, tensor = place_inertial(inertial, root_t_link)
+    moments = nest("inertia", *(_number_leaf(name, value) for name, value in name_moments(tensor)))
+    return nest("inertial", pose_leaf(Pose.of_translation(centre)), _number_leaf("mass", inertial.mass), *moments)
+
+
+def visual_lines(name: str, visual: LinkVisual, reference: str | None) -> list[bytes]:
+    """The lines of a `<visual>`; reference: the mesh file of a shape that SDF lacks."""
+    if isinstance(visual.what, SdfShape):
+        pose, kind = visual.what.pose, native_lines(visual.what)
+    else:
+        file = visual.what if isinstance(visual.what, str) else reference
+        assert file is not None  # made for every shape that is not native
+        scale = None if np.array_equal(visual.scale, np.ones(3)) else visual.scale
+        pose, kind = visual.pose, mesh_lines(file, scale)
+    inside = [pose_leaf(pose), *nest("geometry", *kind)]
+    if visual.rgba:
+        color = format_numbers(visual.rgba)
+        inside += nest("material", leaf("ambient", color), leaf("diffuse", color))
+        inside += [_number_leaf("transparency", 1 - visual.rgba[3])] if visual.rgba[3] < 1 else []
+    return nest_with_name("visual", name, *inside)

@@ -6,136 +6,134 @@ from pathlib import Path
 
 import numpy as np
 
-from meshforge.asset import Asset, Opaque, What
-from meshforge.formats.base import Output
-from meshforge.formats.chain import Chain, Rules, chain_of
-from meshforge.formats.element_names import settle
-from meshforge.formats.hull_files import HullFiles
-from meshforge.formats.losses import Loss
-from meshforge.formats.mesh_parts import is_flat
-from meshforge.formats.slots import Slot
-from meshforge.formats.urdf.elements import fresh, mesh_tag
-from meshforge.formats.urdf.features import MESHES
-from meshforge.formats.urdf.made import Maker
-from meshforge.formats.urdf.moving import ENDLESS, LIGHT, inertial_element, joint_element, visual_element
-from meshforge.formats.visual_files import VisualFiles
-from meshforge.formats.visuals import visuals_of
-from meshforge.formats.xml import escaped
+from meshforge.common import join_names, pluralize
+from meshforge.formats.base import Loss, Output
+from meshforge.formats.collision_pieces import is_flat
+from meshforge.formats.kinematic_tree import LIGHT_INERTIAL, JointRules, KinematicChain, build_chain
+from meshforge.formats.mesh_output import HullFiles, VisualFiles
+from meshforge.formats.slots import Slot, assign_names
+from meshforge.formats.urdf.edit import UrdfElementMaker
+from meshforge.formats.urdf.elements import (
+    UNLIMITED_TRAVEL,
+    build_collision,
+    inertial_lines,
+    joint_lines,
+    mesh_tag,
+    visual_lines,
+)
+from meshforge.formats.visuals import unreadable_visuals, visuals_of
+from meshforge.formats.xml import escape
 from meshforge.geometry import Box, Cylinder, Pose, Shape, Sphere
-from meshforge.words import counted, listed
+from meshforge.symbolic import Asset, FeatureKind, Opaque
+
+VISUAL_SUFFIXES = (".obj", ".stl", ".dae")
+"""The mesh files that ROS, PyBullet and others read."""
 
 _LEAD = b"    "
-_RULES = Rules(("fixed", "revolute", "prismatic", "floating", "planar"))
+_RULES = JointRules(("fixed", "revolute", "prismatic", "floating", "planar"))
 
 
 def create_urdf(asset: Asset, name: str) -> Output:
     """The files of an asset that came from another format.
 
     Bodies become links, each with its frame on the joint that leads to it, so that at zero all is where it was; hulls
-    become native shapes or mesh files, opaque pieces meshes as they are.
+    become native shapes or mesh files, non-convex pieces meshes as they are.
     """
-    return _Creator(asset, Path(name).stem).output()
+    return _Creator(asset, Path(name).stem).build_output()
 
 
 class _Creator:
     def __init__(self, asset: Asset, stem: str) -> None:
         self.asset, self.stem = asset, stem
-        self.maker = Maker(b"", b"\n", HullFiles(stem))
-        self.visuals = VisualFiles(self.maker.files, lambda mesh: mesh.suffix.lower() in MESHES)
+        self.maker = UrdfElementMaker(b"", b"\n", HullFiles(stem))
+        self.visuals = VisualFiles(self.maker.files, lambda mesh: mesh.suffix.lower() in VISUAL_SUFFIXES)
         self.inertials = {inertial.body: inertial for inertial in asset.mechanism.inertials}
         self.lost: list[Loss] = []
-        shown = visuals_of(asset)
-        self.visuals.gather(shown)
-        used = {g.body for g in asset.geoms} | {o.body for o in asset.opaque} | {body for body, _ in shown}
+        visuals = visuals_of(asset)
+        self.visuals.gather(visuals)
+        used = {g.body for g in asset.geoms} | {o.body for o in asset.opaque} | {body for body, _ in visuals}
         bare = [body.name for body in asset.bodies if body.name not in used | set(self.inertials)]
-        self.chain: Chain = chain_of(asset, bare, _RULES)
-        self.slots = self._slots()
-        self.shown = {link: self._visuals(link) for link in self.chain.frames}
+        self.chain: KinematicChain = build_chain(asset, bare, _RULES)
+        self.slots = self._build_slots()
+        self.visual_lines = {link: self._build_visuals(link) for link in self.chain.frames}
 
-    def output(self) -> Output:
-        names = settle([slot for own in self.slots.values() for slot in own])
-        head = [b'<?xml version="1.0"?>', b'<robot name="%s">' % escaped(self.stem)]
-        links = [line for link in self.chain.frames for line in self._link(link)]
-        joints = [line for joint in self.chain.joints for line in joint_element(joint)]
+    def build_output(self) -> Output:
+        names = assign_names([slot for own in self.slots.values() for slot in own])
+        head = [b'<?xml version="1.0"?>', b'<robot name="%s">' % escape(self.stem)]
+        links = [line for link in self.chain.frames for line in self._link_lines(link)]
+        joints = [line for joint in self.chain.joints for line in joint_lines(joint)]
         main = b"\n".join([*head, *links, *joints, b"</robot>", b""])
-        if self.visuals.refused:
-            refused = tuple(dict.fromkeys(self.visuals.refused))
-            self.lost.append(Loss(What.VISUALS, refused, "their files cannot be read"))
-        lost = (*self.chain.lost, *self.lost)
-        return Output(main, dict(self.maker.files.made), self.visuals.copies, self._notes(), names, lost)
+        lost = (*self.chain.lost, *self.lost, *unreadable_visuals(self.visuals.refused))
+        return Output(main, dict(self.maker.files.made), self.visuals.copies, self._collect_notes(), names, lost)
 
-    def _slots(self) -> dict[str, list[Slot]]:
+    def _build_slots(self) -> dict[str, list[Slot]]:
         slots: dict[str, list[Slot]] = {link: [] for link in self.chain.frames}
         for geom in self.asset.geoms:
             link = self.chain.of_body[geom.body]
-            slots[link].append(self.maker.slot(geom, self.chain.frames[link], None, _LEAD))
+            slots[link].append(self.maker.make_slot(geom, self.chain.frames[link], None, _LEAD))
         for piece in self.asset.opaque:
             link = self.chain.of_body[piece.body]
-            slots[link] += self._opaque(piece, self.chain.frames[link])
+            slots[link] += self._build_opaque(piece, self.chain.frames[link])
         return slots
 
-    def _opaque(self, piece: Opaque, root_t_link: Pose) -> list[Slot]:
-        """The element of an opaque piece; none where it has no surface, or a flat one, which engines refuse."""
+    def _build_opaque(self, piece: Opaque, root_t_link: Pose) -> list[Slot]:
+        """The element of a non-convex piece; none where it has no surface, or a flat one, which engines refuse."""
         surface = piece.surface
         if surface is None or piece.plane is not None:
             return []
         if not len(surface.faces) or is_flat(surface.vertices):
-            self.lost.append(Loss(What.OPAQUE, (piece.name,), "engines refuse a mesh that is flat"))
+            self.lost.append(Loss(FeatureKind.OPAQUE, (piece.name,), "engines refuse a mesh that is flat"))
             return []
         vertices = root_t_link.inverse().apply(np.asarray(surface.vertices))
         tag = mesh_tag(self.maker.files.add(piece.name, "", vertices, surface.faces))
-        return [Slot(piece.body, (piece.name,), text=fresh(Pose.identity(), tag, _LEAD, b"\n"))]
+        return [Slot(piece.body, (piece.name,), text=build_collision(Pose.identity(), tag, _LEAD, b"\n"))]
 
-    def _visuals(self, link: str) -> list[bytes]:
+    def _build_visuals(self, link: str) -> list[bytes]:
         lines = []
         for body, visual in visuals_of(self.asset):
             if self.chain.of_body[body] == link:
-                shown = self.visuals.shown(body, visual, self.chain.frames[link])
-                if shown is not None:
-                    lines += visual_element(shown, self._mesh_of(body, shown.what))
+                placed = self.visuals.add_visual(body, visual, self.chain.frames[link])
+                if placed is not None:
+                    lines += visual_lines(placed, self._add_mesh(body, placed.what))
         return lines
 
-    def _mesh_of(self, body: str, shape: Shape | str) -> str | None:
-        """The file of a shown shape that URDF lacks."""
+    def _add_mesh(self, body: str, shape: Shape | str) -> str | None:
+        """The file of a visual shape that URDF lacks."""
         if isinstance(shape, str | Box | Cylinder | Sphere):
             return None
         return self.maker.files.add(f"{body}-visual", "", shape.vertices, shape.faces)
 
-    def _link(self, link: str) -> list[bytes]:
+    def _link_lines(self, link: str) -> list[bytes]:
         body = next((body for body, own in self.chain.of_body.items() if own == link), None)
-        inertial = self.inertials.get(body) if body else LIGHT if link in self.chain.light else None
+        inertial = self.inertials.get(body) if body else LIGHT_INERTIAL if link in self.chain.light else None
         frame = self.chain.frames[link] if body else Pose.identity()
-        inside = inertial_element(inertial, frame) if inertial else []
-        inside += [*self.shown[link], *(_LEAD + slot.written(b"") for slot in self.slots[link])]
+        inside = inertial_lines(inertial, frame) if inertial else []
+        inside += [*self.visual_lines[link], *(_LEAD + slot.to_bytes(b"") for slot in self.slots[link])]
         if not inside:
-            return [b'  <link name="%s"/>' % escaped(link)]
-        return [b'  <link name="%s">' % escaped(link), *inside, b"  </link>"]
+            return [b'  <link name="%s"/>' % escape(link)]
+        return [b'  <link name="%s">' % escape(link), *inside, b"  </link>"]
 
-    def _notes(self) -> tuple[str, ...]:
-        """What engines make of what is not told in the file."""
+    def _collect_notes(self) -> tuple[str, ...]:
+        """What engines make of what the file does not say."""
         notes = list(self.chain.notes)
-        opaque = [
-            name for slots in self.slots.values() for slot in slots for name in slot.names if self._is_opaque(name)
-        ]
+        pieces = {piece.name for piece in self.asset.opaque}
+        opaque = [name for own in self.slots.values() for slot in own for name in slot.names if name in pieces]
         if opaque:
-            notes.append(f"of opaque pieces ({listed(opaque, 3)}) engines take the convex hull")
-        unlimited = [
-            j.name for j in self.chain.joints if j.joint and j.joint.kind == "prismatic" and not j.joint.limits
-        ]
+            notes.append(f"of non-convex pieces ({join_names(opaque, 3)}) engines take the convex hull")
+        sliding = [made for made in self.chain.joints if made.joint and made.joint.kind == "prismatic"]
+        unlimited = join_names([made.name for made in sliding if made.joint and not made.joint.limits], 3)
         if unlimited:
             notes.append(
-                f"prismatic joints without limits ({listed(unlimited, 3)}) are limited to {ENDLESS:g} m each way"
+                f"prismatic joints without limits ({unlimited}) are limited to {UNLIMITED_TRAVEL:g} m each way"
             )
         if self.chain.light:
-            notes.append(f"links of {LIGHT.mass:g} kg stand between joints of one body ({listed(self.chain.light, 3)})")
+            light = join_names(self.chain.light, 3)
+            notes.append(f"links of {LIGHT_INERTIAL.mass:g} kg stand between joints of one body ({light})")
         heavy = {*self.inertials, *self.chain.light, "world"}  # of that name, PyBullet knows that it has no mass
         weightless = [link for link in self.chain.frames if link not in heavy]
         if weightless:
             notes.append(
-                f"{counted(len(weightless), 'link')} without a mass ({listed(weightless, 3)}): PyBullet takes 1 kg, "
-                "MuJoCo computes it from the hulls"
+                f"{pluralize(len(weightless), 'link')} without a mass ({join_names(weightless, 3)}): PyBullet takes "
+                "1 kg, MuJoCo computes it from the hulls"
             )
         return tuple(notes)
-
-    def _is_opaque(self, name: str) -> bool:
-        return any(piece.name == name for piece in self.asset.opaque)

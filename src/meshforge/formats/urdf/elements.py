@@ -1,86 +1,148 @@
-"""XML text of collision elements: new ones, and copies of authored ones with another geometry."""
+"""XML text of URDF elements: collisions new or edited, joints, masses and visuals."""
 
 from __future__ import annotations
 
 from typing import assert_never
 
-from meshforge.formats.urdf.shapes import geometry_of
-from meshforge.formats.xml import Element, Splice, attribute, escaped, indent, newline, shown
-from meshforge.geometry import Box, Cylinder, Pose, Sphere
+import numpy as np
 
-Native = Box | Cylinder | Sphere
+from meshforge.formats.kinematic_tree import LinkJoint, drop_rounding, name_moments, place_inertial
+from meshforge.formats.mesh_output import LinkVisual
+from meshforge.formats.urdf.document import geometry_of
+from meshforge.formats.xml import Element, Splice, escape, format_numbers, indent_of, newline_of, set_attribute
+from meshforge.geometry import Box, Cylinder, Pose, Sphere
+from meshforge.symbolic import Inertial
+
+UrdfShape = Box | Cylinder | Sphere
 """The shapes that every reader of URDF knows."""
 
+UNLIMITED_TRAVEL = 1000.0  # [m] either way, for a prismatic joint without limits, which URDF does not know
+_UNKNOWN_MAXIMUM = 1000.0  # [N, Nm, m/s, rad/s], for joints of which no largest effort or velocity is known
 
-def native_tag(shape: Native) -> bytes:
+
+def native_tag(shape: UrdfShape) -> bytes:
     """The element of a native shape, without its pose."""
     match shape:
         case Box():
-            return b'<box size="%s"/>' % _number(*2 * shape.half)
+            return b'<box size="%s"/>' % _text_of(*2 * shape.half)
         case Cylinder():
-            return b'<cylinder radius="%s" length="%s"/>' % (_number(shape.radius), _number(2 * shape.half_length))
+            return b'<cylinder radius="%s" length="%s"/>' % (_text_of(shape.radius), _text_of(2 * shape.half_length))
         case Sphere():
-            return b'<sphere radius="%s"/>' % _number(shape.radius)
+            return b'<sphere radius="%s"/>' % _text_of(shape.radius)
         case _:
             assert_never(shape)
 
 
 def mesh_tag(reference: str) -> bytes:
     """The element of a mesh file in metres."""
-    return b'<mesh filename="%s"/>' % escaped(reference)
+    return b'<mesh filename="%s"/>' % escape(reference)
 
 
 def origin_tag(pose: Pose) -> bytes:
     """The element of a pose, its numbers in full precision."""
-    return b'<origin xyz="%s" rpy="%s"/>' % (_number(*pose.translation), _number(*pose.to_rpy()))
+    return b'<origin xyz="%s" rpy="%s"/>' % (_text_of(*pose.translation), _text_of(*pose.to_rpy()))
 
 
-def fresh(pose: Pose, tag: bytes, lead: bytes, line_end: bytes) -> bytes:
+def build_collision(pose: Pose, tag: bytes, lead: bytes, line_end: bytes) -> bytes:
     """A `<collision>` without a name, whose lines but the first are indented by `lead`."""
-    lines = [
-        b"<collision>",
-        b"  " + origin_tag(pose),
-        b"  <geometry>",
-        b"    " + tag,
-        b"  </geometry>",
-        b"</collision>",
-    ]
-    return (line_end + lead).join(lines)
+    return (line_end + lead).join(
+        [b"<collision>", *(b"  " + line for line in _place_lines(pose, tag)), b"</collision>"]
+    )
 
 
-def reshaped(data: bytes, collision: Element, pose: Pose, tag: bytes) -> tuple[Splice, ...]:
+def _place_lines(pose: Pose, tag: bytes) -> list[bytes]:
+    """The lines of what collisions and visuals hold."""
+    return [origin_tag(pose), b"<geometry>", b"  " + tag, b"</geometry>"]
+
+
+def replace_geometry(data: bytes, collision: Element, pose: Pose, tag: bytes) -> tuple[Splice, ...]:
     """The edits that give a copy of a collision element another pose and geometry, all else of it being inherited."""
     kind = geometry_of(collision)
     assert kind is not None  # only elements with pieces are copied
-    return _moved(data, collision, pose), Splice(kind.start, kind.end, tag)
+    return _replace_origin(data, collision, pose), Splice(kind.start, kind.end, tag)
 
 
-def remeshed(data: bytes, collision: Element, pose: Pose, reference: str) -> tuple[Splice, ...]:
-    """The same for a hull in a mesh file in metres: where the element has a mesh, its other attributes stay."""
+def replace_mesh(data: bytes, collision: Element, pose: Pose, reference: str) -> tuple[Splice, ...]:
+    """The edits that give a copy a mesh file in metres: where the element has a mesh, its other attributes stay."""
     kind = geometry_of(collision)
     if kind is None or kind.tag != "mesh":
-        return reshaped(data, collision, pose, mesh_tag(reference))
-    scale = [attribute(data, kind, "scale", None)] if "scale" in kind.attributes else []
-    return (_moved(data, collision, pose), attribute(data, kind, "filename", reference), *scale)
+        return replace_geometry(data, collision, pose, mesh_tag(reference))
+    scale = [set_attribute(data, kind, "scale", None)] if "scale" in kind.attributes else []
+    return (_replace_origin(data, collision, pose), set_attribute(data, kind, "filename", reference), *scale)
 
 
-def refiled(data: bytes, collision: Element, reference: str) -> tuple[Splice, ...]:
+def replace_mesh_file(data: bytes, collision: Element, reference: str) -> tuple[Splice, ...]:
     """The edits that give a copy of a mesh collision another mesh file, of the same unit, scale and place."""
     kind = geometry_of(collision)
-    assert kind is not None  # only meshes have pieces to be parted
-    return (attribute(data, kind, "filename", reference),)
+    assert kind is not None  # only meshes have several pieces
+    return (set_attribute(data, kind, "filename", reference),)
 
 
-def _moved(data: bytes, collision: Element, pose: Pose) -> Splice:
+def _replace_origin(data: bytes, collision: Element, pose: Pose) -> Splice:
     """The edit that gives an element another origin."""
     origin, geometry = collision.first("origin"), collision.first("geometry")
     if origin is not None:
         return Splice(origin.start, origin.end, origin_tag(pose))
     assert geometry is not None
-    lead = indent(data, geometry.start)
-    gap = newline(data) + lead if lead is not None else b""
+    lead = indent_of(data, geometry.start)
+    gap = newline_of(data) + lead if lead is not None else b""
     return Splice(geometry.start, geometry.start, origin_tag(pose) + gap)
 
 
-def _number(*values: float) -> bytes:
-    return shown(values).encode()
+def joint_lines(made: LinkJoint) -> list[bytes]:
+    """The lines of a `<joint>`."""
+    joint = made.joint
+    kind = joint.kind if joint else "fixed"
+    type_ = "continuous" if joint and kind == "revolute" and joint.limits is None else kind
+    lines = [
+        b'  <joint name="%s" type="%s">' % (escape(made.name), type_.encode()),
+        b"    " + origin_tag(made.pose),
+        b'    <parent link="%s"/>' % escape(made.parent),
+        b'    <child link="%s"/>' % escape(made.child),
+    ]
+    if kind in ("revolute", "prismatic", "planar"):
+        lines.append(b'    <axis xyz="%s"/>' % _text_of(*drop_rounding(made.axis)))
+    if joint and kind in ("revolute", "prismatic"):
+        lower, upper = joint.limits or (-UNLIMITED_TRAVEL, UNLIMITED_TRAVEL)
+        range_ = b"" if type_ == "continuous" else b'lower="%s" upper="%s" ' % (_text_of(lower), _text_of(upper))
+        most = _text_of(joint.effort or _UNKNOWN_MAXIMUM), _text_of(joint.velocity or _UNKNOWN_MAXIMUM)
+        if range_ or joint.effort or joint.velocity:
+            lines.append(b'    <limit %seffort="%s" velocity="%s"/>' % (range_, *most))
+    if joint and (joint.damping or joint.friction):
+        losses = _text_of(joint.damping), _text_of(joint.friction)
+        lines.append(b'    <dynamics damping="%s" friction="%s"/>' % losses)
+    return [*lines, b"  </joint>"]
+
+
+def inertial_lines(inertial: Inertial, root_t_link: Pose) -> list[bytes]:
+    """The lines of an `<inertial>`, its axes those of the link."""
+    centre, tensor = place_inertial(inertial, root_t_link)
+    moments = b" ".join(b'%s="%s"' % (name.encode(), _text_of(value)) for name, value in name_moments(tensor))
+    return [
+        b"    <inertial>",
+        b"      " + origin_tag(Pose.of_translation(centre)),
+        b'      <mass value="%s"/>' % _text_of(inertial.mass),
+        b"      <inertia %s/>" % moments,
+        b"    </inertial>",
+    ]
+
+
+def visual_lines(visual: LinkVisual, reference: str | None = None) -> list[bytes]:
+    """The lines of a `<visual>`; reference: the mesh file of a shape that URDF lacks."""
+    if isinstance(visual.what, Box | Cylinder | Sphere):
+        pose, tag = visual.what.pose, native_tag(visual.what)
+    else:
+        file = visual.what if isinstance(visual.what, str) else reference
+        assert file is not None  # made for every shape that is not native
+        pose, tag = visual.pose, mesh_tag(file)
+        if not np.array_equal(visual.scale, np.ones(3)):
+            tag = tag[:-2] + b' scale="%s"/>' % _text_of(*visual.scale)
+    inside = _place_lines(pose, tag)
+    if visual.rgba:  # a material named by its numbers: equal names must be equal colours
+        color = _text_of(*visual.rgba)
+        inside.append(b'<material name="rgba %s"><color rgba="%s"/></material>' % (color, color))
+    return [b"    <visual>", *(b"      " + line for line in inside), b"    </visual>"]
+
+
+def _text_of(*values: float) -> bytes:
+    return format_numbers(values).encode()

@@ -1,31 +1,46 @@
-"""Reading a URDF: from its bytes to an asset."""
+"""Reading a URDF: from its bytes to an asset, with what its links show, other names of its collisions, and notes on
+what engines pass over."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 
-from meshforge.asset import Asset, Body, Mentions
-from meshforge.files import plain_path
+import numpy as np
+
+from meshforge.common import MeshForgeError, join_names, plain_path, pluralize
 from meshforge.formats.base import ReadOptions
 from meshforge.formats.collision_meshes import CollisionMeshes, MeshUse, refuse_missing
-from meshforge.formats.companions import companions
-from meshforge.formats.element_names import piece_names
-from meshforge.formats.element_pieces import geoms_of, opaque_of
-from meshforge.formats.element_plan import Authored
-from meshforge.formats.mesh_parts import MeshPart, mesh_parts
+from meshforge.formats.collision_pieces import (
+    CollisionPiece,
+    ShapeNames,
+    collect_mentions,
+    geoms_of,
+    opaque_of,
+    stem_of,
+)
+from meshforge.formats.companions import find_companions
+from meshforge.formats.mesh_reader import read_content
 from meshforge.formats.references import Resolver
-from meshforge.formats.triangles import contents
-from meshforge.formats.urdf.document import UrdfDocument
-from meshforge.formats.urdf.kinematics import Links, read_links
-from meshforge.formats.urdf.mechanism import read_mechanism
-from meshforge.formats.urdf.mentions import element_mentions
-from meshforge.formats.urdf.notes import notes
-from meshforge.formats.urdf.numbers import origin
-from meshforge.formats.urdf.robot import collisions, references, robot_of
-from meshforge.formats.urdf.shapes import geometry_of, mesh_scale, primitive
-from meshforge.formats.urdf.visuals import read_visuals
-from meshforge.formats.xml import Element, Text
+from meshforge.formats.slots import name_elements
+from meshforge.formats.urdf.document import (
+    UrdfDocument,
+    collisions,
+    geometry_of,
+    parse_robot,
+    read_floats,
+    read_origin,
+    references,
+)
+from meshforge.formats.urdf.mechanism import UrdfLinks, read_links, read_mechanism
+from meshforge.formats.urdf.shapes import read_mesh_scale, read_parts, read_primitive
+from meshforge.formats.visuals import Rgba, Visual, VisualSurfaces
+from meshforge.formats.xml import Element, XmlText
+from meshforge.geometry import Pose
+from meshforge.symbolic import Asset, Body, Mentions
+
+LinkCollisions = Sequence[tuple[str, Element]]  # of each `<collision>` the name of its link, and the element
 
 
 def read_urdf(path: Path, options: ReadOptions) -> Asset:
@@ -35,43 +50,37 @@ def read_urdf(path: Path, options: ReadOptions) -> Asset:
     tree, a collision mesh that is not there.
     """
     where = str(path)
-    source = contents(path)
-    robot = robot_of(Text.of(source).data, where)
+    source = read_content(path)
+    robot = parse_robot(XmlText.of(source).data, where)
     links = read_links(robot, where)
     resolver = Resolver(plain_path(path).parent, tuple(map(plain_path, options.package_roots)))
     meshes = CollisionMeshes()
     found = list(collisions(robot))
-    uses = _uses(found, resolver, where)
+    uses = _mesh_uses(found, resolver, where)
     refuse_missing(use for use in uses if use)
-    parts = _parts(found, uses, links, meshes, where)
-    authored = _authored(found, [len(own) for own in parts])
-    told = _mentions(found, links, [meshes.groups(use) for use in uses], parts)
-    files, missing = _files(robot, resolver)
+    parts = read_parts(found, uses, links, meshes, where)
+    authored = name_elements(found, [len(own) for own in parts])
+    mentions = _collect_mentions(found, links, [meshes.groups(use) for use in uses], parts)
+    files, missing = _find_files(robot, resolver)
     return Asset(
         path=path,
         format="urdf",
         bodies=tuple(Body(name, pose) for name, pose in links.poses.items()),
-        geoms=geoms_of(authored, parts, told),
+        geoms=geoms_of(authored, parts, mentions),
         document=UrdfDocument(source, authored, resolver, meshes.digests()),
-        opaque=opaque_of(authored, parts, told),
+        opaque=opaque_of(authored, parts, mentions),
         visuals=read_visuals(robot, links.elements, links.poses, resolver, where),
         files=files,
         missing=missing,
-        notes=notes(robot, links, found),
+        notes=tuple(collect_notes(robot, links, found)),
         mechanism=read_mechanism(robot, links),
     )
 
 
-def _authored(found: Sequence[tuple[str, Element]], pieces: Sequence[int]) -> tuple[Authored, ...]:
-    """The collision elements with the names of their pieces, of which each has so many."""
-    own = [(link, c.attributes.get("name"), count) for (link, c), count in zip(found, pieces, strict=True)]
-    return tuple(Authored(link, names) for (link, _, _), names in zip(own, piece_names(own), strict=True))
-
-
-def _uses(found: Sequence[tuple[str, Element]], resolver: Resolver, where: str) -> list[MeshUse | None]:
+def _mesh_uses(found: LinkCollisions, resolver: Resolver, where: str) -> list[MeshUse | None]:
     """The mesh file of each collision element, None where it has another geometry or none."""
     uses: list[MeshUse | None] = []
-    for element, (_, collision) in zip(_authored(found, [1] * len(found)), found, strict=True):
+    for element, (_, collision) in zip(name_elements(found, [1] * len(found)), found, strict=True):
         kind = geometry_of(collision)
         is_mesh = kind is not None and kind.tag == "mesh"
         reference = kind.attributes.get("filename", "").strip() if kind else ""
@@ -80,43 +89,21 @@ def _uses(found: Sequence[tuple[str, Element]], resolver: Resolver, where: str) 
     return uses
 
 
-def _parts(
-    found: Sequence[tuple[str, Element]],
-    uses: Sequence[MeshUse | None],
-    links: Links,
-    meshes: CollisionMeshes,
-    where: str,
-) -> list[list[MeshPart]]:
-    """The pieces of each collision element, in the root frame; none where it has no geometry."""
-    parts: list[list[MeshPart]] = []
-    for (link, collision), use in zip(found, uses, strict=True):
-        kind = geometry_of(collision)
-        pose = links.poses[link] @ origin(collision, where)
-        if kind is None:
-            parts.append([])
-        elif use is not None:
-            linear = pose.rotation * mesh_scale(kind, where, use.label)
-            parts.append(mesh_parts(meshes.pieces(use), linear, pose.translation))
-        else:
-            parts.append([primitive(kind, pose, where)])
-    return parts
-
-
-def _mentions(
-    found: Sequence[tuple[str, Element]],
-    links: Links,
+def _collect_mentions(
+    found: LinkCollisions,
+    links: UrdfLinks,
     groups: Sequence[Sequence[str | None]],
-    parts: Sequence[Sequence[MeshPart]],
+    parts: Sequence[Sequence[CollisionPiece]],
 ) -> list[list[Mentions]]:
     """What else is said of each piece of each collision element."""
-    told = []
+    mentions = []
     for (link, collision), named, own in zip(found, groups, parts, strict=True):
-        common = element_mentions(links.elements[link], collision)
-        told.append([(("group", group), *common) if group else common for group in named or [None] * len(own)])
-    return told
+        common = mentions_of_element(links.elements[link], collision)
+        mentions.append([(("group", group), *common) if group else common for group in named or [None] * len(own)])
+    return mentions
 
 
-def _files(robot: Element, resolver: Resolver) -> tuple[tuple[Path, ...], tuple[str, ...]]:
+def _find_files(robot: Element, resolver: Resolver) -> tuple[tuple[Path, ...], tuple[str, ...]]:
     """The referenced files that are there, with their companions, and the references that lead nowhere."""
     files: dict[Path, None] = {}
     missing = []
@@ -125,5 +112,100 @@ def _files(robot: Element, resolver: Resolver) -> tuple[tuple[Path, ...], tuple[
         if path is None:
             missing.append(reference)
         else:
-            files |= dict.fromkeys([path, *companions(path).values()])
+            files |= dict.fromkeys([path, *find_companions(path).values()])
     return tuple(files), tuple(missing)
+
+
+def read_visuals(
+    robot: Element, links: Mapping[str, Element], poses: Mapping[str, Pose], resolver: Resolver, where: str
+) -> VisualSurfaces:
+    """The visuals of all links; one that is not understood is left out, it never fails."""
+    colors = _read_colors(robot, where)
+    return VisualSurfaces(
+        tuple(
+            replace(visual, rgba=_read_color(element.first("material"), colors, where))
+            for name, link in links.items()
+            for element in link.each("visual")
+            for visual in _read_visual(name, element, poses[name], resolver, where)
+        )
+    )
+
+
+def _read_colors(robot: Element, where: str) -> dict[str, Rgba]:
+    """The colours of materials by their names, wherever in the file they stand."""
+    materials = (element for element in robot.walk() if element.tag == "material" and "name" in element.attributes)
+    found = ((material.attributes["name"], _read_color(material, {}, where)) for material in materials)
+    return {name: color for name, color in found if color is not None}
+
+
+def _read_color(material: Element | None, named: Mapping[str, Rgba], where: str) -> Rgba | None:
+    """The colour that a material says, or else the one of its name."""
+    if material is None:
+        return None
+    color = material.first("color")
+    if color is None:
+        return named.get(material.attributes.get("name", ""))
+    try:
+        red, green, blue, alpha = read_floats(color, "rgba", 4, where).tolist()
+    except MeshForgeError:
+        return None
+    return red, green, blue, alpha
+
+
+def _read_visual(link: str, element: Element, pose: Pose, resolver: Resolver, where: str) -> Iterator[Visual]:
+    kind = geometry_of(element)
+    if kind is None:
+        return
+    try:
+        at = pose @ read_origin(element, where)
+        if kind.tag != "mesh":
+            shape = read_primitive(kind, at, where).shape
+            if shape is not None:
+                yield Visual(link, shape, np.eye(3), np.zeros(3))
+        elif path := resolver.find(kind.attributes.get("filename", "")):
+            yield Visual(link, path, at.rotation * read_mesh_scale(kind, where, "visual"), at.translation)
+    except MeshForgeError:
+        return
+
+
+def mentions_of_element(link: Element, collision: Element) -> Mentions:
+    """What is said of a `<collision>` of a link."""
+    own = _names_of(collision)
+    shown = [named for visual in link.each("visual") if (named := _names_of(visual))]
+    return collect_mentions(own, shown) if own else ()
+
+
+def _names_of(element: Element) -> ShapeNames | None:
+    """The names of a collision or visual element; of a collision without its own, which its hulls have."""
+    kind = geometry_of(element)
+    if kind is None:
+        return None
+    material = element.first("material")
+    reference = kind.attributes.get("filename", "")
+    origin = element.first("origin")
+    place = tuple(sorted(origin.attributes.items())) if origin else ()
+    shape = reference or (kind.tag, tuple(sorted(kind.attributes.items())), place)
+    name = "" if element.tag == "collision" else element.attributes.get("name", "")
+    return ShapeNames(shape, name, stem_of(reference), material.attributes.get("name", "") if material else "")
+
+
+def collect_notes(robot: Element, links: UrdfLinks, found: LinkCollisions) -> Iterator[str]:
+    """Notes on links without a parent, xacro, and collision elements that engines pass over."""
+    if len(links.roots) > 1:
+        yield (
+            f"{len(links.roots)} links have no parent joint ({join_names(links.roots)}): each is taken at the origin, "
+            "as MuJoCo does; PyBullet cannot load such a file"
+        )
+    if xacro := [element.line for element in robot.walk() if element.tag.startswith("xacro:")]:
+        yield f"{pluralize(len(xacro), 'xacro element')} not expanded, the first on line {xacro[0]}: passed over"
+    known = {id(collision) for _, collision in found}
+    if stray := [e.line for e in robot.walk() if e.tag.lower() == "collision" and id(e) not in known]:
+        strays = f"{pluralize(len(stray), 'collision')} in no link"
+        yield f"{strays}, the first on line {stray[0]}: passed over, as by engines"
+    for link, collision in found:
+        place = f"a collision of link {link!r} on line {collision.line} has"
+        shapes = [len(geometry.children) for geometry in collision.each("geometry")]
+        if not shapes or not shapes[0]:
+            yield f"{place} no geometry and is left as it is"
+        elif sum(shapes) > 1:
+            yield f"{place} {sum(shapes)} shapes, of which one counts, as for engines"

@@ -1,15 +1,16 @@
-"""What an action is given and what it gives back: a group of hulls, and the edit of it."""
+"""What an action is given and what it gives back: hull templates, a group of hulls, and the edit of it."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import hashlib
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 
+from meshforge.common import ProgramError
 from meshforge.geometry import FLATNESS, Aabb, Floats, Shape
-from meshforge.language.template import Template, check_templates
 from meshforge.symbolic import Hull
 
 _EQUAL = 1e-9  # volumes of like hulls differ by rounding, which must not choose between them
@@ -17,7 +18,7 @@ _NO_EXTENT = 1e-9  # sides below this share of L are rounding, not extent
 
 
 @dataclass(frozen=True, eq=False)
-class Group:
+class HullGroup:
     """The hulls that an action edits at once: all of C, or one body or component of it.
 
     length: L of the run [m]; templates: by the paths that programs write.
@@ -61,7 +62,7 @@ class Group:
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class Made:
+class NewShape:
     """A shape that an edit makes; heir: the hull whose label, body and attributes it takes over.
 
     sources: the hulls it was made from.
@@ -73,14 +74,53 @@ class Made:
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class Edit:
+class GroupEdit:
     """What an action does to one group; removes: whether its hulls go."""
 
-    made: tuple[Made, ...] = ()
+    made: tuple[NewShape, ...] = ()
     removes: bool = True
     note: str | None = None
 
     @staticmethod
-    def inserting(shapes: tuple[Shape, ...], group: Group, *, removes: bool = True, note: str | None = None) -> Edit:
+    def insert(
+        shapes: tuple[Shape, ...], group: HullGroup, *, removes: bool = True, note: str | None = None
+    ) -> GroupEdit:
         """The edit that puts shapes made from the whole group into the mesh."""
-        return Edit(tuple(Made(shape, group.largest, group.hulls) for shape in shapes), removes, note)
+        return GroupEdit(tuple(NewShape(shape, group.largest, group.hulls) for shape in shapes), removes, note)
+
+
+@dataclass(frozen=True, eq=False)
+class Template:
+    """The convex shapes of one template file, in the file's own frame; name: the path as programs write it."""
+
+    shapes: tuple[Shape, ...]
+    name: str
+
+    def __post_init__(self) -> None:
+        if not self.shapes:
+            raise ProgramError("a template needs at least one convex hull, it has none", where=self.name)
+
+    @cached_property
+    def digest(self) -> str:
+        """Thirty-two hexadecimal digits of its shapes, to the last bit: what is made of it follows from them."""
+        data = hashlib.blake2b(digest_size=16)
+        for shape in self.shapes:
+            for part in (shape.kind.encode(), shape.vertices.tobytes(), shape.faces.tobytes()):
+                data.update(len(part).to_bytes(8, "little") + part)
+        return data.hexdigest()
+
+    @property
+    def aabb(self) -> Aabb:
+        """The box around all its shapes."""
+        return Aabb.union(shape.aabb for shape in self.shapes)
+
+
+def check_templates(wanted: Iterable[str], templates: Mapping[str, Template]) -> None:
+    """Raises ProgramError naming the first wanted template that is not among those given."""
+    for name in wanted:
+        if name not in templates:
+            known = ", ".join(sorted(templates)) or "none"
+            raise ProgramError(
+                f'there is no template "{name}" (templates given: {known})',
+                remedy="Templates are looked for beside the program, then in the folder templates/ beside it.",
+            )

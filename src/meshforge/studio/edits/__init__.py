@@ -1,4 +1,4 @@
-"""Every change that a person can make in the studio: one class each, with what it does and what it touches."""
+"""Every change that a person can make in the studio, one class each: what it does and which files it touches."""
 
 from __future__ import annotations
 
@@ -6,33 +6,26 @@ from typing import Annotated
 
 from pydantic import Field
 
-from meshforge.studio.edits.base import Edit
-from meshforge.studio.edits.demonstrating import DeleteRule, MoveRule, SetOrientation, SetSteps, StepText
-from meshforge.studio.edits.labels import LabelFromFiles, LabelFromNames, LabelHulls, RenameLabel, SetVocabulary
-from meshforge.studio.edits.learning import AnswerQuestion, SettleRepair, TakeBack, WriteProgram
-from meshforge.studio.edits.preparing import CutHull, Unprepare
-from meshforge.studio.edits.reviewing import CorrectByHand, DropCorrections, ReviewAssets
+from meshforge.studio.edits import assets, labels, program
 
 AnyEdit = Annotated[
-    LabelHulls
-    | LabelFromFiles
-    | LabelFromNames
-    | SetVocabulary
-    | RenameLabel
-    | SetSteps
-    | MoveRule
-    | DeleteRule
-    | SetOrientation
-    | AnswerQuestion
-    | SettleRepair
-    | TakeBack
-    | WriteProgram
-    | CutHull
-    | Unprepare
-    | ReviewAssets
-    | CorrectByHand
-    | DropCorrections,
+    labels.LabelHulls
+    | labels.LabelFromFiles
+    | labels.LabelFromNames
+    | labels.SetVocabulary
+    | labels.RenameLabel
+    | program.SetSteps
+    | program.MoveRule
+    | program.DeleteRule
+    | program.SetOrientation
+    | program.AnswerQuestion
+    | program.SettleRepair
+    | program.TakeBack
+    | program.WriteProgram
+    | assets.CutHull
+    | assets.Unprepare
+    | assets.ReviewAssets
+    | assets.CorrectByHand
+    | assets.DropCorrections,
     Field(discriminator="kind"),
 ]
-
-__all__ = ["AnyEdit", "Edit", "StepText"]

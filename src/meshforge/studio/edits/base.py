@@ -1,15 +1,13 @@
-"""What every edit has in common."""
+"""The base of all edits, and versions of what pages edit as a whole, so that no page overwrites unseen changes."""
 
 from __future__ import annotations
 
 from abc import abstractmethod
 from pathlib import Path
-from typing import TYPE_CHECKING
 
-from meshforge.studio.wire.base import Wire
-
-if TYPE_CHECKING:
-    from meshforge.project import Project
+from meshforge.batch import file_digest
+from meshforge.project import Project
+from meshforge.studio.wire import Wire
 
 
 class Edit(Wire):
@@ -23,13 +21,39 @@ class Edit(Wire):
         """Make the change; on disk when this returns. Raises MeshForgeError, with nothing changed."""
 
     @abstractmethod
-    def touches(self, project: Project) -> tuple[Path, ...]:
+    def list_paths(self, project: Project) -> tuple[Path, ...]:
         """The files and folders that `apply` may change."""
 
     @abstractmethod
-    def said(self, project: Project) -> str:
+    def describe(self, project: Project) -> str:
         """What it does, in a few words: `label 3 hulls of table_04 as leg`."""
 
-    def assets(self, project: Project) -> tuple[str, ...]:
-        """The ids of the assets that it changes."""
-        return ()
+
+class JobEdit(Edit):
+    """An edit that a job makes: the job itself changes the files, and the history records it."""
+
+    def apply(self, project: Project) -> None:
+        raise AssertionError("a job makes this change")
+
+
+def steps_version(project: Project, asset: str) -> str:
+    """The version of the steps of an asset; empty where nothing is demonstrated."""
+    return _digest_or_empty(project.layout.demonstration(asset))
+
+
+def program_version(project: Project) -> str:
+    """The version of the accepted program; empty where there is none."""
+    return _digest_or_empty(project.layout.program)
+
+
+def _digest_or_empty(path: Path) -> str:
+    try:
+        return file_digest(path)
+    except FileNotFoundError:
+        return ""
+
+
+def program_files(project: Project) -> tuple[Path, ...]:
+    """The files that accepting a program writes."""
+    program = project.layout.program
+    return program, program.with_name("program.previous.mf"), project.layout.learned

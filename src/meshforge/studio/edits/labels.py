@@ -1,16 +1,13 @@
-"""Edits of labels and of the vocabulary."""
+"""Edits of labels and of the vocabulary, by a person or by a job."""
 
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Literal
+from typing import Literal
 
-from meshforge.studio.edits.base import Edit
-from meshforge.studio.edits.learning import program_files
-from meshforge.words import counted
-
-if TYPE_CHECKING:
-    from meshforge.project import Project
+from meshforge.common import pluralize
+from meshforge.project import Project
+from meshforge.studio.edits.base import Edit, JobEdit, program_files
 
 
 class LabelHulls(Edit):
@@ -24,16 +21,19 @@ class LabelHulls(Edit):
     def apply(self, project: Project) -> None:
         project.set_labels(self.asset, dict.fromkeys(self.hulls, self.label))
 
-    def touches(self, project: Project) -> tuple[Path, ...]:
+    def list_paths(self, project: Project) -> tuple[Path, ...]:
         return (project.layout.labels(self.asset),)
 
-    def said(self, project: Project) -> str:
-        hulls = counted(len(self.hulls), "hull")
-        done = f"{hulls} of {self.asset} labelled {self.label}"
-        return done if self.label else f"label of {hulls} of {self.asset} taken away"
+    def describe(self, project: Project) -> str:
+        hulls = f"{pluralize(len(self.hulls), 'hull')} of {self.asset}"
+        return f"{hulls} labelled {self.label}" if self.label else f"label of {hulls} taken away"
 
-    def assets(self, project: Project) -> tuple[str, ...]:
-        return (self.asset,)
+
+class _LabelsEdit(Edit):
+    """An edit of the labels of all assets."""
+
+    def list_paths(self, project: Project) -> tuple[Path, ...]:
+        return (project.layout.folder / "labels",)
 
 
 class LabelFromFiles(Edit):
@@ -44,17 +44,14 @@ class LabelFromFiles(Edit):
     def apply(self, project: Project) -> None:
         project.label_from_files()
 
-    def touches(self, project: Project) -> tuple[Path, ...]:
+    def list_paths(self, project: Project) -> tuple[Path, ...]:
         return (project.layout.settings, project.layout.folder / "labels")
 
-    def said(self, project: Project) -> str:
+    def describe(self, project: Project) -> str:
         return "labels taken over from files"
 
-    def assets(self, project: Project) -> tuple[str, ...]:
-        return project.assets()
 
-
-class LabelFromNames(Edit):
+class LabelFromNames(_LabelsEdit):
     """Label hulls without a label by the words in their names and in the names of their bodies."""
 
     kind: Literal["label-names"] = "label-names"
@@ -62,14 +59,8 @@ class LabelFromNames(Edit):
     def apply(self, project: Project) -> None:
         project.label_from_names()
 
-    def touches(self, project: Project) -> tuple[Path, ...]:
-        return (project.layout.folder / "labels",)
-
-    def said(self, project: Project) -> str:
+    def describe(self, project: Project) -> str:
         return "labels taken from names"
-
-    def assets(self, project: Project) -> tuple[str, ...]:
-        return project.assets()
 
 
 class SetVocabulary(Edit):
@@ -81,10 +72,10 @@ class SetVocabulary(Edit):
     def apply(self, project: Project) -> None:
         project.set_vocabulary(self.labels)
 
-    def touches(self, project: Project) -> tuple[Path, ...]:
+    def list_paths(self, project: Project) -> tuple[Path, ...]:
         return (project.layout.settings,)
 
-    def said(self, project: Project) -> str:
+    def describe(self, project: Project) -> str:
         return f"vocabulary: {', '.join(self.labels) or 'empty'}"
 
 
@@ -98,13 +89,32 @@ class RenameLabel(Edit):
     def apply(self, project: Project) -> None:
         project.rename_label(self.old, self.new)
 
-    def touches(self, project: Project) -> tuple[Path, ...]:
+    def list_paths(self, project: Project) -> tuple[Path, ...]:
         layout = project.layout
         folders = (layout.folder / "labels", layout.folder / "demonstrations", layout.folder / "corrections")
         return (layout.settings, *folders, layout.answers, *program_files(project))
 
-    def said(self, project: Project) -> str:
+    def describe(self, project: Project) -> str:
         return f"{self.old} renamed {self.new}"
 
-    def assets(self, project: Project) -> tuple[str, ...]:
-        return project.assets()
+
+class Propagate(JobEdit, _LabelsEdit):
+    """A job propagated labels to all other hulls. next: the asset that would help most if it were labelled; used: how
+    many entries the history had when labels were read."""
+
+    kind: Literal["propagate"] = "propagate"
+    used: int
+    next: str | None
+
+    def describe(self, project: Project) -> str:
+        return "labels propagated"
+
+
+class LabelFromModel(JobEdit, _LabelsEdit):
+    """A job asked a model for labels."""
+
+    kind: Literal["label-vlm"] = "label-vlm"
+    model: str
+
+    def describe(self, project: Project) -> str:
+        return f"labels from {self.model}"

@@ -1,5 +1,31 @@
-"""Long work at the desk that a page asks for: applying, decomposing, exporting, getting labels; its door: `begin`."""
+"""Long work that a page asks for: decomposing, labelling, applying, checking, exporting."""
 
-from meshforge.studio.jobs.begin import begin
+from __future__ import annotations
 
-__all__ = ["begin"]
+from typing import assert_never
+
+from meshforge.studio.jobs.outputs import start_apply, start_check, start_export
+from meshforge.studio.jobs.preparation import start_ask, start_decompose, start_forecast, start_propagate
+from meshforge.studio.session.session import Session
+from meshforge.studio.wire import jobs as wire
+
+
+def start_job(session: Session, request: wire.JobRequest) -> wire.Job:
+    """Start a job. Raises MeshForgeError where it cannot be done."""
+    match request:
+        case wire.ApplyJob():
+            return start_apply(session, request)
+        case wire.DecomposeJob():
+            return start_decompose(session, request)
+        case wire.ExportJob():
+            return start_export(session, request)
+        case wire.PropagateJob():
+            return start_propagate(session)
+        case wire.ForecastJob():
+            return start_forecast(session, request)
+        case wire.AskJob():
+            return start_ask(session, request)
+        case wire.CheckJob():
+            return start_check(session)
+        case _:
+            assert_never(request)

@@ -1,17 +1,21 @@
-"""One asset, its hulls and what was done to it; and the header of a packet of shapes."""
+"""One asset and its hulls, the headers of shape packets, and the results of checks."""
 
 from __future__ import annotations
 
 from typing import Literal
 
-from meshforge.studio.wire.base import Wire
+from meshforge.studio.wire import Wire
 
-Kind = Literal["box", "cylinder", "capsule", "sphere", "ellipsoid"]
+PrimitiveKind = Literal["box", "cylinder", "capsule", "sphere", "ellipsoid"]
+
+CheckPart = Literal["engines", "physics", "clearance", "fit"]
+"""The parts of a check, the quickest first; `engines` includes legality."""
+FigureUnit = Literal["m", "m/s", "kg", "l", "%", "°", ""]
 
 
 class HullView(Wire):
-    """A hull. vertices, faces: how many; primitive: its kind where it is one; source: who gave the label;
-    parent: the hull of the file that a made hull inherits from."""
+    """A hull. vertices, faces: how many; primitive: its kind if it is one; source: who gave the label; parent: the hull
+    of the file that a new hull inherits from."""
 
     name: str
     body: str
@@ -21,12 +25,12 @@ class HullView(Wire):
     volume: float = 0.0
     vertices: int = 0
     faces: int = 0
-    primitive: Kind | None = None
+    primitive: PrimitiveKind | None = None
     parent: str | None = None
 
 
 class OpaqueView(Wire):
-    """Collision geometry that is no hull, and why; `surface`: whether the packet has triangles of it."""
+    """A non-convex piece of collision geometry. reason: why it is no hull; surface: whether the packet has it."""
 
     name: str
     body: str
@@ -35,7 +39,7 @@ class OpaqueView(Wire):
 
 
 class NearMiss(Wire):
-    """Two hulls, by name, that are apart, yet by less than three times the contact distance; gap [m]."""
+    """Two hulls, by name, with a gap [m] between them of less than three times the contact distance."""
 
     a: str
     b: str
@@ -43,10 +47,10 @@ class NearMiss(Wire):
 
 
 class StepView(Wire):
-    """What the asset says about a rule. select: names, [] for nothing here, null for open.
+    """One step of a demonstration. rule: its number; select: names of hulls, [] for none, null where it is left open.
 
-    action: in the language's own text, with `as LABEL` where what is made gets one; error: why it cannot be replayed.
-    made, removed: names of hulls, where it can.
+    action: in the language, with `as LABEL` where new hulls get a label; error: why the step cannot be replayed; made,
+    removed: names of hulls, where it can.
     """
 
     rule: int
@@ -67,9 +71,9 @@ class CorrectionView(Wire):
 class AssetView(Wire):
     """An asset as it is prepared, in the frame it comes in.
 
-    upright: the 16 numbers (row by row) of canonical_T_incoming, null where nothing turns it; unturned: why it cannot
-    be turned though an orientation is set. version: of steps, to be given back with an edit of them.
-    contacts: pairs of names. diagonal, contact_distance: [m].
+    upright: the 16 numbers (row by row) of canonical_T_incoming, null for the identity; unturned: why the orientation
+    cannot turn it; version: of the steps, to be sent back with an edit of them; contacts: pairs of names of hulls;
+    diagonal, contact_distance: [m].
     """
 
     asset: str
@@ -95,7 +99,7 @@ class AssetView(Wire):
 
 
 class ShapeRow(Wire):
-    """One shape of a packet: how many vertices and triangles it has; opacity pieces and visuals have such rows, too."""
+    """One shape of a packet, a hull, a non-convex piece or a visual surface; vertices, faces: how many."""
 
     name: str
     vertices: int
@@ -104,7 +108,7 @@ class ShapeRow(Wire):
 
 
 class ShapesHeader(Wire):
-    """What a packet of the asset's own shapes holds: hulls first, then opaque pieces (or the visual surfaces).
+    """The header of a packet of the asset's own shapes: hulls first, then non-convex pieces; or the visual surfaces.
 
     A packet is: length of the header as uint32; the header as UTF-8 JSON, padded with spaces to a multiple of four;
     vertices of all rows as float32 (x, y, z) [m]; triangles of all rows as uint32 (three each, counted in their row).
@@ -115,7 +119,7 @@ class ShapesHeader(Wire):
 
 
 class TraceLine(Wire):
-    """What one rule did: names selected and made; note: what a user should know."""
+    """What one rule did. selected, made: names of hulls; note: what a user should know."""
 
     rule: int
     selected: tuple[str, ...]
@@ -124,7 +128,7 @@ class TraceLine(Wire):
 
 
 class FindingView(Wire):
-    """Something that a check has to say about a hull, or, without one, about the mesh."""
+    """A finding of a check about a hull, or, without one, about the whole mesh."""
 
     severity: Literal["error", "warning", "note"]
     text: str
@@ -132,10 +136,10 @@ class FindingView(Wire):
 
 
 class EditedHeader(Wire):
-    """What a packet of an edited asset holds: all hulls there are then, with shapes of those that the asset has not.
+    """The header of a packet of an edited asset: all of its hulls, with the shapes of those that the asset has not.
 
-    made, removed: names, against the asset as it comes; trace: rule by rule; findings: of the check of legality.
-    volume: the sum over hulls before and after [m^3].
+    made, removed: names of hulls, compared with the asset as it comes; trace: what each rule did; findings: of the
+    check of legality; volume: the sum over hulls before and after [m^3].
     """
 
     rows: tuple[ShapeRow, ...]
@@ -148,3 +152,56 @@ class EditedHeader(Wire):
     flags: tuple[str, ...] = ()
     volume: tuple[float, float] = (0.0, 0.0)
     contacts: tuple[tuple[str, str], ...] = ()
+
+
+class Fault(Wire):
+    """A rule of a check that does not hold. engine: whose limit it is, or null; new: whether the edit caused it."""
+
+    rule: str
+    severity: Literal["error", "warning"]
+    engine: str | None = None
+    new: bool = True
+
+
+class CheckFinding(Fault):
+    """A fault with its text. hulls: those that it concerns, by their names in the output."""
+
+    hulls: tuple[str, ...]
+    text: str
+    remedy: str
+
+
+class Figure(Wire):
+    """A figure before and after the edit; null where it is not known."""
+
+    what: str
+    unit: FigureUnit
+    before: float | None
+    after: float | None
+
+
+class Checked(Wire):
+    """The result of one part of a check. gone: how many findings about the asset the output no longer has; notes: what
+    could not be measured, and why; cell: the resolution [m]; pictured: whether there are pictures of it."""
+
+    part: CheckPart
+    figures: tuple[Figure, ...] = ()
+    findings: tuple[CheckFinding, ...] = ()
+    gone: int = 0
+    notes: tuple[str, ...] = ()
+    cell: float | None = None
+    pictured: bool = False
+
+
+class CheckPicture(Wire):
+    """A picture. name: the one that its address takes; text: what it shows."""
+
+    name: str
+    text: str
+
+
+class EngineView(Wire):
+    """An engine whose limits can be checked; title: its name as its makers write it."""
+
+    name: str
+    title: str

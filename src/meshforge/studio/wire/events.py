@@ -1,4 +1,4 @@
-"""What the server tells every open page, over the WebSocket; and errors."""
+"""The events that the server sends to every open page over the WebSocket; and errors."""
 
 from __future__ import annotations
 
@@ -6,19 +6,16 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from meshforge.studio.wire.base import Wire
-from meshforge.studio.wire.checks import EngineView
+from meshforge.studio.wire import Wire
+from meshforge.studio.wire.asset import EngineView
 from meshforge.studio.wire.family import Card, HistoryView, ProjectView
-from meshforge.studio.wire.jobs import Job
-from meshforge.studio.wire.labelling import Relabelled
-from meshforge.studio.wire.lesson import LessonView, ProgramView, Reach
+from meshforge.studio.wire.jobs import Job, Relabelled
+from meshforge.studio.wire.program import LessonView, ProgramView, Reach
 
 
 class Problem(Wire):
-    """What went wrong: the message, what it is about, and the remedy.
-
-    conflict: the change was made on a state that is no more; the page shows the present one and asks again.
-    """
+    """An error. where: what it is about; conflict: the change was based on an old state; the page shows the present one
+    and asks again."""
 
     message: str
     where: str | None = None
@@ -27,10 +24,8 @@ class Problem(Wire):
 
 
 class Hello(Wire):
-    """Everything that is known, on connecting.
-
-    tour: whether the page is to show the guided tour; engines: whose limits can be checked.
-    """
+    """The whole state, sent when a page connects. tour: whether the page shows the guided tour; engines: those whose
+    limits can be checked."""
 
     kind: Literal["hello"] = "hello"
     version: str
@@ -48,7 +43,7 @@ class Hello(Wire):
 
 
 class CardsChanged(Wire):
-    """Cards that are other now; gone: ids of assets that are no more."""
+    """New and changed cards; gone: ids of assets that no longer exist."""
 
     kind: Literal["cards"] = "cards"
     cards: tuple[Card, ...]
@@ -63,8 +58,8 @@ class ProjectChanged(Wire):
 
 
 class HistoryChanged(Wire):
-    """What can be undone now; said: what was just done, undone or redone, in words, by which page. Other settings and
-    the names of changed assets are told before, their cards after it."""
+    """What can be undone now; said: what was just done, undone or redone, in words; by: the page that did it. Changed
+    settings and the names of changed assets are sent before, their cards after it."""
 
     kind: Literal["history"] = "history"
     history: HistoryView
@@ -74,14 +69,14 @@ class HistoryChanged(Wire):
 
 
 class RelabelledChanged(Wire):
-    """What the last edit did to all labels, told after the cards; null as soon as another one was made."""
+    """What the last edit did to all labels, sent after the cards; null as soon as there is another edit."""
 
     kind: Literal["relabelled"] = "relabelled"
     relabelled: Relabelled | None
 
 
 class AssetsChanged(Wire):
-    """Assets of which something changed: an open page fetches them anew. shapes: their hulls are others, too."""
+    """Assets that changed, for open pages to fetch anew; shapes: whether their hulls changed, too."""
 
     kind: Literal["assets"] = "assets"
     assets: tuple[str, ...]
@@ -89,7 +84,7 @@ class AssetsChanged(Wire):
 
 
 class LessonChanged(Wire):
-    """A lesson has begun (`learning`), or its outcome is there."""
+    """A learning run has started (`learning`), or its outcome is there."""
 
     kind: Literal["lesson"] = "lesson"
     lesson: LessonView | None
@@ -97,7 +92,7 @@ class LessonChanged(Wire):
 
 
 class ReachChanged(Wire):
-    """What the program does on all assets; lesson: the number of the lesson it belongs to."""
+    """What the program does on all assets; lesson: the number of the learning run that it belongs to."""
 
     kind: Literal["reach"] = "reach"
     lesson: int

@@ -1,14 +1,14 @@
-"""The project and its assets as the gallery shows them."""
+"""The project and the cards of its assets in the gallery, and what can be undone."""
 
 from __future__ import annotations
 
 from typing import Literal
 
-from meshforge.studio.wire.base import Wire
-from meshforge.studio.wire.checks import Fault
-from meshforge.studio.wire.labelling import CarriedOver
+from meshforge.studio.wire import Wire
+from meshforge.studio.wire.asset import Fault
+from meshforge.studio.wire.jobs import CarriedOver
 
-Output = Literal["none", "edited", "unchanged", "failed"]
+CardOutput = Literal["none", "edited", "unchanged", "failed"]
 Verdict = Literal["accepted", "flagged"]
 Stage = Literal["label", "demonstrate", "learn", "review"]
 
@@ -16,15 +16,15 @@ Stage = Literal["label", "demonstrate", "learn", "review"]
 class Card(Wire):
     """One asset in the gallery.
 
-    hulls: how many, null while it is not read yet or where it cannot be read. labels: of each hull, in the order of
-    the asset, its place in the vocabulary or -1 for none; unsure: positions of hulls whose label is not sure; given:
-    how many have one that a person or a file gave.
-    after: hulls of the output; after_labels: of each of them, as `labels`, empty where that is not known; stale: what
-    changed since the output was made; corrections: edits by hand, a number.
-    sources: pieces and bodies without hulls, which can be decomposed; prepared: what was done before the program.
+    hulls: how many, null until the asset is read or where it cannot be read. labels: for each hull, in order, its
+    place in the vocabulary or -1 for none; unsure: positions of hulls whose label is not sure; given: how many labels
+    a person or a file gave.
+    after: how many hulls the output has; after_labels: like `labels`, empty where they are not known; stale: what
+    changed since the output was made; corrections: how many edits by hand.
+    sources: how many pieces and bodies have no hulls and can be decomposed; prepared: what was done before the program.
     picture, edited_picture: the digest that the address of the thumbnail takes, null where there is none yet.
-    check: the digest of the output and of what it was made from, null where there is no output; faults: what checks
-    found of it, null where it was not checked.
+    check: the digest of the output and of its inputs, null where there is no output; faults: what checks found, null
+    where it was not checked.
     """
 
     asset: str
@@ -33,7 +33,7 @@ class Card(Wire):
     unsure: tuple[int, ...] = ()
     given: int = 0
     demonstrated: bool = False
-    output: Output = "none"
+    output: CardOutput = "none"
     after: int | None = None
     after_labels: tuple[int, ...] = ()
     stale: tuple[str, ...] = ()
@@ -51,7 +51,7 @@ class Card(Wire):
 
 
 class VocabularyLabel(Wire):
-    """A label of the vocabulary. color: `#rrggbb`, given by its place; used: hulls of the family that have it."""
+    """A label of the vocabulary. color: `#rrggbb`, by its place; used: how many hulls of the family have it."""
 
     name: str
     color: str
@@ -59,7 +59,7 @@ class VocabularyLabel(Wire):
 
 
 class RuleLine(Wire):
-    """A rule as the demonstrations have it: the action that is shown first, and the assets that say something."""
+    """A rule in the demonstrations. action: the first one; shown, nothing: assets where it selects hulls, or none."""
 
     rule: int
     action: str
@@ -68,7 +68,7 @@ class RuleLine(Wire):
 
 
 class Said(Wire):
-    """An answer or a repair of a label that was confirmed or refused; id: by which it is taken back."""
+    """An answer, or a repair of a label that was confirmed or refused; id: to take it back."""
 
     id: str
     kind: Literal["answer", "confirmed", "rejected"]
@@ -77,7 +77,7 @@ class Said(Wire):
 
 
 class Next(Wire):
-    """The next sensible step: the stage it belongs to, in words, and the asset to go to."""
+    """The next sensible step. say: the step in words; asset: the one to open."""
 
     stage: Stage
     say: str
@@ -85,11 +85,11 @@ class Next(Wire):
 
 
 class ProjectView(Wire):
-    """The project. orient: the directive's text, empty for none; orient_sentence: the same in words.
+    """The project. orient: the text of the directive, empty for none; orient_sentence: that in words.
 
-    rules: what is demonstrated, by rule; templates: hull templates that actions can name; carried: how it stands with
-    labels that were carried over, null where none were; problem: why the program cannot be applied; lost: ids that
-    something is kept for, though there is no such asset.
+    rules: what is demonstrated, by rule; templates: hull templates that actions can name; carried: the last propagation
+    of labels, null where there was none; problem: why the program cannot be applied; lost: ids that files are kept for
+    though there is no such asset.
     """
 
     name: str

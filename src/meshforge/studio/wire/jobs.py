@@ -1,12 +1,17 @@
-"""Long work: its progress, and what came of it."""
+"""Jobs: requests, progress and outcome; what an edit of all labels did, and the model that can be asked."""
 
 from __future__ import annotations
 
 from typing import Literal
 
-from meshforge.studio.wire.base import Wire
+from meshforge.studio.wire import Wire
 
 JobKind = Literal["read", "apply", "decompose", "export", "add", "propagate", "forecast", "ask", "check"]
+
+VlmMode = Literal["cheap", "balanced", "exact"]
+"""How many pictures and questions a model gets for each hull."""
+
+LabelEditKind = Literal["propagate", "label-files", "label-names", "label-vlm"]
 
 
 class JobLine(Wire):
@@ -18,7 +23,7 @@ class JobLine(Wire):
 
 
 class Job(Wire):
-    """Work that takes long. state: how it stands; lines: what became of assets, those that failed first, at most 200.
+    """Work that takes long. lines: what became of assets, those that failed first, at most 200.
 
     message: its result in a sentence; out: the folder that was written.
     """
@@ -42,7 +47,7 @@ class ApplyJob(Wire):
 
 
 class DecomposeJob(Wire):
-    """Make hulls of what has none; method: the tool that does it."""
+    """Make hulls for pieces and bodies that have none; method: the tool that makes them."""
 
     kind: Literal["decompose"] = "decompose"
     assets: tuple[str, ...]
@@ -50,7 +55,7 @@ class DecomposeJob(Wire):
 
 
 class ExportJob(Wire):
-    """Copy outputs into a folder: those that were accepted, or all. folder: below the project, or absolute."""
+    """Copy outputs into a folder: the accepted ones, or all. folder: below the project, or absolute."""
 
     kind: Literal["export"] = "export"
     accepted_only: bool = True
@@ -58,34 +63,69 @@ class ExportJob(Wire):
 
 
 class PropagateJob(Wire):
-    """Carry the labels that people and files gave over to all other hulls of the family."""
+    """Propagate the labels of people and files to all other hulls of the family."""
 
     kind: Literal["propagate"] = "propagate"
 
 
-Mode = Literal["cheap", "balanced", "exact"]
-"""How many pictures and questions a model is asked for a hull."""
-
-
 class ForecastJob(Wire):
-    """Find out what asking a model for labels would send and cost; nothing is sent."""
+    """Work out what asking a model for labels would send and cost, without sending anything."""
 
     kind: Literal["forecast"] = "forecast"
-    mode: Mode
+    mode: VlmMode
 
 
 class AskJob(Wire):
-    """Ask the model that meshforge.toml names for labels. max_cost: dollars it may spend, null as that says."""
+    """Ask the model that meshforge.toml names for labels. max_cost: dollars to spend, null for the amount set there."""
 
     kind: Literal["ask"] = "ask"
-    mode: Mode
+    mode: VlmMode
     max_cost: float | None = None
 
 
 class CheckJob(Wire):
-    """Measure the outputs of all assets in every way."""
+    """Run all checks on the outputs of all assets."""
 
     kind: Literal["check"] = "check"
 
 
 JobRequest = ApplyJob | DecomposeJob | ExportJob | PropagateJob | ForecastJob | AskJob | CheckJob
+
+
+class RelabelledAsset(Wire):
+    """Hulls of an asset that got a new label, by position. new: those that had none; changed: those that had another;
+    was: the label that each of the changed ones had."""
+
+    asset: str
+    new: tuple[int, ...] = ()
+    changed: tuple[int, ...] = ()
+    was: tuple[str, ...] = ()
+
+
+class Relabelled(Wire):
+    """What the last edit did, if it changed the labels of all assets. entry: its number in the history; way: its kind;
+    settled: how many labels it made sure."""
+
+    entry: int
+    way: LabelEditKind
+    assets: tuple[RelabelledAsset, ...]
+    settled: int = 0
+
+
+class CarriedOver(Wire):
+    """The last propagation of labels. unused: how many labels people and files gave since; next: the asset that would
+    help most if it were labelled, null where it is labelled by now, or where all are."""
+
+    unused: int
+    next: str | None = None
+
+
+class Model(Wire):
+    """The model that can be asked for labels. mode, max_cost: as set in meshforge.toml; why: the reason that it cannot
+    be asked, null where it can."""
+
+    name: str
+    host: str
+    mode: VlmMode
+    max_cost: float | None = None
+    why: str | None = None

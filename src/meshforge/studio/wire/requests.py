@@ -1,14 +1,14 @@
-"""What the page asks for, besides edits."""
+"""Requests of the page besides edits and jobs, and the short responses."""
 
 from __future__ import annotations
 
-from meshforge.studio.wire.base import Wire
-from meshforge.studio.wire.labelling import Model
+from meshforge.studio.wire import Wire
+from meshforge.studio.wire.jobs import Model
 
 
 class PreviewRequest(Wire):
-    """What would an action do? steps: how many of the asset's own steps go before it; result: of the program's output
-    in place of steps, for edits by hand."""
+    """What would an action do? steps: how many of the asset's own steps come before it; result: apply it to what the
+    program makes of the asset instead, as an edit by hand."""
 
     asset: str
     steps: int = 0
@@ -18,7 +18,7 @@ class PreviewRequest(Wire):
 
 
 class SelectRequest(Wire):
-    """What does an extractor select on an asset, after so many of its steps, or as a rule of the program meets it?"""
+    """What does an extractor select on an asset, after some of its steps, or before a rule of the program?"""
 
     asset: str
     steps: int = 0
@@ -27,7 +27,7 @@ class SelectRequest(Wire):
 
 
 class GeneraliseRequest(Wire):
-    """What does an extractor select on all assets, as a rule of that number meets them?"""
+    """What does an extractor select on all assets, before the rule of that number?"""
 
     extractor: str
     rule: int = 1
@@ -46,21 +46,21 @@ class JobCancel(Wire):
 
 
 class Uploaded(Wire):
-    """A template that was taken: the name that actions write; or the paths of asset files that were taken."""
+    """An upload is stored. names: of a template, as actions write it; or the paths of asset files."""
 
     names: tuple[str, ...]
 
 
 class Done(Wire):
-    """An edit that is on disk; said: what was done, in words. nothing: there was nothing to do."""
+    """An edit is on disk. said: what was done, in words; nothing: whether there was nothing to do."""
 
     said: str
     nothing: bool = False
 
 
 class LabelSources(Wire):
-    """Where labels could come from. files: assets whose labels file says something that is not taken yet; names: hulls
-    without a label whose names say one; model: what can be asked, null where none is named."""
+    """Where labels could come from. files: how many assets have a labels file with new labels; names: how many hulls
+    without a label have one in their name; model: the one that can be asked, null for none."""
 
     files: int
     names: int

@@ -1,10 +1,10 @@
-"""Partial programs: extractors with holes, and all ways to fill the first hole (paper, section on synthesis).
-
-A tree without holes is an extractor of the language; every other one has a node of this module at its root.
-"""
+"""Partial programs: extractors with holes, all ways to fill the first hole, and the worklist of them, simplest first
+(paper, section on synthesis). A tree without holes is an extractor of the language; every other one has a node of
+this module at its root."""
 
 from __future__ import annotations
 
+from collections import deque
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import assert_never
@@ -13,7 +13,7 @@ from meshforge.language import (
     DIRECTIONS,
     All,
     Attach,
-    Base,
+    BaseExtractor,
     Diff,
     Direction,
     Extractor,
@@ -21,12 +21,12 @@ from meshforge.language import (
     Intersect,
     Is,
     Union,
-    size,
+    size_of,
 )
 from meshforge.synthesis.options import Layers
-from meshforge.synthesis.search.order import Joint
+from meshforge.synthesis.search.terms import SetOperator
 
-JOINTS: tuple[Joint, ...] = (Union, Intersect, Diff)
+OPERATORS: tuple[SetOperator, ...] = (Union, Intersect, Diff)
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,8 +43,8 @@ class BaseHole:
 class OpenAttach:
     """An `Attach` with a hole in one place or both."""
 
-    selected: Base | BaseHole
-    anchor: Base | BaseHole
+    selected: BaseExtractor | BaseHole
+    anchor: BaseExtractor | BaseHole
 
 
 @dataclass(frozen=True, slots=True)
@@ -55,32 +55,32 @@ class OpenGeo:
 
 
 @dataclass(frozen=True, slots=True)
-class OpenJoint:
+class OpenOperator:
     """A set operator with at least one hole below it."""
 
-    joint: Joint
+    operator: SetOperator
     left: Partial
     right: Partial
 
 
-Open = Hole | OpenAttach | OpenGeo | OpenJoint
+Open = Hole | OpenAttach | OpenGeo | OpenOperator
 Partial = Open | Extractor
 
 
-class Grammar:
+class HoleGrammar:
     """What may be put in a hole.
 
     The order is fixed: labels as in the vocabulary, `All`, then what reads contact, position, and set operators.
     """
 
     def __init__(self, vocabulary: Sequence[str], layers: Layers) -> None:
-        self.bases: tuple[Base, ...] = (*map(Is, vocabulary), All())
+        self.bases: tuple[BaseExtractor, ...] = (*map(Is, vocabulary), All())
         contact = [OpenAttach(BaseHole(), BaseHole())] if "T" in layers else []
         position = map(OpenGeo, DIRECTIONS) if "G" in layers else []
-        joints = [OpenJoint(joint, Hole(), Hole()) for joint in JOINTS]
-        self.extractors: tuple[Partial, ...] = (*self.bases, *contact, *position, *joints)
+        operators = [OpenOperator(operator, Hole(), Hole()) for operator in OPERATORS]
+        self.extractors: tuple[Partial, ...] = (*self.bases, *contact, *position, *operators)
 
-    def filled(self, partial: Open) -> Iterator[Partial]:
+    def fill(self, partial: Open) -> Iterator[Partial]:
         """The partial program with its first hole filled, in all ways."""
         match partial:
             case Hole():
@@ -88,33 +88,33 @@ class Grammar:
             case OpenGeo(direction):
                 yield from (Geo(base, direction) for base in self.bases)
             case OpenAttach(BaseHole(), anchor):
-                yield from (attach(base, anchor) for base in self.bases)
+                yield from (make_attach(base, anchor) for base in self.bases)
             case OpenAttach(selected, _):
-                yield from (attach(selected, base) for base in self.bases)
-            case OpenJoint(joint, left, right):
+                yield from (make_attach(selected, base) for base in self.bases)
+            case OpenOperator(operator, left, right):
                 if isinstance(left, Open):
-                    yield from (join(joint, part, right) for part in self.filled(left))
+                    yield from (make_operator(operator, part, right) for part in self.fill(left))
                 elif isinstance(right, Open):
-                    yield from (join(joint, left, part) for part in self.filled(right))
+                    yield from (make_operator(operator, left, part) for part in self.fill(right))
             case _:
                 assert_never(partial)
 
 
-def attach(selected: Base | BaseHole, anchor: Base | BaseHole) -> Attach | OpenAttach:
+def make_attach(selected: BaseExtractor | BaseHole, anchor: BaseExtractor | BaseHole) -> Attach | OpenAttach:
     """`Attach` of two bases, either of which may be a hole."""
     if isinstance(selected, BaseHole) or isinstance(anchor, BaseHole):
         return OpenAttach(selected, anchor)
     return Attach(selected, anchor)
 
 
-def join(joint: Joint, left: Partial, right: Partial) -> Partial:
+def make_operator(operator: SetOperator, left: Partial, right: Partial) -> Partial:
     """A set operator over two partial programs."""
     if isinstance(left, Open) or isinstance(right, Open):
-        return OpenJoint(joint, left, right)
-    return joint(left, right)
+        return OpenOperator(operator, left, right)
+    return operator(left, right)
 
 
-def nodes(partial: Partial) -> int:
+def count_nodes(partial: Partial) -> int:
     """The syntactic complexity: syntax nodes, of which a hole is one."""
     match partial:
         case Hole():
@@ -123,7 +123,30 @@ def nodes(partial: Partial) -> int:
             return 2
         case OpenAttach():
             return 3
-        case OpenJoint(_, left, right):
-            return 1 + nodes(left) + nodes(right)
+        case OpenOperator(_, left, right):
+            return 1 + count_nodes(left) + count_nodes(right)
         case _:
-            return size(partial)
+            return size_of(partial)
+
+
+class Worklist:
+    """Partial programs by syntactic complexity; of those as complex, the first put in comes out first.
+
+    One queue a size gives the order of a heap and keeps no keys: there are millions of entries.
+    max_size: what is larger is not taken in.
+    """
+
+    def __init__(self, max_size: int) -> None:
+        self._queues: list[deque[Partial]] = [deque() for _ in range(max_size + 1)]
+
+    def put(self, partial: Partial) -> None:
+        size = count_nodes(partial)
+        if size < len(self._queues):
+            self._queues[size].append(partial)
+
+    def pop(self) -> tuple[int, Partial] | None:
+        """The simplest with its size, None when there is none left."""
+        for size, queue in enumerate(self._queues):
+            if queue:
+                return size, queue.popleft()
+        return None

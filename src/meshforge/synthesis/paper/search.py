@@ -1,114 +1,180 @@
-"""The search for one rule's extractor by filling holes, simplest first (paper, algorithm SynthesizeExtractor)."""
+"""The paper's search for one rule's extractor: holes filled, simplest first (algorithm SynthesizeExtractor), and the
+fewest labels to correct for an extractor to match (algorithm AbductiveInference)."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Container, Mapping, Sequence
+from collections import Counter
+from collections.abc import Callable, Container, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from itertools import combinations, product
+from types import MappingProxyType
 
-from meshforge.language import EXTREMITY, Extractor
-from meshforge.synthesis.correction import Correction
-from meshforge.synthesis.example import Example
-from meshforge.synthesis.options import Options
-from meshforge.synthesis.paper.abduction import Abduction
-from meshforge.synthesis.paper.asking import Asking
-from meshforge.synthesis.paper.bounds import feasible
-from meshforge.synthesis.paper.demo import Demo
-from meshforge.synthesis.paper.nearest import Nearest
-from meshforge.synthesis.paper.partial import Grammar, Hole, Open
-from meshforge.synthesis.paper.worklist import Worklist
-from meshforge.synthesis.search.smallest import Answer, Hit, Miss, Tried, Unfinished
-from meshforge.synthesis.watch import OutOfTime, Watch
+from meshforge.language import Extractor, labels_of
+from meshforge.symbolic import bits_of
+from meshforge.synthesis.demonstration import Example, LabelChange, to_correction
+from meshforge.synthesis.options import Options, OutOfTime, TimeBudget
+from meshforge.synthesis.paper.evaluate import ExampleMasks, NearestTracker, is_feasible
+from meshforge.synthesis.paper.partial import Hole, HoleGrammar, Open, Worklist
+from meshforge.synthesis.questions import LabelCorrection
+from meshforge.synthesis.search.smallest import Hit, Miss, SearchEffort, SearchResult, Unfinished
 
 
 @dataclass(frozen=True, slots=True)
-class Explained:
+class HitWithCorrections:
     """An extractor that matches once some labels are corrected: confirmed, or proposed where nobody was asked."""
 
     extractor: Extractor
-    corrections: tuple[Correction, ...]
-    tried: Tried
+    corrections: tuple[LabelCorrection, ...]
+    tried: SearchEffort
 
 
-def paper_search(
-    examples: Sequence[Example],
-    vocabulary: Sequence[str],
-    watch: Watch,
-    options: Options,
-    extremity: float = EXTREMITY,
-    confirm: Callable[[Correction], bool] | None = None,
-    rejected: Container[Correction] = (),
-    spent: Mapping[str, int] | None = None,
-) -> Answer | Explained:
+class PaperSearch:
     """The first extractor by size that selects what was shown, as it stands or after corrections of labels.
 
     vocabulary: the labels to ask for and to correct to; confirm: is asked about corrections one by one, without it
     the first repair is proposed; rejected: corrections not to propose; spent: how many were made before, by mesh.
     In the counts, selections are complete programs that were checked, goals partial ones whose hole was filled.
     """
-    demos = [Demo(example, extremity) for example in examples]
-    left = {demo.name: max(0, options.eta - (spent or {}).get(demo.name, 0)) for demo in demos}
-    abduction = Abduction(demos, vocabulary, left, watch) if options.repair else None
-    grammar, asking = Grammar(vocabulary, options.layers), Asking(confirm, rejected)
-    search = _Search(demos, grammar, watch, options.max_size, abduction, asking)
-    try:
-        return search.run()
-    except OutOfTime:
-        return Unfinished(search.nearest.miss(), search.tried)
-
-
-class _Search:
-    """The worklist on its way; without `abduction` labels are taken as they are."""
 
     def __init__(
         self,
-        demos: Sequence[Demo],
-        grammar: Grammar,
-        watch: Watch,
-        max_size: int,
-        abduction: Abduction | None,
-        asking: Asking,
+        examples: Sequence[Example],
+        vocabulary: Sequence[str],
+        budget: TimeBudget,
+        options: Options,
+        confirm: Callable[[LabelCorrection], bool] | None = None,
+        rejected: Container[LabelCorrection] = (),
+        spent: Mapping[str, int] = MappingProxyType({}),
     ) -> None:
-        self._demos, self._grammar, self._watch, self._max_size = demos, grammar, watch, max_size
-        self._abduction, self._asking = abduction, asking
+        self._demos = [ExampleMasks(example, options.geo_extremity) for example in examples]
+        self._grammar, self._max_size, self._budget = HoleGrammar(vocabulary, options.layers), options.max_size, budget
+        left = {demo.name: max(0, options.eta - spent.get(demo.name, 0)) for demo in self._demos}
+        self._abduction = Abduction(self._demos, vocabulary, left, budget) if options.repair else None
+        self._confirmations = Confirmations(confirm, rejected)
         self._size = self._complete = self._filled = 0
-        self.nearest = Nearest(demos)
+        self._nearest = NearestTracker(self._demos)
+
+    def run(self) -> SearchResult | HitWithCorrections:
+        """The answer, within the limits of the options and the budget."""
+        try:
+            return self._find_hit()
+        except OutOfTime:
+            return Unfinished(self._nearest.miss(), self._tried)
 
     @property
-    def tried(self) -> Tried:
-        return Tried(self._size, self._complete, self._filled)
+    def _tried(self) -> SearchEffort:
+        return SearchEffort(self._size, self._complete, self._filled)
 
-    def run(self) -> Hit | Explained | Miss:
+    def _find_hit(self) -> Hit | HitWithCorrections | Miss:
         worklist = Worklist(self._max_size)
         worklist.put(Hole())
         while popped := worklist.pop():
-            self._watch.check()
+            self._budget.check()
             size, partial = popped
             self._size = size - 1
             if isinstance(partial, Open):
                 self._fill(partial, worklist)
-            elif answer := self._answer(partial):
+            elif answer := self._check_complete(partial):
                 return answer
         self._size = self._max_size
-        return self._miss()
+        return self._report_miss()
 
     def _fill(self, partial: Open, worklist: Worklist) -> None:
         """EnumerateCandidates: bounds judge what still has holes; what is complete may be a near miss to explain."""
         self._filled += 1
-        for candidate in self._grammar.filled(partial):
-            if not isinstance(candidate, Open) or all(feasible(candidate, demo) for demo in self._demos):
+        for candidate in self._grammar.fill(partial):
+            if not isinstance(candidate, Open) or all(is_feasible(candidate, demo) for demo in self._demos):
                 worklist.put(candidate)
 
-    def _answer(self, extractor: Extractor) -> Hit | Explained | None:
+    def _check_complete(self, extractor: Extractor) -> Hit | HitWithCorrections | None:
         self._complete += 1
-        if self.nearest.offer(extractor) == 0:
-            return Hit(extractor, self.tried)
+        if self._nearest.offer(extractor) == 0:
+            return Hit(extractor, self._tried)
         corrections = self._abduction.infer(extractor) if self._abduction else None
-        if corrections is None or not self._asking.agreed(corrections):
+        if corrections is None or not self._confirmations.are_confirmed(corrections):
             return None
-        return Explained(extractor, corrections, self.tried)
+        return HitWithCorrections(extractor, corrections, self._tried)
 
-    def _miss(self) -> Miss:
-        nearest = self.nearest.miss()
+    def _report_miss(self) -> Miss:
+        nearest = self._nearest.miss()
         assert nearest, "All is complete and of one node"
         corrected = ", even after corrections of labels" if self._abduction else ""
-        return Miss(f"no extractor of up to {self._max_size} nodes matches{corrected}", nearest, self.tried)
+        return Miss(f"no extractor of up to {self._max_size} nodes matches{corrected}", nearest, self._tried)
+
+
+class Abduction:
+    """The demonstrations of a rule, prepared to be asked for corrections.
+
+    vocabulary: labels to correct to; allowed: corrections at most, by the name of the mesh.
+    """
+
+    def __init__(
+        self, demos: Sequence[ExampleMasks], vocabulary: Sequence[str], allowed: Mapping[str, int], budget: TimeBudget
+    ) -> None:
+        self._demos, self._allowed, self._budget = demos, allowed, budget
+        counts: Counter[str] = Counter()
+        for demo in demos:
+            counts.update({label: mask.bit_count() for label, mask in demo.labels.items()})
+        self._by_frequency = sorted(vocabulary, key=lambda label: -counts[label])
+
+    def infer(self, extractor: Extractor) -> tuple[LabelCorrection, ...] | None:
+        """The fewest corrections after which an extractor matches; None where no repair is within the allowance.
+
+        A correction touches one mesh only and a match is a match on each, so the fewest corrections of all are the
+        fewest of each mesh, and one mesh beyond repair decides. Of repairs as small the first is taken: hulls in
+        the order of the mesh, labels in that of `_choices`.
+        """
+        found: list[LabelCorrection] = []
+        for demo in self._demos:
+            repair = self._repair(extractor, demo)
+            if repair is None:
+                return None
+            found += [to_correction(demo.example, change) for change in repair]
+        return tuple(found)
+
+    def _repair(self, extractor: Extractor, demo: ExampleMasks) -> tuple[LabelChange, ...] | None:
+        for changes in self._candidates(extractor, demo):
+            self._budget.check()
+            if demo.select(extractor, demo.relabel(changes)) == demo.target:
+                return changes
+        return None
+
+    def _candidates(self, extractor: Extractor, demo: ExampleMasks) -> Iterator[tuple[LabelChange, ...]]:
+        """The relabelings of suspects, those of fewer hulls first; the first of all changes none."""
+        suspects = sorted(bits_of(demo.differences(extractor)))
+        choices = {index: self._choices(extractor, demo.example.mesh.hulls[index].label) for index in suspects}
+        for count in range(self._allowed[demo.name] + 1):
+            for hulls in combinations(suspects, count):
+                yield from product(*([(index, to) for to in choices[index]] for index in hulls))
+
+    def _choices(self, extractor: Extractor, label: str | None) -> tuple[str, ...]:
+        """The labels that a hull may get: those an extractor mentions, in order, or one to leave it by.
+
+        Leaving is for hulls with a label that is mentioned: an extractor tells no others apart. The label is the
+        most frequent one on the demonstrated meshes that is not mentioned; of several, the first of the vocabulary.
+        """
+        mentioned = labels_of(extractor)
+        leaving = [other for other in self._by_frequency if other not in mentioned][:1] if label in mentioned else []
+        return (*(other for other in mentioned if other != label), *leaving)
+
+
+class Confirmations:
+    """Remembers what was answered; without `confirm` every correction that was not rejected is agreed to."""
+
+    def __init__(
+        self, confirm: Callable[[LabelCorrection], bool] | None = None, rejected: Container[LabelCorrection] = ()
+    ) -> None:
+        self._confirm, self._rejected = confirm, rejected
+        self._answers: dict[LabelCorrection, bool] = {}
+
+    def are_confirmed(self, corrections: Sequence[LabelCorrection]) -> bool:
+        """Whether all are right; nothing is asked about a repair of which one is known to be wrong."""
+        return not any(map(self._is_refused, corrections)) and all(map(self._is_confirmed, corrections))
+
+    def _is_refused(self, correction: LabelCorrection) -> bool:
+        return correction in self._rejected or not self._answers.get(correction, True)
+
+    def _is_confirmed(self, correction: LabelCorrection) -> bool:
+        if self._confirm and correction not in self._answers:
+            self._answers[correction] = self._confirm(correction)
+        return self._answers.get(correction, True)

@@ -1,19 +1,27 @@
 """How believable each reading is: the weights, in one place, and what was measured.
 
-A reading's weight is exp(-nats), its belief the share of its weight in that of all readings of the rule. The nats are
-linear in the features below; the factors are the most likely ones given rules of known meaning: those of the
-benchmark's tasks on its calibration set, which count twice, and 54 extractors on four families of boxes, demonstrated
-on one, two or three meshes (`script/bench calibrate` fits them anew, and judges them on rules that were not fitted).
+A reading's weight is exp(-nats), its belief the share of its weight in that of all readings of the rule. The nats
+are linear in the features below; the factors are the most likely ones given rules of known meaning: those of the
+benchmark's tasks on its calibration set, which count twice, and 54 extractors on four families of boxes,
+demonstrated on one, two or three meshes (`script/bench calibrate` fits them anew, and judges them on rules that
+were not fitted).
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from dataclasses import dataclass
 
-from meshforge.language import All, Attach, Extractor, Geo, Is
-from meshforge.synthesis.readings.evidence import Evidence, untried
-from meshforge.synthesis.search.term import Joined, Term
+import numpy as np
+import numpy.typing as npt
+from scipy.spatial import cKDTree
+
+from meshforge.geometry import Floats
+from meshforge.language import All, Attach, Diff, Extractor, Geo, Is
+from meshforge.symbolic import bits_of, descriptors
+from meshforge.synthesis.search.observation_table import ObservationTable
+from meshforge.synthesis.search.terms import Compound, Term
 
 NODE = 0.36
 """For each syntax node."""
@@ -22,7 +30,7 @@ ALL = 2.6
 UPRIGHT, SIDEWAYS = 0.3, 1.65
 """For each direction: six are tried, so they fit by accident; up and down are meant more often than the others."""
 SELF = 6.0
-"""For a label attached to itself: that tells how parts were cut rather than what they are."""
+"""For a label attached to itself: that says how parts were cut rather than what they are."""
 UNTRIED = 1.6
 """For each set operator with an operand that makes no difference on the demonstrated meshes. Measured was 1.1, where
 demonstrations were drawn blindly; a person shows what is wanted on a mesh that has it."""
@@ -39,10 +47,13 @@ FEW = 5
 LARGER = 2.0
 """A reading that is larger than the smallest is taken where it is believed so many times as much."""
 
+STRANGE_LABEL = 3.0
+"""A hull whose label no demonstrated hull has counts as at least so far from them, in standard deviations."""
 
-def beliefs(
+
+def compute_beliefs(
     terms: Sequence[Term],
-    found: Sequence[Evidence],
+    found: Sequence[ReadingEvidence],
     shown: int,
     assets: int,
     refused: Sequence[int] | None = None,
@@ -57,10 +68,10 @@ def beliefs(
     share, leaves, none = assets / (assets + FEW), dict[Extractor, float](), [0] * len(terms)
     nats = [
         NODE * term.size
-        + _doubts(term, leaves)
-        + UNTRIED * untried(term, shown)
+        + _doubt_nats(term, leaves)
+        + UNTRIED * count_untested(term, shown)
         + UNNEEDED * idle
-        + share * _evidence(facts)
+        + share * _evidence_nats(facts)
         + NEITHER * against
         for term, facts, against, idle in zip(terms, found, refused or none, unneeded or none, strict=True)
     ]
@@ -70,7 +81,7 @@ def beliefs(
     return tuple(weight / total for weight in weights)
 
 
-def taken(terms: Sequence[Term], shares: Sequence[float]) -> int:
+def choose_reading(terms: Sequence[Term], shares: Sequence[float]) -> int:
     """The place of the reading that the program takes: a smallest one, unless a larger is far more believable."""
     smallest = min(term.size for term in terms)
     best = max(range(len(terms)), key=lambda k: (shares[k], -k))
@@ -78,20 +89,20 @@ def taken(terms: Sequence[Term], shares: Sequence[float]) -> int:
     return best if shares[best] >= LARGER * shares[first] else first
 
 
-def _evidence(facts: Evidence) -> float:
+def _evidence_nats(facts: ReadingEvidence) -> float:
     return IDLE * facts.idle + STRANGE * min(facts.strange, STRANGEST)
 
 
-def _doubts(term: Term, known: dict[Extractor, float]) -> float:
-    made = term.made
-    if isinstance(made, Joined):
-        return _doubts(made.left, known) + _doubts(made.right, known)
+def _doubt_nats(term: Term, known: dict[Extractor, float]) -> float:
+    made = term.form
+    if isinstance(made, Compound):
+        return _doubt_nats(made.left, known) + _doubt_nats(made.right, known)
     if made not in known:
-        known[made] = _leaf_doubts(made)
+        known[made] = _leaf_doubt_nats(made)
     return known[made]
 
 
-def _leaf_doubts(leaf: All | Is | Attach | Geo) -> float:
+def _leaf_doubt_nats(leaf: All | Is | Attach | Geo) -> float:
     match leaf:
         case All():
             return ALL
@@ -102,3 +113,100 @@ def _leaf_doubts(leaf: All | Is | Attach | Geo) -> float:
             return either + SELF * (selected == anchor)
         case Geo(base, direction):
             return (UPRIGHT if direction[1] == "Z" else SIDEWAYS) + ALL * isinstance(base, All)
+
+
+@dataclass(frozen=True, slots=True)
+class ReadingEvidence:
+    """Of one reading: the share of the assets where it selects nothing; and how far the hulls that it selects on the
+    others are from the nearest demonstrated one, squared, in standard deviations of the descriptors.
+    """
+
+    idle: float
+    strange: float
+
+
+NO_EVIDENCE = ReadingEvidence(0.0, 0.0)
+
+
+def measure_evidence(
+    field: ObservationTable, selections: Sequence[int], readings: Sequence[int]
+) -> tuple[ReadingEvidence, ...]:
+    """The evidence on some readings, given as groups of the field.
+
+    selections: the hulls that were shown on each of the field's first meshes, as bit sets; the batch is the rest.
+    """
+    shown, rest = len(selections), len(field.meshes) - len(selections)
+    counts = np.array([len(mesh.hulls) for mesh in field.meshes[shown:]], dtype=np.int64)
+    if not rest or not counts.sum() or not any(selections):
+        return tuple(NO_EVIDENCE for _ in readings)
+    places = np.array([group for groups in field.groups[shown:] for group in groups], dtype=np.int64)
+    ends = np.concatenate([[0], np.cumsum(counts)])
+    chosen = _unpack(readings, field.width)[:, places]
+    many = _sum_by_mesh(chosen.astype(float), ends)
+    strange = _sum_by_mesh(chosen * _strangeness(field, selections), ends)
+    active = many > 0
+    meshes = np.maximum(active.sum(axis=1), 1)
+    odd = np.where(active, strange / np.maximum(many, 1), 0.0).sum(axis=1) / meshes
+    idle = 1 - active.mean(axis=1)
+    rows = zip(idle.tolist(), odd.tolist(), strict=True)
+    return tuple(ReadingEvidence(*row) for row in rows)
+
+
+def _strangeness(field: ObservationTable, selections: Sequence[int]) -> Floats:
+    """How far each hull of the batch is from the nearest demonstrated one, squared."""
+    rows = descriptors(field.meshes)
+    rows = rows / np.maximum(rows.std(axis=0), 1e-9)
+    starts = np.concatenate([[0], np.cumsum([len(mesh.hulls) for mesh in field.meshes])]).astype(int)
+    hulls = [hull for mesh in field.meshes for hull in mesh.hulls]
+    first = int(starts[len(selections)])
+    shown = [
+        int(start) + hull for start, mask in zip(starts, selections, strict=False) for hull in sorted(bits_of(mask))
+    ]
+    far = cKDTree(rows[shown]).query(rows[first:])[0]
+    known = {hulls[place].label for place in shown}
+    foreign = np.array([hull.label not in known for hull in hulls[first:]])
+    squared: Floats = np.where(foreign, np.maximum(far, STRANGE_LABEL), far) ** 2
+    return squared
+
+
+def _unpack(readings: Sequence[int], width: int) -> npt.NDArray[np.bool_]:
+    """Whether each reading has each group: (readings, width)."""
+    size = (width + 7) // 8
+    packed = np.frombuffer(b"".join(row.to_bytes(size, "little") for row in readings), np.uint8)
+    table = np.unpackbits(packed.reshape(len(readings), size), axis=1, count=width, bitorder="little")
+    return table.astype(np.bool_)
+
+
+def _sum_by_mesh(values: Floats, ends: npt.NDArray[np.int64]) -> Floats:
+    """The sums of the columns of each mesh; ends: where the meshes begin, and the end of the last."""
+    total = np.concatenate([np.zeros((len(values), 1)), np.cumsum(values, axis=1)], axis=1)
+    summed: Floats = total[:, ends[1:]] - total[:, ends[:-1]]
+    return summed
+
+
+def count_untested(term: Term, shown: int) -> int:
+    """How many set operators in a term could lose an operand without a difference on the demonstrated meshes.
+
+    shown: the groups of demonstrated hulls.
+    """
+    made = term.form
+    if not isinstance(made, Compound):
+        return 0
+    left, right = made.left.bits & shown, made.right.bits & shown
+    idle = not left & right if made.operator is Diff else not left & ~right or not right & ~left
+    return idle + count_untested(made.left, shown) + count_untested(made.right, shown)
+
+
+def count_idle(term: Term, shown: int, field: ObservationTable) -> int:
+    """How many `Attach` and `Geo` in a term leave nothing out of their label on the demonstrated meshes.
+
+    shown: the groups of demonstrated hulls.
+    """
+    made = term.form
+    match made:
+        case Compound():
+            return count_idle(made.left, shown, field) + count_idle(made.right, shown, field)
+        case Attach(base, _) | Geo(base, _):
+            return int(field.bits(base) & shown == term.bits & shown)
+        case _:
+            return 0

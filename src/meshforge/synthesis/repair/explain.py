@@ -2,143 +2,225 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping, Sequence
+from collections import defaultdict
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from math import log
+from math import exp, log, prod
 from types import MappingProxyType
 
-from meshforge.language import EXTREMITY, Extractor, size
-from meshforge.synthesis.correction import Correction
-from meshforge.synthesis.example import Example
-from meshforge.synthesis.options import Options
-from meshforge.synthesis.repair import weights
-from meshforge.synthesis.repair.choice import Place, beliefs, changes, ranked
-from meshforge.synthesis.repair.explanation import Explanation
-from meshforge.synthesis.repair.larger import larger
-from meshforge.synthesis.repair.matching import Candidate, chance, key_cost, matching
-from meshforge.synthesis.repair.relabelings import correction, relabelings
-from meshforge.synthesis.repair.standing import Labels, is_human
-from meshforge.synthesis.repair.variants import Variants
-from meshforge.synthesis.repair.whys import why
-from meshforge.synthesis.search.order import order
-from meshforge.synthesis.watch import Watch
+from meshforge.label_model import LabelBeliefs, LabelOdds, is_human
+from meshforge.language import Extractor, show, size_of
+from meshforge.symbolic import Hull
+from meshforge.synthesis.demonstration import Example, LabelChange, to_correction
+from meshforge.synthesis.options import Options, TimeBudget
+from meshforge.synthesis.questions import LabelCorrection
+from meshforge.synthesis.repair.candidates import (
+    MAX_BELIEF_AGAINST_PERSON,
+    MIN_BELIEF,
+    MIN_BELIEF_WITHOUT_EXACT,
+    NO_EXTRACTOR_COST,
+    NODE_COST,
+    RIVAL_MARGIN,
+    Candidate,
+    key_cost,
+    search_larger,
+    search_small,
+    total_chance,
+)
+from meshforge.synthesis.repair.relabelings import Variants, enumerate_relabelings
+from meshforge.synthesis.search.terms import order_key
 
-SMALL = 5
+SMALL_SIZE = 5
 """Nodes up to which all extractors are looked at under all relabelings."""
 
-RELABELINGS = 1500
+MAX_RELABELINGS = 1500
 """Relabelings that are looked at, of all examples; single corrections always are."""
 
-_NOTHING: Mapping[str, int] = MappingProxyType({})
+_NONE_SPENT: Mapping[str, int] = MappingProxyType({})
+
+ChangeAt = tuple[int, LabelChange]
+"""A change on one of the examples."""
+
+_LOW_CONFIDENCE = 0.8  # a confidence below is worth mentioning
 
 
-def explain(
-    examples: Sequence[Example],
-    vocabulary: Sequence[str],
-    labels: Labels,
-    options: Options,
-    watch: Watch,
-    extremity: float = EXTREMITY,
-    exact: Extractor | None = None,
-    spent: Mapping[str, int] = _NOTHING,
-    rejected: Collection[Correction] = (),
-) -> Explanation | None:
-    """The most believable extractor with corrections of labels, None where what is exact is as believable.
+@dataclass(frozen=True, slots=True)
+class Explanation:
+    """An extractor that selects what was shown once labels are corrected.
+
+    corrections: sorted, at least one; beliefs: of each, the probability that it is right; whys: of each, one sentence
+    for the user; cost: of extractor and corrections together [nats].
+    """
+
+    extractor: Extractor
+    corrections: tuple[LabelCorrection, ...]
+    beliefs: tuple[float, ...]
+    whys: tuple[str, ...]
+    cost: float
+
+
+class CorrectionSearch:
+    """One rule that may have been shown on wrong labels.
 
     vocabulary: the labels to ask for and to correct to; exact: the smallest extractor that needs no correction, None
     where there is none; spent: corrections made before for other rules, by the name of the mesh; rejected:
-    corrections not to propose. Raises OutOfTime.
+    corrections not to propose.
     """
-    some = tuple(example for example in examples if example.mesh.hulls)
-    return _Case(some, vocabulary, labels, options, watch, extremity, exact, spent, rejected).explanation()
 
+    def __init__(
+        self,
+        examples: Sequence[Example],
+        vocabulary: Sequence[str],
+        labels: LabelBeliefs,
+        options: Options,
+        budget: TimeBudget,
+        exact: Extractor | None = None,
+        spent: Mapping[str, int] = _NONE_SPENT,
+        rejected: Collection[LabelCorrection] = (),
+    ) -> None:
+        self._examples = tuple(example for example in examples if example.mesh.hulls)
+        self._vocabulary, self._labels, self._options, self._budget = vocabulary, labels, options, budget
+        self._exact, self._spent, self._rejected = exact, spent, rejected
 
-@dataclass(frozen=True, eq=False)
-class _Case:
-    """One rule that may have been shown on wrong labels."""
+    def run(self) -> Explanation | None:
+        """The most believable extractor with corrections of labels, None where what is exact is as believable.
 
-    examples: Sequence[Example]
-    vocabulary: Sequence[str]
-    labels: Labels
-    options: Options
-    watch: Watch
-    extremity: float
-    exact: Extractor | None
-    spent: Mapping[str, int]
-    rejected: Collection[Correction]
-
-    def explanation(self) -> Explanation | None:
-        variants = self._variants()
+        Raises OutOfTime.
+        """
+        variants = self._build_variants()
         if variants is None or not all(variants.by_example):
             return None
-        candidates = self._candidates(variants)
-        sure = beliefs(candidates, self._rival(variants))
-        chosen = self._believed(ranked(candidates), sure)
-        return self._explained(chosen, sure) if chosen else None
+        candidates = self._find_candidates(variants)
+        beliefs = compute_change_beliefs(candidates, self._rival_cost(variants))
+        chosen = self._choose(rank_candidates(candidates), beliefs)
+        return self._to_explanation(chosen, beliefs) if chosen else None
 
     @cached_property
-    def _instead(self) -> float:
+    def _exact_cost(self) -> float:
         """What it costs to believe in the exact extractor, or in none at all [nats]."""
-        places = {label: place for place, label in enumerate(self.vocabulary)}
-        return key_cost(order(self.exact, places)) if self.exact else weights.NOTHING
+        places = {label: place for place, label in enumerate(self._vocabulary)}
+        return key_cost(order_key(self._exact, places)) if self._exact else NO_EXTRACTOR_COST
 
     @property
     def _limit(self) -> int:
         """Nodes that an explanation may have."""
-        return min(self.options.max_size, size(self.exact) - 1 if self.exact else self.options.max_size)
+        return min(self._options.max_size, size_of(self._exact) - 1 if self._exact else self._options.max_size)
 
-    def _variants(self) -> Variants | None:
+    def _build_variants(self) -> Variants | None:
         """None where no label can be corrected."""
-        within = self._instead - weights.NODE
-        room = RELABELINGS // max(1, len(self.examples))
+        within = self._exact_cost - NODE_COST
+        room = MAX_RELABELINGS // max(1, len(self._examples))
         ways = [
-            relabelings(example, self.vocabulary, self.labels, self._left(example), self.rejected, within, room)
-            for example in self.examples
+            enumerate_relabelings(
+                example, self._vocabulary, self._labels, self._count_allowed(example), self._rejected, within, room
+            )
+            for example in self._examples
         ]
         if not any(len(some) > 1 for some in ways):
             return None
-        return Variants(self.examples, ways, self.vocabulary, self.options.layers, self.extremity)
+        return Variants(self._examples, ways, self._vocabulary, self._options.layers, self._options.geo_extremity)
 
-    def _left(self, example: Example) -> int:
+    def _count_allowed(self, example: Example) -> int:
         """Corrections that the mesh has left; none where it has no label at all, as any would do as well."""
         if not any(hull.label for hull in example.mesh.hulls):
             return 0
-        return self.options.eta - self.spent.get(example.name, 0)
+        return self._options.eta - self._spent.get(example.name, 0)
 
-    def _candidates(self, variants: Variants) -> list[Candidate]:
-        above = min(SMALL, self._limit)
-        found = list(matching(variants, above, self._instead, self.watch))
-        within = min([self._instead, *(one.cost + weights.RIVAL for one in found)])
-        options = replace(self.options, max_size=self._limit)
-        found += larger(self.examples, variants, self.vocabulary, options, self.extremity, above, within, self.watch)
+    def _find_candidates(self, variants: Variants) -> list[Candidate]:
+        above = min(SMALL_SIZE, self._limit)
+        found = list(search_small(variants, above, self._exact_cost, self._budget))
+        within = min([self._exact_cost, *(one.cost + RIVAL_MARGIN for one in found)])
+        options = replace(self._options, max_size=self._limit)
+        found += search_larger(self._examples, variants, self._vocabulary, options, above, within, self._budget)
         return found
 
-    def _rival(self, variants: Variants) -> float:
+    def _rival_cost(self, variants: Variants) -> float:
         """What it costs that the exact extractor, or none at all, is right, on whichever relabelings it matches."""
-        return self._instead - sum(log(chance(some)) for some in variants.matched(self.exact))
+        return self._exact_cost - sum(log(total_chance(some)) for some in variants.relabelings_for(self._exact))
 
-    def _believed(self, candidates: Sequence[Candidate], sure: Mapping[Place, float]) -> Candidate | None:
+    def _choose(self, candidates: Sequence[Candidate], beliefs: Mapping[ChangeAt, float]) -> Candidate | None:
         """The first candidate, of those about as good as the best, whose corrections are all believed."""
-        least = weights.BELIEVED if self.exact else weights.BELIEVED_WITHOUT
+        least = MIN_BELIEF if self._exact else MIN_BELIEF_WITHOUT_EXACT
         for candidate in candidates:
-            if candidate.score > candidates[0].score + weights.RIVAL:
+            if candidate.score > candidates[0].score + RIVAL_MARGIN:
                 break
-            if all(sure[place] >= least for place in changes(candidate)):
+            if all(beliefs[place] >= least for place in changes_of(candidate)):
                 return candidate
         return None
 
-    def _explained(self, chosen: Candidate, sure: Mapping[Place, float]) -> Explanation:
-        places = changes(chosen)
+    def _to_explanation(self, chosen: Candidate, beliefs: Mapping[ChangeAt, float]) -> Explanation:
+        places = changes_of(chosen)
         rows = []
         for at, change in places:
-            example = self.examples[at]
+            example = self._examples[at]
             hull = example.mesh.hulls[change[0]]
-            standing = self.labels.standing(example.name, hull)
-            assert standing, "only hulls with a standing are relabelled"
-            most = weights.HUMAN_MOST if is_human(hull) else 1.0
-            said = why(standing, change[1], chosen.extractor, len(places) == 1)
-            rows.append((correction(example, change), min(sure[at, change], most), said))
+            odds = self._labels.odds_of(example.name, hull)
+            assert odds, "only hulls with odds are relabelled"
+            most = MAX_BELIEF_AGAINST_PERSON if is_human(hull) else 1.0
+            why = explain_correction(odds, change[1], chosen.extractor, len(places) == 1)
+            rows.append((to_correction(example, change), min(beliefs[at, change], most), why))
         rows.sort(key=lambda row: (row[0].asset, row[0].hull))
         corrections, believed, whys = zip(*rows, strict=True)
         return Explanation(chosen.extractor, corrections, believed, whys, chosen.cost)
+
+
+def rank_candidates(candidates: Iterable[Candidate]) -> list[Candidate]:
+    """The candidates with corrections, the most believable first; of equally believable ones in their order."""
+    return sorted((one for one in candidates if not one.exact), key=lambda one: (round(one.score, 9), one.key))
+
+
+def changes_of(candidate: Candidate) -> tuple[ChangeAt, ...]:
+    """The changes of a candidate's cheapest relabelings."""
+    return tuple((place, change) for place, some in enumerate(candidate.ways) for change in some[0].changes)
+
+
+def compute_change_beliefs(candidates: Sequence[Candidate], instead: float) -> Mapping[ChangeAt, float]:
+    """The probability of each change, among all candidates and what stands against them.
+
+    instead: the cost [nats] of what else may be the case. An extractor's share is spread over its relabelings.
+    """
+    least = min([instead, *(one.score for one in candidates)])
+    total, shares = exp(least - instead), defaultdict[ChangeAt, float](float)
+    for candidate in candidates:
+        weight = exp(least - candidate.base)
+        sums = [total_chance(some) for some in candidate.ways]
+        total += weight * prod(sums)
+        for place, some in enumerate(candidate.ways):
+            others = weight * prod(sums[:place]) * prod(sums[place + 1 :])
+            for way in some:
+                for change in way.changes:
+                    shares[place, change] += others * way.chance
+    return {place: share / total for place, share in shares.items()}
+
+
+def explain_correction(odds: LabelOdds, to: str, extractor: Extractor, alone: bool) -> str:
+    """One sentence on the label itself, and what its correction makes possible.
+
+    alone: whether it is the only correction.
+    """
+    evidence = "; ".join([*_label_evidence(odds, to), _describe_effect(extractor, alone)])
+    return evidence[0].upper() + evidence[1:]
+
+
+def _label_evidence(odds: LabelOdds, to: str) -> list[str]:
+    similar, hull = odds.similar, odds.hull
+    agreeing, of = similar.count(to), len(similar)
+    reasons = []
+    if agreeing > similar.count(hull.label or ""):
+        reasons.append(f"{agreeing} of the {of} most similar hulls are labelled {to}")
+    return [*reasons, *_label_doubts(hull)]
+
+
+def _label_doubts(hull: Hull) -> list[str]:
+    if hull.annotation is None:
+        return ["it has no label"]
+    if is_human(hull):
+        return [f"a person labelled it {hull.annotation.name}"]
+    if hull.annotation.confidence < _LOW_CONFIDENCE:
+        return [f"{hull.annotation.name} has a confidence of {hull.annotation.confidence:.2f} only"]
+    return []
+
+
+def _describe_effect(extractor: Extractor, alone: bool) -> str:
+    return f"with {'it' if alone else 'all corrections'}, {show(extractor)} selects what was shown"

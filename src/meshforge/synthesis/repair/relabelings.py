@@ -1,4 +1,5 @@
-"""The ways in which labels of one mesh may be wrong, the most believable first."""
+"""The ways in which labels may be wrong, the most believable first, and what leaf extractors select under all of
+them."""
 
 from __future__ import annotations
 
@@ -6,13 +7,13 @@ from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 from math import exp
 
-from meshforge.symbolic import Hull, Label
-from meshforge.synthesis.correction import Correction
-from meshforge.synthesis.example import Example
-from meshforge.synthesis.repair.standing import Labels
-
-Change = tuple[int, str]
-"""A hull by its index, and the label it gets."""
+from meshforge.label_model import LabelBeliefs
+from meshforge.language import Extractor
+from meshforge.symbolic import Label, mask_of
+from meshforge.synthesis.demonstration import Example, LabelChange
+from meshforge.synthesis.options import Layers
+from meshforge.synthesis.questions import LabelCorrection
+from meshforge.synthesis.search.observation_table import HullGroups, HullTable
 
 
 @dataclass(frozen=True, slots=True)
@@ -24,15 +25,15 @@ class Relabeling:
 
     cost: float = 0.0
     chance: float = 1.0
-    changes: tuple[Change, ...] = ()
+    changes: tuple[LabelChange, ...] = ()
 
 
-def relabelings(
+def enumerate_relabelings(
     example: Example,
     vocabulary: Sequence[str],
-    labels: Labels,
+    labels: LabelBeliefs,
     allowed: int,
-    rejected: Collection[Correction],
+    rejected: Collection[LabelCorrection],
     within: float,
     limit: int,
 ) -> list[Relabeling]:
@@ -41,53 +42,47 @@ def relabelings(
     allowed: corrections at most; rejected: a label that a person did not want corrected stands, whatever else it might
     be; limit: relabelings of more than one correction stop there.
     """
-    single = _single(example, vocabulary, labels, rejected, within) if allowed > 0 else []
+    single = _single_changes(example, vocabulary, labels, rejected, within) if allowed > 0 else []
     every, latest = [Relabeling(), *single], single
     for _ in range(1, allowed):
         room = limit - len(every)
         if room <= 0:
             break
-        latest = _ordered(_extended(latest, single, within))[:room]
+        latest = _sort_by_cost(_extend(latest, single, within))[:room]
         every += latest
-    return _ordered(every)
+    return _sort_by_cost(every)
 
 
-def correction(example: Example, change: Change) -> Correction:
-    """A change as it is called outside."""
-    hull = example.mesh.hulls[change[0]]
-    return Correction(example.name, hull.name, hull.label, change[1])
-
-
-def relabelled(example: Example, changes: Sequence[Change]) -> Example:
+def relabel(example: Example, changes: Sequence[LabelChange]) -> Example:
     """The example with labels changed."""
     if not changes:
         return example
     hulls = example.mesh.hulls
-    mesh = example.mesh.labelled({hulls[index].name: _label(hulls[index], to) for index, to in changes})
+    mesh = example.mesh.with_labels({hulls[index].name: Label(to, source="repair") for index, to in changes})
     return Example(example.name, mesh, example.selection)
 
 
-def _label(hull: Hull, to: str) -> Label:
-    return Label(to, source="repair")
-
-
-def _single(
-    example: Example, vocabulary: Sequence[str], labels: Labels, rejected: Collection[Correction], within: float
+def _single_changes(
+    example: Example,
+    vocabulary: Sequence[str],
+    labels: LabelBeliefs,
+    rejected: Collection[LabelCorrection],
+    within: float,
 ) -> list[Relabeling]:
     found = []
-    standing = {(one.hull, one.was) for one in rejected if one.asset == example.name}
+    rejected_labels = {(one.hull, one.was) for one in rejected if one.asset == example.name}
     for index, hull in enumerate(example.mesh.hulls):
-        if (hull.name, hull.label) in standing:
+        if (hull.name, hull.label) in rejected_labels:
             continue
         for to in vocabulary:
             cost = labels.cost(example.name, hull, to)
             if cost <= within:
                 chance = exp(-labels.odds(example.name, hull, to))
                 found.append(Relabeling(cost, chance, ((index, to),)))
-    return _ordered(found)
+    return _sort_by_cost(found)
 
 
-def _extended(some: Sequence[Relabeling], single: Sequence[Relabeling], within: float) -> list[Relabeling]:
+def _extend(some: Sequence[Relabeling], single: Sequence[Relabeling], within: float) -> list[Relabeling]:
     """Relabelings with one change more, of a hull after all that they change."""
     found = []
     for one in some:
@@ -99,5 +94,72 @@ def _extended(some: Sequence[Relabeling], single: Sequence[Relabeling], within: 
     return found
 
 
-def _ordered(some: list[Relabeling]) -> list[Relabeling]:
+def _sort_by_cost(some: list[Relabeling]) -> list[Relabeling]:
     return sorted(some, key=lambda one: (one.cost, one.changes))
+
+
+@dataclass(frozen=True, slots=True)
+class Variant:
+    """One mesh under one relabeling: the groups of hulls that are to be selected there, and those that are not."""
+
+    relabeling: Relabeling
+    need: int
+    avoid: int
+
+
+def build_hull_table(examples: Sequence[Example], ways: Sequence[Sequence[Relabeling]]) -> HullTable:
+    """The hulls of each example under each of its relabelings, in one row."""
+    rows = [(example, one) for example, some in zip(examples, ways, strict=True) for one in some]
+    labels = [label for example, one in rows for label in _labels_under(example, one)]
+    return HullTable([example.mesh for example, _ in rows], labels)
+
+
+class Variants:
+    """The variants of each example that an extractor may match, and the leaves as terms over their groups of hulls.
+
+    A variant is left out where two hulls that no extractor tells apart were treated differently.
+    """
+
+    def __init__(
+        self,
+        examples: Sequence[Example],
+        ways: Sequence[Sequence[Relabeling]],
+        vocabulary: Sequence[str],
+        layers: Layers,
+        extremity: float,
+    ) -> None:
+        self._groups = HullGroups(build_hull_table(examples, ways), vocabulary, layers, extremity)
+        self.width, self.terms = self._groups.width, self._groups.terms
+        self.by_example: list[list[Variant]] = []
+        begin = 0
+        for example, some in zip(examples, ways, strict=True):
+            size = len(example.mesh.hulls)
+            slices = [self._groups.of[begin + k * size : begin + (k + 1) * size] for k in range(len(some))]
+            begin += len(some) * size
+            variants = [_to_variant(example, one, part) for one, part in zip(some, slices, strict=True)]
+            self.by_example.append([variant for variant in variants if not variant.need & variant.avoid])
+
+    def relabelings_for(self, extractor: Extractor | None) -> list[list[Relabeling]]:
+        """Of each example the relabelings on which an extractor selects what was shown; on all of them for None."""
+        found = None if extractor is None else self._groups.term(extractor).bits
+        return [
+            [
+                variant.relabeling
+                for variant in variants
+                if found is None or (found & variant.need == variant.need and not found & variant.avoid)
+            ]
+            for variants in self.by_example
+        ]
+
+
+def _to_variant(example: Example, relabeling: Relabeling, groups: Sequence[int]) -> Variant:
+    shown = example.selection
+    need = mask_of(group for hull, group in enumerate(groups) if shown >> hull & 1)
+    return Variant(relabeling, need, mask_of(group for hull, group in enumerate(groups) if not shown >> hull & 1))
+
+
+def _labels_under(example: Example, relabeling: Relabeling) -> list[str | None]:
+    labels = [hull.label for hull in example.mesh.hulls]
+    for index, to in relabeling.changes:
+        labels[index] = to
+    return labels

@@ -1,16 +1,17 @@
-"""Every selection that small extractors make, each with the first extractor that makes it, grown size by size."""
+"""Every selection that small extractors make, each with the first extractor that makes it, grown size by size; and
+an index that finds at once all that hold one set of hulls and avoid another."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from meshforge.language import Diff, Intersect, Union
-from meshforge.synthesis.search.columns import Columns, positions
-from meshforge.synthesis.search.order import Joint, Key, joint_key
-from meshforge.synthesis.search.term import Term, joined
-from meshforge.synthesis.watch import Watch
+import numpy as np
 
-Draft = tuple[Key, Joint, Term, Term]
+from meshforge.language import Diff, Intersect, Union
+from meshforge.synthesis.options import TimeBudget
+from meshforge.synthesis.search.terms import Key, SetOperator, Term, combine, operator_key
+
+Draft = tuple[Key, SetOperator, Term, Term]
 """A set operator over two terms, before it is known to be worth keeping."""
 
 
@@ -23,7 +24,7 @@ class Level:
         self.terms = tuple(sorted(terms, key=lambda term: term.key))
         self.columns = Columns([term.bits for term in self.terms], width)
 
-    def chosen(self, rows: int) -> Iterator[Term]:
+    def select_rows(self, rows: int) -> Iterator[Term]:
         """The terms of a set of rows, in order."""
         return (self.terms[k] for k in positions(rows))
 
@@ -35,10 +36,10 @@ class Bank:
     merge: False keeps every term instead (to test that the answer is the same).
     """
 
-    def __init__(self, leaves: Sequence[Term], width: int, watch: Watch, merge: bool = True) -> None:
+    def __init__(self, leaves: Sequence[Term], width: int, budget: TimeBudget, merge: bool = True) -> None:
         self._leaves = leaves
         self._width = width
-        self._watch = watch
+        self._budget = budget
         self._merge = merge
         self._levels: list[Level] = []
         self._known: set[int] = {0}
@@ -55,17 +56,17 @@ class Bank:
     def level(self, size: int) -> Level:
         """The terms of that size, without those that select what a smaller one does."""
         while len(self._levels) < size:
-            self._levels.append(self._grown(len(self._levels) + 1))
+            self._levels.append(self._grow(len(self._levels) + 1))
         return self._levels[size - 1]
 
-    def _grown(self, size: int) -> Level:
+    def _grow(self, size: int) -> Level:
         if not self._merge:
-            every = [joined(joint, x, y) for _, (_, joint, x, y) in self._drafts(size)]
+            every = [combine(operator, x, y) for _, (_, operator, x, y) in self._drafts(size)]
             return Level([*self.leaves(size), *every], self._width)
         terms = {leaf.bits: leaf for leaf in sorted(self.leaves(size), key=lambda leaf: leaf.key, reverse=True)}
-        for bits, (key, joint, x, y) in self._first_drafts(size).items():
+        for bits, (key, operator, x, y) in self._first_drafts(size).items():
             if bits not in terms or key < terms[bits].key:
-                terms[bits] = joined(joint, x, y)
+                terms[bits] = combine(operator, x, y)
         fresh = [term for bits, term in terms.items() if bits not in self._known]
         self._known.update(terms)
         return Level(fresh, self._width)
@@ -83,15 +84,62 @@ class Bank:
         for small in range(1, (size - 1) // 2 + 1):
             large = self.level(size - 1 - small).terms
             for x in self.level(small).terms:
-                self._watch.check()
+                self._budget.check()
                 a, xk = x.bits, x.key
                 for y in large:
                     b = y.bits
                     if a | b not in known:
-                        yield a | b, (joint_key(Union, xk, y.key), Union, x, y)
+                        yield a | b, (operator_key(Union, xk, y.key), Union, x, y)
                     if a & b not in known:
-                        yield a & b, (joint_key(Intersect, xk, y.key), Intersect, x, y)
+                        yield a & b, (operator_key(Intersect, xk, y.key), Intersect, x, y)
                     if a & ~b not in known:
-                        yield a & ~b, (joint_key(Diff, xk, y.key), Diff, x, y)
+                        yield a & ~b, (operator_key(Diff, xk, y.key), Diff, x, y)
                     if b & ~a not in known:
-                        yield b & ~a, (joint_key(Diff, y.key, xk), Diff, y, x)
+                        yield b & ~a, (operator_key(Diff, y.key, xk), Diff, y, x)
+
+
+class Columns:
+    """Bit sets ("rows") kept by position: column p is the set of the rows that have bit p.
+
+    Answers are sets of rows, bit k for row k.
+    """
+
+    __slots__ = ("_columns", "every")
+
+    def __init__(self, rows: Sequence[int], width: int) -> None:
+        self.every = (1 << len(rows)) - 1
+        self._columns = _transpose(rows, width)
+
+    def rows_with(self, need: int, among: int) -> int:
+        """The rows of `among` that have every bit of `need`."""
+        for p in positions(need):
+            if not among:
+                break
+            among &= self._columns[p]
+        return among
+
+    def rows_without(self, avoid: int, among: int) -> int:
+        """The rows of `among` that have no bit of `avoid`."""
+        for p in positions(avoid):
+            if not among:
+                break
+            among &= ~self._columns[p]
+        return among
+
+
+def positions(mask: int) -> Iterator[int]:
+    """The set bits, lowest first."""
+    while mask:
+        low = mask & -mask
+        yield low.bit_length() - 1
+        mask ^= low
+
+
+def _transpose(rows: Sequence[int], width: int) -> list[int]:
+    if not rows:
+        return [0] * width
+    size = (width + 7) // 8
+    packed = np.frombuffer(b"".join(row.to_bytes(size, "little") for row in rows), np.uint8).reshape(len(rows), size)
+    table = np.unpackbits(packed, axis=1, count=width, bitorder="little")
+    columns = np.packbits(table.T, axis=1, bitorder="little")
+    return [int.from_bytes(column.tobytes(), "little") for column in columns]

@@ -1,4 +1,5 @@
-"""The smallest extractor that selects on every example what was shown (paper, algorithm SynthesizeExtractor)."""
+"""The smallest extractor that selects on every example what was shown (paper, algorithm SynthesizeExtractor); where
+none does, the nearest one and how it differs."""
 
 from __future__ import annotations
 
@@ -7,29 +8,26 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
-from meshforge.language import EXTREMITY, Extractor
+from meshforge.language import Extractor
 from meshforge.symbolic import SymbolicMesh, mask_of
-from meshforge.synthesis.example import Example
-from meshforge.synthesis.options import Options
-from meshforge.synthesis.search.bank import Bank
-from meshforge.synthesis.search.columns import positions
+from meshforge.synthesis.demonstration import Example
+from meshforge.synthesis.options import Options, OutOfTime, TimeBudget
+from meshforge.synthesis.search.bank import Bank, positions
 from meshforge.synthesis.search.completion import Completion, Goal
-from meshforge.synthesis.search.field import Field
-from meshforge.synthesis.search.miss import Errors, NearMiss, lookalikes, near_miss
-from meshforge.synthesis.search.term import Term
-from meshforge.synthesis.watch import OutOfTime, Watch
+from meshforge.synthesis.search.observation_table import ObservationTable
+from meshforge.synthesis.search.terms import Term
 
-NEAR_SIZE = 5
+NEAREST_SIZE = 5
 """Where nothing matches, the nearest miss is looked for among all selections of extractors up to this size."""
 
-_HASTY = 4
-"""The same where the time ran out."""
+_NEAREST_SIZE_LATE = 4
+"""Where the time ran out, only up to this size."""
 
-_REFUTING = 16  # groups that join the search when its answer is wrong on them
+_MAX_COUNTEREXAMPLES = 16  # groups that join the search when its answer is wrong on them
 
 
 @dataclass(frozen=True, slots=True)
-class Tried:
+class SearchEffort:
     """How far a search went: all sizes up to `size`, selections kept, goals of missing operands followed."""
 
     size: int
@@ -42,7 +40,7 @@ class Hit:
     """The smallest extractor, of those the most believable in the order."""
 
     extractor: Extractor
-    tried: Tried
+    tried: SearchEffort
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,19 +48,19 @@ class Miss:
     """No extractor within the limits; why: one sentence for the user."""
 
     why: str
-    nearest: NearMiss
-    tried: Tried
+    nearest: NearestExtractor
+    tried: SearchEffort
 
 
 @dataclass(frozen=True, slots=True)
 class Unfinished:
     """The time ran out; nearest: the nearest miss so far."""
 
-    nearest: NearMiss | None
-    tried: Tried
+    nearest: NearestExtractor | None
+    tried: SearchEffort
 
 
-Answer = Hit | Miss | Unfinished
+SearchResult = Hit | Miss | Unfinished
 
 
 class Search:
@@ -76,29 +74,32 @@ class Search:
         self,
         examples: Sequence[Example],
         vocabulary: Sequence[str],
-        watch: Watch,
+        budget: TimeBudget,
         options: Options,
-        extremity: float = EXTREMITY,
         batch: Sequence[SymbolicMesh] = (),
     ) -> None:
-        self.examples, self.options, self.watch = tuple(examples), options, watch
+        self.examples, self.options, self.budget = tuple(examples), options, budget
         self.selections = tuple(example.selection for example in examples)
         meshes = [*(example.mesh for example in examples), *batch]
-        self.field = Field(meshes, vocabulary, options.layers, extremity, options.shortcuts.group)
+        self.field = ObservationTable(
+            meshes, vocabulary, options.layers, options.geo_extremity, options.shortcuts.group
+        )
         self.width = self.field.width_of(len(examples))
-        self.need = self.field.touched(self.selections)
+        self.need = self.field.groups_in(self.selections)
         self._exhausted = self._kept = self._goals = 0
 
-    def run(self) -> Answer:
-        """The answer, within the limits of the options and the watch."""
+    def run(self) -> SearchResult:
+        """The answer, within the limits of the options and the budget."""
         try:
-            return self._hit() or self._miss()
+            return self._find_hit() or self._report_miss()
         except OutOfTime:
-            return Unfinished(self._nearest(min(self._exhausted, _HASTY), Watch(math.inf)), self.tried)
+            return Unfinished(
+                self._find_nearest(min(self._exhausted, _NEAREST_SIZE_LATE), TimeBudget(math.inf)), self.tried
+            )
 
     @property
-    def tried(self) -> Tried:
-        return Tried(self._exhausted, self._kept, self._goals)
+    def tried(self) -> SearchEffort:
+        return SearchEffort(self._exhausted, self._kept, self._goals)
 
     @cached_property
     def decisive(self) -> tuple[int, ...]:
@@ -109,31 +110,31 @@ class Search:
         shown = [group for group in every if self.need >> group & 1][: few // 2]
         return tuple(sorted([*shown, *[g for g in every if not self.need >> g & 1][: few - len(shown)]]))
 
-    def _hit(self) -> Hit | None:
-        if self.options.shortcuts.group and self.field.unlike(self.selections):
+    def _find_hit(self) -> Hit | None:
+        if self.options.shortcuts.group and self.field.find_conflict(self.selections):
             return None
         while True:
-            extractor = self._smallest()
+            extractor = self._find_smallest()
             if extractor is None:
                 return None
             wrong = (self.field.bits(extractor) ^ self.need) & ((1 << self.width) - 1)
             if not wrong:
                 return Hit(extractor, self.tried)
-            refuting = list(positions(wrong))[:_REFUTING]
+            refuting = list(positions(wrong))[:_MAX_COUNTEREXAMPLES]
             self.decisive = tuple(sorted({*self.decisive, *refuting}))
 
-    def _smallest(self) -> Extractor | None:
+    def _find_smallest(self) -> Extractor | None:
         """The first extractor that is right on the decisive groups."""
         groups, shortcuts = self.decisive, self.options.shortcuts
         whole = groups == tuple(range(self.width))
-        terms = [Term(_packed(t.bits, groups, whole), t.key, t.made) for t in self.field.terms]
-        bank = Bank(terms, len(groups), self.watch, shortcuts.merge)
-        completion = Completion(bank, self.watch, shortcuts)
-        need = _packed(self.need, groups, whole)
+        terms = [Term(_pack(t.bits, groups, whole), t.key, t.form) for t in self.field.terms]
+        bank = Bank(terms, len(groups), self.budget, shortcuts.merge)
+        completion = Completion(bank, self.budget, shortcuts)
+        need = _pack(self.need, groups, whole)
         goal = Goal(need, ((1 << len(groups)) - 1) & ~need)
         try:
             for size in range(1 + self._exhausted, self.options.max_size + 1):
-                term = completion.first(goal, size)
+                term = completion.find_first(goal, size)
                 if term:
                     return term.extractor
                 self._exhausted = size
@@ -142,25 +143,89 @@ class Search:
             self._kept += sum(len(level.terms) for level in bank.levels)
             self._goals += completion.goals
 
-    def _miss(self) -> Miss:
-        why = lookalikes(self.field, self.selections, self.examples)
-        nearest = self._nearest(NEAR_SIZE, self.watch)
+    def _report_miss(self) -> Miss:
+        why = describe_conflict(self.field, self.selections, self.examples)
+        nearest = self._find_nearest(NEAREST_SIZE, self.budget)
         assert nearest, "a bank with a target has terms: All selects something"
         return Miss(why or f"no extractor of up to {self.options.max_size} nodes matches", nearest, self.tried)
 
-    def _nearest(self, size: int, watch: Watch) -> NearMiss | None:
+    def _find_nearest(self, size: int, budget: TimeBudget) -> NearestExtractor | None:
         """The nearest miss among extractors of up to some size."""
-        terms = [Term(t.bits & ((1 << self.width) - 1), t.key, t.made) for t in self.field.terms]
-        bank = Bank(terms, self.width, watch)
+        terms = [Term(t.bits & ((1 << self.width) - 1), t.key, t.form) for t in self.field.terms]
+        bank = Bank(terms, self.width, budget)
         levels = [bank.level(k) for k in range(1, size + 1)]
-        errors = Errors(self.field, self.selections, self.width)
+        errors = ErrorCounter(self.field, self.selections, self.width)
         made = (term for level in levels for term in level.terms)
         term = min(made, key=lambda term: (errors.count(term.bits), term.key), default=None)
-        return near_miss(term.extractor, self.field, self.examples) if term else None
+        return compare_nearest(term.extractor, self.field, self.examples) if term else None
 
 
-def _packed(bits: int, groups: Sequence[int], whole: bool) -> int:
+def _pack(bits: int, groups: Sequence[int], whole: bool) -> int:
     """The bits of some groups, moved together."""
     if whole:
         return bits & ((1 << len(groups)) - 1)
     return mask_of(place for place, group in enumerate(groups) if bits >> group & 1)
+
+
+@dataclass(frozen=True, slots=True)
+class NearestExtractor:
+    """An extractor that nearly matches, and how it differs on the mesh where it differs most.
+
+    extra: names of hulls it selects though they were not shown; missing: names of those it leaves out.
+    """
+
+    extractor: Extractor
+    asset: str
+    extra: tuple[str, ...]
+    missing: tuple[str, ...]
+
+
+class ErrorCounter:
+    """Counts the demonstrated hulls on which a selection of groups is wrong.
+
+    The weights of all groups are kept as planes of binary digits, so that a count takes a few operations on bit sets.
+    """
+
+    def __init__(self, field: ObservationTable, selections: Sequence[int], width: int) -> None:
+        shown, others = [0] * width, [0] * width
+        for mask, groups in zip(selections, field.groups, strict=False):
+            for hull, group in enumerate(groups):
+                (shown if mask >> hull & 1 else others)[group] += 1
+        self._missed, self._extra = _to_planes(shown), _to_planes(others)
+
+    def count(self, chosen: int) -> int:
+        """How many hulls a selection of groups has too many or too few."""
+        extra = sum((chosen & plane).bit_count() << k for k, plane in enumerate(self._extra))
+        return extra + sum((~chosen & plane).bit_count() << k for k, plane in enumerate(self._missed))
+
+
+def compare_nearest(extractor: Extractor, field: ObservationTable, examples: Sequence[Example]) -> NearestExtractor:
+    """Where and how an extractor's selection differs from what was shown."""
+    found = field.bits(extractor)
+    on = [field.on(found, k) for k in range(len(examples))]
+    extra = [mask & ~example.selection for mask, example in zip(on, examples, strict=True)]
+    missing = [example.selection & ~mask for mask, example in zip(on, examples, strict=True)]
+    worst = max(range(len(examples)), key=lambda k: (extra[k].bit_count() + missing[k].bit_count(), -k))
+    example = examples[worst]
+    names_of = example.mesh.names_of
+    return NearestExtractor(extractor, example.name, names_of(extra[worst]), names_of(missing[worst]))
+
+
+def describe_conflict(field: ObservationTable, selections: Sequence[int], examples: Sequence[Example]) -> str | None:
+    """A sentence on two hulls that no extractor tells apart though only one of them was selected."""
+    found = field.find_conflict(selections)
+    if not found:
+        return None
+    shown, other = (f"{examples[mesh].mesh.hulls[hull].name!r} of {examples[mesh].name}" for mesh, hull in found)
+    return (
+        f"{shown} was selected and {other} was not, yet every extractor treats them alike; "
+        "a label of its own for one of them would tell them apart"
+    )
+
+
+def _to_planes(weights: Sequence[int]) -> list[int]:
+    """Bit set k holds the positions whose weight has binary digit k."""
+    return [
+        sum(1 << place for place, weight in enumerate(weights) if weight >> k & 1)
+        for k in range(max(weights, default=0).bit_length())
+    ]

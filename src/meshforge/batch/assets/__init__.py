@@ -1,1 +1,0 @@
-"""Which assets a batch has, with what is known of each before it is read."""

@@ -1,0 +1,134 @@
+"""What a batch is given: one job an asset, one task that is the same for all, and the hull templates of its program."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from meshforge.batch.corrections import Correction
+from meshforge.batch.discovery import AssetSet, asset_id
+from meshforge.common import ProgramError, UsageError
+from meshforge.formats import EngineName, Mass, labels_beside, read
+from meshforge.language import Program, Template
+
+
+@dataclass(frozen=True, slots=True)
+class AssetJob:
+    """One asset of a batch.
+
+    id: its path below `base`, which the output mirrors; labels: its labels file, None for no labels;
+    corrections: edits by hand, replayed after the program; preparation: the folder of what is done to it before.
+    """
+
+    id: str
+    path: Path
+    base: Path
+    labels: Path | None = None
+    corrections: tuple[Correction, ...] = ()
+    preparation: Path | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class ApplyOptions:
+    """How edited assets are written.
+
+    mass: whether bodies keep their masses where a format derives them from geometry; link: files that are only copied
+    become hard links; dry_run: nothing is written; resume: an output that is whole and was made from the same is
+    skipped; to: the suffix of the format that all are written in, each one's own when None; names: the engine by whose
+    names for collision hulls are written.
+    """
+
+    mass: Mass = "keep"
+    link: bool = False
+    dry_run: bool = False
+    resume: bool = True
+    to: str | None = None
+    names: EngineName | None = None
+
+
+APPLY_DEFAULTS = ApplyOptions()
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class ApplyTask:
+    """What is done to every asset of a batch. out: the folder that is written."""
+
+    program: Program
+    templates: Mapping[str, Template]
+    out: Path
+    options: ApplyOptions = APPLY_DEFAULTS
+
+
+def make_jobs(found: AssetSet, labels: Path | None = None) -> tuple[AssetJob, ...]:
+    """A job for each asset, with its labels.
+
+    labels: a labels file for a single asset, or a folder that mirrors the assets' (`ID.json` or the name it would have
+    beside the asset); without it, the file beside each asset, if present.
+    Raises UsageError: no such file or folder, or one file for several assets.
+    """
+    if labels is not None and labels.is_file() and len(found) > 1:
+        raise UsageError(
+            f"one labels file cannot serve {len(found)} assets",
+            where=str(labels),
+            remedy="Give a folder that mirrors theirs.",
+        )
+    return tuple(
+        AssetJob(key, path, found.base, find_labels_file(path, labels, found.base)) for key, path in found.ids.items()
+    )
+
+
+def find_labels_file(path: Path, labels: Path | None, base: Path) -> Path | None:
+    """The labels file of one asset, None where it has none; the arguments are those of `make_jobs`."""
+    if labels is None:
+        beside = labels_beside(path)
+        return beside if beside.is_file() else None
+    if labels.is_file():
+        return labels
+    if not labels.is_dir():
+        raise UsageError("there is no such labels file or folder", where=str(labels))
+    mirrored = labels / asset_id(path, base)
+    candidates = (mirrored.with_name(mirrored.name + ".json"), labels_beside(mirrored))
+    return next((place for place in candidates if place.is_file()), None)
+
+
+def template_folders(program: Path) -> tuple[Path, ...]:
+    """Where the templates of a program file are looked for: beside it, then in the folder templates/ there."""
+    return program.parent, program.parent / "templates"
+
+
+def load_templates(program: Program, folders: Sequence[Path]) -> dict[str, Template]:
+    """The templates that a program names, by the path it writes, from the first folder that has each.
+
+    Raises ProgramError: a template is in none of the folders, holds no hull, or is not convex.
+    """
+    return load_named_templates(program.templates, folders)
+
+
+def load_named_templates(names: Iterable[str], folders: Sequence[Path]) -> dict[str, Template]:
+    """The templates of these names; from the first folder that has each."""
+    return {name: read_template(_find_template(name, folders), name) for name in names}
+
+
+def read_template(path: Path, name: str) -> Template:
+    """The template in a file. Raises ProgramError, naming it, where it holds no hull or is not convex."""
+    asset = read(path)
+    if asset.opaque:
+        out = path.with_name(f"{path.stem}_hulls{path.suffix}")
+        raise ProgramError(
+            f'the template "{name}" is no convex hull: {asset.opaque[0].reason}',
+            where=str(path),
+            remedy=f"Split it into convex hulls first: meshforge decompose {path} -o {out}",
+        )
+    if not asset.geoms:
+        raise ProgramError(f'the template "{name}" holds no hull', where=str(path))
+    return Template(tuple(geom.shape for geom in asset.geoms), name)
+
+
+def _find_template(name: str, folders: Sequence[Path]) -> Path:
+    places = [folder / name for folder in folders]
+    for place in places:
+        if place.is_file():
+            return place
+    looked = ", then ".join(str(place) for place in places) or "no folder"
+    raise ProgramError(f'the template "{name}" is not there', remedy=f"Looked for {looked}.")

@@ -1,1 +1,0 @@
-"""What is written: drafts of outputs, their stamps, and how they come into place whatever happens."""

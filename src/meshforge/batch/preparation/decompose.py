@@ -1,0 +1,221 @@
+"""Hulls for what an asset has none for, by a decomposition engine, and how well they fit what they were made of."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from fnmatch import fnmatchcase
+from importlib.metadata import version
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from meshforge.batch.preparation.record import (
+    DecompositionSource,
+    PieceProblem,
+    Preparation,
+    PreparationStep,
+    Replacement,
+    find_sources,
+    free_names,
+    hull_digest,
+    replay_preparation,
+    surface_digest,
+)
+from meshforge.common import MeshForgeError, join_names, pluralize
+from meshforge.geometry import (
+    DecomposeSettings,
+    Floats,
+    Ints,
+    Polytope,
+    decompose,
+    is_sheet,
+    sheet_hulls,
+    volume_inside,
+    volume_of_union,
+)
+from meshforge.symbolic import Asset, Surface
+
+_NEAR = 0.01  # of the diagonal: surface farther outside of all hulls than this is not covered
+_POINTS = 4000
+_SKIN = 0.01  # a surface that encloses less of its hulls is a sheet with two sides, which has no volume to speak of
+_LEAST = 0.005  # shares below count as none
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class DecompositionResult:
+    """What became of an asset. made: what was decomposed now; failed: what could not be, and why.
+
+    dropped: what an earlier preparation did and was given up, since it does not fit the asset any more.
+    missed: where none of the names that it was limited to is there, a sentence on that.
+    """
+
+    preparation: Preparation
+    made: tuple[Replacement, ...] = ()
+    failed: tuple[PieceProblem, ...] = ()
+    dropped: tuple[PieceProblem, ...] = ()
+    missed: str | None = None
+
+
+def decompose_asset(
+    asset: Asset,
+    before: Preparation,
+    settings: DecomposeSettings,
+    *,
+    only: Sequence[str] = (),
+    again: bool = False,
+    hollow: bool = False,
+    cache: Path | None = None,
+) -> DecompositionResult:
+    """Decompose all opaque pieces of an asset, and what bodies without collision geometry show.
+
+    asset: as it was read; before: what is prepared already and stays as it is, as far as it still fits the asset;
+    only: names, or patterns of them, of pieces and bodies, none for all; again: decompose anew what is decomposed;
+    hollow: planar holes are not closed first, so that shells of one sheet are not filled.
+    One piece that fails does not keep the others from being done.
+    """
+    fit = replay_preparation(asset, _drop_decompositions(before, only) if again else before)
+    kept = fit.preparation
+    taken = {*(g.name for g in asset.geoms), *(o.name for o in asset.opaque), *kept.hull_digests}
+    made: list[Replacement] = []
+    hulls: list[Polytope] = []
+    failed: list[PieceProblem] = []
+    bare = find_sources(fit.asset)
+    missed = _describe_no_match(only, [*(source.what for source in bare), *kept.source_names])
+    for source in bare:
+        if not _is_chosen(source.what, only):
+            continue
+        try:
+            entry, own = _decompose_source(source, settings, taken, hollow, cache)
+        except MeshForgeError as error:
+            own_name = None if error.where == source.what else error.where  # the name of the piece comes with Lost
+            failed.append(
+                PieceProblem(source.what, MeshForgeError(error.problem, where=own_name, remedy=error.remedy).message)
+            )
+            continue
+        made.append(entry)
+        hulls += own
+        taken |= entry.made.keys()
+    if made:
+        kept = kept.with_step(
+            PreparationStep("decompose", settings_to_json(settings, hollow), software_versions(settings), tuple(made)),
+            hulls,
+        )
+    return DecompositionResult(kept, tuple(made), tuple(failed), fit.lost, missed)
+
+
+def _decompose_source(
+    source: DecompositionSource, settings: DecomposeSettings, taken: set[str], hollow: bool, cache: Path | None
+) -> tuple[Replacement, list[Polytope]]:
+    notes: list[str] = []
+    hulls = decompose_surface(source.surface, settings, source.what, hollow=hollow, cache=cache, note=notes.append)
+    names = free_names(source.base, len(hulls), taken)
+    made = dict(zip(names, map(hull_digest, hulls), strict=True))
+    remarks = "; ".join([describe_fit(source.surface, hulls, solid=source.kind == "opaque" and not hollow), *notes])
+    return Replacement(source.what, source.kind, surface_digest(source.surface), made, remarks), hulls
+
+
+def _drop_decompositions(before: Preparation, only: Sequence[str]) -> Preparation:
+    """What is prepared, without the decompositions that are to be done again."""
+    kept = []
+    for step in before.steps:
+        stay = tuple(r for r in step.replaced if step.do != "decompose" or not _is_chosen(r.what, only))
+        kept += [PreparationStep(step.do, step.settings, step.software, stay)] if stay else []
+    return before.with_only(kept)
+
+
+def _describe_no_match(only: Sequence[str], there: Sequence[str]) -> str | None:
+    """A sentence where no piece or body that can be decomposed has a name that was asked for."""
+    if any(_is_chosen(name, only) for name in there) or not only:
+        return None
+    known = f"it has {join_names(there)}" if there else "it has none that can be decomposed"
+    return f"no piece or body matches {join_names(only)}: {known}"
+
+
+def _is_chosen(name: str, only: Sequence[str]) -> bool:
+    return not only or any(name == pattern or fnmatchcase(name, pattern) for pattern in only)
+
+
+def decompose_surface(
+    surface: Surface,
+    settings: DecomposeSettings,
+    name: str,
+    *,
+    hollow: bool,
+    cache: Path | None,
+    note: Callable[[str], None],
+) -> list[Polytope]:
+    """The convex hulls of a surface, in the engine's order. Raises GeometryError, about `name`.
+
+    hollow: planar holes stay open, so that shells of one sheet are not filled.
+    """
+
+    def run(vertices: Floats, faces: Ints) -> list[Polytope]:
+        return decompose(vertices, faces, settings, close=not hollow, cache=cache, note=note)
+
+    if is_sheet(surface.vertices[surface.faces].reshape(-1, 3)):
+        note("it is flat, so its hulls are thin sheets")
+        return sheet_hulls(surface.vertices, surface.faces, run, name)
+    return run(surface.vertices, surface.faces)
+
+
+def settings_to_json(settings: DecomposeSettings, hollow: bool) -> dict[str, Any]:
+    """The settings as a preparation keeps them."""
+    return {"method": settings.engine, "hollow": hollow, **settings.as_dict()}
+
+
+def software_versions(settings: DecomposeSettings | None = None) -> dict[str, str]:
+    """The versions of what makes hulls."""
+    return {name: version(name) for name in ("meshforge", settings.package if settings else "manifold3d")}
+
+
+def describe_fit(surface: Surface, hulls: Sequence[Polytope], *, solid: bool) -> str:
+    """`12 hulls, 3% more volume, 2% of the surface outside`; solid: whether what the surface encloses is its volume.
+
+    An open surface encloses nothing, and parts that overlap, as those to look at may, enclose some of it twice.
+    """
+    parts = [pluralize(len(hulls), "hull")]
+    volume, own = volume_of_union(hulls), volume_inside(surface.vertices, surface.faces) if solid else None
+    if own and own > _SKIN * volume:
+        excess, more = volume / own - 1, "more" if volume > own else "less"
+        parts.append("the same volume" if abs(excess) < _LEAST else f"{abs(excess):.0%} {more} volume")
+    bare = measure_uncovered(surface, hulls)
+    parts += [f"{bare:.0%} of the surface outside"] if bare >= _LEAST else []
+    return ", ".join(parts)
+
+
+def measure_uncovered(surface: Surface, hulls: Sequence[Polytope]) -> float:
+    """The share of a surface's area that is farther outside of all hulls than 1% of its diagonal."""
+    points = _sample_surface(surface)
+    reach = _NEAR * float(np.linalg.norm(np.ptp(points, axis=0)))
+    outside = np.ones(len(points), dtype=bool)
+    for hull in hulls:
+        outside[outside] = _height_above(points[outside], hull) > reach
+    return float(outside.mean())
+
+
+def _height_above(points: Floats, hull: Polytope) -> Floats:
+    """How far (n,) [m] points (n, 3) are above the face of a hull that they are highest above."""
+    a, b, c = (hull.vertices[hull.faces[:, k]] for k in range(3))
+    normals = np.cross(b - a, c - a)
+    lengths = np.linalg.norm(normals, axis=1)
+    normals, a = normals[lengths > 0] / lengths[lengths > 0, None], a[lengths > 0]
+    heights: Floats = (points @ normals.T - np.einsum("ij,ij->i", normals, a)).max(axis=1, initial=-np.inf)
+    return heights
+
+
+def _sample_surface(surface: Surface) -> Floats:
+    """Points (n, 3) that lie evenly on a surface, the same every time."""
+    a, b, c = (surface.vertices[surface.faces[:, k]] for k in range(3))
+    areas = np.linalg.norm(np.cross(b - a, c - a), axis=1)
+    random = np.random.default_rng(0)
+    if not areas.sum() > 0:
+        return a
+    chosen = np.searchsorted(np.cumsum(areas) / areas.sum(), (np.arange(_POINTS) + 0.5) / _POINTS)
+    chosen = np.minimum(chosen, len(areas) - 1)
+    u, v = random.random((2, _POINTS, 1))
+    folded = u + v > 1
+    u, v = np.where(folded, 1 - u, u), np.where(folded, 1 - v, v)
+    points: Floats = a[chosen] + u * (b[chosen] - a[chosen]) + v * (c[chosen] - a[chosen])
+    return points

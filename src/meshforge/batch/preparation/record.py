@@ -1,0 +1,253 @@
+"""A preparation as data: what of an asset can be decomposed, which pieces are replaced by which hulls and how these
+were made; and replayed on an asset as it was read."""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field, replace
+from typing import Any, Literal
+
+import numpy as np
+
+from meshforge.common import AssetError, join_names, pluralize
+from meshforge.formats import NO_GEOMETRY
+from meshforge.geometry import Polytope, digest, is_line
+from meshforge.symbolic import Asset, Geom, Surface
+
+SourceKind = Literal["opaque", "body", "hull"]
+"""What is replaced: an opaque piece; nothing, by what a body without collision geometry shows; or a hull."""
+
+_GRID = 1.4142135e-7
+"""[m] Coordinates are compared in these steps; no round number, so that rounding errors tip no round coordinates."""
+
+
+@dataclass(frozen=True, slots=True)
+class Replacement:
+    """One piece and the hulls that stand in its place.
+
+    what: the name of the piece, or of the body; source: the digest of its geometry, by which a change is noticed;
+    made: the digest of each hull by its name; told: how well they fit, for people.
+    """
+
+    what: str
+    kind: SourceKind
+    source: str
+    made: dict[str, str]
+    told: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class PreparationStep:
+    """One thing done to an asset.
+
+    do: `decompose` by an engine, `cut` a hull along a plane, or `split` it by a decomposition of what is seen there.
+    settings: all that it was done with; software: the versions of what did it.
+    """
+
+    do: Literal["decompose", "cut", "split"]
+    settings: dict[str, Any]
+    software: dict[str, str]
+    replaced: tuple[Replacement, ...]
+
+    def __str__(self) -> str:
+        """`link/geom0 decomposed into 12 hulls by coacd`."""
+        names = [entry.what for entry in self.replaced]
+        what = names[0] if len(names) == 1 else f"{len(names)} pieces"
+        done = {"decompose": "decomposed", "cut": "cut", "split": "split"}[self.do]
+        by = f" by {self.settings['method']}" if "method" in self.settings else ""
+        return f"{what} {done} into {pluralize(sum(len(entry.made) for entry in self.replaced), 'hull')}{by}"
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Preparation:
+    """All that is done to one asset, in order; hulls: every hull that the steps name, by the digest they name it by."""
+
+    steps: tuple[PreparationStep, ...] = ()
+    hulls: Mapping[str, Polytope] = field(default_factory=dict)
+
+    @property
+    def hull_digests(self) -> dict[str, str]:
+        """The digests of all hulls it makes by name, those that later steps replace too."""
+        return {name: known for step in self.steps for r in step.replaced for name, known in r.made.items()}
+
+    @property
+    def source_names(self) -> tuple[str, ...]:
+        """The names of the pieces and bodies that got hulls."""
+        return tuple(r.what for step in self.steps for r in step.replaced if r.kind != "hull")
+
+    @property
+    def hulls_replaced(self) -> frozenset[str]:
+        """The names of the hulls that its steps put others in the place of, authored ones too."""
+        return frozenset(r.what for step in self.steps for r in step.replaced if r.kind == "hull")
+
+    def with_step(self, step: PreparationStep, hulls: Iterable[Polytope]) -> Preparation:
+        """With one step more, which makes these hulls."""
+        return Preparation((*self.steps, step), {**self.hulls, **{hull_digest(hull): hull for hull in hulls}})
+
+    def with_only(self, steps: Iterable[PreparationStep]) -> Preparation:
+        """With these of its steps, and their hulls."""
+        shorter = replace(self, steps=tuple(steps))
+        return replace(shorter, hulls={known: self.hulls[known] for known in shorter.hull_digests.values()})
+
+
+def hull_digest(hull: Polytope) -> str:
+    """A digest of a hull to the last bit; zero has no sign."""
+    content = (hull.vertices + 0.0).tobytes() + hull.faces.tobytes()
+    return hashlib.blake2b(content, digest_size=8).hexdigest()
+
+
+def free_names(base: str, count: int, taken: Iterable[str]) -> list[str]:
+    """Names `base#0`, `base#1`, ... for new hulls, numbers that are taken left out."""
+    taken, number = set(taken), 0
+    names: list[str] = []
+    while len(names) < count:
+        name = f"{base}#{number}"
+        names += [] if name in taken else [name]
+        number += 1
+    return names
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class DecompositionSource:
+    """Geometry without hulls.
+
+    what: the name of the opaque piece or the body; base: what names of its hulls begin with; surface: its triangles.
+    """
+
+    what: str
+    kind: SourceKind
+    body: str
+    base: str
+    surface: Surface
+
+    @property
+    def is_hopeless(self) -> bool:
+        """Whether it has no area, so that no engine makes hulls of it."""
+        return is_line(self.surface.vertices[self.surface.faces].reshape(-1, 3))
+
+
+def find_sources(asset: Asset) -> tuple[DecompositionSource, ...]:
+    """All that can be decomposed, in the order of the file; planes and the like, which have no triangles, stay."""
+    pieces = (
+        DecompositionSource(piece.name, "opaque", piece.body, piece.name, piece.surface)
+        for piece in asset.opaque
+        if piece.surface is not None and len(piece.surface.faces)
+    )
+    return (*pieces, *_find_bare_bodies(asset))
+
+
+def _find_bare_bodies(asset: Asset) -> Iterable[DecompositionSource]:
+    """The bodies without collision geometry, by what they show. Their hulls are called as if the file had one geom."""
+    solid = {geom.body for geom in asset.geoms} | {piece.body for piece in asset.opaque}
+    for body in asset.bodies:
+        seen = merge_visuals(asset, body.name) if body.name not in solid else None
+        if seen:
+            yield DecompositionSource(body.name, "body", body.name, f"{body.name}/geom0", seen)
+
+
+def merge_visuals(asset: Asset, body: str) -> Surface | None:
+    """All that a body shows, None where that is nothing; what belongs to no body counts for one that is alone."""
+    alone = len(asset.bodies) == 1
+    own = [s for s in asset.visuals if len(s.faces) and (s.body == body or (s.body is None and alone))]
+    if not own:
+        return None
+    starts = np.cumsum([0, *(len(s.vertices) for s in own)])
+    faces = [s.faces + start for s, start in zip(own, starts, strict=False)]
+    return Surface(np.concatenate([s.vertices for s in own]), np.concatenate(faces), body)
+
+
+def surface_digest(surface: Surface) -> str:
+    """A digest of triangles in their order, the same for coordinates that differ by rounding."""
+    steps = np.rint(surface.vertices[surface.faces] / _GRID).astype(np.int64)
+    return hashlib.blake2b(steps.tobytes(), digest_size=8).hexdigest()
+
+
+@dataclass(frozen=True, slots=True)
+class PieceProblem:
+    """A piece that is not what it was when it was prepared, and why."""
+
+    what: str
+    why: str
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class ReplayResult:
+    """The asset after what of a preparation still fits it; preparation: that part; lost: all else."""
+
+    asset: Asset
+    preparation: Preparation
+    lost: tuple[PieceProblem, ...]
+
+
+def apply_preparation(asset: Asset, preparation: Preparation) -> Asset:
+    """The asset with the hulls of a preparation.
+
+    Raises AssetError where a piece has changed since: hulls are never put in place of other geometry.
+    """
+    fit = replay_preparation(asset, preparation)
+    if fit.lost:
+        raise AssetError(
+            f"its preparation is out of date: {join_names([f'{lost.what} {lost.why}' for lost in fit.lost], 3)}",
+            where=str(asset.path),
+            remedy="Do it again with `meshforge prepare`, or take it away with `meshforge prepare --remove`.",
+        )
+    return fit.asset
+
+
+def replay_preparation(asset: Asset, preparation: Preparation) -> ReplayResult:
+    """The asset with those hulls of a preparation whose source is what it was."""
+    authored = {geom.name for geom in asset.geoms}
+    current, kept, lost = asset, [], []
+    for step in preparation.steps:
+        fits = []
+        for entry in step.replaced:
+            why = _find_problem(current, entry)
+            if why:
+                lost.append(PieceProblem(entry.what, why))
+            else:
+                fits.append(entry)
+                current = _replace_piece(current, entry, preparation, authored)
+        kept += [replace(step, replaced=tuple(fits))] if fits else []
+    return ReplayResult(_drop_outdated_note(current), preparation.with_only(kept), tuple(lost))
+
+
+def _drop_outdated_note(asset: Asset) -> Asset:
+    """The asset without the note that it has no collision geometry, where it has some."""
+    if NO_GEOMETRY not in asset.notes or not asset.geoms:
+        return asset
+    return replace(asset, notes=tuple(note for note in asset.notes if note != NO_GEOMETRY))
+
+
+def _find_problem(asset: Asset, entry: Replacement) -> str | None:
+    """Why a piece cannot be replaced any more, None where it can."""
+    known = _source_digest(asset, entry)
+    if known is None:
+        return "has collision geometry now, or nothing to be seen" if entry.kind == "body" else "is gone"
+    return None if known == entry.source else "has another geometry now"
+
+
+def _source_digest(asset: Asset, entry: Replacement) -> str | None:
+    if entry.kind == "hull":
+        return next((digest(geom.shape) for geom in asset.geoms if geom.name == entry.what), None)
+    if entry.kind == "opaque":
+        asset = replace(asset, bodies=())  # so that visuals are not read
+    found = (s for s in find_sources(asset) if (s.kind, s.what) == (entry.kind, entry.what))
+    return next((surface_digest(source.surface) for source in found), None)
+
+
+def _replace_piece(asset: Asset, entry: Replacement, preparation: Preparation, authored: set[str]) -> Asset:
+    """The asset after one replacement. Hulls of a hull stand in its place, others behind all that are there."""
+    shapes = {name: preparation.hulls[known] for name, known in entry.made.items()}
+    if entry.kind == "hull":
+        old = next(geom for geom in asset.geoms if geom.name == entry.what)
+        parent = old.parent or (old.name if old.name in authored else None)
+        parts = [Geom(name, old.body, shape, parent, mentions=old.mentions) for name, shape in shapes.items()]
+        return asset.with_geoms(part for geom in asset.geoms for part in (parts if geom is old else [geom]))
+    gone = next((piece for piece in asset.opaque if piece.name == entry.what), None) if entry.kind == "opaque" else None
+    body, parent = (gone.body, gone.name) if gone else (entry.what, None)
+    mentions = gone.mentions if gone else ()
+    made = (Geom(name, body, shape, parent, mentions=mentions) for name, shape in shapes.items())
+    return replace(
+        asset, geoms=(*asset.geoms, *made), opaque=tuple(piece for piece in asset.opaque if piece is not gone)
+    )

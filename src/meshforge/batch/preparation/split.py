@@ -1,0 +1,125 @@
+"""Splitting one hull: along a plane, or by a decomposition of what is seen there."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+
+from meshforge.batch.preparation.decompose import decompose_surface, settings_to_json, software_versions
+from meshforge.batch.preparation.record import (
+    Preparation,
+    PreparationStep,
+    Replacement,
+    apply_preparation,
+    free_names,
+    hull_digest,
+    merge_visuals,
+)
+from meshforge.common import GeometryError, nearest_name, pluralize
+from meshforge.geometry import DecomposeSettings, Floats, Polytope, cut, digest, partition
+from meshforge.symbolic import Asset, Geom, Surface
+
+Vector = Sequence[float]
+
+
+def cut_hull(asset: Asset, before: Preparation, name: str, at: Vector, across: Vector) -> Preparation:
+    """Cut a hull along the plane through `at` (3,) [m] across the direction `across` (3,).
+
+    asset: as it was read; before: what is prepared already. `NAME#0` is behind the plane, `NAME#1` where it looks.
+    Raises GeometryError: no such hull, a direction of no length, or a plane that misses the hull.
+    """
+    geom = _find_hull(asset, before, name)
+    below, above = cut(geom.shape, np.asarray(at, dtype=np.float64), np.asarray(across, dtype=np.float64))
+    if below is None or above is None:
+        box = geom.shape.aabb
+        raise GeometryError(
+            "the plane does not cut it",
+            where=name,
+            remedy=f"Choose --at within it: it reaches from ({_format_point(box.min)}) to ({_format_point(box.max)}), "
+            "in the frame that the asset comes in.",
+        )
+    remarks = [] if geom.shape.kind in ("polytope", "box") else [f"the {geom.shape.kind} became a polytope"]
+    settings = {"at": [*map(float, at)], "across": [*map(float, across)]}
+    return _add_step(
+        asset, before, geom, PreparationStep("cut", settings, software_versions(), ()), (below, above), remarks
+    )
+
+
+def split_hull(
+    asset: Asset,
+    before: Preparation,
+    name: str,
+    settings: DecomposeSettings,
+    *,
+    hollow: bool = False,
+    cache: Path | None = None,
+) -> Preparation:
+    """Split a hull by a decomposition of what its body shows, or else of the opaque piece that the hull was made of.
+
+    Of each convex piece, what lies in the hull becomes a part; parts below a thousandth of it are dropped.
+    Raises GeometryError: no such hull, nothing to decompose, or a decomposition that leaves the hull as it is.
+    """
+    geom = _find_hull(asset, before, name)
+    notes: list[str] = []
+    pieces = decompose_surface(
+        _find_divider(asset, geom), settings, name, hollow=hollow, cache=cache, note=notes.append
+    )
+    parting = partition(geom.shape, pieces)
+    if not parting.parts:
+        raise GeometryError("nothing of what its body shows lies in it", where=name, remedy="Cut it by a plane.")
+    if len(parting.parts) == 1 and parting.lost < 0.01:
+        raise GeometryError(
+            f"the decomposition ({pluralize(len(pieces), 'piece')}) does not divide it",
+            where=name,
+            remedy="Set a lower threshold, or cut it by a plane.",
+        )
+    remarks = [f"{parting.lost:.0%} of its volume is in no part"]
+    remarks += [f"{pluralize(parting.dropped, 'crumb')} dropped"] if parting.dropped else []
+    step = PreparationStep("split", settings_to_json(settings, hollow), software_versions(settings), ())
+    return _add_step(asset, before, geom, step, parting.parts, [*remarks, *notes])
+
+
+def _find_hull(asset: Asset, before: Preparation, name: str) -> Geom:
+    geoms = {geom.name: geom for geom in apply_preparation(asset, before).geoms}
+    if name not in geoms:
+        like = nearest_name(name, geoms)
+        raise GeometryError(
+            f"there is no hull {name!r}", where=str(asset.path), remedy=f"Did you mean {like!r}?" if like else None
+        )
+    return geoms[name]
+
+
+def _find_divider(asset: Asset, geom: Geom) -> Surface:
+    """What a hull is split by. Raises GeometryError where there is nothing."""
+    seen = merge_visuals(asset, geom.body)
+    piece = next((p for p in asset.opaque if p.name == geom.parent), None)
+    found = seen or (piece.surface if piece else None)
+    if found is None:
+        raise GeometryError(
+            f"the body {geom.body!r} shows nothing that could be decomposed",
+            where=geom.name,
+            remedy="Cut the hull by a plane.",
+        )
+    return found
+
+
+def _add_step(
+    asset: Asset,
+    before: Preparation,
+    geom: Geom,
+    step: PreparationStep,
+    parts: Sequence[Polytope],
+    notes: Sequence[str],
+) -> Preparation:
+    taken = {*(g.name for g in asset.geoms), *(o.name for o in asset.opaque), *before.hull_digests}
+    names = free_names(geom.name, len(parts), taken)
+    made = dict(zip(names, map(hull_digest, parts), strict=True))
+    description = "; ".join([pluralize(len(parts), "hull"), *notes])
+    entry = Replacement(geom.name, "hull", digest(geom.shape), made, description)
+    return before.with_step(PreparationStep(step.do, step.settings, step.software, (entry,)), parts)
+
+
+def _format_point(point: Floats) -> str:
+    return ", ".join(f"{x:.4g}" for x in point)

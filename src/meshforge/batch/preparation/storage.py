@@ -1,0 +1,148 @@
+"""The folder of a preparation: what was done as JSON, and the hulls it made as an OBJ that every viewer opens."""
+
+from __future__ import annotations
+
+import codecs
+import hashlib
+import json
+from collections.abc import Iterable
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from meshforge.batch.preparation.record import Preparation, PreparationStep, apply_preparation, hull_digest
+from meshforge.common import AssetError, first_validation_error, write_atomically
+from meshforge.formats import MeshPart, format_obj, read, read_triangles
+from meshforge.geometry import Polytope
+from meshforge.symbolic import Asset, Surface
+
+RECORD_FILE = "preparation.json"
+"""The file in a preparation's folder that says what was done."""
+_HULLS = "hulls.obj"
+
+
+@dataclass(frozen=True, slots=True)
+class _Record:
+    """The contents of that file."""
+
+    steps: tuple[PreparationStep, ...]
+
+
+def read_prepared(path: Path, folder: Path | None) -> Asset:
+    """The asset in a file, after the preparation in a folder where there is one.
+
+    Raises AssetError: the asset cannot be read, or its preparation is damaged or out of date.
+    """
+    asset = read(path)
+    return prepare_from_folder(asset, folder) if folder else asset
+
+
+def prepare_from_folder(asset: Asset, folder: Path) -> Asset:
+    """An asset as it was read, after the preparation in a folder. Raises AssetError: that is damaged or out of date."""
+    preparation = read_preparation(folder)
+    return apply_preparation(asset, preparation) if preparation else asset
+
+
+def read_preparation(folder: Path) -> Preparation | None:
+    """The preparation in a folder, None where there is none. Raises AssetError where it is damaged."""
+    path = folder / RECORD_FILE
+    try:
+        steps = _read_steps(path)
+    except (FileNotFoundError, NotADirectoryError):
+        return None
+    except OSError as error:
+        raise _file_error(path, error) from error
+    hulls = _read_hulls(folder / _HULLS) if steps else {}
+    found = Preparation(steps, hulls)
+    for name, known in found.hull_digests.items():
+        if known not in hulls:
+            raise _damage_error(folder / _HULLS, f"the hull {name} is not in it as it was made")
+    return found.with_only(steps)
+
+
+def record_digest(folder: Path) -> str | None:
+    """The digest of what was done, hulls included, None where nothing was; an empty text where it cannot be read."""
+    try:
+        return hashlib.blake2b((folder / RECORD_FILE).read_bytes(), digest_size=16).hexdigest()
+    except (FileNotFoundError, NotADirectoryError):
+        return None
+    except OSError:
+        return ""
+
+
+def write_preparation(folder: Path, preparation: Preparation) -> None:
+    """Write a preparation; a process that is killed meanwhile leaves the one before, or this one.
+
+    The hulls of both are in the file while what was done is exchanged.
+    """
+    try:
+        before = read_preparation(folder) or Preparation()
+    except AssetError:
+        before = Preparation()
+    own = [(name, preparation.hulls[known]) for name, known in preparation.hull_digests.items()]
+    old = [(f"{n}@before", before.hulls[k]) for n, k in before.hull_digests.items() if k not in preparation.hulls]
+    write_atomically(folder / _HULLS, _format_hulls([*own, *old]))
+    record = _Record(preparation.steps)
+    write_atomically(folder / RECORD_FILE, json.dumps(asdict(record), ensure_ascii=False, indent=2) + "\n")
+    if old:
+        write_atomically(folder / _HULLS, _format_hulls(own))
+
+
+def remove_preparation(folder: Path) -> None:
+    """Take a preparation away; what was done first, so that hulls are never missed.
+
+    Raises AssetError where something else stands in the place of its files.
+    """
+    for path in (folder / RECORD_FILE, folder / _HULLS):
+        try:
+            path.unlink(missing_ok=True)
+        except OSError as error:
+            raise _file_error(path, error) from error
+    if folder.is_dir() and not any(folder.iterdir()):
+        folder.rmdir()
+
+
+def _read_steps(path: Path) -> tuple[PreparationStep, ...]:
+    """The steps in a record. Raises OSError, and AssetError where it is damaged."""
+    content = path.read_bytes().removeprefix(codecs.BOM_UTF8)
+    from pydantic import TypeAdapter, ValidationError  # lazy: 0.1 s, only preparations need it
+
+    try:
+        return TypeAdapter(_Record).validate_json(content).steps
+    except ValidationError as error:
+        raise _damage_error(path, first_validation_error(error)) from error
+
+
+def _read_hulls(path: Path) -> dict[str, Polytope]:
+    try:
+        surfaces = read_triangles(path)
+    except AssetError as error:
+        raise _damage_error(path, error.problem) from error
+    found = {}
+    for surface in surfaces:
+        used, local = np.unique(surface.faces, return_inverse=True)
+        hull = Polytope(surface.vertices[used], local.reshape(-1, 3))
+        found[hull_digest(hull)] = hull
+    return found
+
+
+def _format_hulls(hulls: Iterable[tuple[str, Polytope]]) -> bytes:
+    return format_obj([MeshPart(name, Surface(hull.vertices, hull.faces)) for name, hull in hulls])
+
+
+def _damage_error(path: Path, problem: Any) -> AssetError:
+    return AssetError(
+        f"this preparation is damaged: {problem}",
+        where=str(path),
+        remedy="Bring the file back as it was, or take the preparation away: meshforge prepare --remove",
+    )
+
+
+def _file_error(path: Path, error: OSError) -> AssetError:
+    return AssetError(
+        f"this is no file of a preparation that can be read or replaced: {error.strerror}",
+        where=str(path),
+        remedy="Take away by hand what stands there.",
+    )

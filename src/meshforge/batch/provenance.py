@@ -1,0 +1,199 @@
+"""What an output was made from and what was written: digests of contents, never times of files, and the stamp beside
+the outputs by which runs are resumed."""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, field, replace
+from importlib.metadata import version
+from pathlib import Path
+from typing import Literal
+
+from pydantic import BaseModel, ConfigDict, ValidationError
+
+from meshforge.batch.discovery import STATE
+from meshforge.batch.outcome import Edited, Failed, RuleEffect, Skipped, Unchanged
+from meshforge.common import relative_name, write_atomically
+from meshforge.formats import MESH_SUFFIXES
+from meshforge.geometry import digest as shape_digest
+from meshforge.language import Comments, HeaderComments, Program, Template
+
+
+class OutputInputs(BaseModel):
+    """Digests of all that decides what an output is; asset: of each file, by its path relative to the common folder."""
+
+    model_config = ConfigDict(frozen=True)
+
+    asset: dict[str, str]
+    preparation: str | None = None
+    labels: str | None
+    program: str
+    templates: dict[str, str]
+    corrections: str | None
+    settings: str
+    software: str
+
+    def changes(self, other: OutputInputs) -> tuple[str, ...]:
+        """What differs between the two: `asset`, `labels`, `program`, ..."""
+        return tuple(name for name in type(self).model_fields if getattr(self, name) != getattr(other, name))
+
+
+class Stamp(BaseModel):
+    """One output.
+
+    outputs: the digest of every file, by its path in the output folder; out: the main one of them.
+    labels: of its hulls, in the order that the main file has them; empty where they are not known.
+    """
+
+    model_config = ConfigDict(frozen=True)
+
+    asset: str
+    status: Literal["edited", "unchanged", "failed"]
+    inputs: OutputInputs | None = None
+    outputs: dict[str, str] = {}
+    out: str = ""
+    labels: tuple[str | None, ...] = ()
+    rules: tuple[RuleEffect, ...] = ()
+    before: int = 0
+    after: int = 0
+    notes: tuple[str, ...] = ()
+    flags: tuple[str, ...] = ()
+    error: str | None = None
+
+    @staticmethod
+    def of(outcome: Edited | Unchanged, inputs: OutputInputs, draft: OutputDraft) -> Stamp:
+        """The stamp of a run that came to its end."""
+        return Stamp(
+            asset=outcome.asset,
+            status="edited" if isinstance(outcome, Edited) else "unchanged",
+            inputs=inputs,
+            outputs=dict(draft.files),
+            out=draft.main,
+            labels=draft.labels,
+            rules=outcome.rules,
+            before=outcome.before,
+            after=outcome.after,
+            notes=outcome.notes,
+            flags=outcome.flags,
+        )
+
+    @staticmethod
+    def of_failure(outcome: Failed, inputs: OutputInputs | None) -> Stamp:
+        """The stamp of an asset that was not written; inputs: as far as they are known."""
+        return Stamp(asset=outcome.asset, status="failed", inputs=inputs, error=outcome.error)
+
+    def to_skipped(self, folder: Path) -> Skipped:
+        """The outcome of finding this output up to date."""
+        out = str(folder / self.out)
+        return Skipped(self.asset, out, self.rules, self.before, self.after, 0.0, self.notes, self.flags)
+
+    def is_whole(self, folder: Path) -> bool:
+        """Whether all files of this output are there, as they were written."""
+        if self.status == "failed":
+            return False
+        return all(
+            (folder / name).is_file() and file_digest(folder / name) == known for name, known in self.outputs.items()
+        )
+
+    def write(self, path: Path) -> None:
+        """Write this stamp to disk."""
+        write_atomically(path, self.model_dump_json(indent=1))
+
+
+def stamp_path(folder: Path, asset: str) -> Path:
+    """Where the stamp of an asset is kept."""
+    return folder / STATE / "stamps" / f"{asset}.json"
+
+
+def read_stamp(folder: Path, asset: str) -> Stamp | None:
+    """The stamp of an asset's output; None where there is none, or none that can be read, so that it is made again."""
+    return read_stamp_file(stamp_path(folder, asset))
+
+
+def read_stamps(folder: Path) -> Iterator[Stamp]:
+    """The stamps of all outputs in a folder, in the order of their paths."""
+    for path in sorted((folder / STATE / "stamps").rglob("*.json")):
+        stamp = read_stamp_file(path)
+        if stamp:
+            yield stamp
+
+
+def read_stamp_file(path: Path) -> Stamp | None:
+    """The stamp in a file; None where there is none, or none that can be read."""
+    try:
+        return Stamp.model_validate_json(path.read_bytes())
+    except (OSError, ValidationError):
+        return None
+
+
+def file_digest(path: Path) -> str:
+    """Thirty-two hexadecimal digits of the contents of a file."""
+    with path.open("rb") as stream:
+        return hashlib.file_digest(stream, _new_hash).hexdigest()
+
+
+def text_digest(text: str) -> str:
+    """Thirty-two hexadecimal digits of a text."""
+    return _new_hash(text.encode()).hexdigest()
+
+
+def program_digest(program: Program) -> str:
+    """The digest of what a program does: its canonical form without comments."""
+    rules = tuple(replace(rule, comments=Comments()) for rule in program.rules)
+    return text_digest(str(replace(program, rules=rules, comments=HeaderComments())))
+
+
+def template_digests(templates: Mapping[str, Template]) -> dict[str, str]:
+    """The digest of the shapes of each template."""
+    return {name: text_digest(" ".join(map(shape_digest, templates[name].shapes))) for name in sorted(templates)}
+
+
+def asset_digests(path: Path, referenced: Iterable[Path], base: Path) -> dict[str, str]:
+    """The digest of every file of an asset, by its path relative to `base`; of a folder, of all mesh files in it."""
+    files = {*source_files(path), *referenced}
+    return {relative_name(file, base): file_digest(file) for file in sorted(files)}
+
+
+def has_same_files(recorded: Mapping[str, str], path: Path, base: Path) -> bool:
+    """Whether the files of an asset are those that were recorded, without reading it as an asset."""
+    if any(relative_name(file, base) not in recorded for file in source_files(path)):
+        return False
+    return all((base / name).is_file() and file_digest(base / name) == known for name, known in recorded.items())
+
+
+def source_files(path: Path) -> list[Path]:
+    """The main file of an asset, or the mesh files of a folder of pieces."""
+    if not path.is_dir():
+        return [path]
+    files = (file for file in path.iterdir() if not file.name.startswith("."))
+    return sorted(file for file in files if file.suffix.lower() in MESH_SUFFIXES)
+
+
+def software_version() -> str:
+    """The version of this program, since another one may write other files."""
+    return version("meshforge")
+
+
+def _new_hash(data: bytes = b"") -> hashlib.blake2b:
+    return hashlib.blake2b(data, digest_size=16)
+
+
+@dataclass(frozen=True, slots=True)
+class OutputDraft:
+    """An output that lies aside: its files, and beside their folder the stamp that is to vouch for them.
+
+    files: the digest of each file by its path in `folder`; main: the path of the main one; notes: what the format
+    could not hold, or holds in another form; labels: of its hulls, in the order that the main file reads back in.
+    """
+
+    folder: Path
+    main: str
+    files: Mapping[str, str] = field(default_factory=dict)
+    notes: tuple[str, ...] = ()
+    labels: tuple[str | None, ...] = ()
+
+    @property
+    def root(self) -> Path:
+        """The folder of the files' folder and the stamp: what is put in place."""
+        return self.folder.parent

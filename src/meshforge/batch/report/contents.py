@@ -1,0 +1,193 @@
+"""What the report is about: the assets that it shows, the figures of the whole run, and meshes read again for it."""
+
+from __future__ import annotations
+
+from collections import Counter, defaultdict
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from itertools import chain
+from typing import Generic, Literal, TypeVar
+
+from meshforge.batch.execution import execute
+from meshforge.batch.jobs import AssetJob
+from meshforge.batch.outcome import MOST_SHOWN, RunSummary
+from meshforge.batch.workers import ExecutionOptions, WorkerFailure
+from meshforge.checks import Examination, Finding
+from meshforge.formats import load
+from meshforge.language import RuleTrace
+from meshforge.symbolic import SymbolicMesh
+
+EditStatus = Literal["edited", "unchanged", "written", "skipped", "failed"]
+"""What a program or a conversion made of an asset."""
+CheckStatus = Literal["clean", "warnings", "errors", "failed"]
+"""What checks found of one; failed: it could not be checked, or not be written."""
+LabelStatus = Literal["labelled", "doubtful", "problems"]
+"""How the labels of one are: of all hulls, lacking or unsure for some, or not all to be taken."""
+ReportStatus = EditStatus | CheckStatus | LabelStatus
+ORDINARY: frozenset[ReportStatus] = frozenset({"edited", "written", "clean", "labelled"})
+"""What is expected of an asset, so that its card does not say it."""
+BROKEN: frozenset[ReportStatus] = frozenset({"failed", "errors", "problems"})
+REMARKABLE = BROKEN | {"warnings", "doubtful"}
+
+Item = TypeVar("Item")
+
+MeshReader = Callable[[], SymbolicMesh]
+"""Reads an asset, in this process or another."""
+READ_TIMEOUT = 300.0
+"""Seconds for one asset."""
+
+
+@dataclass(frozen=True, slots=True)
+class EarlierExamination:
+    """What is kept of an earlier examination: findings, and sentences about what was measured."""
+
+    findings: tuple[Finding, ...]
+    descriptions: tuple[str, ...]
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class ReportAsset:
+    """One asset of a batch.
+
+    before: None where the file could not be read; after: None where the program could not run on it, `before` itself
+    where nothing was to be changed.
+    trace: of every rule; error: the whole message of a failed asset; demonstrated: whether a person edited it.
+    notes: what else there is to say, as what the format had to write in another form; checked: what was measured of it
+    after, where that was asked for.
+    """
+
+    name: str
+    before: SymbolicMesh | None
+    after: SymbolicMesh | None = None
+    trace: tuple[RuleTrace, ...] = ()
+    status: ReportStatus = "edited"
+    error: str | None = None
+    demonstrated: bool = False
+    notes: tuple[str, ...] = ()
+    checked: Examination | EarlierExamination | None = None
+
+    @property
+    def counts(self) -> tuple[int, int] | None:
+        """Numbers of hulls before and after, None unless both are known."""
+        return (len(self.before.hulls), len(self.after.hulls)) if self.before and self.after else None
+
+    @property
+    def findings(self) -> list[Finding]:
+        """What was found when it was checked, errors first."""
+        return sorted(self.checked.findings if self.checked else (), key=lambda finding: finding.severity != "error")
+
+    @property
+    def has_errors(self) -> bool:
+        """Whether an error was found when it was checked."""
+        return any(finding.severity == "error" for finding in self.findings)
+
+    @property
+    def is_broken(self) -> bool:
+        """Whether it failed, or an error was found when it was checked."""
+        return self.status in BROKEN or self.has_errors
+
+    @property
+    def kinds(self) -> list[str]:
+        """The words by which the page can be filtered."""
+        marks = (("demonstrated", self.demonstrated), ("doubtful", bool(self.findings)))
+        return [self.status, *(word for word, holds in marks if holds)]
+
+    @property
+    def hulls_to_blame(self) -> frozenset[str]:
+        """The hulls that findings name: those of errors, where there are any."""
+        errors = [finding for finding in self.findings if finding.severity == "error"]
+        return frozenset(hull for finding in errors or self.findings for hull in finding.hulls)
+
+
+@dataclass(frozen=True, slots=True)
+class RunFigures:
+    """counts: of assets by what became of them; more: figures by name, each with a remark that is small.
+
+    first: which of very many assets are shown first, in words.
+    """
+
+    counts: Mapping[ReportStatus, int]
+    more: Mapping[str, tuple[str, str | None]]
+    first: str = "those that failed"
+
+    @property
+    def total(self) -> int:
+        """How many assets there were."""
+        return sum(self.counts.values())
+
+    @staticmethod
+    def of_run(summary: RunSummary, words: Mapping[ReportStatus, ReportStatus] | None = None) -> RunFigures:
+        """Those of a program's run, or of a conversion; words: other ones for what became of assets."""
+        counts: dict[ReportStatus, int] = {(words or {}).get(word, word): n for word, n in summary.counts.items()}
+        return RunFigures(counts, _hull_figures(summary.before, summary.after))
+
+    @staticmethod
+    def of_assets(assets: Iterable[ReportAsset]) -> RunFigures:
+        """Those of a run of which all assets are shown."""
+        shown = list(assets)
+        known = [asset.counts for asset in shown if asset.counts]
+        before, after = (sum(counts[k] for counts in known) for k in (0, 1))
+        return RunFigures(Counter(asset.status for asset in shown), _hull_figures(before, after))
+
+
+def _hull_figures(before: int, after: int) -> dict[str, tuple[str, str | None]]:
+    return {"hulls": (f"{before:,} → {after:,}", format_change(before, after))} if before or after else {}
+
+
+class TopItems(Generic[Item]):
+    """The first of the lowest ranks, never more than `most` at a time; in order of ranks, then as they came."""
+
+    def __init__(self, most: int = MOST_SHOWN) -> None:
+        self._most = most
+        self._kept = 0
+        self._ranks: defaultdict[int, list[Item]] = defaultdict(list)
+
+    def add(self, rank: int, item: Item) -> None:
+        """Keep one more, or not; rank: the lower, the sooner it is shown."""
+        self._ranks[rank].append(item)
+        self._kept += 1
+        if self._kept > self._most:
+            last = max(rank for rank, items in self._ranks.items() if items)
+            self._ranks[last].pop()
+            self._kept -= 1
+
+    def __iter__(self) -> Iterator[Item]:
+        return chain.from_iterable(self._ranks[rank] for rank in sorted(self._ranks))
+
+
+def read_again(readers: Sequence[MeshReader | None]) -> list[SymbolicMesh | None]:
+    """The meshes, in their order, read in worker processes: one that crashes or hangs costs no more than itself.
+
+    None for what cannot be read any more, or has no reader.
+    """
+    wanted = [reader for reader in readers if reader]
+    found = execute(_try_read, wanted, ExecutionOptions(timeout=READ_TIMEOUT))
+    meshes = [next(found) if reader else None for reader in readers]
+    return [None if isinstance(mesh, WorkerFailure) else mesh for mesh in meshes]
+
+
+def read_job(job: AssetJob) -> SymbolicMesh:
+    """An asset with its labels, as it lies in its file. Raises as `load`."""
+    return load(job.path, labels=job.labels)
+
+
+def _try_read(reader: MeshReader) -> SymbolicMesh | None:
+    try:
+        return reader()
+    except Exception:  # why it cannot be read is reported already, or is not what the report is about
+        return None
+
+
+def format_change(before: int, after: int) -> str:
+    """How much less or more, in per cent, with a true minus sign; `no change` where there is none."""
+    if before == after:
+        return "no change"
+    if before == 0:
+        return f"+{after}"
+    share = round(100 * (after - before) / before)
+    return f"{'−' if after < before else '+'}{abs(share)} %"
+
+
+def format_duration(seconds: float) -> str:
+    """Seconds below two minutes with one decimal, else minutes."""
+    return f"{seconds:.1f} s" if seconds < 120 else f"{seconds / 60:.0f} min"

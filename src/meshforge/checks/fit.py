@@ -1,0 +1,220 @@
+"""How far hulls stick out of the visual mesh, and what of that no hull covers."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import asdict, dataclass, field
+from typing import Any
+
+import numpy as np
+
+from meshforge.checks.grid import Grid, Mask, flood_from_outside, grid_around, voxelize_surface
+from meshforge.checks.legality import Finding
+from meshforge.checks.surface_samples import SurfaceIndex
+from meshforge.common import join_names
+from meshforge.geometry import Aabb, Floats, Ints, planes_of
+from meshforge.symbolic import Hull, Surface, SymbolicMesh
+
+LEAST_GAP_SHARE = 0.02
+"""Hulls that stick out, or surfaces that lie bare, by more than this share of the diagonal are findings."""
+_SPACING = 0.5  # of points on surfaces, in cells
+
+
+@dataclass(frozen=True, slots=True)
+class HullFit:
+    """How one hull fits what its body shows.
+
+    out: how far it sticks out at most [m]; out_area: how much of its surface does, by more than a cell [m^2];
+    bare: how far the visual surface nearest to it lies off all hulls at most [m]; bare_area: how much of that does, by
+    more than a cell [m^2].
+    """
+
+    hull: str
+    out: float
+    out_area: float
+    bare: float
+    bare_area: float
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class FitGroup:
+    """The hulls of a body, or of all, with the visual mesh that they are held against.
+
+    visual_surface, hull_surface: their triangles; owner: the hull of each triangle of `hull_surface`; outside: the
+    cells of `grid` that a path leads to from outside without crossing the visual mesh.
+    """
+
+    hulls: tuple[Hull, ...]
+    visual_surface: SurfaceIndex
+    hull_surface: SurfaceIndex
+    owner: Ints
+    grid: Grid
+    outside: Mask
+
+    def measure_out(self, points: Floats) -> Floats:
+        """How far [m] each point (n, 3) of a hull sticks out of the visual mesh, 0 where it is inside of it."""
+        x, y, z = self.grid.cells_of(points).T
+        free = np.flatnonzero(self.outside[x, y, z])
+        found = np.zeros(len(points))
+        found[free] = self.visual_surface.distances(points[free])[0]
+        return found
+
+    def measure_bare(self, points: Floats) -> tuple[Floats, Ints]:
+        """How far [m] each point (n, 3) of the visual mesh is from all hulls, and which (n,) is nearest, if off."""
+        gaps, nearest = np.zeros(len(points)), np.zeros(len(points), np.int64)
+        off = np.flatnonzero(~_is_inside(points, self.hulls))
+        gaps[off], triangle = self.hull_surface.distances(points[off])
+        nearest[off] = self.owner[triangle]
+        return gaps, nearest
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class MeshFit:
+    """How the hulls of a mesh fit; cell: what is smaller than this is not seen [m].
+
+    silent: bodies with hulls that show nothing, so that theirs were not measured; seen_area: of the visual mesh [m^2].
+    """
+
+    cell: float
+    diagonal: float
+    hulls: tuple[HullFit, ...]
+    silent: tuple[str, ...]
+    seen_area: float
+    groups: tuple[FitGroup, ...] = field(repr=False, default=())
+
+    @property
+    def out(self) -> float:
+        """How far any hull sticks out [m]."""
+        return max((h.out for h in self.hulls), default=0.0)
+
+    @property
+    def bare(self) -> float:
+        """How far any visual surface lies off all hulls [m]."""
+        return max((h.bare for h in self.hulls), default=0.0)
+
+    @property
+    def bare_share(self) -> float:
+        """The share of the visual surface that no hull covers."""
+        return sum(h.bare_area for h in self.hulls) / self.seen_area if self.seen_area else 0.0
+
+    @property
+    def description(self) -> str:
+        """The fit in a sentence."""
+        if not self.hulls:
+            return "nothing is shown that hulls could be held against"
+        bare = f"{100 * self.bare_share:.3g}% of the visual surface bare, {self.bare:.3g} m off at most"
+        return f"hulls stick out by {self.out:.3g} m at most, {bare} (cells of {self.cell:.3g} m)"
+
+    @property
+    def findings(self) -> tuple[Finding, ...]:
+        """The hulls that stick out far, and those beside bare surfaces."""
+        limit = max(LEAST_GAP_SHARE * self.diagonal, self.cell)
+        out = sorted((h for h in self.hulls if h.out > limit), key=lambda h: -h.out)
+        bare = sorted((h for h in self.hulls if h.bare > limit), key=lambda h: -h.bare)
+        found = []
+        if out:
+            message = f"{join_names([f'{h.hull} ({h.out:.3g} m)' for h in out])}: sticks out of the visual mesh"
+            remedy = "Split the hull, or replace it by one that fits."
+            found.append(Finding("fit-out", "warning", tuple(h.hull for h in out), message, remedy))
+        if bare:
+            names = join_names([f"{h.hull} ({h.bare:.3g} m)" for h in bare])
+            message = f"{names}: the visual mesh beside it is covered by no hull"
+            found.append(Finding("fit-bare", "warning", tuple(h.hull for h in bare), message, "Add a hull there."))
+        return tuple(found)
+
+    def to_json(self) -> dict[str, Any]:
+        """The fit as JSON-able data; lengths in metres, areas in square metres."""
+        return {
+            "cell": self.cell,
+            "out": self.out,
+            "bare": self.bare,
+            "bare_share": self.bare_share,
+            "hulls": [asdict(hull) for hull in self.hulls],
+            "silent": list(self.silent),
+        }
+
+
+def measure_fit(mesh: SymbolicMesh, *, cell: float | None = None) -> MeshFit:
+    """How the hulls of a mesh fit what their bodies show, at rest pose.
+
+    A hull is held against the visual mesh of its own body; where the file does not tell what shows what, all against
+    all. A point of a hull sticks out where a path leads to it from outside without crossing the visual mesh, on a grid
+    of cells of side `cell` [m] (by default the diagonal by 112): so holes and wrong windings of a visual mesh do no
+    harm unless they are wider than a cell, and what sticks out by less than a cell may not be seen.
+    """
+    surfaces = [s for s in mesh.asset.visuals if len(s.faces)] if mesh.asset else []
+    pairs, silent = _pair_by_body(mesh.hulls, surfaces)
+    groups = tuple(_build_group(hulls, corners, cell) for hulls, corners in pairs)
+    rows = [row for group in groups for row in _measure_group(group)]
+    order = {hull.name: k for k, hull in enumerate(mesh.hulls)}
+    widest = max((group.grid.cell for group in groups), default=0.0)
+    area = float(sum(group.visual_surface.area.sum() for group in groups))
+    rows.sort(key=lambda row: order[row.hull])
+    return MeshFit(widest, mesh.diagonal, tuple(rows), silent, area, groups)
+
+
+def _pair_by_body(
+    hulls: Sequence[Hull], surfaces: Sequence[Surface]
+) -> tuple[list[tuple[tuple[Hull, ...], Floats]], tuple[str, ...]]:
+    """The hulls of each body with the triangles that it shows; and the bodies that show nothing."""
+    if any(surface.body is None for surface in surfaces):
+        return [(tuple(hulls), _corners(surfaces))] if hulls else [], ()
+    pairs, silent = [], []
+    for body in dict.fromkeys(hull.body for hull in hulls):
+        corners = _corners([s for s in surfaces if s.body == body])
+        if len(corners):
+            pairs.append((tuple(h for h in hulls if h.body == body), corners))
+        else:
+            silent.append(body)
+    return pairs, tuple(silent)
+
+
+def _corners(surfaces: Sequence[Surface]) -> Floats:
+    found = np.concatenate([s.vertices[s.faces] for s in surfaces]) if surfaces else np.zeros((0, 3, 3))
+    finite: Floats = found[np.isfinite(found).all(axis=(1, 2))]
+    return finite
+
+
+def _build_group(hulls: tuple[Hull, ...], corners: Floats, cell: float | None) -> FitGroup:
+    bounds = Aabb.union([*(h.aabb for h in hulls), Aabb.of_points(corners.reshape(-1, 3))])
+    grid = grid_around(bounds, cell)
+    surfaces = [h.vertices[h.faces] for h in hulls]
+    owner = np.repeat(np.arange(len(hulls)), [len(s) for s in surfaces])
+    spacing = _SPACING * grid.cell
+    outside = flood_from_outside(voxelize_surface(grid, corners))
+    return FitGroup(
+        hulls, SurfaceIndex(corners, spacing), SurfaceIndex(np.concatenate(surfaces), spacing), owner, grid, outside
+    )
+
+
+def _measure_group(group: FitGroup) -> list[HullFit]:
+    out = group.measure_out(group.hull_surface.points)
+    of_hull = group.owner[group.hull_surface.triangle]
+    bare, nearest = group.measure_bare(group.visual_surface.points)
+    count, cell = len(group.hulls), group.grid.cell
+    far, far_area = _sum_by_hull(of_hull, out, group.hull_surface.area, count, cell)
+    off, off_area = _sum_by_hull(nearest, bare, group.visual_surface.area, count, cell)
+    return [
+        HullFit(hull.name, float(far[k]), float(far_area[k]), float(off[k]), float(off_area[k]))
+        for k, hull in enumerate(group.hulls)
+    ]
+
+
+def _sum_by_hull(hull: Ints, gaps: Floats, area: Floats, count: int, cell: float) -> tuple[Floats, Floats]:
+    """The largest gap (count,) of each hull, and the area (count,) with gaps beyond a cell."""
+    largest = np.zeros(count)
+    np.maximum.at(largest, hull, gaps)
+    return largest, np.asarray(np.bincount(hull, np.where(gaps > cell, area, 0.0), minlength=count), np.float64)
+
+
+def _is_inside(points: Floats, hulls: Sequence[Hull]) -> Mask:
+    """Which points (n, 3) are inside of any hull."""
+    inside = np.zeros(len(points), dtype=bool)
+    for hull in hulls:
+        box = hull.aabb
+        near = np.flatnonzero(~inside & (points >= box.min).all(axis=1) & (points <= box.max).all(axis=1))
+        planes = planes_of(hull.vertices, hull.faces)
+        for part in np.array_split(near, len(near) * len(planes.offsets) // 4_000_000 + 1):
+            heights = (points[part] - planes.middle) @ planes.normals.T
+            inside[part] = (heights <= planes.offsets).all(axis=1)
+    return inside

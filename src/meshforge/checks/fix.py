@@ -1,0 +1,172 @@
+"""Hulls brought within the limits of an engine, as far as nothing is lost and little is added."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from meshforge.checks.legality import check_legality
+from meshforge.checks.limits import Engine, Limit
+from meshforge.geometry import (
+    Enclosure,
+    HullBudget,
+    Polytope,
+    convex_hull,
+    distance,
+    enclose,
+    polygon_sizes,
+    principal_extents,
+)
+from meshforge.symbolic import Hull, SymbolicMesh
+
+TOLERANCE = 0.01
+"""How far a fixed hull may stick out of the old one by default, as a share of the mesh's diagonal."""
+_COUNTS = {"vertices": "vertices", "polygons": "polygons", "face-vertices": "polygon_vertices"}
+
+_MARGIN = 1e-6  # beyond the thickness that is asked for, against rounding
+
+
+@dataclass(frozen=True, slots=True)
+class HullFix:
+    """A hull that another one took the place of; error: how far that sticks out of it [m].
+
+    vertices, polygons: numbers before and after.
+    """
+
+    hull: str
+    made: str
+    rules: tuple[str, ...]
+    error: float
+    vertices: tuple[int, int]
+    polygons: tuple[int, int]
+
+    @property
+    def description(self) -> str:
+        """The change in a sentence."""
+        before, after = (f"{self.vertices[k]} vertices on {self.polygons[k]} flat faces" for k in (0, 1))
+        return f"{self.hull}: {before}; now {self.made}: {after}, which sticks out by {self.error:.3g} m at most"
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class FixResult:
+    """A fixed mesh, the very same object where nothing was; left: hulls beyond a limit, and why they were left."""
+
+    mesh: SymbolicMesh
+    changes: tuple[HullFix, ...]
+    left: tuple[str, ...]
+
+    def to_json(self) -> dict[str, Any]:
+        """The changes as JSON-able data; lengths in metres."""
+        rows = [
+            {
+                "hull": change.hull,
+                "made": change.made,
+                "rules": list(change.rules),
+                "error": change.error,
+                "vertices": {"before": change.vertices[0], "after": change.vertices[1]},
+                "polygons": {"before": change.polygons[0], "after": change.polygons[1]},
+            }
+            for change in self.changes
+        ]
+        return {"changes": rows, "left": list(self.left)}
+
+
+def fix(mesh: SymbolicMesh, engine: Engine, tolerance: float | None = None) -> FixResult:
+    """The mesh with fewer vertices where a hull has too many, and more thickness where it has too little.
+
+    A new hull is convex, holds all of the old one, and takes over its label, body and contact attributes under a name
+    of its own. It is left as it is where the new one would stick out by more than `tolerance` [m], by default 1% of
+    the mesh's diagonal, or would come to overlap a hull of another body.
+    """
+    allowed = TOLERANCE * mesh.diagonal if tolerance is None else tolerance
+    faulty, _ = check_legality(mesh)
+    taken = {hull.name for hull in mesh.hulls}
+    hulls, changes, left = list(mesh.hulls), [], []
+    for k, hull in enumerate(mesh.hulls):
+        broken = [] if hull.name in faulty else _find_broken_limits(engine, hull)
+        if not broken:
+            continue
+        made = _enclose_within_limits(hull, engine, broken)
+        why = _find_objection(made, hull, engine, allowed, hulls)
+        if made is None or why:
+            left.append(f"{hull.name}: left as it is, since {why}")
+            continue
+        name = _free_name(hull.name, taken)
+        taken.add(name)
+        hulls[k] = Hull(name, hull.body, made.hull, hull.annotation, hull.parent or hull.name)
+        changes.append(_describe_fix(hull, hulls[k], broken, made.error))
+    return FixResult(mesh.with_hulls(hulls) if changes else mesh, tuple(changes), tuple(left))
+
+
+def _describe_fix(old: Hull, new: Hull, broken: list[Limit], error: float) -> HullFix:
+    rules = tuple(limit.rule for limit in broken)
+    vertices = len(old.vertices), len(new.vertices)
+    polygons = len(polygon_sizes(old.shape.tessellate())), len(polygon_sizes(new.shape.tessellate()))
+    return HullFix(old.name, new.name, rules, error, vertices, polygons)
+
+
+def _find_broken_limits(engine: Engine, hull: Hull) -> list[Limit]:
+    """The limits that a hull keeps not to and that could be fixed; `volume` asks for more than a new shape."""
+    shape = hull.shape
+    if not isinstance(shape, Polytope):
+        return []
+    fixable = (limit for limit in engine.limits if limit.rule in (*_COUNTS, "thin"))
+    return [limit for limit in fixable if limit.is_broken(limit.measure(shape))]
+
+
+def _enclose_within_limits(hull: Hull, engine: Engine, broken: list[Limit]) -> Enclosure | None:
+    """A hull around another that keeps to the limits, all of them; None where there is none."""
+    made = Enclosure(hull.shape.tessellate(), 0.0)
+    for limit in broken:
+        if limit.rule == "thin":
+            made = thicken(made.hull, limit.number)
+    if any(limit.rule in _COUNTS for limit in broken):
+        counts = {_COUNTS[limit.rule]: limit.number for limit in engine.limits if limit.rule in _COUNTS}
+        found = enclose(made.hull, HullBudget(**counts))
+        return Enclosure(found.hull, made.error + found.error) if found else None
+    return made
+
+
+def _find_objection(
+    made: Enclosure | None, hull: Hull, engine: Engine, allowed: float, hulls: list[Hull]
+) -> str | None:
+    """Why a fixed hull must not take the place of another; None where it may."""
+    if made is None:
+        return "no simpler hull around it was found"
+    if made.error > allowed:
+        return f"a hull within the limits would stick out by {made.error:.3g} m, more than {allowed:.3g} m"
+    if any(limit.is_broken(limit.measure(made.hull)) for limit in _find_broken_limits(engine, Hull("", "", made.hull))):
+        return "no hull that keeps to all limits was found"
+    for other in hulls:
+        meets = other.body != hull.body and _is_near(made.hull, other) and distance(made.hull, other.shape) == 0.0
+        if meets and distance(hull.shape, other.shape) > 0.0:
+            return f"it would come to overlap {other.name} of body {other.body}"
+    return None
+
+
+def _is_near(made: Polytope, other: Hull) -> bool:
+    a, b = made.aabb, other.aabb
+    return bool((a.min <= b.max).all() and (b.min <= a.max).all())
+
+
+def _free_name(name: str, taken: set[str]) -> str:
+    number = 1
+    while (found := f"{name}~{number}") in taken:
+        number += 1
+    return found
+
+
+def thicken(hull: Polytope, thickness: float) -> Enclosure:
+    """The hull swept along its thinnest principal axis, to both sides alike, until it is `thickness` [m] thick.
+
+    It holds the hull it was, and sticks out by the step to each side at most; one that is thick enough stays as it is.
+    """
+    _, axes, extents = principal_extents(hull.vertices)
+    lacking = thickness * (1 + _MARGIN) - float(extents[2])
+    if lacking <= 0:
+        return Enclosure(hull, 0.0)
+    step = axes[2] * (lacking / 2)
+    made = convex_hull(np.concatenate([hull.vertices - step, hull.vertices + step]), name="a thickened hull")
+    return Enclosure(made, lacking / 2)

@@ -1,0 +1,183 @@
+"""Limits of physics engines: what each measures of a hull, and what of a mesh is beyond them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+
+from meshforge.checks.legality import Finding, Severity
+from meshforge.common import join_names, pluralize
+from meshforge.geometry import LEVEL, Floats, Polytope, neighbour_faces, normals_of, polygon_sizes, principal_extents
+from meshforge.symbolic import Hull, SymbolicMesh
+
+Bound = Literal["most", "least"]
+
+_SIMPLER = "Reduce it (check --fix), replace it by a primitive, or split it."
+_THICKER = "Give it a thickness, replace it by a box, or merge it with a neighbour."
+_SHORTER = "Split it along its length."
+
+_MESH_FILES = ("obj", "stl", "ply")
+
+
+@dataclass(frozen=True, slots=True)
+class Limit:
+    """The most, or the least, that an engine takes of what `measure` gives of a hull that is a mesh.
+
+    what: the thing measured, with its unit; problem: what becomes of a hull beyond; source: where the number stands.
+    """
+
+    rule: str
+    measure: Callable[[Polytope], float]
+    number: float
+    what: str
+    severity: Severity
+    problem: str
+    remedy: str
+    source: str
+    bound: Bound = "most"
+
+    def is_broken(self, value: float) -> bool:
+        return value > self.number if self.bound == "most" else value < self.number
+
+
+@dataclass(frozen=True, slots=True)
+class Engine:
+    """A physics engine.
+
+    primitives: the kinds of native shapes it has; instead: what becomes of others; hulls: how many a body may have,
+    None where nothing is known; the sources say where these stand.
+    """
+
+    name: str
+    title: str
+    limits: tuple[Limit, ...]
+    primitives: frozenset[str]
+    instead: str
+    primitives_source: str
+    hulls: int | None = None
+    hulls_problem: str = ""
+    hulls_source: str = ""
+
+
+def count_polygons_at_vertex(hull: Polytope) -> float:
+    """The number of flat faces that meet at the vertex where most do."""
+    pairs = neighbour_faces(hull.faces)
+    normals = normals_of(hull)
+    bent = np.linalg.norm(np.cross(normals[pairs[:, 0]], normals[pairs[:, 1]]), axis=1) > LEVEL
+    edges = [np.intersect1d(hull.faces[i], hull.faces[j]) for i, j in pairs[bent]]
+    return int(np.bincount(np.concatenate(edges)).max()) if edges else 0
+
+
+def measure_slenderness(hull: Polytope) -> float:
+    """The largest extent, as a multiple of the diameter of the sphere about the centre of mass that fits into it."""
+    normals = normals_of(hull)
+    heights = np.einsum("ij,ij->i", hull.vertices[hull.faces[:, 0]] - hull.centroid, normals)
+    inner = float(heights[np.linalg.norm(normals, axis=1) > 0.5].min())
+    return float(measure_extents(hull.vertices)[0]) / max(2 * inner, np.finfo(float).tiny)
+
+
+_RULES: dict[str, tuple[Callable[[Polytope], float], str, Bound, str]] = {
+    "vertices": (lambda hull: len(hull.vertices), "vertices", "most", _SIMPLER),
+    "polygons": (lambda hull: len(polygon_sizes(hull)), "flat faces", "most", _SIMPLER),
+    "face-vertices": (lambda hull: max(polygon_sizes(hull)), "vertices on one flat face", "most", _SIMPLER),
+    "vertex-faces": (count_polygons_at_vertex, "flat faces at one vertex", "most", _SIMPLER),
+    "oblong": (measure_slenderness, "times as long as the sphere inside is wide", "most", _SHORTER),
+    "thin": (lambda hull: float(measure_extents(hull.vertices)[2]), "m thick", "least", _THICKER),
+    "volume": (lambda hull: hull.volume, "m³", "least", _THICKER),
+}
+
+
+def make_limit(rule: str, number: float, severity: Severity, problem: str, source: str) -> Limit:
+    """A limit of one of the rules that there are; number: the most, or the least, as the rule has it."""
+    measure, what, bound, remedy = _RULES[rule]
+    return Limit(rule, measure, number, what, severity, problem, remedy, source, bound)
+
+
+def check_limits(engine: Engine, mesh: SymbolicMesh, faulty: frozenset[str]) -> tuple[Finding, ...]:
+    """What is beyond the limits of an engine; `faulty` hulls are left out."""
+    hulls = [h for h in mesh.hulls if h.name not in faulty]
+    limits = (finding for limit in engine.limits if (finding := _check_limit(engine, limit, hulls)))
+    return (
+        *limits,
+        *_check_primitives(engine, hulls),
+        *_check_hull_counts(engine, mesh),
+        *_check_one_hull_a_file(engine, mesh),
+    )
+
+
+def _check_limit(engine: Engine, limit: Limit, hulls: list[Hull]) -> Finding | None:
+    values = {h.name: limit.measure(h.shape) for h in hulls if isinstance(h.shape, Polytope)}
+    over = {name: value for name, value in values.items() if limit.is_broken(value)}
+    if not over:
+        return None
+    names = join_names([f"{name} ({value:.4g})" for name, value in over.items()])
+    less = "more" if limit.bound == "most" else "less"
+    message = f"{names}: {less} than {limit.number:g} {limit.what}; {limit.problem}"
+    return Finding(f"{engine.name}-{limit.rule}", limit.severity, tuple(over), message, limit.remedy)
+
+
+def _check_primitives(engine: Engine, hulls: list[Hull]) -> Iterator[Finding]:
+    """Native shapes that the engine lacks."""
+    names = tuple(h.name for h in hulls if h.shape.is_primitive and h.shape.kind not in engine.primitives)
+    if names:
+        kinds = ", ".join(sorted({h.shape.kind for h in hulls if h.name in names}))
+        message = f"{join_names(names)}: {kinds}; {engine.instead}"
+        remedy = f"Replace it by one that {engine.title} has ({', '.join(sorted(engine.primitives))})."
+        yield Finding(f"{engine.name}-primitives", "warning", names, message, remedy)
+
+
+def _check_hull_counts(engine: Engine, mesh: SymbolicMesh) -> Iterator[Finding]:
+    """Bodies of more hulls than the engine takes well."""
+    bodies: dict[str, list[str]] = {}
+    for hull in mesh.hulls:
+        bodies.setdefault(hull.body, []).append(hull.name)
+    for body, names in bodies.items():
+        if engine.hulls is not None and len(names) > engine.hulls:
+            message = (
+                f"body {body!r}: {pluralize(len(names), 'hull')}, more than {engine.hulls}; {engine.hulls_problem}"
+            )
+            yield Finding(f"{engine.name}-hulls", "warning", tuple(names), message, "Merge small hulls.")
+
+
+def _check_one_hull_a_file(engine: Engine, mesh: SymbolicMesh) -> Iterator[Finding]:
+    """A mesh file of several hulls: one mesh asset of MuJoCo is one convex hull (XML reference, asset/mesh)."""
+    several = engine.name == "mujoco" and mesh.asset is not None and mesh.asset.format in _MESH_FILES
+    if not several or len(mesh.hulls) < 2 or (mesh.asset and mesh.asset.path.is_dir()):
+        return
+    names = tuple(hull.name for hull in mesh.hulls)
+    message = f"{pluralize(len(names), 'hull')} in one mesh file; MuJoCo makes a single hull of them"
+    yield Finding("mujoco-one-hull-a-file", "warning", names, message, "Write one file a hull, as for URDF or MJCF.")
+
+
+def measure_extents(points: Floats) -> Floats:
+    """The sides (3,) of a small box around points (n, 3), longest first [m].
+
+    Of the boxes that are square to a principal axis, the smallest: where extents along other principal axes are alike,
+    these axes are chance, and the box is turned about the first as it fits best.
+    """
+    middle, axes, _ = principal_extents(points)
+    local = (points - middle) @ axes.T
+    found = [_measure_box(local, k) for k in range(3)]
+    best: Floats = np.sort(min(found, key=lambda sides: float(np.prod(sides))))[::-1]
+    return best
+
+
+def _measure_box(local: Floats, axis: int) -> Floats:
+    """The sides (3,) of the smallest box that is square to one axis: it lies along an edge of the outline."""
+    from scipy.spatial import ConvexHull, QhullError  # lazy: 0.3 s, only checks need it
+
+    flat = np.delete(local, axis, axis=1)
+    size = np.maximum(np.ptp(flat, axis=0), np.finfo(float).tiny)
+    try:
+        ring = flat[ConvexHull(flat / size).vertices]
+    except QhullError:  # no outline: the points span no volume
+        return np.asarray(np.ptp(local, axis=0))
+    edges = np.roll(ring, -1, axis=0) - ring
+    along = edges / np.maximum(np.linalg.norm(edges, axis=1, keepdims=True), np.finfo(float).tiny)
+    across = np.column_stack([-along[:, 1], along[:, 0]])
+    sides = np.stack([np.ptp(ring @ along.T, axis=0), np.ptp(ring @ across.T, axis=0)], axis=1)
+    best = sides[sides.prod(axis=1).argmin()]
+    return np.array([float(np.ptp(local[:, axis])), *best])

@@ -1,0 +1,88 @@
+"""`meshforge convert --to`: many assets into one format, as a run without a program, and the page of `--report`."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from functools import partial
+from pathlib import Path
+from time import perf_counter
+
+import typer
+
+from meshforge.batch import (
+    ApplyOptions,
+    AssetJob,
+    AssetOutcome,
+    ExecutionOptions,
+    Failed,
+    ReportHeader,
+    ReportOptions,
+    RunFigures,
+    RunSummary,
+    Skipped,
+    apply,
+    expand,
+    make_jobs,
+    plan_run,
+    read_job,
+    to_json_line,
+)
+from meshforge.cli.console import progress
+from meshforge.cli.report import NOTHING_WRITTEN, compare_outcomes, describe_failure, write_report_page
+from meshforge.cli.terminal import print_json, remark
+from meshforge.common import pluralize
+from meshforge.language import Program
+
+
+def convert_many(
+    sources: Sequence[str],
+    out: Path,
+    labels: Path | None,
+    options: ApplyOptions,
+    execution: ExecutionOptions,
+    report: Path | None,
+    *,
+    json: bool,
+) -> None:
+    """Write all assets below a folder in another format, and leave with exit code 1 where some failed."""
+    jobs, summary, started = make_jobs(expand(sources), labels), RunSummary(), perf_counter()
+    if len(jobs) > 1:
+        remark(str(plan_run(jobs, out)))
+    with progress(len(jobs), "converting") as advance:
+        for outcome in apply(Program(), jobs, out, options=options, execution=replace(execution, progress=advance)):
+            summary.add(outcome)
+            if json:
+                print_json(to_json_line(outcome), compact=True)
+            else:
+                typer.echo(_describe_outcome(outcome))
+    if not json:
+        typer.echo(str(summary).replace("unchanged", "written", 1) + NOTHING_WRITTEN * options.dry_run)
+    if report:
+        _write_report(report, f"{out.resolve().name} as {options.to}", jobs, summary, perf_counter() - started)
+    raise typer.Exit(int(summary.counts["failed"] > 0))
+
+
+def _describe_outcome(outcome: AssetOutcome) -> str:
+    if isinstance(outcome, Failed):
+        return describe_failure(outcome)
+    word = "skipped" if isinstance(outcome, Skipped) else "written"
+    line = f"{word:10} {outcome.out}: {pluralize(outcome.after, 'hull')}"
+    return "\n".join([line, *(f"    note: {note}" for note in outcome.notes)])
+
+
+def _write_report(path: Path, title: str, jobs: Sequence[AssetJob], summary: RunSummary, seconds: float) -> None:
+    by_id = {job.id: job for job in jobs}
+    readers = [partial(read_job, by_id[outcome.asset]) for outcome in summary.outcomes_to_show]
+    shown = compare_outcomes(summary.outcomes_to_show, Program(), readers)
+    write_report_page(
+        path,
+        ReportHeader(
+            title,
+            "Each asset as it was read, and as what was written of it reads.",
+            seconds,
+            RunFigures.of_run(summary, {"unchanged": "written"}),
+        ),
+        [replace(asset, status="written") if asset.status == "unchanged" else asset for asset in shown],
+        options=ReportOptions(changes=False),  # the target may have other names
+    )

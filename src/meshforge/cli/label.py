@@ -1,0 +1,141 @@
+"""`meshforge label`: labels for the hulls of a project."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Annotated, Literal
+
+import typer
+
+from meshforge.cli.label_report import LabelPrinter, LabelReport
+from meshforge.cli.label_sources import SourceOptions, label_from_sources, preview
+from meshforge.cli.label_vlm import VlmOptions, forecast, label_with_vlm
+from meshforge.cli.options import (
+    NOTHING_TO_SHOW,
+    Backend,
+    Json,
+    Memory,
+    ReportPath,
+    Timeout,
+    Workers,
+    split_words,
+    takes,
+    to_execution_options,
+)
+from meshforge.common import UsageError
+from meshforge.project import Project
+
+
+@dataclass(frozen=True, slots=True)
+class LabelArguments:
+    """What is typed after `meshforge label`."""
+
+    project: Annotated[Path, typer.Argument(help="A project folder.")]
+    source: Annotated[
+        Literal["file", "names", "propagate", "vlm"],
+        typer.Option(
+            "--with",
+            help="Where labels come from: file takes over labels files, names reads them off the names of hulls and "
+            "bodies, propagate takes those of a few assets to all others, vlm asks a vision-language model.",
+        ),
+    ] = "file"
+    labels: Annotated[
+        Path | None,
+        typer.Option("--labels", help="A file with labels, or a folder that mirrors the assets; default: beside each."),
+    ] = None
+    vocabulary: Annotated[str, typer.Option("--vocabulary", help="Set the labels that hulls can have: a,b,c.")] = ""
+    sheets: Annotated[
+        Path | None,
+        typer.Option(
+            "--sheets",
+            help="A folder for contact sheets of all assets; without it, one of those with most that is in doubt is "
+            "written into the project's `pictures`.",
+        ),
+    ] = None
+    model: Annotated[str | None, typer.Option("--model", help="The model that --with vlm asks.")] = None
+    base_url: Annotated[str | None, typer.Option("--base-url", help="Where it is, for example .../v1.")] = None
+    mode: Annotated[
+        Literal["cheap", "balanced", "exact"] | None,
+        typer.Option("--mode", help="How many pictures and questions --with vlm takes for a hull.", show_default=False),
+    ] = None
+    max_cost: Annotated[
+        float | None, typer.Option("--max-cost", min=0, help="Dollars that --with vlm may spend.", show_default=False)
+    ] = None
+    pattern: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--pattern",
+            metavar="PATTERN=LABEL",
+            help='What names mean, a glob "*knob*=handle" or "/^d[0-9]+$/=drawer", with no label for none; before '
+            "those of [names] in meshforge.toml. May be given several times.",
+            show_default=False,
+        ),
+    ] = None
+    classes: Annotated[
+        str,
+        typer.Option(
+            "--classes",
+            help="The names of classes 0, 1, ... of segmented points: a,b,c, or `vocabulary` for those of the project.",
+            show_default=False,
+        ),
+    ] = ""
+    align: Annotated[
+        Literal["check", "box", "off"] | None,
+        typer.Option(
+            "--align",
+            help="Segmented points lie where the asset does (check, the default), or are scaled and moved so that the "
+            "boxes fit (box), or are taken as they are (off).",
+            show_default=False,
+        ),
+    ] = None
+    points_up: Annotated[
+        Literal["y", "z"] | None,
+        typer.Option("--points-up", help="The axis that points up among segmented points.", show_default=False),
+    ] = None
+    dry_run: Annotated[
+        bool,
+        typer.Option("--dry-run", help="Take nothing: show what would be taken, or what vlm would send and cost."),
+    ] = False
+    report: ReportPath = None
+    workers: Workers = None
+    backend: Backend = "local"
+    timeout: Timeout = None
+    memory: Memory = None
+    json: Json = False
+
+
+@takes(LabelArguments)
+def label(given: LabelArguments) -> None:
+    """Give labels to hulls; what a person labelled is never overwritten by a machine.
+
+    Labels are written asset by asset; a run that was stopped or killed goes on where it was: the same command again.
+    Exit code 1 when some labels could not be taken, or an asset could not be read (each named); the others are done.
+    """
+    source = given.source
+    if given.labels and source != "file":
+        raise UsageError(f"--labels names labels files, which --with {source} does not read", remedy="Leave one out.")
+    model = VlmOptions(given.model, given.base_url, given.mode, given.max_cost)
+    if source != "vlm" and model.first_option:
+        raise UsageError(f"{model.first_option} is for --with vlm", remedy="Leave it out.")
+    options = SourceOptions(source, given.labels, given.pattern or (), given.classes, given.align, given.points_up)
+    options.refuse_strays()
+    if given.report and given.dry_run:
+        raise UsageError(NOTHING_TO_SHOW, remedy="Leave out --report.")
+    project, words = Project.open(given.project), split_words(given.vocabulary) if given.vocabulary else None
+    execution = to_execution_options(given.workers, given.timeout, given.memory, given.backend)
+    if given.dry_run and source == "vlm":
+        forecast(project, model, words, execution, json=given.json)
+        return
+    if given.dry_run:
+        preview(project, options, words, execution, json=given.json)
+        return
+    if words is not None:
+        project.set_vocabulary(words)
+    page = LabelReport(given.report, source) if given.report else None
+    printer = LabelPrinter(given.sheets, page, json=given.json)
+    if source == "vlm":
+        label_with_vlm(project, model, execution, printer)
+    else:
+        label_from_sources(project, options, execution, printer)
+    raise typer.Exit(int(printer.failed))

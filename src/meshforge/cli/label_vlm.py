@@ -1,0 +1,158 @@
+"""`meshforge label --with vlm`: what would be sent, or what a model said and what it cost."""
+
+from __future__ import annotations
+
+import threading
+from collections import defaultdict
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import asdict, dataclass
+
+import typer
+from pydantic import ValidationError
+
+from meshforge.batch import ExecutionOptions
+from meshforge.cli.console import progress
+from meshforge.cli.label_report import LabelPrinter
+from meshforge.cli.terminal import catch_interrupt, print_json, remark
+from meshforge.common import UsageError, first_validation_error, join_names, pluralize
+from meshforge.labels import Usage, VlmForecast, VlmResult
+from meshforge.project import Project
+from meshforge.store import VlmSettings
+
+_MAX_NAMES = 8  # names in a row
+
+
+@dataclass(frozen=True)
+class VlmOptions:
+    """What the command line says of the model; None where it leaves that to meshforge.toml."""
+
+    model: str | None = None
+    base_url: str | None = None
+    mode: str | None = None
+    max_cost: float | None = None
+
+    def settings(self, project: Project) -> VlmSettings:
+        """The settings of the project with these in their place. Raises UsageError where they do not fit."""
+        given = {name: value for name, value in asdict(self).items() if value is not None}
+        try:
+            return VlmSettings.model_validate(project.settings.vlm.model_dump() | given)
+        except ValidationError as error:
+            raise UsageError(first_validation_error(error)) from error
+
+    @property
+    def first_option(self) -> str | None:
+        """The first option that was given, as it is typed."""
+        names = (name for name, value in asdict(self).items() if value is not None)
+        return next((f"--{name.replace('_', '-')}" for name in names), None)
+
+
+def forecast(
+    project: Project, options: VlmOptions, vocabulary: Sequence[str] | None, execution: ExecutionOptions, *, json: bool
+) -> None:
+    """Print what would be sent and what it may cost; nothing is sent. vocabulary: None for that of the project."""
+    settings = options.settings(project)
+    with progress(len(project.assets()), "drawing") as advance, catch_interrupt() as stop:
+        found = project.forecast_vlm(settings, progress=advance, stop=stop, vocabulary=vocabulary, execution=execution)
+        if stop():
+            raise KeyboardInterrupt
+    if json:
+        print_json(asdict(found), compact=True)
+    else:
+        _print_forecast(found)
+
+
+def label_with_vlm(project: Project, options: VlmOptions, execution: ExecutionOptions, printer: LabelPrinter) -> None:
+    """Label a project, and print what came of it; an asking that ended early has failed."""
+    found = _ask_model(project, options, execution)
+    for outcome in found.reports:
+        printer.print(outcome, {"open": found.open.get(outcome.asset, {})}, _describe_open(found, outcome.asset))
+    if found.ended:
+        printer.failed = True
+        why = ". ".join(line.strip(" .") for line in found.ended.splitlines())
+        printer.remark(f"The asking ended early: {why}.")
+    printer.summarize(project)
+    _print_end(project, found, json=printer.json)
+
+
+def _ask_model(project: Project, options: VlmOptions, execution: ExecutionOptions) -> VlmResult:
+    """Ask for labels; the first Ctrl-C ends the asking, and what is under way is waited for."""
+    settings, waiting = options.settings(project), "stopping: waiting for the answers that are under way"
+    bar = progress(len(project.assets()), f"asking {settings.model}")
+    with bar as advance, catch_interrupt() as stop, _announce_stop(stop, waiting):
+        return project.label_with_vlm(settings, progress=lambda usage: advance(), stop=stop, execution=execution)
+
+
+@contextmanager
+def _announce_stop(stop: Callable[[], bool], text: str) -> Iterator[None]:
+    """Within the block, say so as soon as a stop is wanted, whatever is waited for then."""
+    over = threading.Event()
+
+    def wait() -> None:
+        while not over.wait(0.1):
+            if stop():
+                remark(text)
+                return
+
+    threading.Thread(target=wait, daemon=True).start()
+    try:
+        yield
+    finally:
+        over.set()
+
+
+def _describe_open(found: VlmResult, asset: str) -> list[str]:
+    """The hulls of an asset that got no label, by why."""
+    by_reason: dict[str, list[str]] = defaultdict(list)
+    for hull, why in found.open.get(asset, {}).items():
+        by_reason[why].append(hull)
+    return [f"no label: {join_names(hulls, _MAX_NAMES)} ({why})" for why, hulls in by_reason.items()]
+
+
+def _print_end(project: Project, found: VlmResult, *, json: bool) -> None:
+    """Say what it all came to, and where it can be looked at."""
+    pages = project.layout.vlm / "pages"
+    if json:
+        ending = {"ended": found.ended, "unasked": list(found.unasked), "blind": found.blind}
+        print_json({"bill": asdict(found.usage)} | ending, compact=True)
+        return
+    typer.echo(_describe_usage(found.usage))
+    if any(found.open.values()) or found.usage.answered + found.usage.cached:
+        typer.echo(f"what was sent and what came back: {pages}")
+    if found.blind:
+        remark("The model took a red picture for another one: it may not see pictures at all.")
+    if found.ended:
+        remark(f"The asking ended early: {found.ended}")
+    if found.unasked:
+        remark(f"not labelled: {join_names(found.unasked, _MAX_NAMES)}; run it again to go on")
+
+
+def _describe_usage(usage: Usage) -> str:
+    parts = [f"{pluralize(usage.answered, 'answer')}"]
+    parts += [f"{usage.cached} more from earlier"] if usage.cached else []
+    parts += [f"{pluralize(usage.retries, 'attempt')} repeated"] if usage.retries else []
+    tokens = f"{usage.usage.input:,} tokens in, {usage.usage.output:,} out"
+    tokens += " (estimated, since the server does not say)" if usage.usage.estimated else ""
+    return f"{', '.join(parts)}; {tokens}; {_describe_cost(usage)}"
+
+
+def _describe_cost(usage: Usage) -> str:
+    if usage.cost is None:
+        return "cost not known: write input_price and output_price into [vlm]"
+    lost = f", and up to ${usage.perhaps:.4f} should {pluralize(usage.lost, 'lost attempt')} be charged for"
+    return f"${usage.cost:.4f}{lost if usage.lost else ''}"
+
+
+def _print_forecast(found: VlmForecast) -> None:
+    hulls = f"{pluralize(found.assets, 'asset')} with {pluralize(found.hulls, 'hull')} to be labelled"
+    typer.echo(f"{found.model} at {found.host}, mode {found.mode}: {hulls}")
+    known = f"; {found.known} more have their answer already" if found.known else ""
+    fresh = found.questions - found.known
+    typer.echo(f"would send {pluralize(fresh, 'question')} with {pluralize(found.pictures, 'picture')}{known}")
+    cost = "price not known" if found.cost is None else f"about ${found.cost:.4f}"
+    typer.echo(f"about {found.input:,} tokens in and {found.output:,} out: {cost}")
+    if found.unreadable:
+        typer.echo(f"cannot be read: {join_names(found.unreadable, _MAX_NAMES)}")
+    if not found.key_is_set:
+        typer.echo(f"the key is not there: the environment variable {found.key} is not set")
+    typer.echo("nothing was sent")

@@ -1,0 +1,231 @@
+"""What learning results in as text: the result for stdout, remarks on it for stderr, and the cards of questions."""
+
+from __future__ import annotations
+
+import json
+import shlex
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import assert_never
+
+from meshforge.common import join_names, pluralize
+from meshforge.language import Program, explain, show
+from meshforge.store import orientation_text, toml_value
+from meshforge.synthesis import (
+    BELIEVABLE,
+    Ambiguous,
+    Choice,
+    Found,
+    LearningOutcome,
+    Nearest,
+    NeedsRepair,
+    NoProgram,
+    Question,
+    Repair,
+    TimedOut,
+)
+
+
+@dataclass(frozen=True, slots=True)
+class LearningContext:
+    """What there is to say besides the outcome.
+
+    folder: of the project, as a person types it; assets, in_use, readable: how many there are, are learned from,
+    and can be read of these; answers, repairs: how many were said so far; kept: whether the program was kept.
+    stopped: whether a person ended the search.
+    """
+
+    folder: Path
+    assets: int
+    in_use: int
+    readable: int
+    answers: int = 0
+    repairs: int = 0
+    kept: bool = True
+    stopped: bool = False
+
+    @property
+    def folder_word(self) -> str:
+        return shlex.quote(str(self.folder))
+
+
+def format_result(outcome: LearningOutcome, about: LearningContext) -> str:
+    """The result: a program, or why there is none."""
+    match outcome:
+        case Found() | Ambiguous():
+            return str(outcome.program).rstrip("\n")
+        case NeedsRepair():
+            return "\n".join(_describe_repairs(outcome, about))
+        case NoProgram():
+            return "\n".join(_describe_failure(outcome))
+        case TimedOut():
+            return "\n".join(_describe_timeout(outcome, about))
+        case _:
+            assert_never(outcome)
+
+
+def format_remarks(outcome: LearningOutcome, about: LearningContext) -> str:
+    """How far the result can be trusted, and what to do next."""
+    lines = [*_describe_stale(outcome, about), *_describe_overruled(outcome)]
+    if isinstance(outcome, Found | Ambiguous):
+        took = f"learned in {sum(outcome.seconds.values()):.2f} s{_describe_inputs(about)}"
+        lines += [f"{took}, kept as {about.folder / 'program.mf'}" if about.kept else took]
+        lines += _describe_agreement(outcome, about)
+        lines += [f"Next: meshforge apply {about.folder_word}"] if about.kept else []
+    return "\n".join(lines)
+
+
+def _describe_inputs(about: LearningContext) -> str:
+    parts = [pluralize(about.answers, "answer")] if about.answers else []
+    parts += [pluralize(about.repairs, "repaired label")] if about.repairs else []
+    return f" with {' and '.join(parts)}" if parts else ""
+
+
+def _describe_agreement(outcome: Found | Ambiguous, about: LearningContext) -> Iterator[str]:
+    if outcome.settled:
+        all_ = "your one asset" if about.assets == 1 else f"your {about.assets:,} assets"
+        part = "were looked at" if about.in_use < about.assets else "can be read"
+        seen = all_ if about.readable == about.assets else f"the {about.readable} of {all_} that {part}"
+        yield f"unambiguous: all believable readings agree on {seen}"
+        return
+    if outcome.question:
+        yield f"ambiguous: it is open what rule {outcome.question.rule} does on {outcome.question.asset}"
+    else:
+        yield from _describe_doubt(outcome)
+        if outcome.sample:
+            yield f"After applying, look at {join_names(outcome.sample)} first: they show best whether it is right"
+    if outcome.hint:
+        yield f"To be more certain, demonstrate {outcome.hint.asset}: {outcome.hint.why}"
+        yield f"  meshforge demonstrate {about.folder_word} {shlex.quote(outcome.hint.asset)} 'HULLS => ACTION' ..."
+
+
+def _describe_doubt(outcome: Found | Ambiguous) -> Iterator[str]:
+    """Where a reading that is not likely enough to ask about would do something else."""
+    rows = _doubtful_pairs(outcome)
+    rules, assets = sorted({str(rule) for rule, _ in rows}), sorted({asset for _, asset in rows})
+    if rows:
+        many = "s" * (len(rules) > 1)
+        yield (
+            f"almost unambiguous: rule{many} {join_names(rules)} might mean something else on "
+            f"{join_names(assets)}; look there"
+        )
+
+
+def _doubtful_pairs(outcome: Found | Ambiguous) -> set[tuple[int, str]]:
+    """The rules and assets on which a believable reading differs from the program."""
+    believable = (reading for reading in outcome.readings if reading.belief >= BELIEVABLE)
+    return {(reading.rule, asset) for reading in believable for asset in reading.differs_on}
+
+
+def _describe_stale(outcome: LearningOutcome, about: LearningContext) -> Iterator[str]:
+    for answer in outcome.stale:
+        question = f"{answer.rule}:{answer.asset}"
+        yield f"the answer {question} no longer fits what is there, and is left out"
+        yield f"  to take it back: meshforge synthesize {about.folder_word} --forget {shlex.quote(question)}"
+
+
+def _describe_overruled(outcome: LearningOutcome) -> Iterator[str]:
+    if outcome.overruled:
+        yield f"no program does what is demonstrated and keeps the accepted results of {join_names(outcome.overruled)};"
+        yield "  it was learned without these: look at them again after applying"
+
+
+def _describe_failure(outcome: NoProgram) -> Iterator[str]:
+    yield f"no program found: {outcome.why}"
+    yield from (f"  learned: {rule}" for rule in outcome.rules)
+    yield from _describe_nearest(outcome.nearest)
+    yield from (f"- {line}" for line in outcome.advice)
+    if not outcome.advice:
+        yield "Look at the labels of these hulls (meshforge info), or at what was demonstrated there."
+    if outcome.suggested:
+        yield f"Another orientation would do: {outcome.suggested.why}."
+        yield "  in meshforge.toml write: orient = " + toml_value(orientation_text(outcome.suggested.orient))
+
+
+def _describe_timeout(outcome: TimedOut, about: LearningContext) -> Iterator[str]:
+    number = len(outcome.rules) + 1
+    if about.stopped:
+        yield f"stopped while rule {number} was searched for"
+    else:
+        yield f"the time ran out while rule {number} was searched for; --budget SECONDS gives more"
+    yield from (f"  learned: {rule}" for rule in outcome.rules)
+    yield from _describe_nearest(outcome.nearest) if outcome.nearest else ()
+
+
+def _describe_nearest(nearest: Nearest) -> Iterator[str]:
+    yield f"nearest for rule {nearest.rule}: {show(nearest.extractor)}; on {nearest.asset} it"
+    if nearest.extra:
+        yield f"  selects too much: {', '.join(nearest.extra)}"
+    if nearest.missing:
+        yield f"  leaves out:       {', '.join(nearest.missing)}"
+
+
+def _describe_repairs(outcome: NeedsRepair, about: LearningContext) -> Iterator[str]:
+    yield f"no program yet: {pluralize(len(outcome.repairs), 'label')} may be wrong"
+    for repair in outcome.repairs:
+        yield f"  {describe_change(repair)}" + (f"  ({format_belief(repair)} sure)" if format_belief(repair) else "")
+        yield f"    {repair.why}"
+    if outcome.proposed:
+        yield "With that, the program is:"
+        yield from (f"  {rule}" for rule in outcome.proposed.rules)
+    command = f"meshforge synthesize {about.folder_word}"
+    yield f"To look at each: {command} in a terminal; to repair all: {command} --accept-repairs"
+    yield f"To keep the labels as they are: {command} --reject-repairs"
+
+
+def format_question(question: Question, program: Program, pictures: Sequence[Path] = ()) -> str:
+    """What a rule does as it stands, and what else it may be meant to select."""
+    rule = program.rules[question.rule - 1]
+    lines = [f"Rule {question.rule} can be read in more than one way.", f"  now: {rule}", f"       {explain(rule)}"]
+    return "\n".join([*lines, format_choices(question, pictures)])
+
+
+def format_choices(question: Question, pictures: Sequence[Path] = ()) -> str:
+    """The choices alone, numbered from 1."""
+    lines = [f"What should rule {question.rule} take on {question.asset}?"]
+    for number, choice in enumerate(question.choices, 1):
+        lines.append(f"  {number}  {_describe_choice(choice, number, question.choices[0])}")
+        lines += [f"     {pictures[number - 1]}"] if pictures else []
+    return "\n".join(lines)
+
+
+def _describe_choice(choice: Choice, number: int, first: Choice) -> str:
+    """The hulls of a choice; those of a later one by how they differ from the first, where that says it shorter."""
+    if not choice.select:
+        return "nothing"
+    count = pluralize(len(choice.select), "hull")
+    more = [name for name in choice.select if name not in first.select]
+    less = [name for name in first.select if name not in choice.select]
+    if number == 1 or len(more) + len(less) >= len(choice.select):
+        return f"{count}: {join_names(choice.select)}"
+    parts = [f"and {join_names(more)}"] * bool(more) + [f"without {join_names(less)}"] * bool(less)
+    return f"{count}: those of 1, {', '.join(parts)}"
+
+
+def format_repair(repair: Repair, picture: Path | None = None) -> str:
+    """A label that may be wrong, and why."""
+    lines = ["A label may be wrong.", f"  {describe_change(repair)}", f"  why: {repair.why}"]
+    lines += [f"  how sure: {format_belief(repair)}"] if format_belief(repair) else []
+    return "\n".join([*lines, f"  picture: {picture}"] if picture else lines)
+
+
+def describe_change(repair: Repair) -> str:
+    """`hull of asset: door -> handle`."""
+    wrong = repair.correction
+    return f"{wrong.hull} of {wrong.asset}: {wrong.was or 'no label'} -> {wrong.to}"
+
+
+def format_belief(repair: Repair) -> str | None:
+    """How likely the repair is right, for people; None where that is not known, as of the paper's strategy."""
+    return f"{min(round(100 * repair.belief), 99)} %" if repair.belief < 1 else None
+
+
+def format_answer_help(question: Question, project: str) -> str:
+    """How to answer where nobody can be asked; project: its folder, as one types it."""
+    example = json.dumps([{"question": question.id, "choice": 1}], ensure_ascii=False)
+    return (
+        f"Answer it in a terminal: meshforge synthesize {project}\n"
+        f"  or in a script: meshforge synthesize {project} --answers FILE, where FILE holds {example}\n"
+        "  (null in place of 1: neither)"
+    )

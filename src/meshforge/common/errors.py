@@ -1,0 +1,102 @@
+"""The one family of errors a user meets. Each error says what went wrong, where, and what to do about it."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from pydantic import ValidationError  # only its name: pydantic is slow to import
+
+
+class MeshForgeError(Exception):
+    """What went wrong, where, and the remedy, in one message.
+
+    where: the file, hull, or `file:line:column` it is about; remedy: what the user can do. Both are optional.
+    Instances pickle, so that they can come back from worker processes whole.
+    """
+
+    def __init__(self, problem: str, *, where: str | None = None, remedy: str | None = None) -> None:
+        self.problem = problem
+        self.where = where
+        self.remedy = remedy
+        super().__init__(self.message)
+
+    @property
+    def message(self) -> str:
+        """The full text: `where: problem. remedy`."""
+        return f"{self._head}\n  {self.remedy}" if self.remedy else self._head
+
+    @property
+    def sentence(self) -> str:
+        """The full text in one line: `where: problem. remedy`."""
+        head = " ".join(self._head.split())
+        return f"{head.rstrip('.')}. {self.remedy}" if self.remedy else head
+
+    @property
+    def _head(self) -> str:
+        return f"{self.where}: {self.problem}" if self.where else self.problem
+
+    def at(self, where: str) -> MeshForgeError:
+        """The error, about `where` when it did not say yet what it is about."""
+        return self if self.where else type(self)(self.problem, where=where, remedy=self.remedy)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _rebuild_error, (type(self), self.problem, self.where, self.remedy)
+
+    def __str__(self) -> str:
+        return self.message
+
+
+def _rebuild_error(kind: type[MeshForgeError], problem: str, where: str | None, remedy: str | None) -> MeshForgeError:
+    return kind(problem, where=where, remedy=remedy)
+
+
+def describe_error(error: Exception, where: str | None = None, fault: str = "please report it") -> str:
+    """The message of whatever went wrong, about `where` unless it says; fault: what to do about one of our own."""
+    match error:
+        case MeshForgeError():
+            return (error.at(where) if where else error).message
+        case MemoryError():
+            return f"{where}: there is not enough memory for it" if where else "there is not enough memory for this"
+        case OSError(filename=str() as name, strerror=str() as why):
+            return f"{name}: {why}"
+        case _:
+            head = f"{where}: " if where else ""
+            return f"{head}{type(error).__name__}: {error}\n  This is a fault of MeshForge; {fault}."
+
+
+def first_validation_error(error: ValidationError) -> str:
+    """The complaint about the first field of a JSON file that does not fit, in one line."""
+    first = error.errors(include_url=False)[0]
+    field = ".".join(str(step) for step in first["loc"])
+    value = "" if first["type"] in ("missing", "json_invalid") else f" (given: {str(first['input'])[:60]!r})"
+    at = f"the field {field}: " if field else ""
+    return at + first["msg"].replace("valid tuple", "list").replace("valid array", "list") + value
+
+
+class AssetError(MeshForgeError):
+    """A file that cannot be read or written as an asset."""
+
+
+class GeometryError(MeshForgeError):
+    """A shape that cannot be: no extent, not finite, not convex."""
+
+
+class ProgramError(MeshForgeError):
+    """A program text that does not parse, or a program that cannot run on an asset."""
+
+
+class DemonstrationError(MeshForgeError):
+    """Demonstrations that contradict each other, or that name what is not there."""
+
+
+class ProjectError(MeshForgeError):
+    """A project folder, or a file in it, that is not as it should be."""
+
+
+class UsageError(MeshForgeError):
+    """Arguments that do not fit together."""
+
+
+class StoppedError(MeshForgeError):
+    """Work that was stopped by whoever asked for it."""

@@ -1,0 +1,129 @@
+"""Writes files so that a killed process leaves the old state or the new one, never half; names and finds files, and
+notices when they change."""
+
+from __future__ import annotations
+
+import glob
+import hashlib
+import os
+import tempfile
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+FileStates = dict[Path, tuple[int, int] | None]
+"""Of files, what `file_state` gives: where it is the same, they most likely hold the same."""
+
+
+def write_atomically(path: Path, content: str | bytes) -> None:
+    """Write a whole file, or nothing of it. Folders are made; a file that is replaced hands on its mode."""
+    data = content.encode("utf-8") if isinstance(content, str) else content
+    with replace_atomically(path) as draft:
+        with draft.open("wb") as stream:
+            stream.write(data)
+            stream.flush()
+            os.fsync(stream.fileno())
+        draft.chmod(_mode_of(path))
+
+
+@contextmanager
+def replace_atomically(path: Path) -> Iterator[Path]:
+    """A new file beside `path`, to be filled and flushed; then it takes that name, or goes where an error came up."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    handle, name = tempfile.mkstemp(prefix=f".{path.name[:80]}.", suffix=".tmp", dir=path.parent)
+    os.close(handle)
+    draft = Path(name)
+    try:
+        yield draft
+        draft.replace(path)
+    except BaseException:
+        draft.unlink(missing_ok=True)
+        raise
+
+
+def file_state(path: Path) -> tuple[int, int] | None:
+    """When a file was changed last [ns] and its size [bytes], None where it is not there."""
+    try:
+        stat = path.stat()
+    except OSError:
+        return None
+    return stat.st_mtime_ns, stat.st_size
+
+
+def file_states(paths: Iterable[Path]) -> FileStates:
+    """When files were changed last, with their sizes."""
+    return {path: file_state(path) for path in paths}
+
+
+def file_digest(path: Path) -> str:
+    """A digest of a file's bytes: 32 hexadecimal digits. Raises OSError where it cannot be read."""
+    with path.open("rb") as stream:
+        return hashlib.file_digest(stream, lambda: hashlib.blake2b(digest_size=16)).hexdigest()
+
+
+def is_file(path: Path) -> bool:
+    """Whether there is a file; of a name that no file can have (too long, with a zero byte), that there is none."""
+    try:
+        return path.is_file()
+    except (OSError, ValueError):
+        return False
+
+
+def relative_name(path: Path, base: Path) -> str:
+    """A path as seen from a folder, with forward slashes."""
+    return Path(os.path.relpath(path, base)).as_posix()
+
+
+def plain_path(path: Path) -> Path:
+    """The absolute path without `..`; symbolic links stay as the user wrote them."""
+    return Path(os.path.normpath(path.absolute()))
+
+
+def _mode_of(path: Path) -> int:
+    """The mode of the file that is replaced, or that of any new file."""
+    if path.exists():
+        return path.stat().st_mode & 0o777
+    mask = os.umask(0)
+    os.umask(mask)
+    return 0o666 & ~mask
+
+
+def expand_glob(pattern: str, root: Path | None = None) -> list[str]:
+    """What a glob matches, as names from `root`, sorted; under `**`, links are followed, but never in a circle."""
+    base, stars, rest = _split_at_stars(pattern)
+    if not stars:
+        return sorted(glob.glob(pattern, root_dir=root))  # noqa: PTH207 (Path.glob takes no ".." and no absolute path)
+    found = set[str]()
+    for start in expand_glob(base, root) if base else [""]:
+        for folder in _walk_folders(start, root or Path()):
+            found.update(_join(folder, name) for name in expand_glob(rest or "*", (root or Path()) / folder))
+    return sorted(found)
+
+
+def _split_at_stars(pattern: str) -> tuple[str, bool, str]:
+    """What stands before the first `**` of a glob, whether there is one, and what stands behind it."""
+    parts = Path(pattern).parts
+    at = parts.index("**") if "**" in parts else len(parts)
+    return _join(*parts[:at]), at < len(parts), _join(*parts[at + 1 :])
+
+
+def _walk_folders(start: str, root: Path) -> Iterator[str]:
+    """A folder and all below it that are not hidden."""
+    waiting = [start]
+    while waiting:
+        folder = waiting.pop()
+        if not (root / folder).is_dir() or is_link_cycle(root / folder):
+            continue
+        yield folder
+        with os.scandir(root / folder) as entries:
+            waiting += [_join(folder, entry.name) for entry in entries if not entry.name.startswith(".")]
+
+
+def is_link_cycle(folder: Path) -> bool:
+    """Whether a folder is a link to one that it lies in, so that going into it would never end."""
+    real = folder.resolve() if folder.is_symlink() else None
+    return real is not None and any(above.resolve() == real for above in plain_path(folder.absolute()).parents)
+
+
+def _join(*names: str) -> str:
+    return os.path.join("", *names)  # noqa: PTH118 (a name stays as it was written, and may be none)

@@ -1,0 +1,181 @@
+"""Pieces of collision geometry as a reader finds them: convex shapes or surfaces in the root frame, the names that
+files have for them, and the hulls and non-convex pieces of an asset that they become."""
+
+from __future__ import annotations
+
+import posixpath
+from collections.abc import Callable, Container, Hashable, Iterable, Iterator, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from meshforge.common import GeometryError
+from meshforge.geometry import FLATNESS, Floats, Ints, Piece, Pose, Shape, Sphere, principal_extents
+from meshforge.symbolic import Asset, Geom, Mentions, Opaque, Surface, unique_names
+
+_RING = 32  # corners of each end of a tapered cylinder
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class CollisionPiece:
+    """A piece of collision geometry in the root frame: a shape, or None with the reason why it is no hull.
+
+    plane: root_T_plane of an endless plane, whose normal is Z.
+    """
+
+    shape: Shape | None
+    reason: str = ""
+    surface: Surface | None = None
+    plane: Pose | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class CollisionElement:
+    """A `<collision>` of a file: its link, and the names of its pieces in order, hulls and others."""
+
+    link: str
+    names: tuple[str, ...]
+
+
+ElementPieces = Sequence[Sequence[CollisionPiece]]
+"""The pieces of each element, in order."""
+ElementMentions = Sequence[Sequence[Mentions]]
+"""What else the file calls each of them."""
+
+
+def place_pieces(pieces: Sequence[Piece], linear: Floats, offset: Floats) -> list[CollisionPiece]:
+    """The pieces of a mesh file under x -> linear @ x + offset, reflections included."""
+    parts = [
+        CollisionPiece(piece.shape.transform(linear, offset))
+        if piece.shape is not None
+        else CollisionPiece(None, piece.reason or "no hull", place_surface(piece.vertices, piece.faces, linear, offset))
+        for piece in pieces
+    ]
+    return parts or [CollisionPiece(None, "the mesh holds no triangles")]
+
+
+def place_surface(vertices: Floats, faces: Ints, linear: Floats, offset: Floats, body: str | None = None) -> Surface:
+    """A surface under x -> linear @ x + offset; a reflection turns its faces round."""
+    return Surface(vertices @ linear.T + offset, faces if np.linalg.det(linear) > 0 else faces[:, ::-1], body)
+
+
+def is_flat(vertices: Floats) -> bool:
+    """Whether points (n, 3) span no volume to speak of; MuJoCo refuses a mesh of such points."""
+    extents = principal_extents(vertices)[2]
+    return bool(extents.min() <= FLATNESS * extents.max())
+
+
+def turn_z_to(normal: Floats) -> Pose:
+    """The least turn that takes Z onto a direction (3,)."""
+    length = float(np.linalg.norm(normal))
+    x, y, z = normal / length if length > 0 else np.array([0.0, 0.0, 1.0])
+    if z < -1 + 1e-12:
+        return Pose(np.diag([1.0, -1.0, -1.0]), np.zeros(3))
+    cross = np.array([[0, 0, x], [0, 0, y], [-x, -y, 0]])
+    return Pose(np.eye(3) + cross + cross @ cross / (1 + z), np.zeros(3))
+
+
+def build_solid(kind: str, sizes: Sequence[float] | Floats, make: Callable[[], Shape]) -> CollisionPiece:
+    """The shape that `make` makes, unless it has no volume; sizes: its own [m], none of which may be zero."""
+    if not np.isfinite(sizes).all() or min(sizes) <= 0:
+        return CollisionPiece(None, f"a {kind.lower()} without volume: {', '.join(f'{s:g}' for s in sizes)} m")
+    try:
+        return CollisionPiece(make())
+    except GeometryError as error:
+        return CollisionPiece(None, error.problem)
+
+
+def end_points(radius: float, height: float, *, ball: bool, axis: int) -> Floats:
+    """Points (n, 3) of the disk or ball at a height along an axis: the end of a tapered cylinder or capsule."""
+    centre: Floats = height * np.eye(3)[axis]
+    if radius == 0:
+        return centre.reshape(1, 3)
+    if ball:
+        return Sphere(Pose.of_translation(centre), radius).vertices
+    angles = np.arange(_RING) * (2 * np.pi / _RING)
+    ring = np.column_stack([radius * np.cos(angles), radius * np.sin(angles)])
+    return np.insert(ring, axis, height, axis=1)
+
+
+def name_pieces(bases: Iterable[tuple[str, int]]) -> list[tuple[str, ...]]:
+    """The names of pieces; for each element its own name and how many pieces it has: `#k` for one of several."""
+    each = [[base] if count == 1 else [f"{base}#{k}" for k in range(count)] for base, count in bases]
+    unique = iter(unique_names(name for names in each for name in names))
+    return [tuple(next(unique) for _ in names) for names in each]
+
+
+def geoms_of(authored: Sequence[CollisionElement], parts: ElementPieces, mentions: ElementMentions) -> tuple[Geom, ...]:
+    """The pieces that are hulls."""
+    pieces = _iterate_pieces(authored, parts, mentions)
+    return tuple(Geom(name, body, part.shape, mentions=own) for name, body, part, own in pieces if part.shape)
+
+
+def opaque_of(
+    authored: Sequence[CollisionElement], parts: ElementPieces, mentions: ElementMentions
+) -> tuple[Opaque, ...]:
+    """The pieces that are no hulls."""
+    return tuple(
+        Opaque(name, body, part.reason, part.surface, part.plane, own)
+        for name, body, part, own in _iterate_pieces(authored, parts, mentions)
+        if part.shape is None
+    )
+
+
+def _iterate_pieces(
+    authored: Sequence[CollisionElement], parts: ElementPieces, mentions: ElementMentions
+) -> Iterator[tuple[str, str, CollisionPiece, Mentions]]:
+    """Name, body and mentions of each piece."""
+    for element, own, words in zip(authored, parts, mentions, strict=True):
+        for name, part, said in zip(element.names, own, words, strict=True):
+            yield name, element.link, part, said
+
+
+@dataclass(frozen=True, slots=True)
+class ShapeNames:
+    """The names of a shape that collides or is shown, empty where it has none.
+
+    shape: what it is, so that one which is shown is known again where it collides; of a mesh, its reference.
+    """
+
+    shape: Hashable
+    name: str = ""
+    mesh: str = ""
+    material: str = ""
+
+
+def collect_mentions(own: ShapeNames, shown: Sequence[ShapeNames], more: Iterable[tuple[str, str]] = ()) -> Mentions:
+    """What a file calls a shape that collides; shown: what its body shows; more: further mentions.
+
+    A visual of the same shape is the shape itself to look at. What else the body shows counts where that is one thing.
+    """
+    twins = [other for other in shown if other.shape == own.shape]
+    alone = shown[0] if len(shown) == 1 and not twins else None
+    found = [("visual", twin.name) for twin in twins]
+    found += [("mesh", own.mesh), *more]
+    found += [("shown", alone.name), ("shown", alone.mesh)] if alone else []
+    found += [("material", named.material) for named in (own, *twins, *([alone] if alone else []))]
+    return drop_repeats(found)
+
+
+def names_to_keep(asset: Asset) -> set[str]:
+    """The names of the pieces that an edit leaves as they were: hulls without a parent, and all non-convex pieces."""
+    return {geom.name for geom in asset.geoms if geom.parent is None} | {piece.name for piece in asset.opaque}
+
+
+def new_hulls(asset: Asset, known: Container[str]) -> list[Geom]:
+    """The hulls that an edit made; known: the names of the pieces of the file."""
+    return [geom for geom in asset.geoms if geom.parent is not None or geom.name not in known]
+
+
+def drop_repeats(found: Iterable[tuple[str, str | None]]) -> Mentions:
+    """The mentions without empty ones, each name once."""
+    names: dict[str, str] = {}
+    for kind, name in found:
+        if name and name.strip():
+            names.setdefault(name.strip(), kind)
+    return tuple((kind, name) for name, kind in names.items())
+
+
+def stem_of(reference: str) -> str:
+    """The name of a file that is referred to, without folder and suffix."""
+    return posixpath.splitext(posixpath.basename(reference.replace("\\", "/").strip()))[0]

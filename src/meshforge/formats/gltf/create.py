@@ -1,0 +1,215 @@
+"""Making a glTF file from an asset of another format: a node for each body and hull, with colliders of an extension,
+plain, or named for an engine."""
+
+from __future__ import annotations
+
+import copy
+import json
+from pathlib import Path, PurePosixPath
+from urllib.parse import quote
+
+import numpy as np
+
+from meshforge.common import AssetError
+from meshforge.formats.base import Output
+from meshforge.formats.engine_names.base import CollisionNames, godot_kind, unreal_kind
+from meshforge.formats.engine_names.bodies import EngineBodies, EngineBody, name_bodies
+from meshforge.formats.gltf.document import BODY, Convention, GltfDocument
+from meshforge.formats.gltf.draft import SceneDraft
+from meshforge.formats.gltf.edit import assign_names
+from meshforge.formats.gltf.edit_physics import PhysicsStyle, pose_keys
+from meshforge.formats.gltf.edit_styles import PlainStyle
+from meshforge.formats.gltf.mechanism import motion_of
+from meshforge.formats.gltf.physics import KHR
+from meshforge.formats.meshfile.gltf_document import Container, Json
+from meshforge.formats.meshfile.gltf_scene import GltfScene
+from meshforge.formats.visuals import Rgba, linear_color, read_visual_surfaces
+from meshforge.geometry import Floats, Ints
+from meshforge.symbolic import Asset, Geom, Opaque, Surface
+
+_FAR = 1e4  # sizes of a hull away from its body, beyond which single precision would spoil it
+
+
+def create_gltf(asset: Asset, name: str) -> Output:
+    """The files of an asset that came from another format.
+
+    One body of nothing but hull meshes becomes plain nodes. Else colliders of KHR_physics_rigid_bodies hold bodies and
+    native shapes; where the asset shows nothing, a mesh on each collider's node shows that.
+    """
+    is_binary = PurePosixPath(name).suffix.lower() == ".glb"
+    return _Creator(asset, "plain" if _is_plain(asset) else "khr", is_binary).build_output(PurePosixPath(name).stem)
+
+
+def _is_plain(asset: Asset) -> bool:
+    names = [geom.name for geom in asset.geoms] + [piece.name for piece in asset.opaque]
+    return (
+        [body.name for body in asset.bodies] in ([BODY], [])
+        and not len(asset.visuals)
+        and not any(geom.shape.is_primitive for geom in asset.geoms)
+        and not any(piece.plane for piece in asset.opaque)
+        and not any(unreal_kind(name) or godot_kind(name) for name in names)
+    )
+
+
+class _Creator:
+    def __init__(self, asset: Asset, convention: Convention, is_binary: bool) -> None:
+        self.asset, self.convention, self.is_binary = asset, convention, is_binary
+        tree = self._build_tree()
+        self.nodes: dict[str, int] = {node["name"]: k for k, node in enumerate(tree.get("nodes", []))}
+        self.draft = new_draft(tree, asset.path, is_binary)
+
+    def build_output(self, stem: str) -> Output:
+        seen, lost = read_visual_surfaces(self.asset) if self.convention == "khr" else ([], [])
+        style = PlainStyle(self.draft) if self.convention == "plain" else PhysicsStyle(self.draft, "khr", not seen)
+        for geom in self.asset.geoms:
+            style.add_hull(geom, self._own_name(geom), self.nodes.get(geom.body), None)
+        for piece in self.asset.opaque:
+            self._add_opaque(style, piece)
+        if not self.draft.expected:
+            raise AssetError("there is no hull to write", where=str(self.asset.path))
+        for body, surface in seen:
+            self._add_visual(body, surface)
+        renamed = self._assign_names()
+        main, made = pack_new(self.draft, stem, self.is_binary)
+        return Output(main, made, names=renamed, lost=tuple(lost))
+
+    def _assign_names(self) -> dict[str, str]:
+        """The hulls that read back under other names, with these."""
+        bodies = tuple((node, body) for body, node in self.nodes.items())
+        names = assign_names(self.draft, GltfDocument(b"", self.convention, (), bodies), renames=True)
+        hulls = {geom.name for geom in self.asset.geoms}
+        return {old: now for old, now in names.items() if old in hulls}
+
+    def _build_tree(self) -> Json:
+        """A tree with a node for each body but the one that all formats without bodies have."""
+        tree = new_tree()
+        if self.convention == "plain":
+            return tree
+        tree["extensionsUsed"] = [KHR]
+        moving = [body for body in self.asset.bodies if body.name != BODY]
+        nodes = [
+            {"name": body.name, **pose_keys(body.pose), "extensions": {KHR: {"motion": motion_of(self.asset, body)}}}
+            for body in moving
+        ]
+        if nodes:
+            tree["scenes"][0]["nodes"] = list(range(len(nodes)))
+            tree["nodes"] = nodes
+        return tree
+
+    def _own_name(self, thing: Geom | Opaque) -> str:
+        return thing.name.removeprefix(f"{thing.body}/") if self.nodes else thing.name
+
+    def _add_opaque(self, style: PlainStyle | PhysicsStyle, piece: Opaque) -> None:
+        """Add a piece as its triangles, or as a plane; the report names one that is neither."""
+        if piece.plane is not None and isinstance(style, PhysicsStyle):
+            style.add_plane(piece, self._own_name(piece), self.nodes.get(piece.body))
+        elif piece.surface is not None and len(piece.surface.faces):
+            style.add_opaque(piece, piece.surface, self._own_name(piece), self.nodes.get(piece.body))
+
+    def _add_visual(self, body: str, surface: Surface) -> None:
+        """A node that shows a surface."""
+        holder, name = self.nodes.get(body), f"{body}-visual"
+        points = self.draft.points_in(np.asarray(surface.vertices), holder)
+        mesh, middle = self.draft.add_surface_mesh(
+            points, surface.faces, name, add_material(self.draft.tree, surface.rgba)
+        )
+        self.draft.add_node({"name": name, "mesh": mesh, "translation": middle.tolist()}, holder)
+
+
+def create_for_engine(asset: Asset, name: str, engine: CollisionNames) -> Output:
+    """The files of an asset with the names of an engine.
+
+    No node is scaled. For Unreal, the meshes of a body are in its frame, since its importers have not always obeyed the
+    places of nodes with collision; for others they lie about their own middle, so that single precision is fine.
+    """
+    path = PurePosixPath(name)
+    found = name_bodies(asset, engine, path.stem)
+    main, made, names = _EngineCreator(asset, found, engine, path.suffix.lower() == ".glb").build_files(path.stem)
+    return Output(main, made, names=names, lost=found.lost, notes=found.notes)
+
+
+class _EngineCreator:
+    def __init__(self, asset: Asset, found: EngineBodies, engine: CollisionNames, is_binary: bool) -> None:
+        self.found, self.engine, self.is_binary = found, engine, is_binary
+        tree = new_tree()
+        tree["scenes"][0]["nodes"] = list(range(len(found.each)))
+        tree["nodes"] = [{"name": family.name, **pose_keys(family.body.pose)} for family in found.each]
+        self.draft = new_draft(tree, asset.path, is_binary)
+
+    def build_files(self, stem: str) -> tuple[bytes, dict[str, bytes], dict[str, str]]:
+        """The main file, the one of its buffer, and the names of hulls in it."""
+        for node, family in enumerate(self.found.each):
+            if family.surfaces:
+                self.draft.node(node)["mesh"] = self._add_visuals(family, node)
+            self._add_collision(family, node)
+        document = GltfDocument(b"", self.engine.engine, ())
+        misread = assign_names(self.draft, document, renames=False)  # by the names of the asset
+        known = {geom: name for geom, name in misread.items() if geom in self.found.names}
+        return *pack_new(self.draft, stem, self.is_binary), known
+
+    def _add_visuals(self, family: EngineBody, node: int) -> int:
+        """One mesh of all that is seen of a body, a part for each surface."""
+        draft, parts = self.draft, []
+        for surface in family.surfaces:
+            points = draft.points_in(np.asarray(surface.vertices), node)
+            parts.append(draft.build_primitive(points, surface.faces, add_material(draft.tree, surface.rgba)))
+        return draft.add_mesh({"name": family.name, "primitives": parts})
+
+    def _add_collision(self, family: EngineBody, node: int) -> None:
+        """The nodes of what collides of a body."""
+        if not family.hulls and not family.opaque:
+            return
+        above = self.engine.holder(family.name)
+        holder = node if above is None else self.draft.add_node({"name": above}, node)
+        for name, geom in family.hulls.items():
+            hull = self.draft.shape_in(geom.shape, node).tessellate()
+            self._add_node(name, hull.vertices, hull.faces, holder, geom.name)
+        for name, piece in family.opaque.items():
+            assert isinstance(piece.surface, Surface)  # no other is in a family
+            points = self.draft.points_in(np.asarray(piece.surface.vertices), node)
+            self._add_node(name, points, piece.surface.faces, holder, piece.name)
+
+    def _add_node(self, name: str, points: Floats, faces: Ints, holder: int, known: str) -> None:
+        """A node with a mesh; known: the name of the piece in the asset."""
+        middle, reach = (points.min(axis=0) + points.max(axis=0)) / 2, np.ptp(points, axis=0).max()
+        if not self.engine.centred and np.abs(middle).max() < _FAR * reach:
+            middle = np.zeros(3)
+        mesh = self.draft.add_mesh({"name": name, "primitives": [self.draft.build_primitive(points - middle, faces)]})
+        node: Json = {"name": name, "mesh": mesh}
+        placed = {"translation": middle.tolist()} if middle.any() else {}
+        self.draft.expected[self.draft.add_node({**node, **placed}, holder)] = (known,)
+
+
+def new_tree() -> Json:
+    """The tree of a scene without nodes."""
+    return {"asset": {"version": "2.0", "generator": "MeshForge"}, "scene": 0, "scenes": [{}]}
+
+
+def new_draft(tree: Json, path: Path, is_binary: bool) -> SceneDraft:
+    """A draft of a tree that has nodes without meshes alone; path: for messages."""
+    return SceneDraft(GltfScene(copy.deepcopy(tree), None, path), tree, b"" if is_binary else None)
+
+
+def add_material(tree: Json, rgba: Rgba | None) -> int | None:
+    """The number of a material of a colour, which is added where it is not there yet."""
+    if rgba is None:
+        return None
+    color = [*linear_color(rgba), float(rgba[3])]
+    wanted: Json = {"pbrMetallicRoughness": {"baseColorFactor": color, "metallicFactor": 0.0}}
+    if rgba[3] < 1:
+        wanted["alphaMode"] = "BLEND"
+    found: list[Json] = tree.setdefault("materials", [])
+    if wanted not in found:
+        found.append(wanted)
+    return found.index(wanted)
+
+
+def pack_new(draft: SceneDraft, stem: str, is_binary: bool) -> tuple[bytes, dict[str, bytes]]:
+    """The main file of a new scene, and the one of its buffer."""
+    geometry, made = draft.geometry, dict[str, bytes]()
+    geometry.finish(embed=False, uri=quote(f"{stem}.bin"))
+    if is_binary:
+        text = json.dumps(draft.tree, separators=(",", ":")).encode()
+        return Container(text, True).with_text(text, geometry.chunk).as_bytes(), made
+    made[f"{stem}.bin"] = bytes(geometry.added)
+    return (json.dumps(draft.tree, indent=2) + "\n").encode(), made

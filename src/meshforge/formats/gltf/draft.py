@@ -1,0 +1,265 @@
+"""A scene being edited: nodes emptied and added, meshes split and made, while no index of the file changes."""
+
+from __future__ import annotations
+
+import copy
+import re
+from collections import Counter
+from collections.abc import Iterable, Iterator, Sequence
+from typing import Any
+
+import numpy as np
+
+from meshforge.common import AssetError
+from meshforge.formats.gltf.mechanism import body_nodes
+from meshforge.formats.gltf.output import GeometryBuffer
+from meshforge.formats.meshfile.gltf_document import Json, entries, entry, extension
+from meshforge.formats.meshfile.gltf_scene import GltfScene
+from meshforge.geometry import Floats, Ints, Shape
+
+_KINDS = {5120: "<i1", 5121: "<u1", 5122: "<i2", 5123: "<u2", 5125: "<u4", 5126: "<f4"}  # by componentType
+_POINTER = re.compile(r"/nodes/(\d+)(/.*)?")
+
+
+class SceneDraft:
+    """The tree of a scene, to be edited; before: the chunk that new geometry follows, None for a buffer of its own.
+
+    expected: for each node with collision, the names that its pieces should read back as.
+    """
+
+    def __init__(self, scene: GltfScene, tree: Json, before: bytes | None) -> None:
+        self.scene, self.tree = scene, tree
+        self.geometry = GeometryBuffer(tree, before)
+        self.referred = SceneReferences(scene.tree)
+        self.expected: dict[int, tuple[str, ...]] = {}
+        self._bodies = body_nodes(scene)
+
+    def node(self, index: int) -> Json:
+        """A node of the edited tree."""
+        return entry(self.tree, "nodes", index)
+
+    def empty_node(self, index: int) -> None:
+        """Take the triangles from a node, and the node from the tree where nothing else hangs on it.
+
+        It stays in the list of nodes, so that no other gets its number.
+        """
+        self.remove_mesh(index)
+        node = self.node(index)
+        needed = node.get("children") or node.get("extensions") or {"camera", "mesh"} & node.keys()
+        if not needed and index not in self.referred.nodes:
+            self._remove_node(index)
+
+    def remove_mesh(self, index: int) -> Json:
+        """Take the mesh from a node but for its points and lines; what belonged to it is returned.
+
+        Raises AssetError: an animation morphs it.
+        """
+        node = self.node(index)
+        if index in self.referred.morphed:
+            raise AssetError(
+                f"an animation drives the morph weights of node {node.get('name') or index!r}, whose mesh would go",
+                where=str(self.scene.path),
+                remedy="Leave the hull as it is, or take the animation out of the file.",
+            )
+        gone: Json = {key: node.pop(key) for key in ("mesh", "skin", "weights") if key in node}
+        strokes = self._lines_and_points(gone["mesh"]) if "mesh" in gone else []
+        if strokes:
+            mesh = {**entry(self.scene.tree, "meshes", gone["mesh"]), "primitives": strokes}
+            node |= {**gone, "mesh": self.add_mesh(mesh, gone["mesh"])}
+        return gone
+
+    def add_node(self, node: Json, holder: int | None, at: int | None = None) -> int:
+        """A new node below another one, or at the root of the scene; at: before which child, None for the last."""
+        nodes: list[Any] = self.tree.setdefault("nodes", [])
+        nodes.append(node)
+        index = len(nodes) - 1
+        if holder is not None:
+            children: list[Any] = self.node(holder).setdefault("children", [])
+            children.insert(len(children) if at is None else at, index)
+        elif entries(self.tree, "scenes"):
+            entry(self.tree, "scenes", self.tree.get("scene", 0)).setdefault("nodes", []).append(index)
+        return index
+
+    def declare_extension(self, extension: str) -> None:
+        """Say that the file uses an extension."""
+        used: list[Any] = self.tree.setdefault("extensionsUsed", [])
+        if extension not in used:
+            used.append(extension)
+
+    def add_mesh(self, mesh: Json, instead_of: int | None = None) -> int:
+        """A new mesh; in the place of another one where that one stood in a single node only."""
+        meshes: list[Any] = self.tree.setdefault("meshes", [])
+        if instead_of is not None and self.referred.users.get(instead_of, 0) == 1:
+            self.referred.users[instead_of] = 0
+            meshes[instead_of] = mesh
+            return instead_of
+        meshes.append(mesh)
+        return len(meshes) - 1
+
+    def add_shape_mesh(self, shape: Shape, name: str, material: int | None = None) -> tuple[int, Floats]:
+        """A new mesh of a shape, about the middle of its box, so that single precision is fine; and that middle."""
+        polytope = shape.tessellate()
+        return self.add_surface_mesh(polytope.vertices, polytope.faces, name, material)
+
+    def add_surface_mesh(
+        self, points: Floats, faces: Ints, name: str, material: int | None = None
+    ) -> tuple[int, Floats]:
+        """A new mesh of vertices (n, 3) and faces (m, 3), about the middle (3,) of their box; and that middle."""
+        middle = (points.min(axis=0) + points.max(axis=0)) / 2
+        primitive = self.build_primitive(points - middle, faces, material)
+        return self.add_mesh({"name": name, "primitives": [primitive]}), middle
+
+    def build_primitive(self, points: Floats, faces: Ints, material: int | None = None) -> Json:
+        """A primitive of vertices (n, 3) and faces (m, 3), where they are."""
+        part: Json = {"attributes": {"POSITION": self.geometry.add_vertex_data(points.astype("<f4"), bounds=True)}}
+        part["indices"] = self.geometry.add_triangles(faces)
+        return part if material is None else {**part, "material": material}
+
+    def extract_pieces(self, index: int, owner: Ints, kept: Iterable[int], *, strokes: bool = False) -> Json:
+        """A mesh of some pieces only: with the vertices, attributes and materials of the whole.
+
+        strokes: whether its points and lines, which are no part of a piece, stay in it.
+        """
+        mesh = copy.deepcopy(entry(self.scene.tree, "meshes", index))
+        stays = np.isin(owner, list(kept))
+        patches = self.scene.mesh(index).patches
+        starts = np.cumsum([0, *(len(patch.faces) for patch in patches)])
+        whole = {patch.index: (patch, start) for patch, start in zip(patches, starts, strict=False)}
+        parts = []
+        for k, part in enumerate(mesh["primitives"]):
+            if k not in whole:
+                parts += [part] * strokes
+                continue
+            patch, start = whole[k]
+            own = stays[start : start + len(patch.faces)]
+            if own.any():
+                parts.append(part if own.all() else self._keep_faces(part, patch.faces[own], patch.decoded))
+        return {**mesh, "primitives": parts}
+
+    def _lines_and_points(self, index: int) -> list[Json]:
+        """The primitives of a mesh that are no triangles."""
+        solid = {patch.index for patch in self.scene.mesh(index).patches}
+        parts = entries(entry(self.scene.tree, "meshes", index), "primitives")
+        return [copy.deepcopy(part) for k, part in enumerate(parts) if k not in solid]
+
+    def _keep_faces(self, part: Json, faces: Ints, decoded: Any) -> Json:
+        """A primitive with some of its triangles; one that Draco compressed is written plainly."""
+        part = {**part, "indices": self.geometry.add_triangles(faces)}
+        part.pop("mode", None)
+        if decoded is not None:
+            unpack_draco(part, decoded.attributes, self.tree, self.geometry)
+        return part
+
+    def holder_of(self, body: int | None, source: int | None) -> int | None:
+        """The node below which a new hull goes, None for the root of the scene.
+
+        body: the node that is its body; source: the node of the hull that it comes after, beside which it goes, or
+        below which where that one is a body or is moved by an animation.
+        """
+        holder = body
+        if source is not None:
+            below = source == body or source in self.referred.animated
+            holder = source if below else self.scene.placements[source].parent
+        if holder is not None and (self._bodies.get(holder) != body or self.is_degenerate(holder)):
+            return body
+        return holder if holder is not None else body
+
+    def is_degenerate(self, index: int) -> bool:
+        """Whether a node leaves no volume to what is below it."""
+        stretch = np.linalg.svd(self.scene.placements[index].linear, compute_uv=False)
+        return bool(stretch[-1] <= 1e-9 * stretch[0])
+
+    def shape_in(self, shape: Shape, holder: int | None) -> Shape:
+        """A shape of the root frame in the space of a node."""
+        if holder is None:
+            return shape
+        inverse: Floats = np.linalg.inv(self.scene.placements[holder].world).astype(np.float64)
+        return shape.transform(inverse[:3, :3], inverse[:3, 3])
+
+    def points_in(self, points: Floats, holder: int | None) -> Floats:
+        """Points (n, 3) of the root frame in the space of a node."""
+        if holder is None:
+            return points
+        inverse = np.linalg.inv(self.scene.placements[holder].world)
+        return np.asarray(points @ inverse[:3, :3].T + inverse[:3, 3], dtype=np.float64)
+
+    def _remove_node(self, index: int) -> None:
+        parent = self.scene.placements[index].parent
+        holders = [(self.node(parent), "children")] if parent is not None else []
+        holders += [(scene, "nodes") for scene in entries(self.tree, "scenes")]
+        for holder, key in holders:
+            if index in holder.get(key, ()):
+                left = [child for child in holder[key] if child != index]
+                holder[key] = left
+                if not left:
+                    del holder[key]  # an empty list is not allowed
+
+
+def unpack_draco(part: Json, attributes: dict[str, Any], tree: Json, geometry: GeometryBuffer) -> None:
+    """Give a primitive that Draco compressed plain attributes, of the types that its accessors have."""
+    part["attributes"] = dict(part["attributes"])
+    for name, values in attributes.items():
+        accessor = entry(tree, "accessors", part["attributes"][name])
+        rows, normalized = values.astype(_KINDS[accessor["componentType"]]), bool(accessor.get("normalized"))
+        part["attributes"][name] = geometry.add_vertex_data(rows, bounds=name == "POSITION", normalized=normalized)
+    extensions = {key: value for key, value in part["extensions"].items() if key != "KHR_draco_mesh_compression"}
+    part.pop("extensions")
+    if extensions:
+        part["extensions"] = extensions
+
+
+def material_without_texture(tree: Json, mesh: int) -> int | None:
+    """The material of a mesh, for a hull in its stead; None for one that needs texture coordinates."""
+    parts: Sequence[Json] = entries(entry(tree, "meshes", mesh), "primitives")
+    found = next((part["material"] for part in parts if "material" in part), None)
+    if found is None or "Texture" in str(entry(tree, "materials", found)):
+        return None
+    return int(found)
+
+
+class SceneReferences:
+    """References to the nodes and meshes of a tree.
+
+    animated, morphed: nodes that animations move, or morph; nodes: all that are referred to other than as children;
+    users: how many nodes show each mesh, and how many colliders name it.
+    """
+
+    def __init__(self, tree: Json) -> None:
+        targets = list(_animation_targets(tree))
+        self.morphed = {node for node, what in targets if what == "weights"}
+        self.animated = {node for node, what in targets if what != "weights"}
+        self.nodes = {node for node, _ in targets} | set(_skin_joints(tree))
+        self.nodes |= set(_numbers_under(tree, ("node", "connectedNode")))
+        self.users: Counter[int] = Counter(_numbers_under(tree, ("mesh",)))
+
+
+def _animation_targets(tree: Json) -> Iterator[tuple[int, str]]:
+    """The nodes that animations change, with what of them."""
+    for animation in entries(tree, "animations"):
+        for channel in entries(animation, "channels"):
+            target = channel.get("target", {})
+            if isinstance(target.get("node"), int):
+                yield target["node"], str(target.get("path"))
+            pointer = (extension(target, "KHR_animation_pointer") or {}).get("pointer", "")
+            if found := _POINTER.fullmatch(str(pointer)):
+                yield int(found[1]), (found[2] or "/").split("/")[1]
+
+
+def _skin_joints(tree: Json) -> Iterator[int]:
+    for skin in entries(tree, "skins"):
+        yield from entries(skin, "joints")
+        if isinstance(skin.get("skeleton"), int):
+            yield skin["skeleton"]
+
+
+def _numbers_under(tree: Json, keys: tuple[str, ...]) -> Iterator[int]:
+    """The numbers under some keys, anywhere in extensions and nodes; a node's own number in itself is none."""
+    waiting: list[tuple[Any, int | None]] = [(tree.get("extensions"), None)]
+    waiting += [(node, k if "node" in keys else None) for k, node in enumerate(entries(tree, "nodes"))]
+    while waiting:
+        value, itself = waiting.pop()
+        if isinstance(value, dict):
+            yield from (v for k, v in value.items() if k in keys and isinstance(v, int) and v != itself)
+            waiting += [(inner, itself) for inner in value.values()]
+        elif isinstance(value, list):
+            waiting += [(inner, itself) for inner in value]

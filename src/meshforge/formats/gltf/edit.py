@@ -1,0 +1,150 @@
+"""Writing an edited glTF file: the authored JSON where nothing changed, and all bytes of its buffers."""
+
+from __future__ import annotations
+
+import copy
+from collections import Counter
+from collections.abc import Sequence
+from dataclasses import replace
+from pathlib import Path
+
+from meshforge.common import AssetError, pluralize
+from meshforge.formats.base import Output, note_renames
+from meshforge.formats.collision_meshes import refuse_changed_files
+from meshforge.formats.collision_pieces import names_to_keep, new_hulls
+from meshforge.formats.companions import find_companions
+from meshforge.formats.gltf.colliders import collision_name_of
+from meshforge.formats.gltf.document import BODY, Convention, GltfDocument, NodeRecord
+from meshforge.formats.gltf.draft import SceneDraft
+from meshforge.formats.gltf.edit_physics import PhysicsStyle
+from meshforge.formats.gltf.edit_styles import EditStyle, GodotStyle, PlainStyle, UnityStyle, UnrealStyle
+from meshforge.formats.gltf.mechanism import body_nodes
+from meshforge.formats.gltf.output import pack_scene, prepare_base
+from meshforge.formats.meshfile.gltf_document import report_damage
+from meshforge.formats.meshfile.gltf_scene import GltfScene
+from meshforge.formats.slots import name_element_pieces
+from meshforge.symbolic import Asset, Geom
+
+
+def write_gltf(asset: Asset, document: GltfDocument, name: str) -> Output:
+    """The files of an asset that was read from a glTF file; without an edit, its own bytes.
+
+    Raises AssetError: a buffer changed since the asset was read, nothing would be left, or an animation is in the way.
+    """
+    kept, known = names_to_keep(asset), {piece for element in document.authored for piece in element.names}
+    made = new_hulls(asset, known)
+    with report_damage(str(asset.path)):
+        scene = GltfScene.of(document.source, asset.path)
+        if known <= kept and not made and Path(name).suffix.lower() == asset.path.suffix.lower():
+            return Output(document.source, copies=find_companions(asset.path))
+        refuse_changed_files(document.digests, str(asset.path), "the buffer ")
+        base = prepare_base(document.source, scene, name)
+        if known <= kept and not made:
+            return pack_scene(base, scene, None, name)
+        draft = SceneDraft(scene, copy.deepcopy(base.tree), base.before)
+        names = _edit_draft(draft, document, kept, made, asset.path)
+        output = pack_scene(base, scene, draft.geometry, name)
+    notes = _note_hulls(style_of(document.convention, draft), made)
+    return replace(output, notes=(*notes, *note_renames(names)), names=names)
+
+
+def _edit_draft(
+    draft: SceneDraft, document: GltfDocument, kept: set[str], made: Sequence[Geom], path: Path
+) -> dict[str, str]:
+    """Edit a draft; kept: the pieces that stay; made: the hulls that come. The names that read back otherwise."""
+    style = style_of(document.convention, draft)
+    for element in document.authored:
+        _edit_node(style, element, [k for k, piece in enumerate(element.names) if piece in kept])
+    for geom in made:
+        _place_hull(style, geom, document, path)
+    if not draft.expected:
+        raise AssetError(
+            "the edit leaves no collision in this file",
+            where=str(path),
+            remedy="Leave one hull: without any, all its meshes would be taken for collision.",
+        )
+    return assign_names(draft, document, renames=style.renames)
+
+
+def style_of(convention: Convention, draft: SceneDraft) -> EditStyle:
+    """What writes edits in a convention."""
+    match convention:
+        case "plain":
+            return PlainStyle(draft)
+        case "unreal":
+            return UnrealStyle(draft)
+        case "godot":
+            return GodotStyle(draft)
+        case "unity":
+            return UnityStyle(draft)
+    return PhysicsStyle(draft, convention)
+
+
+def _edit_node(style: EditStyle, element: NodeRecord, kept: list[int]) -> None:
+    if len(kept) == len(element.names):
+        style.draft.expected[element.node] = element.names
+    elif kept:
+        style.keep_pieces(element, kept)
+    else:
+        style.remove(element)
+
+
+def _place_hull(style: EditStyle, geom: Geom, document: GltfDocument, path: Path) -> None:
+    """Add a new hull to its body."""
+    nodes = {name: node for node, name in document.bodies}
+    bodies = {element.body for element in document.authored} | {"body"}
+    if geom.body not in nodes and geom.body not in bodies:
+        raise AssetError(f"hull {geom.name!r} is on {geom.body!r}, which is no body of the file", where=str(path))
+    parent = next((e for e in document.authored if geom.parent in e.names and e.body == geom.body), None)
+    own = geom.name.removeprefix(f"{geom.body}/") if document.bodies else geom.name
+    style.add_hull(geom, own, nodes.get(geom.body), parent)
+
+
+def _note_hulls(style: EditStyle, made: Sequence[Geom]) -> list[str]:
+    """Notes on the round shapes that the convention of a file lacks."""
+    count = Counter(geom.shape.kind for geom in made if geom.shape.kind not in style.holds)
+    return [
+        f"{pluralize(number, kind)} written as hull meshes: {style.lacks} {kind}"
+        for kind, number in sorted(count.items())
+    ]
+
+
+def assign_names(draft: SceneDraft, document: GltfDocument, *, renames: bool) -> dict[str, str]:
+    """Name the nodes whose pieces would else read back under other names, where the convention allows it.
+
+    Returns the names that cannot be had all the same, with what they read back as.
+    """
+    misread = _find_misread(draft, document)
+    for _ in range(4 if renames and misread else 0):
+        for node, (body, _) in misread.items():
+            draft.node(node)["name"] = _own_name(draft.expected[node], body)
+        misread = _find_misread(draft, document)
+    return {
+        wanted: name
+        for node, (_, names) in misread.items()
+        for wanted, name in zip(draft.expected[node], names, strict=True)
+        if wanted != name
+    }
+
+
+def _find_misread(draft: SceneDraft, document: GltfDocument) -> dict[int, tuple[str | None, tuple[str, ...]]]:
+    """The nodes whose pieces would read back under other names, with their body, and these names."""
+    scene = GltfScene(draft.tree, None, draft.scene.path)
+    owners, names = body_nodes(scene), dict(document.bodies)
+    order = [node for node in scene.placements if node in draft.expected]
+    bodies = [(names[owners[node]] if node in owners else BODY) if names else None for node in order]
+    sources = [
+        (body, collision_name_of(scene, scene.placements[node], document.convention), len(draft.expected[node]))
+        for node, body in zip(order, bodies, strict=True)
+    ]
+    return {
+        node: (body, read)
+        for node, body, read in zip(order, bodies, name_element_pieces(sources), strict=True)
+        if read != draft.expected[node]
+    }
+
+
+def _own_name(wanted: tuple[str, ...], body: str | None) -> str:
+    """The name of a node whose pieces are to have names: that of the first, without body and `#0`."""
+    name = wanted[0].removeprefix(f"{body}/")
+    return name if len(wanted) == 1 else name.removesuffix("#0")

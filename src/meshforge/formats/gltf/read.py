@@ -1,0 +1,276 @@
+"""Reading a glTF file or GLB: from its bytes to an asset, with what it shows, notes and other names of colliders."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
+from pathlib import Path
+from urllib.parse import unquote
+
+import numpy as np
+
+from meshforge.common import AssetError, MeshForgeError, file_digest, pluralize
+from meshforge.formats.collision_pieces import CollisionElement, drop_repeats, geoms_of, opaque_of, place_surface
+from meshforge.formats.companions import find_companions
+from meshforge.formats.engine_names.base import godot_kind, unreal_kind
+from meshforge.formats.gltf.colliders import CollisionReader, NodeCollision, convention_of, nodes_below_colliders
+from meshforge.formats.gltf.document import BODY, Convention, GltfDocument, NodeRecord
+from meshforge.formats.gltf.mechanism import body_nodes, read_inertial, rigid_pose_of
+from meshforge.formats.gltf.physics import is_trigger
+from meshforge.formats.mesh_reader import read_content
+from meshforge.formats.meshfile.gltf_document import Json, entries, entry, report_damage
+from meshforge.formats.meshfile.gltf_meshes import GltfMesh
+from meshforge.formats.meshfile.gltf_scene import GltfScene
+from meshforge.formats.slots import name_element_pieces
+from meshforge.formats.visuals import GAMMA, LazySurfaces, Rgba
+from meshforge.geometry import Pose
+from meshforge.symbolic import Asset, Body, Geom, Inertial, Mechanism, Mentions, Surface, unique_names
+
+_DAMAGE = (ValueError, LookupError, TypeError, AttributeError)
+
+_HOW: dict[Convention, str] = {
+    "khr": "its colliders are those of KHR_physics_rigid_bodies",
+    "omi": "its colliders are those of OMI_physics_body",
+    "omi collider": "its colliders are those of OMI_collider",
+    "unreal": "its collision is the nodes that Unreal takes by their names, UCX_ and the like",
+    "godot": "its collision is the nodes that Godot takes by their names, -col and the like",
+    "unity": "its collision is what lies below nodes called _colliders, as files for Unity have it",
+}
+_HARMLESS = ("KHR_materials_", "KHR_texture_", "EXT_texture_", "KHR_lights_", "MSFT_texture_")
+_KNOWN = ("KHR_draco_mesh_compression", "KHR_mesh_quantization", "EXT_mesh_gpu_instancing")
+_PHYSICS = ("KHR_physics_rigid_bodies", "KHR_implicit_shapes", "OMI_physics_body", "OMI_physics_shape", "OMI_collider")
+
+
+def read_gltf(path: Path) -> Asset:
+    """The asset in a glTF file or GLB.
+
+    Raises AssetError: damaged, compressed in a way that is not read, a buffer is missing, or there is nothing in it.
+    """
+    source = read_content(path)
+    with report_damage(str(path)):
+        scene = GltfScene.of(source, path)
+        reader = CollisionReader(scene)
+        sources = reader.read()
+        bodies = name_bodies(scene)
+        fixed = _has_fixed_parts(scene, reader.convention, sources, bodies)
+        notes = [*collect_notes(scene, reader.convention), *reader.notes]
+        authored = record_nodes(sources, bodies)
+        mentions = [mentions_of_node(scene, source) for source in sources]
+        pieces = (
+            [CollisionElement(element.body, element.names) for element in authored],
+            [s.parts for s in sources],
+            mentions,
+        )
+        geoms = geoms_of(*pieces)
+        masses = tuple(_read_masses(scene, bodies, geoms))
+        digests = tuple((file, file_digest(file)) for file in scene.buffers.files() if file.is_file())
+    if not sources:
+        raise AssetError("there is no mesh and no collider in its scene", where=str(path))
+    moving = [Body(name, rigid_pose_of(scene.placements[node])) for node, name in _nodes_of(bodies)]
+    owners = {node: name for node, (_, name) in bodies.items()}
+    files, missing = _find_files(scene, path)
+    return Asset(
+        path=path,
+        format="gltf",
+        bodies=(*([Body(BODY, Pose.identity())] if fixed else []), *moving),
+        geoms=geoms,
+        document=GltfDocument(source, reader.convention, authored, _nodes_of(bodies), digests),
+        opaque=opaque_of(*pieces),
+        visuals=() if reader.convention == "plain" else SceneSurfaces(source, path, owners),
+        files=files,
+        missing=missing,
+        notes=tuple(notes),
+        mechanism=Mechanism(inertials=masses),
+        up="y",
+    )
+
+
+def name_bodies(scene: GltfScene) -> dict[int, tuple[int, str]]:
+    """For each node in a rigid body, the node that is the body, and the body's name."""
+    owners = body_nodes(scene)
+    nodes = list(dict.fromkeys(owners.values()))
+    own = [scene.placements[node].node.get("name") for node in nodes]
+    wanted = [name if isinstance(name, str) and name else f"body{k}" for k, name in enumerate(own)]
+    names = dict(zip(nodes, unique_names([BODY, *wanted])[1:], strict=True))
+    return {node: (owner, names[owner]) for node, owner in owners.items()}
+
+
+def record_nodes(sources: Sequence[NodeCollision], bodies: Mapping[int, tuple[int, str]]) -> tuple[NodeRecord, ...]:
+    """The sources with the names of their pieces; names begin with the body where the file has rigid bodies."""
+    own = [bodies[source.node][1] if source.node in bodies else BODY for source in sources]
+    named = [
+        (body if bodies else None, source.name, len(source.parts)) for body, source in zip(own, sources, strict=True)
+    ]
+    return tuple(
+        NodeRecord(source.node, body, names, source.owner)
+        for source, body, names in zip(sources, own, name_element_pieces(named), strict=True)
+    )
+
+
+def _nodes_of(bodies: Mapping[int, tuple[int, str]]) -> tuple[tuple[int, str], ...]:
+    return tuple(dict.fromkeys(bodies.values()))
+
+
+def _has_fixed_parts(
+    scene: GltfScene, convention: Convention, sources: Sequence[NodeCollision], bodies: Mapping[int, tuple[int, str]]
+) -> bool:
+    """Whether something that collides or is seen is part of no rigid body."""
+    nodes = [*(source.node for source in sources), *visible_nodes(scene, convention)]
+    return not bodies or any(node not in bodies for node in nodes)
+
+
+def _read_masses(scene: GltfScene, bodies: Mapping[int, tuple[int, str]], geoms: Sequence[Geom]) -> Iterator[Inertial]:
+    for node, name in _nodes_of(bodies):
+        hulls = [geom.shape for geom in geoms if geom.body == name]
+        inertial = read_inertial(scene.placements[node], name, hulls)
+        if inertial is not None:
+            yield inertial
+
+
+def _find_files(scene: GltfScene, path: Path) -> tuple[tuple[Path, ...], tuple[str, ...]]:
+    """The files beside it that are there, and the references that lead nowhere."""
+    found = find_companions(path)
+    uris = [e.get("uri") for key in ("buffers", "images") for e in entries(scene.tree, key) if isinstance(e, dict)]
+    named = [uri for uri in uris if isinstance(uri, str) and not uri.startswith("data:")]
+    there = {(path.parent / key).resolve() for key in found}
+    missing = [uri for uri in named if (path.parent / unquote(uri)).resolve() not in there]
+    return tuple(dict.fromkeys(found.values())), tuple(dict.fromkeys(missing))
+
+
+class SceneSurfaces(LazySurfaces):
+    """The visible surfaces of a file, none where it is damaged; bodies: the body of each node that is in one."""
+
+    def __init__(self, source: bytes, path: Path, bodies: dict[int, str]) -> None:
+        self._source, self._path, self._bodies = source, path, bodies
+
+    def _make(self) -> list[Surface]:
+        found = []
+        try:
+            with report_damage(str(self._path)):
+                scene = GltfScene.of(self._source, self._path)
+                for index in visible_nodes(scene, convention_of(scene)):
+                    mesh, linear, offset = scene.place_mesh(scene.placements[index])
+                    for part, rgba in split_by_color(scene, scene.placements[index].node["mesh"], mesh):
+                        surface = place_surface(part.vertices, part.faces, linear, offset, self._bodies.get(index))
+                        found.append(replace(surface, rgba=rgba))
+        except MeshForgeError:
+            return []
+        return found
+
+
+def visible_nodes(scene: GltfScene, convention: Convention) -> list[int]:
+    """The nodes of meshes that are there to be seen; none where all meshes are taken for collision."""
+    if convention == "plain":
+        return []
+    colliding = nodes_below_colliders(scene) if convention == "unity" else frozenset()
+    return [
+        index
+        for index, placement in scene.placements.items()
+        if "mesh" in placement.node and index not in colliding and not _is_only_collision(scene, index, convention)
+    ]
+
+
+def _is_only_collision(scene: GltfScene, index: int, convention: Convention) -> bool:
+    node = scene.placements[index].node
+    names = [node.get("name"), entry(scene.tree, "meshes", node["mesh"]).get("name")]
+    if convention == "unreal":
+        return any(unreal_kind(name) for name in names)
+    kind = next((kind for kind in map(godot_kind, names) if kind), None)
+    return convention == "godot" and kind in ("colonly", "convcolonly")
+
+
+def split_by_color(scene: GltfScene, mesh: int, whole: GltfMesh) -> Iterator[tuple[GltfMesh, Rgba | None]]:
+    """The triangles of a mesh, apart where its parts have colours of their own; None for those without one."""
+    parts = entries(entry(scene.tree, "meshes", mesh), "primitives")
+    colors = [_read_color(scene, parts[patch.index].get("material")) for patch in whole.patches]
+    if not len(whole.faces):
+        return
+    if len(set(colors)) == 1:
+        yield whole, colors[0]
+        return
+    start = 0
+    for patch, color in zip(whole.patches, colors, strict=True):
+        end = start + len(patch.points)
+        yield GltfMesh(whole.vertices[start:end], patch.faces, (patch,)), color
+        start = end
+
+
+def _read_color(scene: GltfScene, material: int | None) -> Rgba | None:
+    """The colour of a material; None where it has a texture, or says no colour."""
+    shading = {} if material is None else entry(scene.tree, "materials", material).get("pbrMetallicRoughness", {})
+    factor = shading.get("baseColorFactor")
+    if factor is None or "baseColorTexture" in shading or len(factor) != 4:
+        return None
+    red, green, blue = (np.clip(np.asarray(factor[:3], dtype=np.float64), 0, 1) ** (1 / GAMMA)).tolist()
+    return round(red, 4), round(green, 4), round(blue, 4), float(factor[3])
+
+
+def mentions_of_node(scene: GltfScene, source: NodeCollision) -> list[Mentions]:
+    """What is said of each piece of a node with collision; nothing where that is damaged, which hurts no one."""
+    try:
+        return _collect_mentions(scene, source)
+    except _DAMAGE:
+        return [()] * len(source.parts)
+
+
+def _collect_mentions(scene: GltfScene, source: NodeCollision) -> list[Mentions]:
+    placement = scene.placements[source.node]
+    node, parent = placement.node, placement.parent
+    common = [("node", _name_of(node))]
+    mesh = entry(scene.tree, "meshes", node["mesh"]) if "mesh" in node else {}
+    common += [("mesh", _name_of(mesh))]
+    common += [("node", _name_of(scene.placements[parent].node))] if parent is not None else []
+    materials = [_name_of(material) for material in _materials(scene.tree, mesh)]
+    own = _materials_of_pieces(scene, source, node, materials)
+    return [drop_repeats([*common, *(("material", name) for name in names)]) for names in own]
+
+
+def _materials_of_pieces(
+    scene: GltfScene, source: NodeCollision, node: Json, materials: Sequence[str]
+) -> list[list[str]]:
+    """The names of the materials of each piece, those of the primitives that its triangles are of."""
+    if source.owner is None or "mesh" not in node:
+        return [list(materials)] * len(source.parts)
+    patches = scene.mesh(node["mesh"]).patches
+    of_face = np.repeat([patch.index for patch in patches], [len(patch.faces) for patch in patches])
+    if len(of_face) != len(source.owner):
+        return [list(materials)] * len(source.parts)
+    return [[materials[k] for k in np.unique(of_face[source.owner == part])] for part in range(len(source.parts))]
+
+
+def _materials(tree: Json, mesh: Json) -> Iterator[Json]:
+    """The material of each primitive of a mesh; one without any is empty."""
+    for part in entries(mesh, "primitives"):
+        yield entry(tree, "materials", part["material"]) if "material" in part else {}
+
+
+def _name_of(thing: Json) -> str:
+    name = thing.get("name")
+    return name if isinstance(name, str) else ""
+
+
+def collect_notes(scene: GltfScene, convention: Convention) -> Iterator[str]:
+    """The notes on a scene, whose collision was read by a convention."""
+    if convention in _HOW:
+        yield _HOW[convention]
+    elif "Texture" in str(entries(scene.tree, "materials")):  # else it is a mesh file as any other
+        yield "no node is marked as collision: all meshes are taken for it, so that edits change what is seen"
+    placements, tree = scene.placements, scene.tree
+    outside = [k for k, node in enumerate(entries(tree, "nodes")) if k not in placements and "mesh" in node]
+    if outside:
+        yield f"{pluralize(len(outside), 'node')} with a mesh outside of the scene are left as they are"
+    if len(entries(tree, "scenes")) > 1:
+        default = "the default one" if "scene" in tree else "the first, as none is the default"
+        yield f"of {len(entries(tree, 'scenes'))} scenes it is {default} that is read"
+    triggers = sum(is_trigger(placement.node, tree) for placement in placements.values())
+    if triggers:
+        yield f"{pluralize(triggers, 'trigger')} detect bodies without colliding: they are left as they are"
+    shown = [placement.node for placement in placements.values() if "mesh" in placement.node]
+    if skinned := sum("skin" in node for node in shown):
+        yield f"{pluralize(skinned, 'skinned mesh', 'skinned meshes')} are taken in the pose that the file has"
+    meshes = [entries(entry(tree, "meshes", node["mesh"]), "primitives") for node in shown]
+    if morphed := sum(any(part.get("targets") for part in parts) for parts in meshes):
+        yield f"{pluralize(morphed, 'mesh', 'meshes')} with morph targets are taken without them"
+    for name in entries(tree, "extensionsRequired"):
+        if name not in (*_KNOWN, *_PHYSICS) and not str(name).startswith(_HARMLESS):
+            yield f"the file asks for {name}, which is not known: its geometry may be meant otherwise"

@@ -1,1 +1,0 @@
-"""From a glTF scene to an asset: conventions of collision, shapes, bodies, visuals."""

@@ -1,0 +1,264 @@
+"""The bodies of an asset as a tree, and as the links and joints of a new URDF or SDF, each with its frame on its
+joint."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+
+from meshforge.formats.base import Loss
+from meshforge.geometry import Floats, Pose
+from meshforge.symbolic import Asset, FeatureKind, Inertial, Joint, JointKind, unique_names
+
+LIGHT_INERTIAL = Inertial("", 1e-6, np.zeros(3), 1e-9 * np.eye(3))
+"""The mass of a link that stands for none, above what engines refuse."""
+TENSOR_NAMES = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
+"""What URDF and SDF call the six numbers of an inertia, those on and above its diagonal."""
+
+_NEAR = 1e-12  # [m] from a link's origin, within which a joint's axis counts as going through it
+_ROUNDING = 1e-14  # as a share of the largest number; a few products of rotations make less
+
+
+@dataclass(frozen=True, slots=True)
+class BodyTree:
+    """Who hangs on whom.
+
+    order: all bodies, each after its parent, else in the order of the asset; joints: those that lead to each body, the
+    one nearest to its parent first; none for a root.
+    """
+
+    order: tuple[str, ...]
+    joints: Mapping[str, Sequence[Joint]]
+
+    @staticmethod
+    def of(asset: Asset) -> BodyTree:
+        """The tree of an asset's joints, their names made unique; each body that no joint leads to is a root."""
+        joints: dict[str, list[Joint]] = {body.name: [] for body in asset.bodies}
+        below: dict[str, list[str]] = {body.name: [] for body in asset.bodies}
+        names = iter(unique_names(joint.name for joint in asset.mechanism.joints if joint.name))
+        for joint in asset.mechanism.joints:
+            if not joints[joint.child]:
+                below[joint.parent].append(joint.child)
+            joints[joint.child].append(replace(joint, name=next(names)) if joint.name else joint)
+        waiting = [name for name in reversed(joints) if not joints[name]]
+        order: list[str] = []
+        while waiting:
+            order.append(waiting.pop())
+            waiting.extend(reversed(below[order[-1]]))
+        return BodyTree(tuple(order), joints)
+
+    def parent(self, body: str) -> str | None:
+        """The body that a body hangs on, None for a root."""
+        joints = self.joints[body]
+        return joints[0].parent if joints else None
+
+    def is_static(self, body: str) -> bool:
+        """Whether nothing between a body and its root can move."""
+        at: str | None = body
+        while at is not None:
+            if any(joint.kind != "fixed" for joint in self.joints[at]):
+                return False
+            at = self.parent(at)
+        return True
+
+    @property
+    def joint_names(self) -> set[str]:
+        return {joint.name for joints in self.joints.values() for joint in joints if joint.name}
+
+    @property
+    def roots(self) -> list[str]:
+        return [name for name in self.order if not self.joints[name]]
+
+
+def claim_name(wanted: str, taken: set[str]) -> str:
+    """A name that is not taken: the wanted one, or with a number behind it; it is taken from then on."""
+    name, number = wanted, 2
+    while name in taken:
+        name, number = f"{wanted}_{number}", number + 1
+    taken.add(name)
+    return name
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class LinkJoint:
+    """A `<joint>` from a link to another; pose: parent_T_child at zero; axis: in the child's frame."""
+
+    name: str
+    joint: Joint | None
+    parent: str
+    child: str
+    pose: Pose
+    axis: Floats
+
+
+@dataclass(frozen=True, slots=True)
+class JointRules:
+    """What a format makes of joints; kinds: those that it has, others are made of simpler ones.
+
+    world: whether links can be joined to a world that is no link. Without one, the root link stands for it.
+    """
+
+    kinds: Collection[JointKind]
+    world: bool = False
+
+
+@dataclass(slots=True)
+class KinematicChain:
+    """The links, and what leads to them.
+
+    frames: root_T_link of each link in the order of the file; joints: one for each link but the root; light: links
+    that stand between two joints of one body; of_body: the link of each body.
+    """
+
+    frames: dict[str, Pose] = field(default_factory=dict)
+    joints: list[LinkJoint] = field(default_factory=list)
+    light: list[str] = field(default_factory=list)
+    of_body: dict[str, str] = field(default_factory=dict)
+    lost: list[Loss] = field(default_factory=list)
+    notes: list[str] = field(default_factory=list)
+
+
+def build_chain(asset: Asset, bare: Iterable[str], rules: JointRules) -> KinematicChain:
+    """The chain of an asset's bodies; bare: those that have nothing, of which a root can be left out.
+
+    The root link is in the root frame: the first body that is a root there, else a link of its own.
+    """
+    return _ChainBuilder(asset, set(bare), rules).chain
+
+
+class _ChainBuilder:
+    def __init__(self, asset: Asset, bare: set[str], rules: JointRules) -> None:
+        self.rules = rules
+        self.poses: Mapping[str, Pose] = asset.body_poses
+        self.tree = BodyTree.of(asset)
+        self.chain = KinematicChain()
+        self.links = set(self.poses)
+        self.joint_names = self.tree.joint_names
+        self.dropped = None if rules.world else self._find_idle_root(bare)
+        self.root = self._add_root()
+        for body in self.tree.order:
+            if body != self.dropped and body not in self.chain.frames:
+                self._add_body(body)
+
+    def _find_idle_root(self, bare: set[str]) -> str | None:
+        """A root that only holds one other body, rigidly or not at all: then that other one is the root link.
+
+        Whether its root link is free or fixed to the world is for the loader of a URDF to say.
+        """
+        roots = self.tree.roots
+        below = [body for body in self.tree.order if self.tree.parent(body) == roots[0]]
+        if len(roots) != 1 or roots[0] not in bare or len(below) != 1:
+            return None
+        joints = self.tree.joints[below[0]]
+        if [joint.kind for joint in joints] == ["floating"]:
+            self.chain.notes.append(
+                f"{below[0]!r} moves freely: it is the root link, which a URDF leaves to its loader to fix or not; "
+                "MuJoCo fixes it, PyBullet does with useFixedBase"
+            )
+            name, why = joints[0].name, "the root link of a URDF has none"
+            self.chain.lost.append(Loss(FeatureKind.JOINTS, (name,) if name else (), why, unnamed=int(not name)))
+        elif any(joint.kind != "fixed" for joint in joints):
+            return None
+        return roots[0]
+
+    def _add_root(self) -> str:
+        """Add the root link; its name."""
+        hung = [b for b in self.tree.order if self.dropped and self.tree.parent(b) == self.dropped]
+        still = hung or [body for body in self.tree.roots if _is_identity(self.poses[body])]
+        name = still[0] if still else claim_name("base", self.links)
+        if still:
+            self.chain.of_body[name] = name
+        self.chain.frames[name] = Pose.identity()
+        return name
+
+    def _add_body(self, body: str) -> None:
+        """Add the link of a body behind its parent's, with light links between where several joints lead to it."""
+        joints = [part for joint in self.tree.joints[body] for part in self._split_joint(joint)]
+        up = self.tree.parent(body)
+        parent = self.root if up is None or up == self.dropped else self.chain.of_body[up]
+        if not joints:
+            self._add_link(body, None, parent, self.poses[body], claim_name(f"{body}_fixed", self.joint_names))
+        for k, joint in enumerate(joints):
+            last = k == len(joints) - 1
+            link = body if last else claim_name(f"{body}_{joint.name or k}", self.links)
+            frame = Pose(self.poses[body].rotation, _link_origin_of(joint, self.poses[body]))
+            name = joint.name or claim_name(f"{body}_{joint.kind}", self.joint_names)
+            self._add_link(link, joint, parent, frame, name)
+            if not last:
+                self.chain.light.append(link)
+            parent = link
+        self.chain.of_body[body] = body
+
+    def _add_link(self, link: str, joint: Joint | None, parent: str, frame: Pose, name: str) -> None:
+        pose = self.chain.frames[parent].inverse() @ frame
+        axis = frame.rotation.T @ joint.axis if joint else np.array([1.0, 0.0, 0.0])
+        self.chain.joints.append(LinkJoint(name, joint, parent, link, pose, axis))
+        self.chain.frames[link] = frame
+
+    def _split_joint(self, joint: Joint) -> Sequence[Joint]:
+        """The joints of the format that move as one does: a ball is three that turn about one point."""
+        if joint.kind in self.rules.kinds or joint.kind not in ("ball", "planar"):
+            return [joint]
+        if joint.kind == "planar":
+            across = perpendicular_to(joint.axis)
+            parts: list[tuple[str, JointKind, Floats]] = [
+                ("x", "prismatic", across),
+                ("y", "prismatic", np.cross(joint.axis, across)),
+                ("turn", "revolute", joint.axis),
+            ]
+        else:
+            axes = self.poses[joint.child].rotation.T
+            parts = [(letter, "revolute", axes[k]) for k, letter in enumerate("xyz")]
+        name = joint.name or f"{joint.child}_{joint.kind}"
+        bare = replace(joint, limits=None)
+        return [
+            replace(bare, name=claim_name(f"{name}_{part}", self.joint_names), kind=kind, axis=axis)
+            for part, kind, axis in parts
+        ]
+
+
+def _link_origin_of(joint: Joint, pose: Pose) -> Floats:
+    """Where the frame of the link behind a joint is: at its body's, or on the axis where that goes elsewhere."""
+    away = joint.anchor - pose.translation
+    if joint.kind == "revolute":
+        away = away - joint.axis * float(away @ joint.axis)
+    elif joint.kind != "ball":
+        return pose.translation
+    return pose.translation + away if np.linalg.norm(away) > _NEAR else pose.translation
+
+
+def perpendicular_to(axis: Floats) -> Floats:
+    """A unit vector (3,) across an axis."""
+    side = np.cross(axis, np.eye(3)[int(np.argmin(np.abs(axis)))])
+    unit: Floats = side / np.linalg.norm(side)
+    return unit
+
+
+def _is_identity(pose: Pose) -> bool:
+    return np.array_equal(pose.rotation, np.eye(3)) and not pose.translation.any()
+
+
+def place_inertial(inertial: Inertial, root_t_link: Pose) -> tuple[Floats, Floats]:
+    """The centre (3,) [m] of a mass and the inertia (3, 3) [kg m^2] about it, in the frame of a link."""
+    turn = root_t_link.rotation.T
+    centre = turn @ (inertial.centre - root_t_link.translation)
+    return centre, drop_rounding(turn @ inertial.inertia @ turn.T)
+
+
+def name_moments(tensor: Floats) -> list[tuple[str, float]]:
+    """The numbers of an inertia (3, 3) by the names of URDF and SDF."""
+    return list(zip(TENSOR_NAMES, tensor[np.triu_indices(3)].tolist(), strict=True))
+
+
+def tensor_of_moments(moments: Iterable[float]) -> Floats:
+    """The inertia (3, 3) of six numbers in the order of `TENSOR_NAMES`."""
+    xx, xy, xz, yy, yz, zz = moments
+    return np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
+
+
+def drop_rounding(values: Floats, scale: float | None = None) -> Floats:
+    """The numbers without those that are but the rounding of larger ones; scale: of these, else of the largest."""
+    largest = float(np.abs(values).max()) if scale is None else scale
+    return np.where(np.abs(values) < _ROUNDING * largest, 0.0, values)

@@ -1,0 +1,212 @@
+"""Read a mesh file of any kind as triangles; refuse files whose bytes are something else than their suffix says."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from meshforge.common import AssetError
+from meshforge.formats.meshfile.dae import parse_dae
+from meshforge.formats.meshfile.gltf_scene import parse_gltf
+from meshforge.formats.meshfile.obj import parse_obj
+from meshforge.formats.meshfile.ply import parse_ply
+from meshforge.formats.meshfile.stl import parse_stl
+from meshforge.formats.meshfile.surface import RawSurface, join_surfaces
+from meshforge.formats.meshfile.vrml import parse_vrml
+from meshforge.geometry import Piece, split_pieces
+
+READABLE_MESH_SUFFIXES = (".obj", ".stl", ".ply", ".dae", ".glb", ".gltf", ".wrl")
+"""The mesh files that `read_triangles` reads."""
+
+_HEAD = 1000  # bytes that tell what a file is
+_STL_HEADER, _STL_RECORD = 84, 50
+_XML = re.compile(rb"(?:\s|<\?.*?\?>|<!--.*?-->|<!DOCTYPE[^>\[]*>)*<([A-Za-z][\w.:-]*)", re.S)
+_CONFLICT = re.compile(rb"^<{7} .*?^={7}\r?$", re.M | re.S)
+_MARK = b"\xef\xbb\xbf"  # the byte order mark of UTF-8
+
+_FETCH = "Fetch the file itself: git lfs pull."
+_OTHER = "MeshForge does not read such files: export it as OBJ."
+_LOADED = "The download went wrong: take the raw file, not the page that shows it."
+
+_ROOTS = {
+    "collada": ("a Collada file", ".dae"),
+    "robot": ("a URDF file", ".urdf"),
+    "mujoco": ("an MJCF file", ".xml"),
+    "mujocoinclude": ("an MJCF file", ".xml"),
+    "sdf": ("an SDF file", ".sdf"),
+    "x3d": ("an X3D file", ""),
+    "error": ("the error of a web server", ""),
+}
+_NEVER_XML = (".obj", ".stl", ".ply", ".wrl", ".glb", ".gltf")
+
+Mismatch = tuple[str, str | None]
+
+
+@dataclass(frozen=True, slots=True)
+class FileSignature:
+    """A kind of file: how it begins, its name for people, the suffixes under which it is right, and the remedy.
+
+    Without a remedy, it is to be renamed to the first of its suffixes.
+    """
+
+    begins: re.Pattern[bytes]
+    name: str
+    suffixes: tuple[str, ...] = ()
+    remedy: str | None = None
+
+
+def _signature(begins: bytes, name: str, *suffixes: str, remedy: str | None = None) -> FileSignature:
+    return FileSignature(re.compile(rb"(?:\xef\xbb\xbf)?\s*" + begins, re.S | re.I), name, suffixes, remedy)
+
+
+_SIGNATURES = (
+    _signature(rb"version https://git-lfs\.github\.com/spec", "a Git LFS pointer, not the file itself", remedy=_FETCH),
+    _signature(rb"<!doctype html|<html", "a web page", remedy=_LOADED),
+    _signature(rb"\x1f\x8b", "a file compressed by gzip", remedy="Unpack it first (gunzip)."),
+    _signature(rb"PK\x03\x04", "a ZIP archive", ".usdz", ".zae", remedy="Unpack it first (unzip)."),
+    _signature(rb"7z\xbc\xaf|Rar!", "a compressed archive", remedy="Unpack it first."),
+    _signature(rb"\x89PNG|\xff\xd8\xff|GIF8|BM.{4}\0\0\0\0", "a picture"),
+    _signature(rb"%PDF-", "a PDF document"),
+    _signature(rb"glTF", "a binary glTF file", ".glb", ".gltf"),
+    _signature(rb"ply\s+(?:format|comment|element|obj_info)\b", "a PLY file", ".ply"),
+    _signature(rb"#VRML V", "a VRML file", ".wrl"),
+    _signature(rb"solid\b.*\bfacet\b", "an ASCII STL file", ".stl"),
+    _signature(rb"n?OFF\s+[\d#]", "an OFF file", remedy=_OTHER),
+    _signature(rb"Kaydara FBX|; FBX", "an FBX file", remedy=_OTHER),
+    _signature(rb"BLENDER", "a Blender file", remedy=_OTHER),
+    _signature(rb"PXR-USDC|#usda", "a USD file", ".usd", ".usda", ".usdc"),
+    _signature(rb"(?:#[^\n]*\n\s*)*(?:mtllib\s|o\s|g\s|v\s+[-\d.])", "an OBJ file", ".obj"),
+    _signature(rb"\{\s*\"asset\"", "a glTF file", ".gltf"),
+    _signature(rb"\{\s*[\"}]", "JSON, not a mesh", ".gltf", remedy=_LOADED),
+)
+
+
+def read_triangles(path: Path) -> list[RawSurface]:
+    """The surfaces of an OBJ, STL, PLY, Collada, glTF, GLB or VRML file, node transforms applied.
+
+    Raises AssetError naming the file, and the line where there is one: unreadable, damaged, empty, or not finite.
+    """
+    if path.suffix.lower() not in READABLE_MESH_SUFFIXES:
+        raise _unknown_kind_error(path)
+    return parse_surfaces(read_content(path), path)
+
+
+def read_content(path: Path) -> bytes:
+    """The bytes of a file.
+
+    Raises AssetError: it is not there, may not be read, is no regular file, or plainly is of another kind.
+    """
+    try:
+        if path.exists() and not path.is_file():  # a pipe would be waited for, a device may never end
+            raise AssetError("cannot be read: it is a folder, a pipe or a device", where=str(path))
+        data = path.read_bytes()
+    except OSError as error:
+        raise AssetError(f"cannot be read: {error.strerror}", where=str(path)) from error
+    refuse_lookalike(data, path)
+    return data
+
+
+def parse_surfaces(data: bytes, path: Path) -> list[RawSurface]:
+    """The surfaces in the bytes of the mesh file at a path. Raises AssetError."""
+    where = str(path)
+    match path.suffix.lower():
+        case ".obj":
+            return parse_obj(data, where).surfaces(where)
+        case ".stl":
+            return parse_stl(data, where).surfaces(where)
+        case ".ply":
+            return parse_ply(data, where).surfaces(where)
+        case ".dae":
+            return parse_dae(data, where)
+        case ".glb" | ".gltf":
+            return parse_gltf(data, path)
+        case ".wrl":
+            return parse_vrml(data, where)
+    raise _unknown_kind_error(path)
+
+
+def split_into_pieces(surfaces: Sequence[RawSurface], *, name: str) -> list[Piece]:
+    """The pieces of all surfaces of a file together; a piece's `group` is the index of its surface."""
+    if not surfaces:
+        return []
+    soup = join_surfaces(surfaces)
+    return split_pieces(soup.vertices, soup.faces, name=name, groups=soup.group)
+
+
+def _unknown_kind_error(path: Path) -> AssetError:
+    kind = path.suffix or "a file without suffix"
+    remedy = f"It reads {', '.join(READABLE_MESH_SUFFIXES)}."
+    return AssetError(f"{kind} is no mesh file that MeshForge reads", where=str(path), remedy=remedy)
+
+
+def refuse_lookalike(data: bytes, path: Path) -> None:
+    """Raise AssetError where the bytes of a file plainly are something else than its suffix says."""
+    suffix = path.suffix.lower()
+    problem, remedy = _check_empty(data) or _check_kind(data, suffix) or (None, None)
+    if problem:
+        raise AssetError(problem, where=str(path), remedy=remedy)
+
+
+def is_binary_stl(data: bytes) -> bool:
+    """Whether the length of a file is just what a binary STL's count of triangles says."""
+    if len(data) <= _STL_HEADER:
+        return False
+    count = int.from_bytes(data[80:_STL_HEADER], "little")
+    return count > 0 and len(data) == _STL_HEADER + _STL_RECORD * count
+
+
+def _check_empty(data: bytes) -> Mismatch | None:
+    if not data:
+        return "the file is empty", None
+    if not data.strip(b"\0"):
+        return "the file holds nothing but zero bytes", "The copy or download broke off: fetch it again."
+    return None
+
+
+def _check_kind(data: bytes, suffix: str) -> Mismatch | None:
+    if is_binary_stl(data):
+        return None if suffix == ".stl" else _wrong_suffix("a binary STL file", ".stl")
+    return (
+        _check_utf16(data, suffix)
+        or _check_signature(data, suffix)
+        or _check_markup(data, suffix)
+        or _check_merge_conflict(data)
+    )
+
+
+def _check_utf16(data: bytes, suffix: str) -> Mismatch | None:
+    """Text in UTF-16, which XML files may be."""
+    if suffix in _NEVER_XML and data[:2] in (b"\xff\xfe", b"\xfe\xff"):
+        return "this is text in UTF-16", "Save it as plain text (ASCII or UTF-8)."
+    return None
+
+
+def _check_signature(data: bytes, suffix: str) -> Mismatch | None:
+    for known in _SIGNATURES:
+        if known.begins.match(data[:_HEAD]):
+            if suffix in known.suffixes:
+                return None
+            if known.remedy or not known.suffixes:
+                return f"this is {known.name}", known.remedy
+            return _wrong_suffix(known.name, known.suffixes[0])
+    return None
+
+
+def _check_markup(data: bytes, suffix: str) -> Mismatch | None:
+    if suffix not in _NEVER_XML or not (root := _XML.match(data[:_HEAD].removeprefix(_MARK))):
+        return None
+    tag = root[1].decode("ascii", "replace")
+    name, right = _ROOTS.get(tag.lower(), (f"XML, its root element is <{tag}>", ""))
+    return _wrong_suffix(name, right) if right else (f"this is {name}", _OTHER if tag.lower() == "x3d" else _LOADED)
+
+
+def _check_merge_conflict(data: bytes) -> Mismatch | None:
+    if b"<<<<<<< " in data and _CONFLICT.search(data):
+        return "a merge of two versions of this file is not finished", "Take one of them: git checkout --ours FILE."
+    return None
+
+
+def _wrong_suffix(name: str, suffix: str) -> Mismatch:
+    return f"this is {name} under another suffix", f"Rename it to {suffix}."

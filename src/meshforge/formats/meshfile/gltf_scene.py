@@ -1,0 +1,196 @@
+"""The scene of a glTF file: which nodes are in it, where each of them is, skins in their pose, and all of it as
+surfaces."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from meshforge.formats.meshfile.gltf_buffers import Buffers
+from meshforge.formats.meshfile.gltf_document import Container, Json, entries, entry, numbers, parse_json, report_damage
+from meshforge.formats.meshfile.gltf_meshes import (
+    GltfMesh,
+    GltfPrimitive,
+    is_instanced,
+    read_instances,
+    read_mesh,
+    repeat_mesh,
+    rotations_of,
+)
+from meshforge.formats.meshfile.surface import RawSurface, check_surfaces
+from meshforge.geometry import Floats
+
+_PLACED = frozenset(("matrix", "translation", "rotation", "scale"))
+
+
+def parse_gltf(data: bytes, path: Path) -> list[RawSurface]:
+    """The surfaces of a glTF or GLB file, whose buffers may lie beside it.
+
+    Raises AssetError: damaged, compressed in a way that is not read, or a buffer is missing.
+    """
+    where = str(path)
+    with report_damage(where):
+        scene = GltfScene.of(data, path)
+        found = [surface for placement in scene.placements.values() for surface in _read_surface(scene, placement)]
+    return check_surfaces(found, where)
+
+
+def _read_surface(scene: GltfScene, placement: Placement) -> Iterator[RawSurface]:
+    if "mesh" in placement.node:
+        mesh, linear, offset = scene.place_mesh(placement)
+        name = placement.node.get("name") or entry(scene.tree, "meshes", placement.node["mesh"]).get("name")
+        yield RawSurface(name, mesh.vertices @ linear.T + offset, mesh.faces)
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Placement:
+    """A node of the scene; world: (4, 4), root_T_node, which may scale and shear; parent: None for a root."""
+
+    index: int
+    node: Json
+    world: Floats
+    parent: int | None
+
+    @property
+    def linear(self) -> Floats:
+        return self.world[:3, :3]
+
+    @property
+    def offset(self) -> Floats:
+        return self.world[:3, 3]
+
+
+class GltfScene:
+    """The default scene of a file, or its first one; without scenes, all nodes that are no children.
+
+    Its methods raise ValueError and the like for damage; `report_damage` makes one message of them.
+    """
+
+    def __init__(self, tree: Json, binary: bytes | None, path: Path) -> None:
+        self.tree, self.path = tree, path
+        self.buffers = Buffers(tree, binary, path)
+        self._meshes: dict[int, GltfMesh] = {}
+
+    @staticmethod
+    def of(data: bytes, path: Path) -> GltfScene:
+        """The scene in the bytes of the file at a path."""
+        container = Container.of(data)
+        return GltfScene(parse_json(container.text), container.binary, path)
+
+    @cached_property
+    def roots(self) -> list[int]:
+        scenes = entries(self.tree, "scenes")
+        if scenes:
+            return entries(entry(self.tree, "scenes", self.tree.get("scene", 0)), "nodes")
+        nodes = entries(self.tree, "nodes")
+        children = {child for node in nodes for child in entries(node, "children")}
+        return [k for k in range(len(nodes)) if k not in children]
+
+    @cached_property
+    def placements(self) -> dict[int, Placement]:
+        """All nodes of the scene by their number, each before its children, in the order of the file."""
+        found: dict[int, Placement] = {}
+        waiting: list[tuple[int, int | None, Floats]] = [(k, None, np.eye(4)) for k in reversed(self.roots)]
+        while waiting:
+            index, parent, above = waiting.pop()
+            node = entry(self.tree, "nodes", index)
+            if index in found:
+                ring = index in _ancestors_of(found, parent)
+                raise ValueError(f"node {index} is {'its own ancestor' if ring else 'a child of two nodes'}")
+            world = above @ matrix_of(node)
+            if not np.isfinite(world).all():
+                raise ValueError(f"the place of node {index} is not finite")
+            found[index] = Placement(index, node, world, parent)
+            waiting += [(child, index, world) for child in reversed(entries(node, "children"))]
+        return found
+
+    def mesh(self, index: Any) -> GltfMesh:
+        """The triangles of a mesh, in its own space."""
+        if index not in self._meshes:
+            self._meshes[index] = read_mesh(entry(self.tree, "meshes", index), self.buffers)
+        return self._meshes[index]
+
+    def instances(self, placement: Placement) -> Floats:
+        """The places (k, 4, 4) of the instances of a node, in its space."""
+        return read_instances(placement.node, self.buffers)
+
+    def place_mesh(self, placement: Placement) -> tuple[GltfMesh, Floats, Floats]:
+        """The triangles of the mesh of a node, and the map x -> linear @ x + offset that puts them in the root frame.
+
+        A skinned mesh is put in place by its joints, as the file has them; of an instanced one it is all instances.
+        """
+        mesh = self.mesh(placement.node["mesh"])
+        if is_instanced(placement.node):
+            return repeat_mesh(mesh, self.instances(placement)), placement.linear, placement.offset
+        if "skin" in placement.node:
+            return pose_skin(self, placement.node, mesh), np.eye(3), np.zeros(3)
+        return mesh, placement.linear, placement.offset
+
+
+def matrix_of(node: Json) -> Floats:
+    """The transform (4, 4) of a node to its parent. Raises ValueError."""
+    matrix = np.eye(4)
+    if _PLACED.isdisjoint(node):
+        return matrix
+    if "matrix" in node:
+        return numbers(node, "matrix", 16, ()).reshape(4, 4).T
+    quaternion = numbers(node, "rotation", 4, (0.0, 0.0, 0.0, 1.0))
+    matrix[:3, :3] = rotations_of(quaternion) * numbers(node, "scale", 3, (1.0, 1.0, 1.0))
+    matrix[:3, 3] = numbers(node, "translation", 3, (0.0, 0.0, 0.0))
+    return matrix
+
+
+def _ancestors_of(found: dict[int, Placement], index: int | None) -> set[int]:
+    above: set[int] = set()
+    while index is not None:
+        above.add(index)
+        index = found[index].parent
+    return above
+
+
+def pose_skin(scene: GltfScene, node: Json, mesh: GltfMesh) -> GltfMesh:
+    """The triangles of a node's skinned mesh in the root frame. Raises ValueError: its skin is damaged."""
+    bones = _bone_transforms(scene, entry(scene.tree, "skins", node["skin"]))
+    parts = entries(entry(scene.tree, "meshes", node["mesh"]), "primitives")
+    moved = [_move_points(scene, patch, parts[patch.index]["attributes"], bones) for patch in mesh.patches]
+    return replace(mesh, vertices=np.concatenate([np.empty((0, 3)), *moved]))
+
+
+def _bone_transforms(scene: GltfScene, skin: Json) -> Floats:
+    """What each joint does to the mesh (j, 4, 4): the place of the joint after the inverse of its bind matrix."""
+    joints = entries(skin, "joints")
+    for joint in joints:
+        if joint not in scene.placements:
+            raise ValueError(f"joint {joint!r} of a skin is not in the scene")
+    worlds = np.array([scene.placements[joint].world for joint in joints])
+    if "inverseBindMatrices" not in skin:
+        return worlds
+    inverse = scene.buffers.accessor(skin["inverseBindMatrices"]).reshape(-1, 4, 4).transpose(0, 2, 1)
+    return np.asarray(worlds @ inverse[: len(joints)])
+
+
+def _move_points(scene: GltfScene, patch: GltfPrimitive, attributes: Json, bones: Floats) -> Floats:
+    """The points (n, 3) of a primitive, each moved by its joints."""
+    total = np.zeros((len(patch.points), 4, 4))
+    for number in range(8):
+        if f"JOINTS_{number}" not in attributes:
+            break
+        joints = _attribute_values(scene, patch, attributes, f"JOINTS_{number}").astype(np.int64)
+        weights = _attribute_values(scene, patch, attributes, f"WEIGHTS_{number}")
+        total += np.einsum("nk,nkij->nij", weights, bones[joints])
+    weight = total[:, 3, 3]
+    if not (weight > 0).all():
+        raise ValueError("a vertex of a skinned mesh hangs on no joint")
+    moved = np.einsum("nij,nj->ni", total, np.column_stack([patch.points, np.ones(len(patch.points))]))
+    return np.asarray(moved[:, :3] / weight[:, None])
+
+
+def _attribute_values(scene: GltfScene, patch: GltfPrimitive, attributes: Json, name: str) -> Floats:
+    if patch.decoded is not None and name in patch.decoded.attributes:
+        return patch.decoded.attributes[name].astype(np.float64)
+    return scene.buffers.accessor(attributes[name]).astype(np.float64)

@@ -1,0 +1,267 @@
+"""Making an MJCF from an asset of another format: nested bodies with joints and masses, geoms for hulls and visuals."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+
+import numpy as np
+
+from meshforge.common import join_names, pluralize
+from meshforge.formats.base import Loss, Output
+from meshforge.formats.kinematic_tree import BodyTree, claim_name
+from meshforge.formats.mesh_output import VisualFiles
+from meshforge.formats.mjcf.document import geom_names
+from meshforge.formats.mjcf.elements import (
+    LEAST_MASS,
+    LIGHT_MASS,
+    MeshAssets,
+    MjcfShape,
+    geom_attributes,
+    inertial_tag,
+    joint_tag,
+    light_tag,
+    mesh_geom_attributes,
+    pose_attributes,
+    split_joint,
+    tag,
+)
+from meshforge.formats.mjcf.references import is_shown_whole
+from meshforge.formats.visuals import Rgba, unreadable_visuals, visuals_of
+from meshforge.formats.xml import format_numbers
+from meshforge.geometry import Pose
+from meshforge.symbolic import Asset, FeatureKind, Geom, Joint, Opaque, Surface
+
+WORLD = "world"
+"""What MuJoCo calls the body that never moves; no other may have this name."""
+
+_REPAIRED = "moments of inertia that no rigid body has are replaced by their mean"
+_DENSITY = 1000.0  # [kg/m^3], at which MuJoCo computes masses
+_COMPUTED = f"MuJoCo computes the masses that the file does not say, at {_DENSITY:g} kg/m^3"
+_LIGHT = f"moving bodies without a mass to speak of get {LIGHT_MASS:g} kg"
+_DEFAULTS = [
+    b"  <default>",
+    b'    <default class="collision">',
+    b'      <geom group="3"/>',
+    b"    </default>",
+    b'    <default class="visual">',
+    b'      <geom contype="0" conaffinity="0" group="2" mass="0"/>',
+    b"    </default>",
+    b"  </default>",
+]
+_FAR = 100.0  # sizes away from its body, beyond which a mesh is placed: MuJoCo keeps its vertices in single precision
+
+
+def create_mjcf(asset: Asset, name: str) -> Output:
+    """The files of an asset that came from another format.
+
+    Bodies are nested as joints have it, those without a joint stand in the world and do not move. Hulls become native
+    geoms or meshes, one a file; non-convex pieces and visuals geoms that do not collide.
+    """
+    return _Creator(asset, Path(name).stem).build_output()
+
+
+class _Creator:
+    def __init__(self, asset: Asset, stem: str) -> None:
+        self.asset, self.stem = asset, stem
+        self.tree = BodyTree.of(asset)
+        self.poses = asset.body_poses
+        self.inertials = {inertial.body: inertial for inertial in asset.mechanism.inertials}
+        self.joint_names = self.tree.joint_names
+        self.bodies = name_bodies(self.tree)
+        self.named = name_geoms(asset, self.tree, self.bodies)
+        self.made = NewGeomMaker(asset, stem, self.tree, {piece: name for piece, (name, _) in self.named.items()})
+        self.lost: list[Loss] = []
+        self.notes: dict[str, list[str]] = {}
+
+    def build_output(self) -> Output:
+        body = list(self._body_lines())
+        head = [tag("mujoco", {"model": self.stem}, closed=False), b"  " + tag("compiler", {"angle": "radian"})]
+        defaults = _DEFAULTS if self.made.shown or self.asset.opaque else []
+        meshes, files = self.made.meshes, self.made.files
+        main = b"\n".join([*head, *defaults, *meshes.lines(), *body, b"</mujoco>", b""])
+        reads = {geom.name: self.named[geom.name][1] for geom in self.asset.geoms}
+        names = {name: read for name, read in reads.items() if read != name}
+        lost = (*self.made.losses(), *self.lost)
+        return Output(main, dict(meshes.files.made), files.copies, self._collect_notes(), names, lost)
+
+    def _body_lines(self) -> Iterator[bytes]:
+        """The `<worldbody>`, bodies nested in it."""
+        below: dict[str, list[str]] = {}
+        for body in self.tree.order:
+            if self.bodies[body] != WORLD:
+                below.setdefault(self._place_of(body), []).append(body)
+        yield b"  <worldbody>"
+        if self.bodies.get(WORLD) == WORLD:
+            yield from self._element_lines(WORLD, b"    ")
+        waiting: list[tuple[str, int] | bytes] = [(body, 2) for body in reversed(below.get("", []))]
+        while waiting:
+            entry = waiting.pop()
+            if isinstance(entry, bytes):
+                yield entry
+                continue
+            body, depth = entry
+            lead, place = b"  " * depth, self._place_of(body)
+            pose = self.poses[place].inverse() @ self.poses[body] if place else self.poses[body]  # place_T_body
+            yield lead + tag("body", {"name": self.bodies[body], **pose_attributes(pose)}, closed=False)
+            yield from self._element_lines(body, lead + b"  ")
+            waiting.append(lead + b"</body>")
+            waiting += [(child, depth + 1) for child in reversed(below.get(body, []))]
+        yield b"  </worldbody>"
+
+    def _place_of(self, body: str) -> str:
+        """The body in which the element of a body stands, empty for the world."""
+        parent = self.tree.parent(body)
+        floats = [joint.kind for joint in self.tree.joints[body]] == ["floating"]
+        if parent is None or self.bodies[parent] == WORLD or (floats and self.tree.is_static(parent)):
+            return ""
+        return parent
+
+    def _element_lines(self, body: str, lead: bytes) -> Iterator[bytes]:
+        """Joints, mass, geoms and visuals of a body."""
+        top = not self._place_of(body)
+        joints = [part for joint in self.tree.joints[body] for part in self._split_joint(joint, top)]
+        own = [geom for geom in self.asset.geoms if geom.body == body]
+        yield from (lead + joint_tag(joint, self.poses[body]) for joint in joints)
+        lines = [*self._mass_lines(body, bool(joints), sum(geom.shape.volume for geom in own))]
+        lines += [self.made.make_hull(geom) for geom in own]
+        pieces = [piece for piece in self.asset.opaque if piece.body == body]
+        lines += [text for piece in pieces if piece.plane for text in self.made.make_plane(piece, piece.plane)]
+        lines += self.made.make_visuals(body)
+        lines += [text for piece in pieces if piece.surface for text in self.made.make_surface(piece, piece.surface)]
+        yield from (lead + text for text in lines)
+
+    def _split_joint(self, joint: Joint, top: bool) -> Sequence[Joint]:
+        parts = split_joint(joint, top, self.joint_names)
+        if len(parts) > 1:
+            names = join_names([part.name for part in parts])
+            self.notes.setdefault(f"{names} together move as {joint.kind} {joint.name or joint.child}", [])
+        return parts
+
+    def _mass_lines(self, body: str, moves: bool, volume: float) -> Iterator[bytes]:
+        """The mass of a body, whose hulls have a volume [m^3]; one that is to move has some mass in any case."""
+        inertial = self.inertials.get(body)
+        if self.bodies[body] == WORLD:
+            if inertial is not None:
+                self.lost.append(Loss(FeatureKind.MASSES, (body,), "the world of MuJoCo has none"))
+        elif inertial is not None and (inertial.mass >= LEAST_MASS or not moves):
+            text, changed = inertial_tag(inertial, self.poses[body])
+            if changed:
+                self.notes.setdefault(_REPAIRED, []).append(body)
+            yield text
+        elif inertial is None and volume * _DENSITY >= (LIGHT_MASS if moves else 0) and volume > 0:
+            self.notes.setdefault(_COMPUTED, []).append(body)
+        elif moves:
+            self.notes.setdefault(_LIGHT, []).append(body)
+            yield light_tag()
+
+    def _collect_notes(self) -> tuple[str, ...]:
+        notes = [f"{text} ({join_names(bodies, 3)})" if bodies else text for text, bodies in self.notes.items()]
+        if not any(joint.kind == "floating" for joint in self.asset.mechanism.joints):
+            roots = [self.bodies[root] for root in self.tree.roots if self.bodies[root] != WORLD]
+            roots = roots or [b for b in self.tree.order if self.tree.parent(b) == WORLD and self.tree.is_static(b)]
+            if roots:
+                notes.append(
+                    f"{pluralize(len(roots), 'body', 'bodies')} fixed to the world ({join_names(roots, 3)}): "
+                    "for one that moves freely, write <freejoint/> as the first thing in its <body>"
+                )
+        return tuple(notes)
+
+
+class NewGeomMaker:
+    """Makes elements for one asset; names: of hulls and planes their attributes; lost: what cannot be made of it."""
+
+    def __init__(self, asset: Asset, stem: str, tree: BodyTree, names: dict[str, str]) -> None:
+        self.tree, self.poses, self.names = tree, asset.body_poses, names
+        self.shown = visuals_of(asset)
+        self.meshes = MeshAssets(stem)
+        self.files = VisualFiles(self.meshes.files, is_shown_whole)
+        self.files.gather(self.shown)
+        self.lost: list[Loss] = []
+
+    def make_hull(self, geom: Geom) -> bytes:
+        """The geom of a hull."""
+        named = self._name_attribute(geom.name)
+        class_ = {"class": "collision"} if self.shown else {}
+        body_t_root = self.poses[geom.body].inverse()
+        shape = geom.shape.move(body_t_root)
+        if isinstance(shape, MjcfShape):
+            return tag("geom", {**named, **class_, **geom_attributes(shape)})
+        middle = shape.aabb.center
+        place = Pose.of_translation(middle if np.linalg.norm(middle) > _FAR * shape.aabb.diagonal else np.zeros(3))
+        mesh = self.meshes.add_hull(geom.name, shape.move(place.inverse()).tessellate())
+        return tag("geom", {**named, **class_, **mesh_geom_attributes(mesh, place)})
+
+    def _name_attribute(self, piece: str) -> dict[str, str]:
+        return {"name": self.names[piece]} if self.names[piece] else {}
+
+    def make_visuals(self, body: str) -> Iterator[bytes]:
+        """The geoms that show what a body shows."""
+        for own, visual in self.shown:
+            if own != body or (seen := self.files.add_visual(body, visual, self.poses[body])) is None:
+                continue
+            if isinstance(seen.what, MjcfShape):
+                yield _visual_tag(geom_attributes(seen.what), seen.rgba)
+                continue
+            file = seen.what
+            if not isinstance(file, str):
+                file = self.meshes.files.add(f"{body}-visual", "", file.vertices, file.faces)
+            mesh = self.meshes.add_visual(file, seen.scale)
+            yield _visual_tag(mesh_geom_attributes(mesh, seen.pose), seen.rgba)
+
+    def make_plane(self, piece: Opaque, plane: Pose) -> Iterator[bytes]:
+        """An endless plane."""
+        if not self.tree.is_static(piece.body):
+            why = "MuJoCo has planes on bodies that do not move only"
+            self.lost.append(Loss(FeatureKind.PLANES, (piece.name,), why))
+            return
+        place = pose_attributes(self.poses[piece.body].inverse() @ plane)
+        yield tag("geom", {**self._name_attribute(piece.name), "type": "plane", "size": "0 0 1", **place})
+
+    def make_surface(self, piece: Opaque, surface: Surface) -> Iterator[bytes]:
+        """A non-convex surface to look at, where its body shows nothing else."""
+        why = "MuJoCo would collide with the convex hull"
+        if any(body == piece.body for body, _ in self.shown):
+            self.lost.append(Loss(FeatureKind.OPAQUE, (piece.name,), f"{why}, and the body shows a visual already"))
+            return
+        seen = self.files.add_visual(piece.name, surface, self.poses[piece.body])
+        assert seen is not None and isinstance(seen.what, str)  # a surface becomes a file, which can be read
+        self.lost.append(Loss(FeatureKind.OPAQUE, (piece.name,), why, "written as a surface that does not collide"))
+        yield _visual_tag(mesh_geom_attributes(self.meshes.add_visual(seen.what, seen.scale), seen.pose), None)
+
+    def losses(self) -> tuple[Loss, ...]:
+        """What is lost, visuals without a file that can be read included."""
+        return (*unreadable_visuals(self.files.refused), *self.lost)
+
+
+def _visual_tag(attributes: dict[str, str], rgba: Rgba | None) -> bytes:
+    color = {"rgba": format_numbers(rgba)} if rgba else {}
+    return tag("geom", {"class": "visual", **attributes, **color})
+
+
+def name_bodies(tree: BodyTree) -> dict[str, str]:
+    """What each body of an asset is called; a root called world is MuJoCo's, no other body is."""
+    taken = {WORLD, *tree.order}
+    is_root = WORLD in tree.roots
+    return {name: claim_name(name, taken) if name == WORLD and not is_root else name for name in tree.order}
+
+
+def name_geoms(asset: Asset, tree: BodyTree, bodies: dict[str, str]) -> dict[str, tuple[str, str]]:
+    """For each hull and plane the name attribute, empty where it needs none, and the name that it reads back as.
+
+    bodies: what the bodies of the tree are called.
+    """
+    pieces = [(geom.name, geom.body) for geom in asset.geoms]
+    pieces += [(piece.name, piece.body) for piece in asset.opaque if piece.plane]
+    ordered = [(name, own) for body in tree.order for name, own in pieces if own == body]
+    plain = [name.removeprefix(f"{body}/") for name, body in ordered]
+    holders = [bodies[body] for _, body in ordered]
+    shared = Counter(plain)
+    taken: set[str] = set()
+    attributes = []
+    for unnamed, holder, name in zip(geom_names([(h, "") for h in holders]), holders, plain, strict=True):
+        wanted = f"{holder}/{name}" if shared[name] > 1 else name
+        attributes.append("" if unnamed == f"{holder}/{name}" else claim_name(wanted, taken))
+    back = geom_names(list(zip(holders, attributes, strict=True)))
+    return {name: pair for (name, _), pair in zip(ordered, zip(attributes, back, strict=True), strict=True)}

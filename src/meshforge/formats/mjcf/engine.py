@@ -1,0 +1,226 @@
+"""MuJoCo as a reader: one text of all files, compiled to a model, with messages about the authored lines and nothing
+printed."""
+
+from __future__ import annotations
+
+import math
+import os
+import re
+import threading
+import warnings as python_warnings
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from meshforge.common import AssetError
+from meshforge.formats.meshfile.surface import FARTHEST
+from meshforge.formats.mjcf.document import MjcfNode, MjcfTree, read_tree
+from meshforge.formats.mjcf.references import AssetFolders, read_submodels
+from meshforge.formats.xml import escape
+
+if TYPE_CHECKING:
+    import mujoco
+
+_LOCK = threading.RLock()  # where MuJoCo's messages go is a setting of the whole process
+_LINE = re.compile(r"\bline (?:number=)?(\d+)", re.I)
+_PARSER = re.compile(r"Error=\w+ ErrorID=\d+ \(0x\w+\) Line number=\d+: ")
+_HEAD = re.compile(r"^(?:(?:(?:XML )?Error|XML parse error \d+)\s*:\s*)+", re.I)
+_NAMELESS = re.compile(r"Element name '', id \d+(?:, line \d+)?\s*")
+_NAMED = re.compile(r"Element (?:name )?'([^']*)'(?:, id \d+)?(?:, line \d+)?\s*")
+
+KeepAttributes = Callable[[MjcfNode], Mapping[str, str] | None]
+"""Which attributes of an element go into the text; None leaves the element out, with all below it."""
+
+_FUSING = {"compiler": ("fusestatic", "discardvisual"), "body": ("fuse",)}
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class EngineModel:
+    """A model, the spec it was compiled from, its bodies and geoms in the model's order, and what MuJoCo warned of."""
+
+    spec: mujoco.MjSpec
+    model: mujoco.MjModel
+    bodies: tuple[mujoco.MjsBody, ...]
+    geoms: tuple[mujoco.MjsGeom, ...]
+    warnings: tuple[str, ...]
+
+
+def compile_model(main: Path, files: Mapping[Path, bytes] | None = None) -> mujoco.MjModel:
+    """The model that MuJoCo makes of an MJCF; files: contents that count instead of those on disk, meshes too.
+
+    Static bodies are not fused and visual geoms not discarded, whatever the compiler settings say.
+    Raises AssetError with MuJoCo's message, at `file:line` where that is known.
+    """
+    tree = read_tree(main, files)
+    return compile_text(tree, flatten(tree)).model
+
+
+def compile_text(tree: MjcfTree, flat: FlatText) -> EngineModel:
+    """The model of a tree's text. Raises AssetError with MuJoCo's message."""
+    warnings: list[str] = []
+    return compile_spec(tree, flat, parse_text(tree, flat, warnings), warnings)
+
+
+def parse_text(tree: MjcfTree, flat: FlatText, warnings: list[str] | None = None) -> mujoco.MjSpec:
+    """The spec of a tree's text, assets not yet read; warnings: gets those of MuJoCo. Raises AssetError."""
+    import mujoco  # lazy: 0.2 s, only MJCF needs it
+
+    with _collect_warnings([] if warnings is None else warnings), _provide_files(tree, flat) as vfs:
+        try:
+            return mujoco.MjSpec.from_file(str(tree.main.path), vfs=vfs)
+        except _failure_types() as error:
+            raise _error_of(str(error), tree, flat) from None
+
+
+def compile_spec(tree: MjcfTree, flat: FlatText, spec: mujoco.MjSpec, warnings: Sequence[str] = ()) -> EngineModel:
+    """The model of a spec; warnings: those that MuJoCo gave before. Raises AssetError with MuJoCo's message."""
+    bodies = tuple(spec.bodies)
+    geoms = geoms_of(bodies)
+    _refuse_bad_poses(tree, flat, bodies, geoms)
+    heard = list(warnings)
+    with _collect_warnings(heard), _provide_files(tree, flat) as vfs:
+        try:
+            model = spec.compile(vfs=vfs)
+        except _failure_types() as error:
+            raise _error_of(str(error), tree, flat) from None
+    messages = tuple(dict.fromkeys(_clean_message(warning) for warning in heard))
+    in_order = tuple(sorted(bodies, key=lambda body: body.id)), tuple(sorted(geoms, key=lambda geom: geom.id))
+    return EngineModel(spec, model, *in_order, messages)
+
+
+def geoms_of(bodies: Iterable[mujoco.MjsBody]) -> tuple[mujoco.MjsGeom, ...]:
+    """The geoms of a spec's bodies; asked for all at once, MuJoCo takes the square of their number in time."""
+    return tuple(geom for body in bodies for geom in body.geoms)
+
+
+def _refuse_bad_poses(
+    tree: MjcfTree, flat: FlatText, bodies: tuple[mujoco.MjsBody, ...], geoms: tuple[mujoco.MjsGeom, ...]
+) -> None:
+    """Raise AssetError for a pose that is not of finite numbers, of which MuJoCo only warns, or beyond any size."""
+    for kind, of_kind in (("body", bodies), ("geom", geoms)):
+        for thing in of_kind:
+            if problem := _describe_bad_pose(thing):
+                node = flat.node_at(thing.info)
+                where = tree.where(node) if node else str(tree.main.path)
+                called = f"{kind} {thing.name!r}" if thing.name else f"a {kind} without a name"
+                raise AssetError(problem.format(called), where=where)
+
+
+def _describe_bad_pose(thing: mujoco.MjsBody | mujoco.MjsGeom) -> str | None:
+    if not math.isfinite(thing.pos.sum() + thing.quat.sum()):
+        return "the pose of {} is not of finite numbers"
+    if max(map(abs, (*thing.pos, *getattr(thing, "size", ())))) > FARTHEST:
+        return "the place or size of {} is larger than anything"
+    return None
+
+
+def _failure_types() -> tuple[type[Exception], ...]:
+    import mujoco  # lazy: 0.2 s, only MJCF needs it
+
+    return (ValueError, RuntimeError, mujoco.FatalError, mujoco.UnexpectedError)
+
+
+@contextmanager
+def _provide_files(tree: MjcfTree, flat: FlatText) -> Iterator[mujoco.MjVfs]:
+    """The files that MuJoCo shall see instead of those on disk."""
+    import mujoco  # lazy: 0.2 s, only MJCF needs it
+
+    with mujoco.MjVfs() as vfs:
+        included = {source.path for source in tree.sources}
+        seen = {path: data for path, data in tree.files.items() if path not in included}
+        for path, data in (seen | read_submodels(tree, len(flat.nodes))).items():
+            vfs[str(path)] = data
+        vfs[str(tree.main.path)] = flat.text
+        yield vfs
+
+
+@contextmanager
+def _collect_warnings(warnings: list[str]) -> Iterator[None]:
+    """Warnings go into a list, neither to the console nor to a MUJOCO_LOG.TXT in the current folder."""
+    import mujoco  # lazy: 0.2 s, only MJCF needs it
+
+    with _LOCK, python_warnings.catch_warnings(record=True) as raised:
+        python_warnings.simplefilter("always")
+        handler, config = mujoco.get_mju_user_warning(), mujoco.MjLogConfig.get()
+        before = config.logto_console, config.logto_file
+        config.logto_console = config.logto_file = False
+        config.set()
+        mujoco.set_mju_user_warning(warnings.append)
+        try:
+            yield
+        finally:
+            mujoco.set_mju_user_warning(handler)
+            config.logto_console, config.logto_file = before
+            config.set()
+            warnings += [str(warning.message) for warning in raised]
+
+
+def _error_of(message: str, tree: MjcfTree, flat: FlatText) -> AssetError:
+    """MuJoCo's message in one line, about the authored file and line."""
+    lines = [node for number in _LINE.findall(message) if (node := flat.node_at(f"line {number}"))]
+    where = tree.where(lines[-1]) if lines else str(tree.main.path)
+    return AssetError(f"MuJoCo refuses this file: {_clean_message(message)}", where=where)
+
+
+def _clean_message(message: str) -> str:
+    """A message of MuJoCo in one line, without the line numbers of our text."""
+    text = _NAMELESS.sub("", _PARSER.sub("", _HEAD.sub("", message.strip())))
+    return " ".join(_NAMED.sub(r"(element '\1') ", text).split())
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class FlatText:
+    """The text, and its elements in order: that of line k is `nodes[k - 1]`."""
+
+    text: bytes
+    nodes: tuple[MjcfNode, ...]
+
+    def node_at(self, info: str) -> MjcfNode | None:
+        """The element that MuJoCo means by `line 7`; None where that is a line of another file."""
+        line = int(info.removeprefix("line ")) if info.startswith("line ") and info[5:].isdigit() else 0
+        return self.nodes[line - 1] if 0 < line <= len(self.nodes) else None
+
+
+def flatten(tree: MjcfTree, keep: KeepAttributes | None = None) -> FlatText:
+    """The text of a tree; keep: for a part of it.
+
+    References of included files are made absolute where MuJoCo would find them beside the included file. Static
+    bodies are not fused and visual geoms not discarded, whatever the compiler settings say.
+    """
+    folders = AssetFolders.of(tree)
+    nodes: list[MjcfNode] = []
+    parts: list[bytes] = []
+    closing: list[tuple[MjcfNode, int]] = []
+    for node, depth, attributes in _walk_kept(tree.root, keep or (lambda node: node.attributes)):
+        while closing and closing[-1][1] >= depth:
+            parts.append(b"</%s>" % closing.pop()[0].tag.encode())
+        nodes.append(node)
+        closing.append((node, depth))
+        parts.append(_start_tag(tree, folders, node, attributes, first=not depth))
+    parts += [b"</%s>" % node.tag.encode() for node, _ in reversed(closing)]
+    return FlatText(b"".join(parts), tuple(nodes))
+
+
+def _walk_kept(root: MjcfNode, keep: KeepAttributes) -> Iterator[tuple[MjcfNode, int, Mapping[str, str]]]:
+    waiting = [(root, 0)]
+    while waiting:
+        node, depth = waiting.pop()
+        attributes = keep(node)
+        if attributes is not None:
+            yield node, depth, attributes
+            waiting.extend((child, depth + 1) for child in reversed(node.children))
+
+
+def _start_tag(
+    tree: MjcfTree, folders: AssetFolders, node: MjcfNode, attributes: Mapping[str, str], first: bool
+) -> bytes:
+    parts = [b"<" if first else b"\n<", node.tag.encode()]
+    for name, value in attributes.items():
+        if name in _FUSING.get(node.tag, ()):
+            continue
+        if node.source and name.startswith("file") and (path := folders.path_beside_include(tree, node, name)):
+            value = os.fspath(path)
+        parts.append(b' %s="%s"' % (name.encode(), escape(value)))
+    return b"".join([*parts, b">"])

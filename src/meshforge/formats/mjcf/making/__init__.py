@@ -1,1 +1,0 @@
-"""An MJCF made of an asset that comes from another format."""

@@ -1,0 +1,217 @@
+"""What MuJoCo compiled, as an asset has it: bodies, joints and masses in the root frame, hulls, and whose element
+each geom is."""
+
+from __future__ import annotations
+
+from collections.abc import Hashable, Sequence
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from meshforge.formats.collision_pieces import ShapeNames, collect_mentions
+from meshforge.formats.mjcf.document import GeomRecord, MjcfBody, MjcfTree, body_names, geom_names
+from meshforge.formats.mjcf.engine import EngineModel, FlatText
+from meshforge.formats.mjcf.shapes import MjcfShapes, body_poses, geom_poses
+from meshforge.geometry import Pose, rotation_of_quaternion
+from meshforge.symbolic import Geom, Inertial, Joint, JointKind, Mechanism, Mentions, Opaque
+
+if TYPE_CHECKING:
+    import mujoco
+
+_INSIDE = {
+    "replicate": "it is inside a <replicate>, which makes several geoms of one element",
+    "frame": "it is inside a <frame> that scales what it holds",
+}
+_ATTACHED = "it comes out of another model, which is attached"
+
+_KINDS: tuple[JointKind, ...] = ("floating", "ball", "prismatic", "revolute")  # in the order of MuJoCo's numbers
+
+_ATTRIBUTES = (
+    *("contype", "conaffinity", "condim", "group", "priority"),
+    *("friction", "margin", "gap", "solmix", "solref", "solimp", "adhesion"),
+)
+
+_UNNAMED = "main"  # the class of all that have none
+
+
+class MjcfModel:
+    """The compiled model and the elements it was made of.
+
+    elements: of each geom, None for one out of another model. collides: whether each geom takes part in collisions, by
+    its contact bits or by a `<pair>`. unweighed: the numbers of bodies of which some mass is not known.
+    """
+
+    def __init__(
+        self, tree: MjcfTree, flat: FlatText, made: EngineModel, unweighed: frozenset[int] = frozenset()
+    ) -> None:
+        self.tree, self.flat, self.model, self.unweighed = tree, flat, made.model, unweighed
+        self.spec_bodies, self.spec_geoms = made.bodies, made.geoms
+        self.body_names = body_names([body.name for body in made.bodies])
+        self.body_of = [self.body_names[k] for k in self.model.geom_bodyid]
+        self.names = geom_names([(b, geom.name) for b, geom in zip(self.body_of, made.geoms, strict=True)])
+        self.elements = [flat.node_at(geom.info) for geom in made.geoms]
+        self.collides = self._find_colliding()
+        self.body_poses = body_poses(self.model)
+        self.geom_poses = geom_poses(self.model, self.body_poses)
+
+    def read_pieces(self) -> tuple[tuple[Geom, ...], tuple[Opaque, ...]]:
+        """The hulls, and the collision geometry that is none."""
+        import mujoco  # lazy: 0.2 s, only MJCF needs it
+
+        geoms, opaque = [], []
+        shapes, mentions = MjcfShapes(self.model), GeomMentions(self.spec_geoms, self.body_of, self.collides)
+        for k, (name, body, pose) in enumerate(zip(self.names, self.body_of, self.geom_poses, strict=True)):
+            if not self.collides[k]:
+                continue
+            part = shapes.part_of(k, pose)
+            if part.shape is not None:
+                contact = contact_attributes(self.model, k)
+                geoms.append(Geom(name, body, part.shape, contact=contact, mentions=mentions.of(k)))
+            else:
+                plane = pose if self.model.geom_type[k] == mujoco.mjtGeom.mjGEOM_PLANE else None
+                opaque.append(Opaque(name, body, part.reason, part.surface, plane, mentions.of(k)))
+        return tuple(geoms), tuple(opaque)
+
+    @cached_property
+    def bodies(self) -> tuple[MjcfBody, ...]:
+        """The bodies in MuJoCo's order, the world first."""
+        return tuple(self._read_body(k) for k in range(self.model.nbody))
+
+    def _read_body(self, k: int) -> MjcfBody:
+        model, body = self.model, self.spec_bodies[k]
+        node = self.flat.node_at(body.info)
+        return MjcfBody(
+            name=self.body_names[k],
+            parent=self.body_names[int(model.body_parentid[k])] if k else None,
+            source=node.source if node else -1,
+            start=node.element.start if node else -1,
+            pose=self.body_poses[k],
+            inertial=Pose(rotation_of_quaternion(model.body_iquat[k]), model.body_ipos[k]),
+            mass=float(model.body_mass[k]),
+            inertia=model.body_inertia[k].copy(),
+            explicit=bool(body.explicitinertial),
+        )
+
+    def geom_records(self) -> tuple[GeomRecord, ...]:
+        """The elements that geoms were made of, in document order; geoms without one each for itself, at the end."""
+        order = {id(node): k for k, node in enumerate(self.flat.nodes)}
+        copies: dict[int, list[int]] = {}
+        for k, node in enumerate(self.elements):
+            copies.setdefault(len(order) + k if node is None else order[id(node)], []).append(k)
+        inside = self._reasons_against_edit()
+        return tuple(self._record_geom(copies[key], inside) for key in sorted(copies))
+
+    def _reasons_against_edit(self) -> dict[int, str]:
+        """Why what stands inside some elements cannot be edited, by the identity of its nodes."""
+        found: dict[int, str] = {}
+        for top in self.flat.nodes:
+            if top.tag == "replicate" or (top.tag == "frame" and "scale" in top.attributes):
+                found |= {id(node): _INSIDE[top.tag] for node in top.walk() if id(node) not in found}
+        return found
+
+    def _record_geom(self, copies: list[int], inside: dict[int, str]) -> GeomRecord:
+        node = self.elements[copies[0]]
+        fixed = _ATTACHED if node is None else inside.get(id(node), "")
+        return GeomRecord(
+            source=node.source if node else -1,
+            start=node.element.start if node else -1,
+            body=self.body_of[copies[0]],
+            names=tuple(self.names[k] for k in copies),
+            collides=any(self.collides[k] for k in copies),
+            fixed=fixed,
+        )
+
+    def _find_colliding(self) -> list[bool]:
+        touching = (self.model.geom_contype != 0) | (self.model.geom_conaffinity != 0)
+        touching[self.model.pair_geom1] = True
+        touching[self.model.pair_geom2] = True
+        return [bool(t) for t in touching]
+
+
+def read_mechanism(reading: MjcfModel) -> Mechanism:
+    """The mechanism of a model, `<exclude>` and `<pair>` too; a body without a joint is fixed to its parent."""
+    joints = [joint for k in range(1, reading.model.nbody) for joint in _read_joints(reading, k)]
+    inertials = [i for k in range(1, reading.model.nbody) if (i := _read_inertial(reading, k)) is not None]
+    bodies, signatures = reading.body_names, map(int, reading.model.exclude_signature)
+    excludes = [(bodies[s >> 16], bodies[s & 0xFFFF]) for s in signatures]  # as MuJoCo packs two numbers of bodies
+    geoms = zip(reading.model.pair_geom1, reading.model.pair_geom2, strict=True)
+    pairs = [(reading.names[int(first)], reading.names[int(second)]) for first, second in geoms]
+    return Mechanism(tuple(joints), tuple(inertials), tuple(excludes), tuple(pairs))
+
+
+def _read_joints(reading: MjcfModel, body: int) -> list[Joint]:
+    model = reading.model
+    child, parent = reading.body_names[body], reading.body_names[int(model.body_parentid[body])]
+    first, count = int(model.body_jntadr[body]), int(model.body_jntnum[body])
+    if not count:
+        pose = reading.body_poses[body]
+        return [Joint("", "fixed", parent, child, pose.translation, pose.rotation[:, 0])]
+    return [_read_joint(reading, k, parent, child) for k in range(first, first + count)]
+
+
+def _read_joint(reading: MjcfModel, k: int, parent: str, child: str) -> Joint:
+    model, pose = reading.model, reading.body_poses[int(reading.model.jnt_bodyid[k])]
+    kind, dof = _KINDS[int(model.jnt_type[k])], int(model.jnt_dofadr[k])
+    limits = None
+    if model.jnt_limited[k] and kind in ("prismatic", "revolute"):
+        zero = float(model.qpos0[model.jnt_qposadr[k]])
+        limits = float(model.jnt_range[k, 0]) - zero, float(model.jnt_range[k, 1]) - zero
+    return Joint(
+        model.joint(k).name,
+        kind,
+        parent,
+        child,
+        pose.apply(model.jnt_pos[k][None])[0],
+        pose.rotation @ model.jnt_axis[k],
+        limits,
+        damping=float(np.ravel(model.dof_damping[dof])[0]),
+        friction=float(np.ravel(model.dof_frictionloss[dof])[0]),
+        effort=float(model.jnt_actfrcrange[k, 1]) if model.jnt_actfrclimited[k] else None,
+    )
+
+
+def _read_inertial(reading: MjcfModel, k: int) -> Inertial | None:
+    body = reading.bodies[k]
+    if body.mass <= 0:
+        return None
+    frame = body.pose @ body.inertial
+    inertia = frame.rotation @ np.diag(body.inertia) @ frame.rotation.T
+    return Inertial(body.name, body.mass, frame.translation, inertia)
+
+
+def contact_attributes(model: mujoco.MjModel, geom: int) -> tuple[tuple[str, str], ...]:
+    """Names and values of what decides how a geom collides, defaults and classes included."""
+    return tuple((name, _value_text(getattr(model, f"geom_{name}")[geom])) for name in _ATTRIBUTES)
+
+
+def _value_text(value: object) -> str:
+    numbers = np.atleast_1d(np.asarray(value)).tolist()
+    return " ".join(str(number) if isinstance(number, int) else f"{number:g}" for number in numbers)
+
+
+class GeomMentions:
+    """What is said of the geoms of one model, in its order; collides: whether each takes part in collisions."""
+
+    def __init__(self, geoms: Sequence[mujoco.MjsGeom], bodies: Sequence[str], collides: Sequence[bool]) -> None:
+        self.geoms, self.bodies, self.collides = geoms, bodies, collides
+
+    def of(self, k: int) -> Mentions:
+        """What is said of the k-th geom."""
+        geom, shown = self.geoms[k], self._visual_names.get(self.bodies[k], [])
+        kind = geom.classname.name if geom.classname else ""
+        return collect_mentions(_names_of(geom), shown, [("class", kind)] if kind != _UNNAMED else [])
+
+    @cached_property
+    def _visual_names(self) -> dict[str, list[ShapeNames]]:
+        """What each body shows that does not collide."""
+        found: dict[str, list[ShapeNames]] = {}
+        for geom, body, collides in zip(self.geoms, self.bodies, self.collides, strict=True):
+            if not collides:
+                found.setdefault(body, []).append(_names_of(geom, geom.name))
+        return found
+
+
+def _names_of(geom: mujoco.MjsGeom, name: str = "") -> ShapeNames:
+    place: Hashable = (geom.type, *geom.size.tolist(), *geom.pos.tolist(), *geom.quat.tolist())
+    return ShapeNames(geom.meshname or place, name, geom.meshname, geom.material)

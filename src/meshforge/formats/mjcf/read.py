@@ -1,0 +1,241 @@
+"""Reading an MJCF: from its files, unless they are fragments or too large to be made, through the compiled model to
+an asset with its visuals."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from meshforge.common import AssetError, MeshForgeError, join_names, plain_path, pluralize
+from meshforge.formats.mesh_reader import READABLE_MESH_SUFFIXES, read_content
+from meshforge.formats.mjcf.document import MjcfDocument, MjcfNode, MjcfTree, read_tree
+from meshforge.formats.mjcf.engine import EngineModel, FlatText, compile_text, flatten
+from meshforge.formats.mjcf.model import MjcfModel, read_mechanism
+from meshforge.formats.mjcf.reduce import reduce_model
+from meshforge.formats.mjcf.references import AssetFolders, find_files
+from meshforge.formats.mjcf.shapes import MjcfShapes, mesh_frame, mesh_surface
+from meshforge.formats.visuals import Rgba, Visual, VisualSurfaces
+from meshforge.formats.xml import Element, XmlText, parse_xml
+from meshforge.geometry import Polytope, rotation_of_quaternion
+from meshforge.symbolic import Asset, Body
+
+if TYPE_CHECKING:
+    import mujoco
+
+_LEVELS = 3  # folders above a fragment in which a file that includes it may lie
+_MOST_FILES, _MOST_BYTES = 200, 2_000_000  # looked at in each folder, and read of each file
+
+_MOST_COPIES = 10_000  # of which MuJoCo's time is the square: about ten seconds
+_MOST_PRODUCTS = {
+    "hfield": (("nrow", "ncol"), 4_000_000),
+    "flexcomp": (("count",), 1_000_000),
+    "texture": (("width", "height"), 300_000_000),
+}
+"""Elements whose attributes multiply, and how much of it is taken."""
+_FINEST = 1000  # parameter of a built-in mesh, of which some have the square of a parameter of vertices
+
+_SHOWN_GROUPS = 3  # MuJoCo's viewers show the groups 0, 1 and 2
+
+
+def read_mjcf(path: Path) -> Asset:
+    """The asset in an MJCF, its includes and collision meshes taken in.
+
+    Raises AssetError naming file and line: text that is not understood, an include or a collision mesh that is not
+    there, a model whose collision geometry MuJoCo refuses too.
+    """
+    tree = gather_model(path)
+    refuse_excess(tree)
+    flat, made, stand_ins, refusal = _compile_or_reduce(tree)
+    reading = MjcfModel(tree, flat, made)
+    geoms, opaque = reading.read_pieces()
+    files, missing = find_files(tree)
+    return Asset(
+        path=path,
+        format="mjcf",
+        bodies=tuple(Body(body.name, body.pose) for body in reading.bodies),
+        geoms=geoms,
+        document=MjcfDocument(tree.sources, reading.geom_records(), reading.bodies, refusal),
+        opaque=opaque,
+        visuals=read_visuals(reading, made.spec, stand_ins),
+        files=files,
+        missing=missing,
+        notes=_collect_notes(tree, made, refusal),
+        mechanism=read_mechanism(reading),
+    )
+
+
+def _compile_or_reduce(tree: MjcfTree) -> tuple[FlatText, EngineModel, frozenset[int], str]:
+    """The text and what MuJoCo makes of it, of the collision geometry alone where it refuses the whole, and why."""
+    flat = flatten(tree)
+    try:
+        made = compile_text(tree, flat)
+    except AssetError as error:
+        part = reduce_model(tree, error)
+        return part.flat, part.made, part.stand_ins, _describe_refusal(error)
+    return flat, made, frozenset(), ""
+
+
+def _describe_refusal(error: AssetError) -> str:
+    """What is wrong, with the name and line of the file where they are known."""
+    place = Path(error.where or "").name
+    return f"{error.problem} ({place})" if ":" in place else error.problem
+
+
+def _collect_notes(tree: MjcfTree, made: EngineModel, refusal: str) -> tuple[str, ...]:
+    notes = [f"{refusal}; read for its collision geometry only"] if refusal else []
+    notes += [f"MuJoCo refuses this file: {fault}" for fault in tree.faults]
+    notes += [f"MuJoCo warns: {warning}" for warning in made.warnings]
+    if flexible := int(made.model.nflex):
+        notes.append(f"{pluralize(flexible, 'flexible body', 'flexible bodies')}: no hulls, left as authored")
+    return tuple(notes)
+
+
+def gather_model(path: Path) -> MjcfTree:
+    """The tree of a file that is a model. Raises AssetError; for a fragment, one that names what to open instead."""
+    try:
+        tree = read_tree(path)
+    except AssetError:  # an include of a fragment is found from the folder of the model
+        _refuse_fragment(plain_path(path), parse_xml(XmlText.of(read_content(path)).data, str(path)))
+        raise
+    _refuse_fragment(tree.main.path, tree.root.element)
+    return tree
+
+
+def _refuse_fragment(path: Path, root: Element) -> None:
+    """Raise AssetError where the root of a file is not `<mujoco>`."""
+    tag, where = root.tag, f"{path}:{root.line}"
+    if tag.lower() == "mujoco":
+        return
+    homes = _find_models(path)
+    if homes or tag == "mujocoinclude":
+        remedy = f"Open the file that includes it; none was found in its folder or the {_LEVELS} above."
+        if homes:
+            verb = "includes" if len(homes) == 1 else "include"
+            remedy = f"Open {join_names([str(home) for home in homes], 3)}, which {verb} it."
+        raise AssetError(f"is a part of a model, to be included by another file: <{tag}>", where=where, remedy=remedy)
+    problem = f"is no MJCF: its root element is <{tag}>, not <mujoco>"
+    raise AssetError(problem, where=where, remedy="It is a URDF: name it .urdf." if tag == "robot" else None)
+
+
+def _find_models(fragment: Path) -> list[Path]:
+    """The models near a fragment that include it."""
+    folders = [fragment.parent, *fragment.parent.parents[:_LEVELS]]
+    return [path for folder in folders for path in _list_candidates(folder) if _has_include_of(path, fragment)]
+
+
+def _list_candidates(folder: Path) -> list[Path]:
+    try:
+        return sorted(folder.glob("*.xml"))[:_MOST_FILES]
+    except OSError:
+        return []
+
+
+def _has_include_of(path: Path, fragment: Path) -> bool:
+    try:
+        if path == fragment or not path.is_file() or path.stat().st_size > _MOST_BYTES:
+            return False
+        if b"<include" not in path.read_bytes():
+            return False
+        tree = read_tree(path)
+    except (MeshForgeError, OSError):
+        return False
+    return tree.root.tag.lower() == "mujoco" and any(source.path == fragment for source in tree.sources)
+
+
+def refuse_excess(tree: MjcfTree) -> None:
+    """Raise AssetError with `file:line` for replicated elements, grids, textures or meshes without measure."""
+    waiting: list[tuple[MjcfNode, float]] = [(tree.root, 1.0)]
+    copies = 0.0
+    while waiting:
+        node, times = waiting.pop()
+        if node.tag == "replicate":
+            times *= max(_product(node, ("count",)), 1.0)
+        elif times > 1:
+            copies += times
+        if copies > _MOST_COPIES:
+            raise AssetError(f"<replicate> makes more than {_MOST_COPIES:,} elements", where=tree.where(node))
+        if excess := _describe_excess(node):
+            raise AssetError(f"this <{node.tag}> is too large to be made: {excess}", where=tree.where(node))
+        waiting.extend((child, times) for child in node.children)
+
+
+def _describe_excess(node: MjcfNode) -> str:
+    """The attributes that make an element too large, empty where none do."""
+    if node.tag == "mesh" and "builtin" in node.attributes:
+        names: tuple[str, ...] = ("params",)
+        too_large = max(_read_numbers(node, names), default=0.0) > _FINEST
+    else:
+        names, most = _MOST_PRODUCTS.get(node.tag, ((), 0))
+        too_large = _product(node, names) > most
+    return " ".join(f'{name}="{node.attributes[name]}"' for name in names if too_large and name in node.attributes)
+
+
+def _product(node: MjcfNode, names: tuple[str, ...]) -> float:
+    return math.prod(max(number, 1.0) for number in _read_numbers(node, names))
+
+
+def _read_numbers(node: MjcfNode, names: tuple[str, ...]) -> list[float]:
+    """The numbers in some attributes; what cannot be read is left to MuJoCo to refuse."""
+    found = []
+    for word in (word for name in names for word in node.attributes.get(name, "").split()):
+        try:
+            found.append(float(word))
+        except ValueError:
+            continue
+    return found
+
+
+def read_visuals(reading: MjcfModel, spec: mujoco.MjSpec, hidden: frozenset[int] = frozenset()) -> VisualSurfaces:
+    """The visuals of all bodies; hidden: geoms that only stand for others."""
+    seen = _Visuals(reading, spec)
+    found = (seen.of(k) for k in range(reading.model.ngeom) if k not in hidden)
+    return VisualSurfaces(tuple(visual for visual in found if visual))
+
+
+class _Visuals:
+    """The visuals of the geoms of one model."""
+
+    def __init__(self, reading: MjcfModel, spec: mujoco.MjSpec) -> None:
+        import mujoco  # lazy: 0.2 s, only MJCF needs it
+
+        self.reading, self.model = reading, reading.model
+        self.shapes = MjcfShapes(reading.model)
+        self.meshes = {mesh.id: mesh for mesh in spec.meshes}
+        self.folders = AssetFolders.of(reading.tree)
+        self.field = mujoco.mjtGeom.mjGEOM_HFIELD
+
+    def of(self, k: int) -> Visual | None:
+        """What a geom shows, None where it is hidden; height fields and planes are non-convex pieces already."""
+        model, body, pose = self.model, self.reading.body_of[k], self.reading.geom_poses[k]
+        rgba, mesh = self._rgba(k), int(model.geom_dataid[k])
+        is_mesh = mesh >= 0 and model.geom_type[k] != self.field
+        if rgba[3] <= 0 or (self.reading.collides[k] and not (is_mesh and model.geom_group[k] < _SHOWN_GROUPS)):
+            return None
+        if (shape := self.shapes.primitive_of(k, pose)) is not None:
+            return Visual(body, shape, np.eye(3), np.zeros(3), rgba)
+        if not is_mesh:
+            return None
+        if path := self._find_file(mesh):
+            placed = pose @ mesh_frame(model, mesh).inverse()
+            first = self.meshes[mesh]  # its reference pose, by which its vertices are moved first of all
+            linear = placed.rotation * model.mesh_scale[mesh] @ rotation_of_quaternion(first.refquat).T
+            return Visual(body, path, linear, placed.translation - linear @ np.asarray(first.refpos), rgba)
+        surface = mesh_surface(model, mesh, pose)  # of the model itself, or of a kind of file that only MuJoCo reads
+        return Visual(body, Polytope(surface.vertices, surface.faces), np.eye(3), np.zeros(3), rgba)
+
+    def _rgba(self, k: int) -> Rgba:
+        material = int(self.model.geom_matid[k])
+        colour = self.model.mat_rgba[material] if material >= 0 else self.model.geom_rgba[k]
+        red, green, blue, alpha = (float(share) for share in colour)
+        return red, green, blue, alpha
+
+    def _find_file(self, mesh: int) -> Path | None:
+        """The file of a mesh that can be read again, None where there is none."""
+        node = self.reading.flat.node_at(self.meshes[mesh].info) if mesh in self.meshes else None
+        if node is None or not node.attributes.get("file"):
+            return None
+        path = self.folders.find(self.reading.tree, node)
+        return path if path.suffix.lower() in READABLE_MESH_SUFFIXES else None

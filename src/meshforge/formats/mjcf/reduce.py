@@ -1,0 +1,255 @@
+"""Files that MuJoCo refuses, read for their collision geometry: what that does not need is left out of the text."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from math import isnan
+from typing import TYPE_CHECKING, Literal
+
+from meshforge.common import AssetError, is_file
+from meshforge.formats.mesh_reader import read_content
+from meshforge.formats.mjcf.document import MjcfNode, MjcfTree
+from meshforge.formats.mjcf.engine import (
+    EngineModel,
+    FlatText,
+    compile_spec,
+    compile_text,
+    flatten,
+    geoms_of,
+    parse_text,
+)
+from meshforge.formats.mjcf.model import MjcfModel
+from meshforge.formats.mjcf.references import AssetFolders
+from meshforge.formats.references import Resolver
+
+if TYPE_CHECKING:
+    import mujoco
+
+_ORIENTATION = "pos quat axisangle xyaxes zaxis euler"
+_NEEDED = {
+    "mujoco": "model",
+    "compiler": "angle eulerseq coordinate meshdir assetdir strippath fitaabb autolimits inertiafromgeom"
+    " inertiagrouprange",
+    "default": "class",
+    "asset": "",
+    "mesh": "name class file content_type vertex face normal texcoord refpos refquat scale maxhullvert inertia builtin"
+    " params smoothnormal",
+    "hfield": "name file content_type nrow ncol size elevation",
+    "model": "name file content_type",
+    "worldbody": "",
+    "body": f"name childclass mocap {_ORIENTATION}",
+    "frame": f"name childclass {_ORIENTATION}",
+    "replicate": "count sep offset euler childclass",
+    "attach": "model body frame prefix",
+    "inertial": f"mass diaginertia fullinertia {_ORIENTATION}",
+    "joint": "name class type pos axis ref range limited damping frictionloss",
+    "freejoint": "name",
+    "geom": f"name class type size fromto mesh hfield fitscale contype conaffinity group mass density shellinertia rgba"
+    f" {_ORIENTATION}",
+    "contact": "",
+    "pair": "geom1 geom2",
+}
+"""The elements that collision geometry, masses and joints need, and their attributes."""
+_WHOLE = ("extension", "plugin", "instance", "config")  # of signed distance fields
+_FIXED = {"pos": "0 0 0", "mass": "1", "diaginertia": "1 1 1"}
+_LEAST_MASS, _LEAST_INERTIA = 1e-9, 1e-12  # [kg], [kg m^2] above what MuJoCo asks of moving bodies
+_FREE = ("freejoint", "joint")
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class PartialModel:
+    """What was read of a refused file.
+
+    stand_ins: geoms in the place of visual ones that cannot be had; unweighed: bodies, by number, that have some of
+    their mass from one of those.
+    """
+
+    flat: FlatText
+    made: EngineModel
+    stand_ins: frozenset[int]
+    unweighed: frozenset[int]
+
+
+@dataclass(frozen=True, slots=True)
+class _Attempt:
+    """How much is left out: all visual meshes or only missing ones; what stands for the authored masses."""
+
+    all_visuals: bool
+    masses: Literal["authored", "fixed", "none"]
+
+    def keep(self, node: MjcfNode) -> Mapping[str, str] | None:
+        """The attributes of an element that are needed, None where the element is not."""
+        if node.tag in _WHOLE:
+            return node.attributes
+        if node.tag == "inertial" and self.masses != "authored":
+            return _FIXED if self.masses == "fixed" else None
+        if node.tag not in _NEEDED:
+            return None
+        kept = _NEEDED[node.tag].split()
+        return {name: value for name, value in node.attributes.items() if name in kept}
+
+
+_ATTEMPTS = (_Attempt(False, "authored"), _Attempt(True, "authored"))
+
+
+def reduce_model(tree: MjcfTree, refusal: AssetError, masses: Literal["fixed", "none"] = "none") -> PartialModel:
+    """The collision geometry of a tree that MuJoCo refuses as a whole.
+
+    masses: what stands for authored masses that are refused: ones that no geom changes, or those of the geoms.
+    Raises AssetError: a collision mesh that is not there; else `refusal`, where the collision geometry is refused too.
+    """
+    last = refusal
+    for attempt in (*_ATTEMPTS, _Attempt(True, masses)):
+        flat = flatten(tree, attempt.keep)
+        try:
+            spec = parse_text(tree, flat)
+        except AssetError as error:
+            last = error
+            continue
+        _refuse_missing(tree, flat, spec)
+        _refuse_lookalikes(tree, flat, spec)
+        _drop_loose_pairs(spec)
+        infos = _replace_visuals(tree, flat, spec, attempt.all_visuals)
+        spec.compiler.boundmass = max(spec.compiler.boundmass, _LEAST_MASS)
+        spec.compiler.boundinertia = max(spec.compiler.boundinertia, _LEAST_INERTIA)
+        spec.compiler.balanceinertia = True
+        try:
+            made = compile_spec(tree, flat, spec)
+        except AssetError as error:
+            last = error
+            continue
+        stand_ins = frozenset(geom.id for geom in made.geoms if geom.info in infos)
+        weighing = [geom.id for geom in made.geoms if infos.get(geom.info)]
+        return PartialModel(flat, made, stand_ins, frozenset(made.model.geom_bodyid[weighing].tolist()))
+    if last.message != refusal.message:
+        remedy = f"Once that is fixed, the next problem is: {last.message}"
+        refusal = AssetError(refusal.problem, where=refusal.where, remedy=remedy)
+    raise refusal
+
+
+def _refuse_missing(tree: MjcfTree, flat: FlatText, spec: mujoco.MjSpec) -> None:
+    """Raise AssetError where the mesh of a collision geom is not there."""
+    lost = _find_missing_meshes(tree, flat, spec)
+    geoms = [
+        geom
+        for geom in geoms_of(spec.bodies)
+        if geom.meshname in lost and flat.node_at(geom.info) and _can_collide(geom, spec)
+    ]
+    if geoms:
+        first, meshes = geoms[0], dict.fromkeys(geom.meshname for geom in geoms)
+        mesh = lost[first.meshname]
+        called = f"collision geom {first.name!r}" if first.name else "a collision geom"
+        others = f" (and {len(meshes) - 1} more like it)" if len(meshes) > 1 else ""
+        raise AssetError(
+            f"the mesh {mesh.attributes['file']!r} of {called} of body {first.parent.name!r} is not there{others}",
+            where=tree.where(mesh),
+            remedy=Resolver(tree.main.path.parent).advice(str(AssetFolders.of(tree).find(tree, mesh))),
+        )
+
+
+def _refuse_lookalikes(tree: MjcfTree, flat: FlatText, spec: mujoco.MjSpec) -> None:
+    """Raise AssetError where the mesh of a collision geom plainly is a file of another kind, such as a pointer."""
+    folders = AssetFolders.of(tree)
+    nodes = {mesh.name: flat.node_at(mesh.info) for mesh in spec.meshes}
+    for name in dict.fromkeys(geom.meshname for geom in geoms_of(spec.bodies) if _can_collide(geom, spec)):
+        node = nodes.get(name)
+        path = folders.find(tree, node) if node is not None and node.attributes.get("file") else None
+        if path is not None and is_file(path):
+            read_content(path)
+
+
+def _find_missing_meshes(tree: MjcfTree, flat: FlatText, spec: mujoco.MjSpec) -> dict[str, MjcfNode]:
+    """The meshes whose files are not there, by name."""
+    folders = AssetFolders.of(tree)
+    nodes = {mesh.name: flat.node_at(mesh.info) for mesh in spec.meshes}
+    return {
+        name: node
+        for name, node in nodes.items()
+        if node is not None and node.attributes.get("file") and not tree.has(folders.find(tree, node))
+    }
+
+
+def _drop_loose_pairs(spec: mujoco.MjSpec) -> None:
+    """Take away the pairs of geoms that are not there."""
+    names = {geom.name for geom in geoms_of(spec.bodies)}
+    for pair in list(spec.pairs):
+        if not names >= {pair.geomname1, pair.geomname2}:
+            spec.delete(pair)
+
+
+def _replace_visuals(tree: MjcfTree, flat: FlatText, spec: mujoco.MjSpec, all_visuals: bool) -> dict[str, bool]:
+    """Put massless spheres in the place of visual mesh geoms, so that the other geoms of a body keep their numbers.
+
+    Returns the lines of these geoms, and whether they had a mass. Meshes that no geom is left to use go.
+    """
+    import mujoco  # lazy: 0.2 s, only MJCF needs it
+
+    lost = _find_missing_meshes(tree, flat, spec)
+    infos = {}
+    geoms = geoms_of(spec.bodies)
+    for geom in geoms:
+        if geom.meshname and not _can_collide(geom, spec) and (all_visuals or geom.meshname in lost):
+            infos[geom.info] = _has_mass(geom, spec)
+            geom.type, geom.meshname, geom.size, geom.mass = mujoco.mjtGeom.mjGEOM_SPHERE, "", [1, 0, 0], 0
+    used = {geom.meshname for geom in geoms}
+    for mesh in list(spec.meshes):
+        if mesh.name not in used:
+            spec.delete(mesh)
+    return infos
+
+
+def _has_mass(geom: mujoco.MjsGeom, spec: mujoco.MjSpec) -> bool:
+    """Whether a geom adds to the mass that its body has from its geoms."""
+    first, last = spec.compiler.inertiagrouprange
+    return bool(first <= geom.group <= last and (geom.density > 0 if isnan(geom.mass) else geom.mass > 0))
+
+
+def _can_collide(geom: mujoco.MjsGeom, spec: mujoco.MjSpec) -> bool:
+    if geom.contype or geom.conaffinity:
+        return True
+    return bool(geom.name) and any(geom.name in (pair.geomname1, pair.geomname2) for pair in spec.pairs)
+
+
+def read_whole_model(tree: MjcfTree) -> MjcfModel | None:
+    """The model of a tree, None where MuJoCo refuses it."""
+    flat = flatten(tree)
+    try:
+        return MjcfModel(tree, flat, compile_text(tree, flat))
+    except AssetError:
+        return None
+
+
+def read_partial_model(tree: MjcfTree) -> MjcfModel:
+    """The model of the collision geometry of a tree that MuJoCo refuses. Raises AssetError."""
+    refusal = AssetError("MuJoCo refuses its collision geometry", where=str(tree.main.path))
+    found = reduce_model(tree, refusal, masses="fixed")
+    return MjcfModel(tree, found.flat, found.made, found.unweighed)
+
+
+def read_model(tree: MjcfTree, is_whole: bool) -> MjcfModel:
+    """The model of an edited tree, compiled as it was before. Raises AssetError with MuJoCo's message."""
+    if not is_whole:
+        return read_partial_model(tree)
+    flat = flatten(tree)
+    return MjcfModel(tree, flat, compile_text(tree, flat))
+
+
+def read_unscaled_model(tree: MjcfTree, reading: MjcfModel) -> MjcfModel:
+    """A whole reading with masses before they are scaled to a total, and free bodies in their authored frames."""
+    if not any(map(_scales_masses, tree.root.walk())):
+        return reading
+    flat = flatten(tree)
+    spec = parse_text(tree, flat)
+    spec.compiler.settotalmass = -1
+    spec.compiler.alignfree = False
+    for joint in spec.joints:
+        joint.align = 0
+    return MjcfModel(tree, flat, compile_spec(tree, flat, spec))
+
+
+def _scales_masses(node: MjcfNode) -> bool:
+    """Whether an element changes masses or the frames of free bodies."""
+    if node.tag == "compiler":
+        return bool({"settotalmass", "alignfree"} & node.attributes.keys())
+    return node.tag in _FREE and "align" in node.attributes

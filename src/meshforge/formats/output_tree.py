@@ -1,0 +1,218 @@
+"""Put a written asset on disk: where it goes, the whole tree of its files, each file atomically, the main file last."""
+
+from __future__ import annotations
+
+import contextlib
+import filecmp
+import os
+import shutil
+import tempfile
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager, nullcontext
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from meshforge.common import AssetError, plain_path, replace_atomically, write_atomically
+from meshforge.formats.base import Format, Mass, Output
+from meshforge.formats.conversion import ConversionReport, report_conversion, turn_upright
+from meshforge.formats.engine_names.base import EngineName
+from meshforge.formats.registry import FOLDER, FORMATS, SUFFIXES, format_for, format_with_names
+from meshforge.geometry import Pose
+from meshforge.symbolic import Asset, Body, Document, Geom, SymbolicMesh
+
+_MESHES = (".dae", ".msh", ".off", ".skn", ".usd", ".usda", ".usdc", ".usdz", ".bin", ".mtl", ".hf")
+_PICTURES = (".png", ".jpg", ".jpeg", ".bmp", ".gif", ".tga", ".tif", ".tiff", ".dds", ".webp", ".hdr", ".exr", ".ktx2")
+_KINDS = frozenset((*SUFFIXES, *_MESHES, *_PICTURES))
+"""The suffixes of files that assets consist of."""
+
+Content = bytes | Path
+"""What a file is to hold: these bytes, or what another file holds."""
+
+
+@dataclass(frozen=True, slots=True)
+class SaveResult:
+    """What was written: the main file or folder, all files of its tree, and what the format could not hold.
+
+    names: of hulls that the file reads back under another name, that name.
+    report: on an asset that was read from another format, what this one holds and what it does not.
+    """
+
+    path: Path
+    files: tuple[Path, ...]
+    notes: tuple[str, ...] = ()
+    names: Mapping[str, str] = field(default_factory=dict)
+    report: ConversionReport = field(default=ConversionReport())
+
+
+def save(
+    what: SymbolicMesh | Asset,
+    out: str | Path,
+    *,
+    mass: Mass = "keep",
+    link: bool = False,
+    overwrite: bool = False,
+    names: EngineName | None = None,
+) -> SaveResult:
+    """Write an asset, in the format it was read from where the suffix of `out` fits it, else made anew.
+
+    Every file that the asset refers to goes along. A path without suffix is a folder of one file a hull.
+    mass: whether bodies keep their masses where a format derives them from geometry;
+    link: files that are only copied become hard links; overwrite: existing files may be replaced;
+    names: an engine, by whose names for collision the file is made, unless it was read with these.
+    Raises AssetError: the format cannot hold the hulls, or a file of the input, or another one that exists, would be
+    overwritten. Raises UsageError: the engine knows no collision by name in files of this format.
+    """
+    asset = what if isinstance(what, Asset) else what.to_asset() if what.asset else _asset_of_mesh(what)
+    out = Path(os.path.normpath(out))
+    known = format_for(out, asset.format)
+    known = format_with_names(known, names) if names else known
+    output, report = _make_output(asset, known, out.name, mass)
+    plan = _plan_files(output, out, known.is_folder)
+    _refuse_outside(plan, out if known.is_folder else out.parent)
+    _refuse_overwrite(plan, asset, overwrite)
+    extra = _find_extra_files(plan, out, overwrite) if known.is_folder else []
+    with _build_aside(out) if known.is_folder and not out.exists() else nullcontext(out) as place:
+        for target, content in plan.items():
+            _put_file(place / target.relative_to(out) if target.is_relative_to(out) else target, content, link)
+    for path in extra:
+        path.unlink()
+    return SaveResult(out, tuple(plan), report.sentences, output.names, report)
+
+
+def _make_output(asset: Asset, known: Format, name: str, mass: Mass) -> tuple[Output, ConversionReport]:
+    """The files of an asset in its own format or another, and the report on them."""
+    if known.can_write_back(asset):
+        output = known.write(asset, name, mass)
+        return output, ConversionReport(remarks=output.notes)
+    source = next((own for own in FORMATS if own.name == asset.format), None)
+    upright, remarks = turn_upright(asset, source, known)
+    output = known.create(upright, name)
+    return output, report_conversion(upright, source, known, output, remarks)
+
+
+def _asset_of_mesh(mesh: SymbolicMesh) -> Asset:
+    """An asset of the hulls of a mesh that was not read from a file."""
+    bodies = dict.fromkeys(hull.body for hull in mesh.hulls)
+    geoms = tuple(Geom(hull.name, hull.body, hull.shape) for hull in mesh.hulls)
+    return Asset(Path("memory"), "memory", tuple(Body(b, Pose.identity()) for b in bodies), geoms, Document())
+
+
+def _plan_files(output: Output, out: Path, is_folder: bool) -> dict[Path, Content]:
+    """What each file is to hold, the main file last."""
+    folder = out if is_folder else out.parent
+    beside: dict[str, Content] = {**output.copies, **output.made}
+    plan: dict[Path, Content] = {Path(os.path.normpath(folder / name)): content for name, content in beside.items()}
+    if not is_folder:
+        plan.pop(Path(os.path.normpath(out)), None)
+        plan[out] = output.main
+    return plan
+
+
+def _refuse_outside(plan: Mapping[Path, Content], folder: Path) -> None:
+    """Raise AssetError where a reference that climbs out of the folder would put another kind of file there."""
+    for target in plan:
+        if not target.is_relative_to(folder) and target.suffix.lower() not in _KINDS:
+            problem = "this is no mesh or texture, and lies outside of the output folder: not written"
+            raise AssetError(problem, where=str(target), remedy="Correct the reference to it in the input.")
+
+
+def _refuse_overwrite(plan: Mapping[Path, Content], asset: Asset, overwrite: bool) -> None:
+    """Raise AssetError where a file would be overwritten that must not be."""
+    inputs = {path.resolve() for path in (asset.path, *asset.files)}
+    for target, content in plan.items():
+        if target.is_dir():
+            raise AssetError("there is a folder of this name", where=str(target), remedy="Write elsewhere.")
+        if not target.exists() or has_content(target, content):
+            continue
+        if target.resolve() in inputs:
+            raise AssetError("this file belongs to the input", where=str(target), remedy="Write to another folder.")
+        if not overwrite:
+            raise AssetError(
+                "there is such a file already, with other content",
+                where=str(target),
+                remedy="Allow to overwrite it (--overwrite, overwrite=True), or write elsewhere.",
+            )
+
+
+def _find_extra_files(plan: Mapping[Path, Content], out: Path, overwrite: bool) -> list[Path]:
+    """Mesh files in a folder that are not of the asset which is written there; they would count as its hulls."""
+    found = [path for path in FOLDER.mesh_files(out) if path not in plan] if out.is_dir() else []
+    if found and not overwrite:
+        raise AssetError(
+            f"this folder has other mesh files in it, such as {found[0].name}",
+            where=str(out),
+            remedy="Write to an empty folder, or allow to overwrite (--overwrite, overwrite=True).",
+        )
+    return found
+
+
+@contextmanager
+def _build_aside(out: Path) -> Iterator[Path]:
+    """A new folder beside `out`, which becomes `out` once all is in it."""
+    try:
+        out.parent.mkdir(parents=True, exist_ok=True)
+        with tempfile.TemporaryDirectory(prefix=f".{out.name}.", suffix=".tmp", dir=out.parent) as holder:
+            place = Path(holder) / out.name
+            place.mkdir()
+            yield place
+            place.replace(out)
+    except OSError as error:
+        raise AssetError(f"cannot be written: {error.strerror}", where=str(out)) from error
+
+
+def _put_file(target: Path, content: Content, link: bool) -> None:
+    try:
+        if target.exists() and has_content(target, content):
+            return
+        if isinstance(content, bytes):
+            write_atomically(target, content)
+        else:
+            copy_atomically(content, target, link=link)
+    except OSError as error:
+        raise AssetError(f"cannot be written: {error.strerror}", where=str(target)) from error
+
+
+def output_path_of(asset: Asset, base: Path, out_dir: Path) -> Path:
+    """The path of an asset's output: below `out_dir` as the asset is below `base`.
+
+    Where the asset has files outside of `base`, or references that pass through a folder above it (MJCF's
+    `../cup/a.stl` from within `cup`), it counts from the deepest folder that holds it and them all, so that they still
+    end within `out_dir`.
+    """
+    path, base = plain_path(asset.path), plain_path(base)
+    folders = [path.parent, *(plain_path(file).parent for file in asset.files)]
+    folders += [plain_path(known.top(asset)) for known in FORMATS if known.name == asset.format]
+    if not all(folder.is_relative_to(base) for folder in folders):
+        base = Path(os.path.commonpath(folders))
+    return out_dir / path.relative_to(base)
+
+
+def has_content(target: Path, content: bytes | Path) -> bool:
+    """Whether a file that exists holds just that already."""
+    if isinstance(content, Path):
+        if not content.is_file():
+            raise AssetError("a file that the asset refers to is gone", where=str(content))
+        return target.samefile(content) or filecmp.cmp(target, content, shallow=False)
+    return target.stat().st_size == len(content) and target.read_bytes() == content
+
+
+def copy_atomically(source: Path, target: Path, *, link: bool) -> None:
+    """Put a copy of a file in place, or with `link` a hard link where the disk allows it. Folders are made."""
+    with replace_atomically(target) as draft:
+        if link and _try_link(source, draft):
+            return
+        with draft.open("wb") as stream, source.open("rb") as original:
+            shutil.copyfileobj(original, stream)
+            stream.flush()
+            os.fsync(stream.fileno())
+        draft.chmod(source.stat().st_mode & 0o777)
+
+
+def _try_link(source: Path, draft: Path) -> bool:
+    """Whether the draft could be made a link to the source; another disk or file system may not allow it."""
+    spare = draft.with_name(draft.name + "l")
+    with contextlib.suppress(OSError):
+        os.link(source.resolve(), spare)
+        spare.replace(draft)
+        return True
+    return False

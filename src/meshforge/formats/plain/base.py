@@ -1,0 +1,222 @@
+"""What the plain mesh formats have in common: a file is one body, its convex pieces are the hulls.
+
+A writer hands over the new file and the owner that each triangle should have; reading the file back shows whether it
+holds that, and under which names.
+"""
+
+from __future__ import annotations
+
+import itertools
+from abc import abstractmethod
+from collections.abc import Collection, Mapping, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import ClassVar
+
+import numpy as np
+import numpy.typing as npt
+
+from meshforge.common import AssetError, GeometryError
+from meshforge.formats.base import Format, Mass, Output, ReadOptions, note_renames
+from meshforge.formats.collision_pieces import drop_repeats
+from meshforge.formats.companions import find_companions
+from meshforge.formats.engine_names.unreal import NATIVE_SHAPES
+from meshforge.formats.mesh_reader import read_content
+from meshforge.formats.meshfile.surface import Soup
+from meshforge.formats.plain.parts import (
+    VISUAL_ONLY,
+    MeshPart,
+    PlainDocument,
+    TargetTriangles,
+    collect_parts,
+    corners_of,
+    find_renamed_hulls,
+    name_file_pieces,
+    owners_of,
+    to_parts,
+)
+from meshforge.geometry import Ints, Piece, Pose, Shape, convex_hull, split_pieces
+from meshforge.symbolic import PRIMITIVE_FEATURES, Asset, Body, FeatureKind, Geom, Mentions, Opaque, Surface
+
+BODY = "body"
+"""The name of the one body of a plain mesh file."""
+AS_HULLS: Mapping[FeatureKind, str] = dict.fromkeys(PRIMITIVE_FEATURES.values(), "written as triangles")
+"""How formats without native shapes hold them."""
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class MeshFileEdit:
+    """What is to become of a file: pieces that go, parts that come behind the others.
+
+    explicit: every piece that stays is to be named in the file, as far as the format can, lest names change.
+    """
+
+    document: PlainDocument
+    path: Path
+    gone: frozenset[str]
+    parts: tuple[MeshPart, ...]
+    explicit: bool = False
+
+    @property
+    def stays(self) -> npt.NDArray[np.bool_]:
+        """Whether each triangle (m,) stays."""
+        kept = np.array([name not in self.gone for name in (*self.document.names, VISUAL_ONLY)], dtype=bool)
+        return kept[self.document.owner]  # -1 is the last
+
+    @property
+    def owners(self) -> list[str]:
+        """The owner that each triangle of the edited file should have."""
+        return list(itertools.compress(self.document.owners, self.stays)) + owners_of(self.parts)
+
+
+class PlainFormat(Format):
+    """A format of mesh files without structure."""
+
+    holds: ClassVar[frozenset[FeatureKind]] = frozenset({FeatureKind.OPAQUE})
+    instead: ClassVar[Mapping[FeatureKind, str]] = AS_HULLS
+
+    @abstractmethod
+    def parse_soup(self, data: bytes, path: Path) -> Soup:
+        """The triangles in the bytes of a file. Raises AssetError."""
+
+    @abstractmethod
+    def apply_edit(self, edit: MeshFileEdit) -> bytes:
+        """The bytes of the edited file, triangles that stay first and in order. Raises AssetError."""
+
+    @abstractmethod
+    def format_parts(self, parts: Sequence[MeshPart]) -> bytes:
+        """The bytes of a new file of these parts."""
+
+    def read(self, path: Path, options: ReadOptions) -> Asset:
+        document, found, soup = self._parse(read_content(path), path)
+        named = [(name, piece, _mentions_of(soup, piece)) for name, piece in zip(document.names, found, strict=True)]
+        shapes, notes = self.interpret_hulls(document, found)
+        return Asset(
+            path=path,
+            format=self.name,
+            bodies=(Body(BODY, Pose.identity()),),
+            geoms=tuple(Geom(name, BODY, shapes[name], mentions=said) for name, _, said in named if name in shapes),
+            document=document,
+            opaque=tuple(
+                Opaque(name, BODY, piece.reason or "", Surface(piece.vertices, piece.faces), mentions=said)
+                for name, piece, said in named
+                if not piece.shape
+            ),
+            visuals=_visual_surface(soup),
+            files=tuple(dict.fromkeys(find_companions(path).values())),
+            notes=notes,
+        )
+
+    def interpret_hulls(
+        self, document: PlainDocument, found: Sequence[Piece]
+    ) -> tuple[dict[str, Shape], tuple[str, ...]]:
+        """The shapes of the hulls of a file by their names, and what a user should know about how they were read."""
+        return {name: p.shape for name, p in zip(document.names, found, strict=True) if p.shape}, ()
+
+    def name_hulls(self, document: PlainDocument, geoms: Sequence[Geom]) -> list[str]:
+        """The names that made hulls get in a file."""
+        return [geom.name for geom in geoms]
+
+    def parse_document(self, data: bytes, path: Path) -> tuple[PlainDocument, list[Piece]]:
+        """The document of a file's bytes, and its pieces. Raises AssetError naming the path."""
+        document, found, _ = self._parse(data, path)
+        return document, found
+
+    def _parse(self, data: bytes, path: Path) -> tuple[PlainDocument, list[Piece], Soup]:
+        soup = self.parse_soup(data, path)
+        try:
+            if soup.marked:
+                found = hull_groups(soup)
+            else:
+                found = split_pieces(soup.vertices, soup.faces, name=str(path), groups=soup.group)
+        except GeometryError as error:
+            raise AssetError(error.problem, where=str(path), remedy=error.remedy) from error
+        owner = np.full(len(soup.faces), -1)
+        for k, piece in enumerate(found):
+            owner[piece.face_indices] = k
+        groups = len(np.unique(soup.group[soup.group >= 0]))
+        names = tuple(name_file_pieces(found, soup.names))
+        return PlainDocument(data, names, owner, groups, soup.marked), found, soup
+
+    def write(self, asset: Asset, name: str, mass: Mass = "keep") -> Output:
+        document = asset.document
+        if not isinstance(document, PlainDocument):
+            raise self._creation_error(asset)
+        opaque = {piece.name for piece in asset.opaque}
+        kept = {geom.name for geom in asset.geoms if geom.parent is None} & set(document.names)
+        gone = frozenset(n for n in document.names if n not in kept and n not in opaque)
+        new = [geom for geom in asset.geoms if geom.name not in kept]
+        beside = find_companions(asset.path)
+        if not gone and not new:
+            return Output(document.data, copies=beside)
+        parts, notes = to_parts(new, NATIVE_SHAPES if document.marked else ())
+        made = dict(zip((geom.name for geom in new), self.name_hulls(document, new), strict=True))
+        parts = tuple(replace(part, name=made[part.name]) for part in parts)
+        data, read = self._edit_file(MeshFileEdit(document, asset.path, gone, parts), {*kept, *made.values()})
+        called = {**{name: name for name in kept}, **made}
+        names = {name: read.get(now, now) for name, now in called.items() if read.get(now, now) != name}
+        return Output(data, copies=beside, notes=(*notes, *note_renames(names)), names=names)
+
+    def create(self, asset: Asset, name: str) -> Output:
+        parts = collect_parts(asset)
+        data = self.format_parts(parts)
+        hulls = {geom.name for geom in asset.geoms}
+        wanted = TargetTriangles(owners_of(parts), corners_of(parts))
+        return Output(data, names=self._check_output(data, Path(name), wanted, hulls, asset.path))
+
+    def _edit_file(self, edit: MeshFileEdit, hulls: Collection[str]) -> tuple[bytes, dict[str, str]]:
+        """The edited file, and the names that read back otherwise; with explicit names where that repairs them."""
+        if not edit.owners:
+            raise AssetError("the edit leaves nothing in this file", where=str(edit.path))
+        if edit.document.marked and set(edit.owners) == {VISUAL_ONLY}:
+            raise AssetError(
+                "the edit leaves no collision in this file",
+                where=str(edit.path),
+                remedy="Leave one hull: without any, what is seen would be taken for collision.",
+            )
+        data = self.apply_edit(edit)
+        soup = self.parse_soup(edit.document.data, edit.path)
+        kept = soup.vertices[soup.faces[edit.stays]]
+        wanted = TargetTriangles(edit.owners, np.concatenate([kept, corners_of(edit.parts)]), len(kept))
+        names = self._check_output(data, edit.path, wanted, hulls, edit.path)
+        if names:
+            data = self.apply_edit(replace(edit, explicit=True))
+            names = self._check_output(data, edit.path, wanted, hulls, edit.path)
+        return data, names
+
+    def _check_output(
+        self, data: bytes, path: Path, wanted: TargetTriangles, hulls: Collection[str], where: Path
+    ) -> dict[str, str]:
+        """The names that a written file reads back otherwise. Raises AssetError where it reads back as other hulls."""
+        document, found, soup = self._parse(data, path)
+        return find_renamed_hulls(document, found, soup, wanted, hulls, str(where))
+
+
+def _mentions_of(soup: Soup, piece: Piece) -> Mentions:
+    """What else the file says of the triangles of a piece."""
+    return drop_repeats(
+        (kind, names[k]) for kind, owner, names in soup.mentions for k in np.unique(owner[piece.face_indices]).tolist()
+    )
+
+
+def _visual_surface(soup: Soup) -> tuple[Surface, ...]:
+    """What is only seen of a file whose names mark collision."""
+    faces = soup.faces[soup.group < 0]
+    if not len(faces):
+        return ()
+    used, numbers = np.unique(faces, return_inverse=True)
+    return (Surface(soup.vertices[used], numbers.reshape(-1, 3), BODY),)
+
+
+def hull_groups(soup: Soup) -> list[Piece]:
+    """The hulls of a file with marks: each the convex hull of its group, whatever that looks like, as Unreal has it."""
+    return [_hull_group(soup, np.flatnonzero(soup.group == k), k) for k in range(len(soup.names))]
+
+
+def _hull_group(soup: Soup, own: Ints, group: int) -> Piece:
+    used, numbers = np.unique(soup.faces[own], return_inverse=True)
+    vertices, faces = soup.vertices[used], numbers.reshape(-1, 3)
+    try:
+        return Piece(convex_hull(vertices), None, vertices, faces, own, group)
+    except GeometryError as error:
+        return Piece(None, error.problem, vertices, faces, own, group)

@@ -1,0 +1,207 @@
+"""Making an SDF from an asset of another format: links and joints, a collision for each hull, masses and visuals."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+
+from meshforge.common import join_names, pluralize
+from meshforge.formats.base import Loss, Output
+from meshforge.formats.kinematic_tree import (
+    LIGHT_INERTIAL,
+    JointRules,
+    KinematicChain,
+    LinkJoint,
+    build_chain,
+    claim_name,
+    drop_rounding,
+)
+from meshforge.formats.mesh_output import HullFiles, VisualFiles
+from meshforge.formats.sdf.document import CONFIG
+from meshforge.formats.sdf.edit import SdfElementMaker
+from meshforge.formats.sdf.elements import (
+    STEP,
+    SdfShape,
+    build_collision,
+    inertial_lines,
+    joint_lines,
+    leaf,
+    mesh_lines,
+    nest,
+    nest_with_name,
+    pose_leaf,
+    visual_lines,
+)
+from meshforge.formats.sdf.frames import WORLD
+from meshforge.formats.slots import Slot, assign_names, name_attribute_of
+from meshforge.formats.visuals import unreadable_visuals, visuals_of
+from meshforge.formats.xml import escape
+from meshforge.geometry import Pose, Shape
+from meshforge.symbolic import Asset, FeatureKind, Opaque
+
+VISUAL_SUFFIXES = (".obj", ".stl", ".dae", ".glb", ".gltf")
+"""The mesh files that Gazebo reads."""
+
+_VERSION = (1, 8)
+_RULES = JointRules(("fixed", "revolute", "prismatic", "ball", "floating"), world=True)
+_LEAD = 3 * STEP
+_MAIN = "model.sdf"
+
+
+def create_sdf(asset: Asset, name: str) -> Output:
+    """The files of an asset that came from another format.
+
+    Bodies become links, each with its frame on the joint that leads to it, so that at zero all is where it was; hulls
+    become native shapes or mesh files, non-convex pieces meshes. `model.sdf` gets a `model.config` beside it.
+    """
+    return _Creator(asset, name).build_output()
+
+
+class _Creator:
+    def __init__(self, asset: Asset, name: str) -> None:
+        self.asset, self.name = asset, name
+        stem = Path(name).stem
+        self.model = asset.path.stem if name == _MAIN else stem
+        self.maker = SdfElementMaker(b"", b"\n", _VERSION, HullFiles(stem))
+        self.visuals = VisualFiles(self.maker.files, lambda mesh: mesh.suffix.lower() in VISUAL_SUFFIXES)
+        self.inertials = {inertial.body: inertial for inertial in asset.mechanism.inertials}
+        self.lost: list[Loss] = []
+        self.renamed: dict[str, str] = {}
+        visuals = visuals_of(asset)
+        self.visuals.gather(visuals)
+        used = {g.body for g in asset.geoms} | {o.body for o in asset.opaque} | {body for body, _ in visuals}
+        bare = {body.name for body in asset.bodies} - used - set(self.inertials)
+        self.chain: KinematicChain = build_chain(asset, bare, _RULES)
+        self.links = self._link_names(bare)
+        self.slots = self._build_slots()
+        self.visual_lines = {link: self._build_visuals(link) for link in self.links}
+
+    def build_output(self) -> Output:
+        others = assign_names([slot for own in self.slots.values() for slot in own])
+        names = {was: others.pop(name, name) for was, name in self.renamed.items()} | others
+        inside = [line for link in self.links for line in self._link_lines(link)]
+        if WORLD in self.links:  # what is part of the world does not fall
+            fixed = LinkJoint("world_fixed", None, WORLD, self.links[WORLD], Pose.identity(), np.zeros(3))
+            inside += joint_lines(fixed, WORLD, self.links[WORLD])
+        for joint in self.chain.joints:
+            inside += self._joint_lines(joint)
+        model = nest_with_name("model", self.model, *inside)
+        head = [b'<?xml version="1.0"?>', b'<sdf version="%s">' % ".".join(map(str, _VERSION)).encode()]
+        main = b"\n".join([*head, *(STEP + line for line in model), b"</sdf>", b""])
+        lost = (*self.chain.lost, *self.lost, *unreadable_visuals(self.visuals.refused))
+        made = dict(self.maker.files.made)
+        if self.name == _MAIN:
+            made[CONFIG] = self._config_text()
+        return Output(main, made, self.visuals.copies, self._collect_notes(), names, lost)
+
+    def _link_names(self, bare: set[str]) -> dict[str, str]:
+        """The name of each link; none for the world where it has nothing: joints can hold on to it without."""
+        taken = set(self.chain.frames)
+        names = {link: link for link in self.chain.frames if link != WORLD}
+        if WORLD in self.chain.frames and WORLD not in bare:
+            names = {WORLD: claim_name(f"{WORLD}_link", taken), **names}
+        return {link: _legal_name(name, taken) for link, name in names.items()} or {WORLD: f"{WORLD}_link"}
+
+    def _build_slots(self) -> dict[str, list[Slot]]:
+        slots: dict[str, list[Slot]] = {link: [] for link in self.links}
+        for geom in self.asset.geoms:
+            link = self.chain.of_body[geom.body]
+            slots[link].append(self.maker.make_slot(geom, self.chain.frames[link], None, _LEAD))
+        for piece in self.asset.opaque:
+            link = self.chain.of_body[piece.body]
+            slots[link] += self._build_opaque(piece, self.chain.frames[link])
+        for link, own in slots.items():
+            for slot in own:
+                self._rename(slot, self.links[link])
+        return slots
+
+    def _rename(self, slot: Slot, link: str) -> None:
+        """Name the element of a slot, for the link as it is called in the file."""
+        slot.name = name_attribute_of(slot)
+        if link != slot.body:
+            names = tuple(f"{link}/{name.removeprefix(f'{slot.body}/')}" for name in slot.names)
+            self.renamed |= dict(zip(slot.names, names, strict=True))
+            slot.body, slot.names = link, names
+
+    def _build_opaque(self, piece: Opaque, root_t_link: Pose) -> list[Slot]:
+        """The collision of a non-convex piece; none where it has no surface."""
+        surface, link_t_root = piece.surface, root_t_link.inverse()
+        if piece.plane is not None:
+            plane = link_t_root @ piece.plane
+            kind = nest("plane", leaf("normal", "0 0 1"), leaf("size", "100 100"))
+            return [Slot(piece.body, (piece.name,), text=build_collision(plane, kind, _LEAD, b"\n"))]
+        if surface is None:
+            return []
+        if not len(surface.faces):
+            self.lost.append(Loss(FeatureKind.OPAQUE, (piece.name,), "it has no triangle"))
+            return []
+        vertices = link_t_root.apply(np.asarray(surface.vertices))
+        kind = mesh_lines(self.maker.files.add(piece.name, "", vertices, surface.faces))
+        return [Slot(piece.body, (piece.name,), text=build_collision(Pose.identity(), kind, _LEAD, b"\n"))]
+
+    def _build_visuals(self, link: str) -> list[bytes]:
+        lines: list[bytes] = []
+        count = 0
+        for body, visual in visuals_of(self.asset):
+            if self.chain.of_body[body] == link:
+                placed = self.visuals.add_visual(body, visual, self.chain.frames[link])
+                if placed is not None:
+                    lines += visual_lines(f"visual{count}", placed, self._add_mesh(body, placed.what))
+                    count += 1
+        return lines
+
+    def _add_mesh(self, body: str, shape: Shape | str) -> str | None:
+        """The file of a visual shape that SDF lacks."""
+        if isinstance(shape, str | SdfShape):
+            return None
+        return self.maker.files.add(f"{body}-visual", "", shape.vertices, shape.faces)
+
+    def _link_lines(self, link: str) -> list[bytes]:
+        body = next((body for body, own in self.chain.of_body.items() if own == link), None)
+        inertial = self.inertials.get(body) if body else LIGHT_INERTIAL if link in self.chain.light else None
+        frame = self.chain.frames[link]
+        pose = Pose(frame.rotation, drop_rounding(frame.translation))
+        inside = [pose_leaf(pose)]
+        inside += inertial_lines(inertial, frame if body else Pose.identity()) if inertial else []
+        inside += self.visual_lines[link]
+        inside += [line.removeprefix(_LEAD) for slot in self.slots[link] for line in slot.to_bytes(b"").split(b"\n")]
+        return nest_with_name("link", self.links[link], *inside)
+
+    def _joint_lines(self, made: LinkJoint) -> list[bytes]:
+        """The lines of a joint; none for one that leaves its link free."""
+        if made.joint is not None and made.joint.kind == "floating":
+            name = made.joint.name
+            why = "a link without a joint moves freely in SDF"
+            self.lost.append(Loss(FeatureKind.JOINTS, (name,) * bool(name), why, None, not name))
+            return []
+        return joint_lines(made, self.links.get(made.parent, WORLD), self.links[made.child])
+
+    def _config_text(self) -> bytes:
+        """The `model.config` that makes the folder a Gazebo model."""
+        version = ".".join(map(str, _VERSION)).encode()
+        lines = nest("model", leaf("name", self.model), b'<sdf version="%s">%s</sdf>' % (version, escape(self.name)))
+        return b"\n".join([b'<?xml version="1.0"?>', *lines, b""])
+
+    def _collect_notes(self) -> tuple[str, ...]:
+        """What Gazebo makes of what the file does not say."""
+        notes = list(self.chain.notes) + self.maker.notes
+        renamed = [f"{link} as {name}" for link, name in self.links.items() if link != name]
+        if renamed:
+            notes.append(f"links that SDF has no such names for are written otherwise ({join_names(renamed, 3)})")
+        heavy = {*self.inertials, *self.chain.light}
+        weightless = [name for link, name in self.links.items() if link not in heavy]
+        if weightless:
+            links = pluralize(len(weightless), "link")
+            notes.append(
+                f"{links} without a mass ({join_names(weightless, 3)}): Gazebo takes 1 kg, with moments of 1 kg m^2"
+            )
+        return tuple(notes)
+
+
+def _legal_name(name: str, taken: set[str]) -> str:
+    """A name that SDF allows: `::` parts scopes, and names between double underscores are its own."""
+    allowed = name.replace("::", "__")
+    if allowed.startswith("__") and allowed.endswith("__"):
+        allowed = f"link{allowed}"
+    return name if allowed == name else claim_name(allowed, taken)

@@ -1,1 +1,0 @@
-"""Making an SDF of an asset of another format."""

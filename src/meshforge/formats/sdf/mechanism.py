@@ -1,0 +1,241 @@
+"""Joints and masses of an SDF in the root frame, masses as the file says or as Gazebo computes them of collisions."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from meshforge.common import AssetError, MeshForgeError, join_names, pluralize
+from meshforge.formats.kinematic_tree import TENSOR_NAMES, tensor_of_moments
+from meshforge.formats.sdf.document import AXIS_IN_JOINT
+from meshforge.formats.sdf.frames import WORLD, ModelScope, is_true, read_values, text_of
+from meshforge.formats.sdf.models import ModelTree, SdfLinks, pose_in_link
+from meshforge.formats.xml import Element, parse_numbers
+from meshforge.geometry import Floats, Pose, inertia
+from meshforge.symbolic import Body, Geom, Inertial, Joint, JointKind, Opaque, unit_vector
+
+_KINDS: dict[str, tuple[JointKind, ...]] = {
+    "fixed": ("fixed",),
+    "revolute": ("revolute",),
+    "continuous": ("revolute",),
+    "screw": ("revolute",),
+    "prismatic": ("prismatic",),
+    "ball": ("ball",),
+    "universal": ("revolute", "revolute"),
+    "revolute2": ("revolute", "revolute"),
+}
+_ENDLESS = 1e15  # limits beyond mean none
+
+_DENSITY = 1000.0  # [kg/m^3], libsdformat's default
+_UNIT_TENSOR = (1.0, 0.0, 0.0, 1.0, 0.0, 1.0)
+
+
+@dataclass(slots=True)
+class SdfJoints:
+    """The joints, the body of the world where one holds on to it, and what a user should know."""
+
+    joints: list[Joint] = field(default_factory=list)
+    world: tuple[Body, ...] = ()
+    notes: list[str] = field(default_factory=list)
+
+
+def read_joints(composed: ModelTree, links: SdfLinks) -> SdfJoints:
+    """The joints of all models that make trees of their bodies; a note names those that would close rings."""
+    found = SdfJoints()
+    parents: dict[str, str] = {}
+    unknown: list[str] = []
+    closing: list[str] = []
+    for scope in composed.scopes():
+        for element in scope.element.each("joint"):
+            name = f"{scope.prefix}{element.attributes.get('name', '')}"
+            type_ = element.attributes.get("type", "")
+            parent, child = (_find_body(scope, text_of(element, role), links) for role in ("parent", "child"))
+            if type_ not in _KINDS or parent is None or child is None or child == WORLD or parent == child:
+                unknown.append(name)
+            elif child in parents or _is_below(parents, parent, child):
+                closing.append(name)
+            else:
+                parents[child] = parent
+                found.joints += _read_joint_parts(scope, element, name, parent, child, links)
+                if type_ == "screw":
+                    found.notes.append(f"joint {name!r} is a screw: it is taken for one that turns only")
+    if any(joint.parent == WORLD for joint in found.joints):
+        found.world = (Body(WORLD, Pose.identity()),)
+    for why, names in (("not understood", unknown), ("which would close a ring", closing)):
+        if names:
+            found.notes.append(f"{pluralize(len(names), 'joint')} passed over, {why} ({join_names(names, 3)})")
+    return found
+
+
+def _is_below(parents: dict[str, str], body: str, wanted: str) -> bool:
+    """Whether a body hangs, at any depth, on another."""
+    at: str | None = body
+    while at is not None:
+        if at == wanted:
+            return True
+        at = parents.get(at)
+    return False
+
+
+def _find_body(scope: ModelScope, name: str, links: SdfLinks) -> str | None:
+    """The body that a name in a joint stands for: a link, or what a frame moves with; None where it is not there."""
+    if name == WORLD:
+        return WORLD if WORLD not in links.by_body else None
+    seen = set()
+    at, rest = scope, name
+    while True:
+        try:
+            path = at.resolve(rest, "")
+        except AssetError:
+            return None
+        frame = path[-1] if path else None
+        inner = frame.inside if frame else at
+        if frame is not None and frame in seen:
+            return None
+        if inner is not None:  # a model: its first link, or the one it names
+            rest = inner.element.attributes.get("canonical_link", "") or next(iter(inner.links), "")
+            at = inner
+            if not rest:
+                return None
+        else:
+            assert frame is not None
+            if frame.link:
+                own = next(key for key, value in frame.scope.frames.items() if value is frame)
+                return f"{frame.scope.prefix}{own}"
+            at, rest = frame.scope, frame.attached
+        if frame is not None:
+            seen.add(frame)
+
+
+def _read_joint_parts(
+    scope: ModelScope, element: Element, name: str, parent: str, child: str, links: SdfLinks
+) -> Sequence[Joint]:
+    """The joints of a `<joint>`, one after another; its frame is that of the child unless it names another."""
+    type_ = element.attributes["type"]
+    own, where = element.attributes.get("name", ""), f"{scope.where}:{element.line}"
+    try:
+        pose = links.places.pose_of(scope, own, where) if own in scope.frames else links.by_body[child].pose
+    except AssetError:
+        pose = links.by_body[child].pose
+    kinds = _KINDS[type_]
+    found = []
+    for kind, tag in zip(kinds, ("axis", "axis2"), strict=False):
+        axis = element.first(tag)
+        limit, dynamics = (axis.first("limit"), axis.first("dynamics")) if axis else (None, None)
+        found.append(
+            Joint(
+                name if tag == "axis" else f"{name}_2",
+                kind,
+                parent,
+                child,
+                pose.translation,
+                _read_axis(scope, axis, pose, links),
+                _read_limits(limit) if kind in ("revolute", "prismatic") and type_ != "continuous" else None,
+                damping=_read_number(dynamics, "damping") or 0.0,
+                friction=_read_number(dynamics, "friction") or 0.0,
+                effort=_positive_or_none(_read_number(limit, "effort")),
+                velocity=_positive_or_none(_read_number(limit, "velocity")),
+            )
+        )
+    return found
+
+
+def _read_axis(scope: ModelScope, axis: Element | None, pose: Pose, links: SdfLinks) -> Floats:
+    """The direction (3,) of an axis in the root frame; given in the joint's frame, or the one that it names."""
+    xyz = axis.first("xyz") if axis else None
+    try:
+        direction = unit_vector(read_values(xyz, 3, "")) if xyz else None
+    except AssetError:
+        direction = None
+    turn = pose.rotation
+    if axis is not None and xyz is not None:
+        in_model = is_true(text_of(axis, "use_parent_model_frame", "1" if scope.version < AXIS_IN_JOINT else "0"))
+        frame = xyz.attributes.get("expressed_in", "") or ("__model__" if in_model else "")
+        if frame and scope.has(frame):
+            turn = links.places.pose_of(scope, frame, scope.where).rotation
+    return np.asarray(turn @ (np.array([0.0, 0.0, 1.0]) if direction is None else direction))
+
+
+def _read_limits(limit: Element | None) -> tuple[float, float] | None:
+    """The range; none where it is empty or has no end."""
+    lower, upper = _read_number(limit, "lower"), _read_number(limit, "upper")
+    low, high = -np.inf if lower is None else lower, np.inf if upper is None else upper
+    if not low < high or low <= -_ENDLESS or high >= _ENDLESS:
+        return None
+    return low, high
+
+
+def _positive_or_none(value: float | None) -> float | None:
+    """A largest effort or velocity; negative ones mean none."""
+    return value if value is not None and 0 < value < _ENDLESS else None
+
+
+def _read_number(parent: Element | None, tag: str) -> float | None:
+    found = parse_numbers(text_of(parent, tag))
+    return found[0] if found and len(found) == 1 else None
+
+
+def has_computed_mass(link: Element) -> bool:
+    """Whether the mass of a link is computed of its collisions (`<inertial auto="true">`)."""
+    inertial = link.first("inertial")
+    return inertial is not None and is_true(inertial.attributes.get("auto", ""))
+
+
+def read_masses(links: SdfLinks) -> Iterator[Inertial]:
+    """The masses that the file says; one that is not understood is left out, it never fails."""
+    for body, link in links.by_body.items():
+        element = link.element.first("inertial")
+        if element is None or has_computed_mass(link.element):
+            continue
+        mass = _number_or(element, "mass", 1.0)
+        if mass <= 0:
+            continue
+        try:
+            pose = pose_in_link(links.places, link, element)
+        except MeshForgeError:
+            pose = link.pose
+        tensor = element.first("inertia")
+        moments = [_number_or(tensor, name, one) for name, one in zip(TENSOR_NAMES, _UNIT_TENSOR, strict=True)]
+        yield Inertial(body, mass, pose.translation, pose.rotation @ tensor_of_moments(moments) @ pose.rotation.T)
+
+
+def compute_masses(
+    links: SdfLinks, elements: Mapping[str, Element], geoms: Sequence[Geom], opaque: Sequence[Opaque]
+) -> Iterator[Inertial]:
+    """The masses that Gazebo computes of collisions; none for a link with one that is no hull, of unknown volume.
+
+    elements: the `<collision>` of each hull by its name.
+    """
+    unknown = {piece.body for piece in opaque}
+    for body, link in links.by_body.items():
+        own = [geom for geom in geoms if geom.body == body]
+        if not has_computed_mass(link.element) or not own or body in unknown:
+            continue
+        inertial = link.element.first("inertial")
+        common = _number_or(inertial, "density", _DENSITY)
+        densities = [_number_or(elements[geom.name], "density", common) for geom in own]
+        found = _sum_inertias([(geom, density) for geom, density in zip(own, densities, strict=True) if density > 0])
+        if found is None:
+            continue
+        mass, centre, tensor = found
+        whole = _number_or(inertial, "mass", 0.0)  # from 1.12 on, what the link is to weigh in all
+        share = whole / mass if whole > 0 and link.scope.version >= (1, 12) else 1.0
+        yield Inertial(body, mass * share, centre, tensor * share)
+
+
+def _sum_inertias(parts: Sequence[tuple[Geom, float]]) -> tuple[float, np.ndarray, np.ndarray] | None:
+    """The mass, its centre and the inertia about it of shapes of given densities."""
+    if not parts:
+        return None
+    masses = np.array([density * geom.shape.volume for geom, density in parts])
+    total = float(masses.sum())
+    centre = masses / total @ np.array([geom.shape.centroid for geom, _ in parts])
+    tensors = [inertia([geom.shape], mass, centre)[1] for (geom, _), mass in zip(parts, masses, strict=True)]
+    return total, centre, np.sum(tensors, axis=0)
+
+
+def _number_or(parent: Element | None, tag: str, default: float) -> float:
+    found = _read_number(parent, tag)
+    return default if found is None else found

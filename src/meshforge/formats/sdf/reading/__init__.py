@@ -1,1 +1,0 @@
-"""Reading an SDF: models with what they include, frames, shapes, joints and masses."""

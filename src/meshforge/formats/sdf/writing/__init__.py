@@ -1,1 +1,0 @@
-"""Writing an edited SDF: each authored file with other collision elements."""

@@ -1,0 +1,195 @@
+"""Which prims of a stage collide, the bodies that they are part of, and the contact settings that a new prim
+inherits from them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Any
+
+from meshforge.formats.usd.document import BODY
+from meshforge.formats.usd.stage import UsdStage
+from meshforge.geometry import Pose
+from meshforge.symbolic import Body, unique_names
+
+COLLISION, MESH_COLLISION = "PhysicsCollisionAPI", "PhysicsMeshCollisionAPI"
+RIGID_BODY, TRIGGER = "PhysicsRigidBodyAPI", "PhysxTriggerAPI"
+DRAWN = "meshforgeDrawn"
+"""The custom data of a collider that a conversion shows, since the asset shows nothing."""
+
+_CONTACT_PREFIXES = ("physxcollision", "physxconvexhull", "newton", "mjc")
+_PHYSICS_MATERIAL = "material:binding:physics"
+
+_INHERITED = ("physics:", "physx", "newton:", "mjc:", "material:binding:physics")
+_NOT_INHERITED = (
+    *("physics:mass", "physics:centerOfMass", "physics:diagonalInertia", "physics:principalAxes"),
+    *("physics:velocity", "physics:angularVelocity", "physics:rigidBodyEnabled", "physics:kinematicEnabled"),
+    *("physics:startsAsleep", "physics:approximation", "physics:filteredPairs", "physxRigidBody", "physxArticulation"),
+    *("physxConvexDecomposition", "physxSDFMesh", "physxSphereFill", "physxTriangleMesh", "physxMeshMerge"),
+)
+_INHERITED_SCHEMAS = ("PhysxCollisionAPI", "PhysxConvexHullCollisionAPI", "NewtonCollisionAPI", "MjcCollisionAPI")
+_MATERIAL_BINDING = "material:binding"
+
+
+def has_physics(scene: UsdStage) -> bool:
+    """Whether any prim says that it collides or is a rigid body, switched off or not."""
+    return any(has_schema(prim, COLLISION) or has_schema(prim, RIGID_BODY) for prim in scene.prims())
+
+
+def has_schema(prim: Any, schema: str) -> bool:
+    """Whether an applied schema is on a prim, of a library that is not installed too."""
+    return schema in prim.GetPrimTypeInfo().GetAppliedAPISchemas()
+
+
+def is_collider(scene: UsdStage, prim: Any) -> bool:
+    """Whether a prim of a stage with physics collides: not switched off, and no trigger."""
+    if not has_schema(prim, COLLISION) or has_schema(prim, TRIGGER):
+        return False
+    enabled = scene.get(prim.GetAttribute("physics:collisionEnabled"))
+    return enabled is not False
+
+
+def is_drawn(prim: Any) -> bool:
+    """Whether a prim that renders is nothing but its own collision, drawn since nothing else was."""
+    return bool(prim.GetCustomDataByKey(DRAWN))
+
+
+def is_seen(scene: UsdStage, prim: Any) -> bool:
+    """Whether a prim is geometry that renders: visible, and of the default or the render purpose."""
+    from pxr import UsdGeom  # lazy: an optional package, and 0.3 s
+
+    if not prim.IsA(UsdGeom.Gprim) or is_drawn(prim):
+        return False
+    image = UsdGeom.Imageable(prim)
+    return image.ComputePurpose() in ("default", "render") and image.ComputeVisibility(scene.time) != "invisible"
+
+
+def body_of(scene: UsdStage, prim: Any) -> Any:
+    """The nearest rigid body at or above a prim, None where there is none that is switched on."""
+    while prim and not prim.IsPseudoRoot():
+        if has_schema(prim, RIGID_BODY):
+            return prim if scene.get(prim.GetAttribute("physics:rigidBodyEnabled")) is not False else None
+        prim = prim.GetParent()
+    return None
+
+
+def instances_around(prim: Any) -> Any:
+    """The instances that a prim is in, the outermost first, none where it is in none."""
+    found = []
+    prim = prim.GetParent()
+    while prim and not prim.IsPseudoRoot():
+        if prim.IsInstance():
+            found.append(prim)
+        prim = prim.GetParent()
+    return found[::-1]
+
+
+class StageBodies:
+    """The rigid bodies of a stage by path, in its order; used: whether the body of all else is needed."""
+
+    def __init__(self, scene: UsdStage, physics: bool) -> None:
+        self.scene = scene
+        found = [prim for prim in scene.prims() if physics and _is_body(scene, prim)]
+        self.prims: dict[str, Any] = {str(prim.GetPath()): prim for prim in found}
+        names = unique_names([BODY, *(scene.shorten_path(path) for path in self.prims)])[1:]
+        self.names = dict(zip(self.prims, names, strict=True))
+        self.used = not self.prims
+
+    def of(self, prim: Any) -> str:
+        """The name of the body that a prim is part of."""
+        own = body_of(self.scene, prim)
+        path = str(own.GetPath()) if own else ""
+        self.used |= path not in self.names
+        return self.names.get(path, BODY)
+
+    def of_joint(self, prim: Any) -> str:
+        """The name of the body that a joint holds by a prim; it does not count as used, since it may show nothing."""
+        own = body_of(self.scene, prim)
+        return self.names.get(str(own.GetPath()), BODY) if own else BODY
+
+    def list_bodies(self) -> tuple[Body, ...]:
+        """The body of the root frame where something is part of it, then the rigid ones."""
+        fixed = [Body(BODY, Pose.identity())] if self.used else []
+        return (*fixed, *(Body(self.names[path], self.scene.pose(prim)) for path, prim in self.prims.items()))
+
+    def hull_name(self, path: str, body: str) -> str:
+        """The name of what a prim collides with: its path below its body, after the body's name where there are any."""
+        of_body = next((own for own, name in self.names.items() if name == body), "")
+        own = self.scene.shorten_path(path, of_body)
+        return f"{body}/{own}" if self.names else own
+
+
+def _is_body(scene: UsdStage, prim: Any) -> bool:
+    own = body_of(scene, prim)
+    return own is not None and own == prim
+
+
+def contact_attributes(prim: Any) -> tuple[tuple[str, str], ...]:
+    """Names and values of what is authored on a prim, its physics material by path, in order of name."""
+    found = {}
+    for attribute in prim.GetAuthoredAttributes():
+        name = attribute.GetName()
+        if name.lower().startswith(_CONTACT_PREFIXES) and attribute.Get() is not None:
+            found[name] = str(attribute.Get())
+    material = physics_material(prim)
+    if material:
+        found[_PHYSICS_MATERIAL] = str(material.GetPath())
+    return tuple(sorted(found.items()))
+
+
+def physics_material(prim: Any) -> Any:
+    """The material that a prim is bound to for physics, itself or from above; None where it is bound to none."""
+    from pxr import UsdShade  # lazy: an optional package, and 0.3 s
+
+    material, relationship = UsdShade.MaterialBindingAPI(prim).ComputeBoundMaterial("physics")
+    return material.GetPrim() if material and relationship else None
+
+
+def inherit_contact(spec: Any, prim: Any) -> None:
+    """Author on a new prim what another one says of its contacts."""
+    names = [
+        p for p in prim.GetAuthoredPropertyNames() if p.startswith(_INHERITED) and not p.startswith(_NOT_INHERITED)
+    ]
+    if _has_physics_material(prim):
+        names.append(_MATERIAL_BINDING)
+    schemas = [name for name in prim.GetPrimTypeInfo().GetAppliedAPISchemas() if name in _INHERITED_SCHEMAS]
+    if "physics:density" in names:
+        schemas.append("PhysicsMassAPI")
+    if any(name.startswith(_MATERIAL_BINDING) for name in names):
+        schemas.append("MaterialBindingAPI")
+    for name in names:
+        _copy_property(spec, prim.GetProperty(name))
+    apply_schemas(spec, schemas)
+
+
+def _has_physics_material(prim: Any) -> bool:
+    """Whether the plain material binding of a prim leads to a material with physics."""
+    targets = prim.GetRelationship(_MATERIAL_BINDING).GetTargets() if prim.HasRelationship(_MATERIAL_BINDING) else []
+    materials = [prim.GetStage().GetPrimAtPath(path) for path in targets]
+    return any(m and "PhysicsMaterialAPI" in m.GetPrimTypeInfo().GetAppliedAPISchemas() for m in materials)
+
+
+def _copy_property(spec: Any, source: Any) -> None:
+    from pxr import Sdf, Usd  # lazy: an optional package, and 0.3 s
+
+    if isinstance(source, Usd.Relationship):
+        made = Sdf.RelationshipSpec(spec, source.GetName(), source.IsCustom())
+        made.targetPathList.explicitItems = source.GetTargets()
+    elif source.Get() is not None:
+        kind = source.GetTypeName()
+        made = Sdf.AttributeSpec(spec, source.GetName(), kind, source.GetVariability(), source.IsCustom())
+        made.default = source.Get()
+
+
+def apply_schemas(spec: Any, names: Iterable[str]) -> None:
+    """Put applied schemas before those that a spec prepends already."""
+    from pxr import Sdf  # lazy: an optional package, and 0.3 s
+
+    old = spec.GetInfo("apiSchemas") if spec.HasInfo("apiSchemas") else Sdf.TokenListOp()
+    wanted = [name for name in dict.fromkeys(names) if name not in old.GetAddedOrExplicitItems()]
+    if old.isExplicit:
+        old.explicitItems = [*old.explicitItems, *wanted]
+    else:
+        old.prependedItems = [*old.prependedItems, *wanted]
+        old.deletedItems = [item for item in old.deletedItems if item not in wanted]
+    if wanted:
+        spec.SetInfo("apiSchemas", old)

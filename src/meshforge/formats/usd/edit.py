@@ -1,0 +1,231 @@
+"""Writing an edited USD file: the authored bytes where nothing changed, else its root layer with the edit, in which
+bodies keep their masses."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping, Sequence
+from pathlib import Path, PurePosixPath
+from typing import Any
+
+import numpy as np
+
+from meshforge.common import AssetError
+from meshforge.formats.base import Mass, Output, note_renames
+from meshforge.formats.collision_meshes import change_error, refuse_changed_files
+from meshforge.formats.collision_pieces import CollisionPiece, names_to_keep, new_hulls
+from meshforge.formats.usd.colliders import StageBodies, physics_material
+from meshforge.formats.usd.document import UsdDocument, export_layer, is_crate, is_crate_wanted, pack_usdz, unpack_usdz
+from meshforge.formats.usd.edit_stage import UsdEdit
+from meshforge.formats.usd.layer_text import has_comments, patch_layer
+from meshforge.formats.usd.mechanism import centre_of, moments_of, read_number
+from meshforge.formats.usd.prims import PrimSpace, write_mass
+from meshforge.formats.usd.read import PrimCollision, read_collisions
+from meshforge.formats.usd.stage import UsdStage, usd
+from meshforge.geometry import Floats, Polytope, Shape, inertia, is_closed
+from meshforge.symbolic import Asset, Inertial
+
+PACKAGE_SUFFIX = ".usdz"
+LAYER_SUFFIXES = (".usd", ".usda", ".usdc")
+
+_DENSITY = 1000.0  # [kg/m^3], where nothing says another one
+
+
+def write_usd(asset: Asset, document: UsdDocument, name: str, mass: Mass) -> Output:
+    """The files of an asset that was read from a USD file; without an edit, its own bytes.
+
+    Raises AssetError: a file changed since the asset was read, or the edit cannot be made in its root layer.
+    """
+    suffix = PurePosixPath(name).suffix.lower()
+    known = {piece for element in document.authored for piece in element.names}
+    edited = not known <= names_to_keep(asset) or bool(new_hulls(asset, known))
+    copies, far = _list_copies(asset)
+    if not edited and suffix == asset.path.suffix.lower():
+        return Output(document.source, copies=copies, notes=tuple(far))
+    _refuse_changed(asset, document)
+    with usd(str(asset.path)):
+        from pxr import Sdf  # lazy: an optional package, and 0.3 s
+
+        scene = UsdStage.open(asset.path)
+        layer = Sdf.Layer.CreateAnonymous(".usda")
+        layer.TransferContent(scene.stage.GetRootLayer())
+        notes, names = list(far), dict[str, str]()
+        if edited:
+            bodies = StageBodies(scene, document.physics)
+            sources = list(read_collisions(scene, bodies, document.physics, []))
+            edit = UsdEdit(scene, bodies, document, layer)
+            edit.run(asset, sources)
+            if mass == "keep":
+                notes += keep_masses(edit, sources)
+            notes += [*edit.notes, *note_renames(edit.names)]
+            names = edit.names
+        return _build_output(layer, scene.stage.GetRootLayer(), asset, document, name, copies, notes, names)
+
+
+def _layer_text(layer: Any, original: Any, source: bytes, notes: list[str]) -> bytes:
+    """A layer as text: the authored one with the edit where that can be done, else as the library writes it."""
+    from pxr import Sdf, Tf  # lazy: an optional package, and 0.3 s
+
+    after = layer.ExportToString()
+    if is_crate(source):
+        return bytes(after.encode())
+    text = source.decode("utf-8", "replace")
+    made = patch_layer(text, original.ExportToString(), after)
+    if made is not None and "\ufffd" not in text:
+        check = Sdf.Layer.CreateAnonymous(".usda")
+        try:
+            if check.ImportFromString(made) and check.ExportToString() == after:
+                return made.encode()
+        except Tf.ErrorException:
+            pass
+    if has_comments(text):
+        notes.append("comments in its text are not kept")
+    return bytes(after.encode())
+
+
+def _build_output(
+    layer: Any,
+    original: Any,
+    asset: Asset,
+    document: UsdDocument,
+    name: str,
+    copies: Mapping[str, Path],
+    notes: list[str],
+    names: dict[str, str],
+) -> Output:
+    """The files of an edited root layer, in the form that a name asks for."""
+    suffix, was_package = PurePosixPath(name).suffix.lower(), asset.path.suffix.lower() == PACKAGE_SUFFIX
+    inside = unpack_usdz(document.source) if was_package else {}
+    first = next(iter(inside), "")
+    root = inside.pop(first) if first else document.source
+    if suffix != PACKAGE_SUFFIX:
+        crate = is_crate_wanted(suffix, root)
+        main = export_layer(layer, crate=True) if crate else _layer_text(layer, original, root, notes)
+        return Output(main, inside, dict(copies), tuple(notes), names)
+    if not was_package:
+        inside, first = _read_files_beside(copies, asset), f"{PurePosixPath(name).stem}.usdc"
+    crate = is_crate_wanted(PurePosixPath(first).suffix.lower(), root)
+    main = export_layer(layer, crate=True) if crate else _layer_text(layer, original, root, notes)
+    return Output(pack_usdz({first: main, **inside}), {}, dict(copies) if was_package else {}, tuple(notes), names)
+
+
+def _read_files_beside(copies: Mapping[str, Path], asset: Asset) -> dict[str, bytes]:
+    """The files that go into a package. Raises AssetError: one lies outside of the folder."""
+    for place in copies:
+        if place.startswith(".."):
+            raise AssetError(
+                f"it refers to {place}, outside of its folder, which no package can hold",
+                where=str(asset.path),
+                remedy="Write another kind of USD file, or move that file.",
+            )
+    return {place: path.read_bytes() for place, path in copies.items()}
+
+
+def _list_copies(asset: Asset) -> tuple[dict[str, Path], list[str]]:
+    """The files that go along, by their place beside the main one; notes on those that stay where they are."""
+    folder = Path(os.path.normpath(asset.path.absolute())).parent
+    copies: dict[str, Path] = {}
+    notes: list[str] = []
+    outside = [file for file in asset.files if not file.is_relative_to(folder)]
+    absolute = _find_absolute_references(asset) if outside else frozenset()
+    for file in asset.files:
+        if file in absolute:
+            notes.append(f"{file.name} is referred to by an absolute path: it is used where it is, not copied")
+        else:
+            copies[Path(os.path.relpath(file, folder)).as_posix()] = file
+    return copies, notes
+
+
+def _find_absolute_references(asset: Asset) -> frozenset[Path]:
+    """The files that the layers of an asset refer to by absolute paths."""
+    with usd(str(asset.path)):
+        from pxr import UsdUtils  # lazy: an optional package, and 0.3 s
+
+        layers = [asset.path, *(file for file in asset.files if file.suffix.lower() in LAYER_SUFFIXES)]
+        texts = [text for layer in layers for kind in UsdUtils.ExtractExternalReferences(str(layer)) for text in kind]
+    return frozenset(Path(os.path.normpath(text)) for text in texts if Path(text).is_absolute())
+
+
+def _refuse_changed(asset: Asset, document: UsdDocument) -> None:
+    """Raise AssetError where the root layer, or one beside it, is not what it was when the asset was read."""
+    refuse_changed_files(document.digests, str(asset.path))
+    if not asset.path.is_file() or asset.path.read_bytes() != document.source:
+        raise change_error(asset.path.name, str(asset.path))
+
+
+def keep_masses(edit: UsdEdit, sources: Sequence[PrimCollision]) -> list[str]:
+    """Author the masses of the bodies that an edit changed, where they came from colliders; notes on those unknown."""
+    from pxr import Sdf  # lazy: an optional package, and 0.3 s
+
+    notes = []
+    for path, name in edit.bodies.names.items():
+        prim = edit.bodies.prims[path]
+        if name not in edit.changed or _has_full_mass(edit.scene, prim):
+            continue
+        found = weigh(edit.scene, prim, name, [source for source in sources if source.body == name])
+        if found is None:
+            notes.append(f"the mass of {name!r} is left to its colliders: of one of them the volume is not known")
+        else:
+            spec, space = Sdf.CreatePrimInLayer(edit.layer, path), PrimSpace(*edit.scene.placement(prim))
+            write_mass(spec, found, space, edit.scene.metres, edit.scene.kilograms)
+    return notes
+
+
+def weigh(scene: UsdStage, prim: Any, body: str, sources: Sequence[PrimCollision]) -> Inertial | None:
+    """What a body weighs by all that its stage says, colliders included; None where a volume is not known."""
+    pieces = [(source, _solids_of(source.parts)) for source in sources]
+    solids = [(source, shapes) for source, shapes in pieces if shapes]
+    if not solids or any(shapes is None for _, shapes in pieces):
+        return None
+    masses = [_mass_of(scene, prim, source, shapes) for source, shapes in solids]
+    weights = [(*inertia(shapes, mass), mass) for (_, shapes), mass in zip(solids, masses, strict=True)]
+    total = sum(mass for _, _, mass in weights)
+    said = read_number(scene, prim, "physics:mass")
+    mass = said * scene.kilograms if said is not None and said > 0 else total
+    factor = mass / total
+    middle: Floats = np.sum([centre * mass for centre, _, mass in weights], axis=0) / total
+    centre, moments = centre_of(scene, prim), moments_of(scene, prim)
+    if centre is None:
+        centre = middle
+    if moments is None:
+        moments = factor * sum((_shift_inertia(own, mass, at - centre) for at, own, mass in weights), np.zeros((3, 3)))
+    return Inertial(body, mass, centre, moments)
+
+
+def _has_full_mass(scene: UsdStage, prim: Any) -> bool:
+    """Whether a body says its mass, centre and inertia itself."""
+    mass = read_number(scene, prim, "physics:mass") or 0.0
+    return mass > 0 and centre_of(scene, prim) is not None and moments_of(scene, prim) is not None
+
+
+def _solids_of(parts: Sequence[CollisionPiece]) -> list[Shape] | None:
+    """The solids of a prim's pieces, of closed non-convex ones too; None where one has no volume that is known."""
+    found: list[Shape] = []
+    for part in parts:
+        if part.shape is not None:
+            found.append(part.shape)
+        elif part.surface is not None and len(part.surface.faces) and is_closed(part.surface.faces):
+            found.append(Polytope(part.surface.vertices, part.surface.faces))
+        else:
+            return None
+    return found if all(shape.volume > 0 for shape in found) else None
+
+
+def _mass_of(scene: UsdStage, body: Any, source: PrimCollision, shapes: Sequence[Shape]) -> float:
+    """The mass [kg] of a collider: its own, else by density, its own, its body's or its material's."""
+    volume = sum(shape.volume for shape in shapes)
+    own = read_number(scene, source.prim, "physics:mass") if source.prim != body else None
+    if own is not None and own > 0:
+        return own * scene.kilograms
+    material = physics_material(source.prim)
+    for prim in (source.prim, body, *([material] if material else [])):
+        density = read_number(scene, prim, "physics:density")
+        if density is not None and density > 0:
+            return volume * density * scene.kilograms / scene.metres**3
+    return volume * _DENSITY
+
+
+def _shift_inertia(own: Floats, mass: float, by: Floats) -> Floats:
+    """An inertia (3, 3) about a point that is so far (3,) from the centre."""
+    moved: Floats = own + mass * (by @ by * np.eye(3) - np.outer(by, by))
+    return moved

@@ -1,0 +1,98 @@
+"""The format USD as the registry has it, what a stage can hold, and what one holds besides hulls, bodies, joints,
+masses and visuals."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterable, Iterator, Mapping
+from pathlib import Path
+from typing import Any, ClassVar, Literal
+
+from meshforge.common import AssetError
+from meshforge.formats.base import BODY_FEATURES, SCENE_FEATURES, Format, Mass, Output, ReadOptions, feature_of_tags
+from meshforge.formats.usd.create import create_usd
+from meshforge.formats.usd.document import UsdDocument
+from meshforge.formats.usd.edit import write_usd
+from meshforge.formats.usd.read import read_usd
+from meshforge.formats.usd.stage import UsdStage, usd
+from meshforge.symbolic import Asset, Feature, FeatureKind
+
+_TYPES = {
+    "Material": FeatureKind.MATERIALS,
+    "Camera": FeatureKind.CAMERAS,
+    "SkelRoot": FeatureKind.SKINS,
+    "PhysicsScene": FeatureKind.SETTINGS,
+    "PhysicsCollisionGroup": FeatureKind.PAIRS,
+    "PhysicsDistanceJoint": FeatureKind.OTHERS,
+}
+_LIGHTS = "Light"
+
+
+class UsdFormat(Format):
+    """Universal Scene Description, as text (.usda), crate (.usdc), either (.usd) or a package (.usdz)."""
+
+    name: ClassVar[str] = "usd"
+    title: ClassVar[str] = "USD"
+    suffixes: ClassVar[tuple[str, ...]] = (".usda", ".usd", ".usdc", ".usdz")
+    up: ClassVar[Literal["y", "z"] | None] = "z"
+    holds = BODY_FEATURES | {
+        *(FeatureKind.CAPSULES, FeatureKind.OPAQUE, FeatureKind.PLANES),
+        *(FeatureKind.JOINTS, FeatureKind.BALL_JOINTS, FeatureKind.FIXED_JOINTS),
+    }
+    could = SCENE_FEATURES | {
+        *(FeatureKind.VERTEX_COLORS, FeatureKind.TEXTURE_COORDINATES, FeatureKind.PAIRS, FeatureKind.ACTUATORS),
+        *(FeatureKind.DYNAMICS, FeatureKind.ANIMATIONS, FeatureKind.SKINS, FeatureKind.COMMENTS),
+    }
+    instead: ClassVar[Mapping[FeatureKind, str]] = {FeatureKind.ELLIPSOIDS: "written as triangles"}
+
+    def read(self, path: Path, options: ReadOptions) -> Asset:
+        return read_usd(path)
+
+    def write(self, asset: Asset, name: str, mass: Mass = "keep") -> Output:
+        if not isinstance(asset.document, UsdDocument):
+            raise AssetError("this asset was not read from a USD file", where=str(asset.path))
+        return write_usd(asset, asset.document, name, mass)
+
+    def create(self, asset: Asset, name: str) -> Output:
+        return create_usd(asset, name)
+
+    def features(self, asset: Asset) -> Iterable[Feature]:
+        return features_of(asset) if isinstance(asset.document, UsdDocument) else ()
+
+
+def features_of(asset: Asset) -> list[Feature]:
+    """The features of a USD file that its asset does not have."""
+    with usd(str(asset.path)):
+        return list(_list_features(UsdStage.open(asset.path)))
+
+
+def _list_features(scene: UsdStage) -> Iterator[Feature]:
+    found: dict[FeatureKind, list[str]] = {}
+    count: Counter[FeatureKind] = Counter()
+    for prim in scene.prims():
+        what = _TYPES.get(str(prim.GetTypeName()))
+        if what is None and str(prim.GetTypeName()).endswith(_LIGHTS):
+            what = FeatureKind.LIGHTS
+        if what is not None:
+            found.setdefault(what, []).append(prim.GetName())
+        count.update(_features_of_attributes(prim))
+    for what, names in found.items():
+        yield feature_of_tags(what, names)
+    for what, number in count.items():
+        yield Feature(what, unnamed=number)
+
+
+def _features_of_attributes(prim: Any) -> Iterator[FeatureKind]:
+    """What the attributes of a prim are, each kind once."""
+    attributes = prim.GetAuthoredAttributes()
+    if any(attribute.GetNumTimeSamples() > 1 for attribute in attributes):
+        yield FeatureKind.ANIMATIONS
+    names = {attribute.GetName() for attribute in attributes}
+    if prim.GetTypeName() == "Shader" and prim.GetAttribute("info:id").Get() == "UsdUVTexture":
+        yield FeatureKind.TEXTURES
+    if "primvars:st" in names:
+        yield FeatureKind.TEXTURE_COORDINATES
+    if any("physics:dynamicFriction" in name or name.startswith("physxMaterial") for name in names):
+        yield FeatureKind.CONTACT
+    if any(name.startswith("drive:") for name in names):
+        yield FeatureKind.ACTUATORS

@@ -1,1 +1,0 @@
-"""A stage of an asset of another format."""

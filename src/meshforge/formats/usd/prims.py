@@ -1,0 +1,248 @@
+"""Prims as specs of a layer: shapes, meshes, joints and masses, in the space that they are put in."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from meshforge.formats.kinematic_tree import drop_rounding, perpendicular_to
+from meshforge.formats.usd.colliders import COLLISION, DRAWN, MESH_COLLISION, apply_schemas
+from meshforge.formats.usd.stage import rotation_of
+from meshforge.geometry import Box, Capsule, Cylinder, Floats, Ints, Pose, Shape, Sphere, principal_axes
+from meshforge.symbolic import Inertial, Joint, JointKind
+
+_SHEAR = 1e-9
+_EVEN = 1e-9
+_NOT_IN_NAMES = re.compile(r"[^\w]+")
+
+_JOINT_TYPES: dict[JointKind, str] = {
+    "fixed": "PhysicsFixedJoint",
+    "revolute": "PhysicsRevoluteJoint",
+    "prismatic": "PhysicsPrismaticJoint",
+    "ball": "PhysicsSphericalJoint",
+    "planar": "PhysicsJoint",
+    "floating": "PhysicsJoint",
+}
+_LOCKED = ("transZ", "rotX", "rotY")  # of a planar joint, whose normal is Z
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class PrimSpace:
+    """The space that a prim is put in: its map (3, 3), (3,) to the root frame in metres."""
+
+    linear: Floats
+    offset: Floats
+
+    def to_local(self, points: Floats) -> Floats:
+        """Points (n, 3) of the root frame in this space."""
+        return np.asarray(np.linalg.solve(self.linear, (points - self.offset).T).T)
+
+    def split_pose(self, pose: Pose) -> tuple[Floats, Floats, Floats] | None:
+        """A pose of the root frame here: translation (3,), rotation (3, 3), scales (3,); None where it would shear."""
+        linear = np.linalg.solve(self.linear, pose.rotation)
+        scales = np.linalg.norm(linear, axis=0)
+        turn = linear / scales
+        if np.abs(turn.T @ turn - np.eye(3)).max() > _SHEAR:
+            return None
+        if np.linalg.det(turn) < 0:  # the shapes that ask are symmetric
+            turn = turn * np.array([1.0, 1.0, -1.0])
+        return self.to_local(pose.translation[None])[0], turn, scales
+
+
+def add_prim(holder: Any, name: str, kind: str) -> Any:
+    """A new prim in a layer below the spec of another one, under a name that no child of it has."""
+    from pxr import Sdf  # lazy: an optional package, and 0.3 s
+
+    return Sdf.PrimSpec(holder, name, Sdf.SpecifierDef, kind)
+
+
+def free_prim_name(wanted: str, taken: Iterable[str]) -> str:
+    """An identifier like the wanted name that is not taken."""
+    plain = _NOT_IN_NAMES.sub("_", wanted).strip("_") or "hull"
+    if plain[0].isdigit():
+        plain = f"_{plain}"
+    used, name, number = set(taken), plain, 2
+    while name in used:
+        name, number = f"{plain}_{number}", number + 1
+    return name
+
+
+def set_value(spec: Any, name: str, kind: str, default: Any, *, uniform: bool = False) -> None:
+    """Author an attribute of a type of `Sdf.ValueTypeNames`."""
+    from pxr import Sdf  # lazy: an optional package, and 0.3 s
+
+    variability = Sdf.VariabilityUniform if uniform else Sdf.VariabilityVarying
+    value_type = getattr(Sdf.ValueTypeNames, kind)
+    attribute = spec.attributes.get(name) or Sdf.AttributeSpec(spec, name, value_type, variability)
+    attribute.default = default
+
+
+def set_place(spec: Any, translation: Floats, rotation: Floats | None = None, scales: Floats | None = None) -> None:
+    """Author where a prim is, in the order translate, orient, scale; what is none is left out."""
+    from pxr import Gf  # lazy: an optional package, and 0.3 s
+
+    order = []
+    at = drop_rounding(translation)
+    if at.any():
+        set_value(spec, "xformOp:translate", "Double3", Gf.Vec3d(*at.tolist()))
+        order.append("xformOp:translate")
+    if rotation is not None and not np.array_equal(drop_rounding(rotation), np.eye(3)):
+        w, x, y, z = Pose(rotation, np.zeros(3)).to_quaternion().tolist()
+        set_value(spec, "xformOp:orient", "Quatd", Gf.Quatd(w, x, y, z))
+        order.append("xformOp:orient")
+    if scales is not None and not np.array_equal(scales, np.ones(3)):
+        set_value(spec, "xformOp:scale", "Double3", Gf.Vec3d(*scales.tolist()))
+        order.append("xformOp:scale")
+    if order:
+        set_value(spec, "xformOpOrder", "TokenArray", order, uniform=True)
+
+
+def add_native(holder: Any, name: str, shape: Shape, space: PrimSpace) -> Any | None:
+    """The prim of a box, sphere, cylinder or capsule; None where USD lacks the shape, or would shear it here."""
+    if not isinstance(shape, Box | Sphere | Cylinder | Capsule):
+        return None
+    found = space.split_pose(shape.pose)
+    if found is None:
+        return None
+    at, turn, scales = found
+    even = np.ptp(scales) <= _EVEN * scales.max()
+    factor, left = (float(scales.mean()), np.ones(3)) if even else (1.0, scales)
+    if isinstance(shape, Box):
+        return _add_cube(add_prim(holder, name, "Cube"), at, turn, 2 * shape.half * (factor * left))
+    kind = type(shape).__name__
+    spec = add_prim(holder, name, kind)
+    set_place(spec, at, turn, left)
+    radius = shape.radius * factor
+    set_value(spec, "radius", "Double", radius)
+    half = radius
+    if not isinstance(shape, Sphere):
+        half = shape.half_length * factor
+        set_value(spec, "height", "Double", 2 * half)
+        set_value(spec, "axis", "Token", "Z", uniform=True)
+        half += radius if isinstance(shape, Capsule) else 0.0
+    _set_extent(spec, np.array([-radius, -radius, -half]), np.array([radius, radius, half]))
+    return spec
+
+
+def add_mesh(holder: Any, name: str, points: Floats, faces: Ints, space: PrimSpace) -> Any:
+    """The prim of triangles (m, 3) on points (n, 3) of the root frame, about their middle, where floats are finest."""
+    from pxr import Vt  # lazy: an optional package, and 0.3 s
+
+    local = space.to_local(points)
+    middle = (local.min(axis=0) + local.max(axis=0)) / 2
+    spec = add_prim(holder, name, "Mesh")
+    set_place(spec, middle)
+    middle = np.where(drop_rounding(middle) == 0, 0.0, middle)
+    flipped = np.linalg.det(space.linear) < 0
+    corners = np.ascontiguousarray(faces[:, ::-1] if flipped else faces, dtype=np.int32)
+    floats = np.ascontiguousarray(local - middle, dtype=np.float32)
+    set_value(spec, "points", "Point3fArray", Vt.Vec3fArray.FromNumpy(floats))
+    set_value(spec, "faceVertexCounts", "IntArray", Vt.IntArray.FromNumpy(np.full(len(corners), 3, dtype=np.int32)))
+    set_value(spec, "faceVertexIndices", "IntArray", Vt.IntArray.FromNumpy(corners.reshape(-1)))
+    set_value(spec, "subdivisionScheme", "Token", "none", uniform=True)
+    _set_extent(spec, floats.min(axis=0), floats.max(axis=0))
+    return spec
+
+
+def mark_collider(spec: Any, approximation: str | None, *, drawn: bool = False) -> None:
+    """Make a prim collide, and be hidden unless it is to be drawn; approximation: of a mesh."""
+    apply_schemas(spec, [COLLISION, *([MESH_COLLISION] if approximation else [])])
+    if approximation:
+        set_value(spec, "physics:approximation", "Token", approximation, uniform=True)
+    if drawn:
+        spec.SetInfoDictionaryValue("customData", DRAWN, True)
+    else:
+        set_value(spec, "purpose", "Token", "guide", uniform=True)
+
+
+def _add_cube(spec: Any, at: Floats, turn: Floats, sides: Floats) -> Any:
+    even = np.ptp(sides) <= _EVEN * sides.max()
+    size, scales = (float(sides.mean()), None) if even else (1.0, sides)
+    set_place(spec, at, turn, scales)
+    set_value(spec, "size", "Double", size)
+    _set_extent(spec, np.full(3, -size / 2), np.full(3, size / 2))
+    return spec
+
+
+def _set_extent(spec: Any, low: Floats, high: Floats) -> None:
+    from pxr import Gf, Vt  # lazy: an optional package, and 0.3 s
+
+    set_value(spec, "extent", "Float3Array", Vt.Vec3fArray([Gf.Vec3f(*map(float, low)), Gf.Vec3f(*map(float, high))]))
+
+
+def add_joint(holder: Any, name: str, joint: Joint, paths: dict[str, str], poses: dict[str, Pose]) -> Any:
+    """The prim of a joint; paths, poses: of the links, the world being none of them."""
+    spec = add_prim(holder, name, _JOINT_TYPES[joint.kind])
+    axis, frame = _joint_frame(joint, poses[joint.child])
+    for side, body in enumerate((joint.parent, joint.child)):
+        _add_end(spec, side, paths.get(body), poses.get(body, Pose.identity()).inverse() @ frame)
+    if joint.kind in ("revolute", "prismatic", "ball"):
+        set_value(spec, "physics:axis", "Token", axis, uniform=True)
+    if joint.limits and joint.kind in ("revolute", "prismatic"):
+        low, high = (float(np.degrees(end)) if joint.kind == "revolute" else end for end in joint.limits)
+        set_value(spec, "physics:lowerLimit", "Float", low)
+        set_value(spec, "physics:upperLimit", "Float", high)
+    _add_drive(spec, joint)
+    if joint.kind == "planar":
+        apply_schemas(spec, [f"PhysicsLimitAPI:{freedom}" for freedom in _LOCKED])
+        for freedom in _LOCKED:
+            set_value(spec, f"limit:{freedom}:physics:low", "Float", 1.0)
+            set_value(spec, f"limit:{freedom}:physics:high", "Float", -1.0)
+    return spec
+
+
+def _joint_frame(joint: Joint, child: Pose) -> tuple[str, Pose]:
+    """The axis of a joint, and root_T_joint: the frame of its child where the axis is one of that frame's."""
+    local = drop_rounding(child.rotation.T @ joint.axis)
+    for name, unit in zip("XYZ", np.eye(3), strict=True):
+        if joint.kind not in ("planar", "floating") and np.allclose(local, unit, atol=1e-9):
+            return name, Pose(child.rotation, joint.anchor)
+    side = perpendicular_to(local)
+    turn = np.column_stack([side, np.cross(local, side), local])  # takes Z onto the axis
+    return "Z", Pose(child.rotation @ turn, joint.anchor)
+
+
+def _add_end(spec: Any, side: int, path: str | None, pose: Pose) -> None:
+    """One end of a joint: the body, none for the world, and the frame of the joint there."""
+    from pxr import Gf, Sdf  # lazy: an optional package, and 0.3 s
+
+    if path is not None:
+        target = Sdf.RelationshipSpec(spec, f"physics:body{side}", False)
+        target.targetPathList.explicitItems = [Sdf.Path(path)]
+    w, x, y, z = pose.to_quaternion().tolist()
+    set_value(spec, f"physics:localPos{side}", "Point3f", Gf.Vec3f(*drop_rounding(pose.translation, 1.0).tolist()))
+    set_value(spec, f"physics:localRot{side}", "Quatf", Gf.Quatf(w, x, y, z))
+
+
+def _add_drive(spec: Any, joint: Joint) -> None:
+    """Damping and the largest effort of a joint, by a drive that aims at rest."""
+    if joint.kind not in ("revolute", "prismatic") or not (joint.damping or joint.effort):
+        return
+    drive, unit = ("angular", np.pi / 180) if joint.kind == "revolute" else ("linear", 1.0)
+    apply_schemas(spec, [f"PhysicsDriveAPI:{drive}"])
+    set_value(spec, f"drive:{drive}:physics:type", "Token", "force", uniform=True)
+    if joint.damping:
+        set_value(spec, f"drive:{drive}:physics:damping", "Float", joint.damping * unit)
+    if joint.effort:
+        set_value(spec, f"drive:{drive}:physics:maxForce", "Float", joint.effort)
+
+
+def write_mass(spec: Any, inertial: Inertial, body: PrimSpace, metres: float = 1.0, kilograms: float = 1.0) -> None:
+    """Write a mass on the prim of a body, in its own space and in the units of the stage: so many [m], [kg]."""
+    from pxr import Gf  # lazy: an optional package, and 0.3 s
+
+    centre = drop_rounding(body.to_local(inertial.centre[None])[0], 1.0)
+    turn = rotation_of(body.linear).T
+    moments, axes = principal_axes(drop_rounding(turn @ inertial.inertia @ turn.T))
+    moments = moments / (kilograms * metres**2)
+    apply_schemas(spec, ["PhysicsMassAPI"])
+    set_value(spec, "physics:mass", "Float", inertial.mass / kilograms)
+    set_value(spec, "physics:centerOfMass", "Point3f", Gf.Vec3f(*centre.tolist()))
+    if moments.min() > 0:
+        w, x, y, z = Pose(axes, np.zeros(3)).to_quaternion().tolist()
+        set_value(spec, "physics:diagonalInertia", "Float3", Gf.Vec3f(*moments.tolist()))
+        set_value(spec, "physics:principalAxes", "Quatf", Gf.Quatf(w, x, y, z))

@@ -1,0 +1,273 @@
+"""Reading a USD file: from its stage to an asset, with what it shows, the files that it is made of, and notes."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from meshforge.common import AssetError, GeometryError, MeshForgeError, file_digest, is_file, join_names, pluralize
+from meshforge.formats.collision_pieces import (
+    CollisionElement,
+    CollisionPiece,
+    drop_repeats,
+    name_pieces,
+    opaque_of,
+    place_surface,
+)
+from meshforge.formats.mesh_reader import read_content
+from meshforge.formats.usd.colliders import (
+    COLLISION,
+    TRIGGER,
+    StageBodies,
+    contact_attributes,
+    has_physics,
+    has_schema,
+    is_collider,
+    is_seen,
+)
+from meshforge.formats.usd.document import PrimRecord, UsdDocument
+from meshforge.formats.usd.guard import refuse_harmful_layers
+from meshforge.formats.usd.mechanism import read_mechanism
+from meshforge.formats.usd.shapes import read_instances, read_mesh, read_parts
+from meshforge.formats.usd.stage import UsdStage, usd
+from meshforge.formats.visuals import GAMMA, LazySurfaces, Rgba
+from meshforge.symbolic import Asset, Geom, Mentions, Surface
+
+_LABELS = "SemanticsLabelsAPI:"
+_ISAAC = "SemanticsAPI:"
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class PrimCollision:
+    """A prim with collision: its pieces in the root frame; fixed: why no edit can change it."""
+
+    prim: Any
+    body: str
+    parts: Sequence[CollisionPiece]
+    fixed: str = ""
+
+    @property
+    def path(self) -> str:
+        return str(self.prim.GetPath())
+
+
+def read_usd(path: Path) -> Asset:
+    """The asset in a USD file, the layers it refers to included.
+
+    Raises AssetError: damaged, more than memory holds, or there is nothing in it.
+    """
+    source = read_content(path)
+    with usd(str(path)) as complaints:
+        refuse_harmful_layers(path, source)
+        scene = UsdStage.open(path)
+        asset = _build_asset(scene, source)
+    with usd(str(path)):  # which complains about missing files once more
+        files, missing = find_files(path)
+    asset = replace(asset, files=files, missing=missing)
+    return _with_complaints(asset, complaints)
+
+
+def _build_asset(scene: UsdStage, source: bytes) -> Asset:
+    physics = has_physics(scene)
+    bodies = StageBodies(scene, physics)
+    notes: list[str] = []
+    sources = list(read_collisions(scene, bodies, physics, notes))
+    authored = record_prims(sources, bodies)
+    visuals = StageSurfaces.of(scene, bodies) if physics else ()
+    mentions = [mentions_of_prim(source.prim) for source in sources]
+    geoms = tuple(_build_geoms(authored, sources, mentions))
+    opaque = opaque_of(
+        [CollisionElement(element.body, element.names) for element in authored],
+        [source.parts for source in sources],
+        [[own] * len(source.parts) for own, source in zip(mentions, sources, strict=True)],
+    )
+    mechanism = read_mechanism(scene, bodies, geoms)
+    return Asset(
+        path=scene.path,
+        format="usd",
+        bodies=bodies.list_bodies(),
+        geoms=geoms,
+        document=UsdDocument(source, physics, authored, tuple(bodies.names.items()), digests_of(scene)),
+        opaque=opaque,
+        visuals=visuals,
+        notes=(*collect_notes(scene, physics), *notes),
+        mechanism=mechanism,
+        up=scene.up,
+    )
+
+
+def read_collisions(scene: UsdStage, bodies: StageBodies, physics: bool, notes: list[str]) -> Iterator[PrimCollision]:
+    """All prims with collision, in the order of the stage."""
+    from pxr import UsdGeom  # lazy: an optional package, and 0.3 s
+
+    for prim in scene.prims():
+        if prim.IsA(UsdGeom.PointInstancer):
+            if part := read_instances(scene, prim, physics, notes):
+                yield PrimCollision(prim, bodies.of(prim), [part], "is made many times by a point instancer")
+        elif (is_collider if physics else is_seen)(scene, prim) and (parts := read_parts(scene, prim, notes)):
+            yield PrimCollision(prim, bodies.of(prim), parts)
+
+
+def record_prims(sources: Sequence[PrimCollision], bodies: StageBodies) -> tuple[PrimRecord, ...]:
+    """The sources with the names of their pieces."""
+    bases = [(bodies.hull_name(source.path, source.body), len(source.parts)) for source in sources]
+    return tuple(
+        PrimRecord(source.path, source.body, names, source.fixed)
+        for source, names in zip(sources, name_pieces(bases), strict=True)
+    )
+
+
+def _build_geoms(
+    authored: Sequence[PrimRecord], sources: Sequence[PrimCollision], mentions: Sequence[Mentions]
+) -> Iterator[Geom]:
+    for element, source, own in zip(authored, sources, mentions, strict=True):
+        contact = contact_attributes(source.prim)
+        for name, part in zip(element.names, source.parts, strict=True):
+            if part.shape is not None:
+                yield Geom(name, element.body, part.shape, contact=contact, mentions=own)
+
+
+def _with_complaints(asset: Asset, complaints: Sequence[str]) -> Asset:
+    """The asset with what the library complained about; an asset of nothing with complaints is refused."""
+    if complaints and not asset.geoms and not asset.opaque:
+        raise AssetError(f"nothing in it collides; USD says: {complaints[0]}", where=str(asset.path))
+    more = [f"and {len(complaints) - 3} complaints more of USD"] if len(complaints) > 3 else []
+    return replace(asset, notes=(*asset.notes, *(f"USD says: {text}" for text in complaints[:3]), *more))
+
+
+def find_files(path: Path) -> tuple[tuple[Path, ...], tuple[str, ...]]:
+    """The files beside the main one that are there, in order of mention, and the references that lead nowhere."""
+    from pxr import UsdUtils  # lazy: an optional package, and 0.3 s
+
+    layers, assets, unresolved = UsdUtils.ComputeAllDependencies(str(path))
+    places = [*(layer.realPath for layer in layers), *assets]
+    own = path.resolve()
+    found = [file for file in map(_file_of, places) if file is not None and file.resolve() != own]
+    missing = (text.removeprefix(f"{path.absolute().parent}/") for text in unresolved)
+    return tuple(dict.fromkeys(found)), tuple(dict.fromkeys(missing))
+
+
+def digests_of(scene: UsdStage) -> tuple[tuple[Path, str], ...]:
+    """The digests of the layers that the stage uses besides its own file."""
+    own = scene.path.resolve()
+    layers = [_file_of(layer.realPath) for layer in scene.stage.GetUsedLayers()]
+    others = dict.fromkeys(layer for layer in layers if layer is not None and layer.resolve() != own)
+    return tuple((layer, file_digest(layer)) for layer in others)
+
+
+def _file_of(place: Any) -> Path | None:
+    """The file of a resolved place; of something within a package, the package."""
+    text = str(place).split("[", 1)[0]
+    path = Path(text)
+    return path if text and is_file(path) else None
+
+
+def mentions_of_prim(prim: Any) -> Mentions:
+    """What is said of a prim with collision."""
+    from pxr import UsdShade  # lazy: an optional package, and 0.3 s
+
+    found = [("class", label) for each in (prim, prim.GetParent()) for label in _labels_of(each)]
+    found += [("node", prim.GetName()), ("node", prim.GetParent().GetName())]
+    material, _ = UsdShade.MaterialBindingAPI(prim).ComputeBoundMaterial()
+    if material:
+        found.append(("material", material.GetPrim().GetName()))
+    return drop_repeats(found)
+
+
+def _labels_of(prim: Any) -> Iterator[str]:
+    """The labels of a prim, by USD's own schema and by that of Isaac's earlier versions."""
+    for schema in prim.GetPrimTypeInfo().GetAppliedAPISchemas():
+        if schema.startswith(_LABELS):
+            labels = prim.GetAttribute(f"semantics:labels:{schema.removeprefix(_LABELS)}").Get()
+            yield from map(str, labels or ())
+        elif schema.startswith(_ISAAC):
+            data = prim.GetAttribute(f"semantic:{schema.removeprefix(_ISAAC)}:params:semanticData").Get()
+            yield str(data or "")
+
+
+def collect_notes(scene: UsdStage, physics: bool) -> Iterator[str]:
+    """The notes on a stage; physics: whether its prims say what collides."""
+    if not physics:
+        yield "no prim is marked as collision: all that is seen is taken for it, so that edits change what is seen"
+    prims = list(scene.prims())
+    solid = [prim for prim in prims if has_schema(prim, COLLISION) and not has_schema(prim, TRIGGER)]
+    off = [prim.GetName() for prim in solid if not is_collider(scene, prim)]
+    if off:
+        yield f"{pluralize(len(off), 'collider')} switched off are left as they are ({join_names(off, 3)})"
+    triggers = sum(has_schema(prim, TRIGGER) for prim in prims)
+    if triggers:
+        yield f"{pluralize(triggers, 'trigger')} detect bodies without colliding: they are left as they are"
+    if chosen := [prim.GetName() for prim in prims if prim.HasVariantSets()]:
+        yield f"of variants, the selected ones are read ({join_names(chosen, 3)})"
+    if sum(prim.IsInstance() for prim in prims):
+        yield "what an edit changes in an instance becomes that instance's own: it is no longer shared"
+
+
+class StageSurfaces(LazySurfaces):
+    """The visible surfaces of a file, none where it cannot be read any more; bodies: of each prim that shows."""
+
+    def __init__(self, path: Path, bodies: dict[str, str]) -> None:
+        self._path, self._bodies = path, bodies
+
+    @staticmethod
+    def of(scene: UsdStage, bodies: StageBodies) -> StageSurfaces:
+        """The surfaces of an open stage."""
+        return StageSurfaces(
+            scene.path, {str(prim.GetPath()): bodies.of(prim) for prim in scene.prims() if is_seen(scene, prim)}
+        )
+
+    def _make(self) -> list[Surface]:
+        try:
+            with usd(str(self._path)):
+                scene = UsdStage.open(self._path)
+                return [surface for path, body in self._bodies.items() for surface in _read_surfaces(scene, path, body)]
+        except MeshForgeError:
+            return []
+
+
+def _read_surfaces(scene: UsdStage, path: str, body: str) -> Iterator[Surface]:
+    prim = scene.stage.GetPrimAtPath(path)
+    linear, offset = scene.placement(prim)
+    if not (np.isfinite(linear).all() and np.isfinite(offset).all()):
+        return
+    rgba = _read_color(scene, prim)
+    if prim.GetTypeName() != "Mesh":
+        shapes = [part.shape for part in read_parts(scene, prim, []) if part.shape is not None]
+        yield from (Surface(shape.vertices, shape.faces, body, rgba) for shape in shapes)
+        return
+    try:
+        mesh = read_mesh(scene, prim)
+    except GeometryError:
+        return
+    if len(mesh.faces):
+        yield replace(place_surface(mesh.vertices, mesh.faces, linear, offset, body), rgba=rgba)
+
+
+def _read_color(scene: UsdStage, prim: Any) -> Rgba | None:
+    """The colour of a prim as screens show it: of its preview surface, else its display colour where that is one."""
+    from pxr import UsdGeom, UsdShade  # lazy: an optional package, and 0.3 s
+
+    material, _ = UsdShade.MaterialBindingAPI(prim).ComputeBoundMaterial()
+    surface = material.ComputeSurfaceSource()[0] if material else None
+    if surface and surface.GetIdAttr().Get() == "UsdPreviewSurface":
+        color, opacity = surface.GetInput("diffuseColor"), surface.GetInput("opacity")
+        if color and not color.HasConnectedSource() and color.Get() is not None:
+            alpha = opacity.Get() if opacity and not opacity.HasConnectedSource() else None
+            return _to_rgba(color.Get(), 1.0 if alpha is None else alpha)
+    gprim = UsdGeom.Gprim(prim)
+    colors, alphas = scene.get(gprim.GetDisplayColorAttr()), scene.get(gprim.GetDisplayOpacityAttr())
+    if colors and len(colors) == 1:
+        return _to_rgba(colors[0], alphas[0] if alphas and len(alphas) == 1 else 1.0)
+    return None
+
+
+def _to_rgba(color: Any, alpha: float) -> Rgba | None:
+    values = np.array([*color, alpha], dtype=np.float64)
+    if not np.isfinite(values).all():
+        return None
+    red, green, blue = (round(float(c), 6) for c in np.clip(values[:3], 0, 1) ** (1 / GAMMA))
+    return red, green, blue, round(float(np.clip(alpha, 0, 1)), 6)

@@ -1,0 +1,237 @@
+"""The collision of a prim as convex shapes and non-convex pieces in the root frame, as engines take it; of a point
+instancer, all its instances as one."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from meshforge.common import GeometryError
+from meshforge.formats.collision_pieces import CollisionPiece, build_solid, end_points, place_pieces, place_surface
+from meshforge.formats.meshfile.surface import FARTHEST, RawSurface, join_surfaces
+from meshforge.formats.usd.colliders import COLLISION, has_schema
+from meshforge.formats.usd.stage import UsdStage, rotation_of
+from meshforge.geometry import Box, Capsule, Cylinder, Floats, Ints, Pose, Sphere, convex_hull, split_pieces
+
+_FLAT = 1e-12  # of the largest stretch of a map; below, it is a projection
+_LEAST = 1e-100  # of any stretch; below, its square is zero
+_SHEAR = 1e-6
+_TO_Z = {
+    "X": np.array([[0.0, 0, 1], [0, 1, 0], [-1, 0, 0]]),
+    "Y": np.array([[1.0, 0, 0], [0, 0, 1], [0, -1, 0]]),
+    "Z": np.eye(3),
+}
+"""Rotations that take Z to the axis of a prim's shape."""
+WHOLE = ("convexHull", "boundingCube", "boundingSphere")
+"""The approximations that make one shape of a mesh, whatever its pieces."""
+
+_MOST_TRIANGLES = 2_000_000  # triangles of all instances together; beyond, they are named and not shown
+_REASON = "many at once by a point instancer, which is not edited"
+
+
+def read_parts(scene: UsdStage, prim: Any, notes: list[str]) -> list[CollisionPiece]:
+    """What a prim collides with; notes: gets what a user should know of how it was read."""
+    linear, offset = scene.placement(prim)
+    if not _is_regular(linear, offset):
+        return [CollisionPiece(None, "it is scaled to nothing, or out of all bounds")]
+    kind = str(prim.GetTypeName())
+    if kind == "Mesh":
+        return _parts_of_mesh(scene, prim, linear, offset)
+    if kind == "Plane":
+        plane = Pose(rotation_of(linear) @ _axis_rotation(scene, prim), offset)
+        return [CollisionPiece(None, "a plane has no end", plane=plane)]
+    return [_read_primitive(scene, prim, kind, linear, offset, notes)]
+
+
+def _parts_of_mesh(scene: UsdStage, prim: Any, linear: Floats, offset: Floats) -> list[CollisionPiece]:
+    """A mesh as its approximation has it: one shape, or its pieces."""
+    try:
+        mesh = read_mesh(scene, prim)
+        if len(mesh.faces) and np.abs(mesh.vertices[np.unique(mesh.faces)]).max() > FARTHEST:
+            return [CollisionPiece(None, "its coordinates are out of all bounds")]
+        how = str(scene.get(prim.GetAttribute("physics:approximation")) or "none")
+        if how in WHOLE and len(mesh.faces):
+            return [_build_whole(how, mesh.vertices[np.unique(mesh.faces)], linear, offset)]
+        found = split_pieces(mesh.vertices, mesh.faces, name=str(prim.GetPath()))
+    except GeometryError as error:
+        if "mesh" in locals() and len(mesh.faces):
+            return [CollisionPiece(None, error.problem, place_surface(mesh.vertices, mesh.faces, linear, offset))]
+        return [CollisionPiece(None, error.problem)]
+    return place_pieces(found, linear, offset)
+
+
+def _build_whole(how: str, points: Floats, linear: Floats, offset: Floats) -> CollisionPiece:
+    """One shape around points (n, 3); bounding boxes and spheres as engines make them: about the box of the mesh."""
+    low, high = points.min(axis=0), points.max(axis=0)
+    middle, half = (low + high) / 2, (high - low) / 2
+    if how == "convexHull" or half.min() <= 0:
+        return CollisionPiece(convex_hull(points).transform(linear, offset))
+    if how == "boundingCube":
+        return CollisionPiece(Box(Pose.of_translation(middle), half).transform(linear, offset))
+    radius = float(np.linalg.norm(points - middle, axis=1).max() * np.linalg.norm(linear, axis=0).max())
+    return CollisionPiece(Sphere(Pose.of_translation(linear @ middle + offset), radius))
+
+
+def _read_primitive(
+    scene: UsdStage, prim: Any, kind: str, linear: Floats, offset: Floats, notes: list[str]
+) -> CollisionPiece:
+    """A native shape; a round one that is scaled unevenly is what engines make of it."""
+    scales = np.linalg.norm(linear, axis=0)
+    turn = linear / scales
+    if np.abs(turn.T @ turn - np.eye(3)).max() > _SHEAR:
+        notes.append(f"{prim.GetPath()} is sheared: engines read it each in its own way, here it is a hull")
+        shape = _build_primitive(scene, prim, kind, np.eye(3), np.zeros(3), np.ones(3))
+        return shape if shape.shape is None else CollisionPiece(shape.shape.tessellate().transform(linear, offset))
+    along = scales @ np.abs(_axis_rotation(scene, prim))  # of the shape's own axes
+    across = scales if kind == "Sphere" else along[:2]
+    if kind not in ("Cube",) and np.ptp(across) > _SHEAR * across.max():
+        notes.append(f"{prim.GetPath()} is scaled unevenly: its radius counts by the largest factor, as in engines")
+    return _build_primitive(scene, prim, kind, turn, offset, scales)
+
+
+def _build_primitive(
+    scene: UsdStage, prim: Any, kind: str, turn: Floats, offset: Floats, scales: Floats
+) -> CollisionPiece:
+    """A shape of a prim's own sizes times scales (3,), turned or mirrored and put in its place."""
+
+    def size(name: str) -> float:
+        return float(scene.get(prim.GetAttribute(name)) or 0.0)
+
+    axis = _axis_rotation(scene, prim)
+    wide, long = scales @ np.abs(axis)[:, :2], float(scales @ np.abs(axis)[:, 2])
+    pose = Pose(_proper_rotation(turn @ axis), offset)
+    match kind:
+        case "Cube":
+            sides = size("size") * scales
+            return build_solid(kind, sides, lambda: Box(Pose(_proper_rotation(turn), offset), sides / 2))
+        case "Sphere":
+            radius = size("radius") * float(scales.max())
+            return build_solid(kind, [radius], lambda: Sphere(pose, radius))
+        case "Capsule" | "Cylinder" | "Cone" | "Capsule_1" | "Cylinder_1":
+            return _build_round(kind, pose, _radii(kind, size) * float(wide.max()), size("height") * long / 2)
+    return CollisionPiece(None, f"a collider of type {kind or 'none'} is not known")
+
+
+def _radii(kind: str, size: Any) -> Floats:
+    """The radii (2,) of the bottom and the top of a round shape."""
+    if kind.endswith("_1"):
+        return np.array([size("radiusBottom"), size("radiusTop")])
+    return np.array([size("radius"), 0.0 if kind == "Cone" else size("radius")])
+
+
+def _build_round(kind: str, pose: Pose, radii: Floats, half: float) -> CollisionPiece:
+    """A cylinder, capsule or cone about Z of a pose; half: of its height [m]."""
+    capsule, (bottom, top) = kind.startswith("Capsule"), radii
+    sizes = [float(radii.max()), 2 * half]
+    if capsule and bottom == top and half <= 1e-9 * bottom:
+        return build_solid("sphere", sizes[:1], lambda: Sphere(pose, float(bottom)))
+    if bottom == top:
+        make = Capsule if capsule else Cylinder
+        return build_solid(kind, sizes, lambda: make(pose, float(bottom), half))
+    if radii.min() < 0:
+        return CollisionPiece(None, f"a {kind} of negative radius")
+    ends = [end_points(r, at, ball=capsule, axis=2) for r, at in ((bottom, -half), (top, half))]
+    return build_solid(kind, sizes, lambda: convex_hull(pose.apply(np.concatenate(ends))))
+
+
+def _axis_rotation(scene: UsdStage, prim: Any) -> Floats:
+    """The rotation (3, 3) that takes Z to the axis that a prim says."""
+    return _TO_Z.get(str(scene.get(prim.GetAttribute("axis")) or "Z"), _TO_Z["Z"])
+
+
+def _proper_rotation(turn: Floats) -> Floats:
+    """A rotation (3, 3) that takes shapes about Z to where a rotation, or a reflection, takes them."""
+    nearly: Floats = turn * np.array([np.sign(np.linalg.det(turn)), 1.0, 1.0])
+    left, _, right = np.linalg.svd(nearly)
+    return np.asarray(left @ right)
+
+
+def _is_regular(linear: Floats, offset: Floats) -> bool:
+    """Whether a map leaves volume, and is made of numbers within bounds."""
+    if not (np.isfinite(linear).all() and np.isfinite(offset).all()):
+        return False
+    stretch = np.linalg.svd(linear, compute_uv=False)
+    return bool(stretch[-1] > max(_FLAT * stretch[0], _LEAST) and np.abs(offset).max() <= FARTHEST)
+
+
+def read_mesh(scene: UsdStage, prim: Any) -> RawSurface:
+    """The surface of a Mesh prim in its own space; subdivision is not applied, as in engines.
+
+    Raises GeometryError: its counts and indices do not fit together, or a coordinate is not finite.
+    """
+    from pxr import UsdGeom  # lazy: an optional package, and 0.3 s
+
+    mesh = UsdGeom.Mesh(prim)
+    points = np.asarray(scene.get(mesh.GetPointsAttr()) or [], dtype=np.float64).reshape(-1, 3)
+    corners = np.asarray(scene.get(mesh.GetFaceVertexIndicesAttr()) or [], dtype=np.int64)
+    counts = np.asarray(scene.get(mesh.GetFaceVertexCountsAttr()) or [], dtype=np.int64)
+    faces = triangulate(corners, counts, np.asarray(scene.get(mesh.GetHoleIndicesAttr()) or [], dtype=np.int64))
+    where = str(prim.GetPath())
+    if len(faces) and (faces.min() < 0 or faces.max() >= len(points)):
+        raise GeometryError("a face names a vertex that is not there", where=where)
+    if not np.isfinite(points[np.unique(faces)]).all():
+        raise GeometryError("a coordinate is not a finite number", where=where)
+    if scene.get(mesh.GetOrientationAttr()) == UsdGeom.Tokens.leftHanded:
+        faces = faces[:, ::-1]
+    return RawSurface(None, points, faces)
+
+
+def triangulate(corners: Ints, counts: Ints, holes: Ints) -> Ints:
+    """The triangles (m, 3) of polygons of so many corners each, without those that are holes.
+
+    Raises GeometryError: there are more or fewer corners than the counts say.
+    """
+    if (counts < 0).any() or counts.sum() != len(corners):
+        raise GeometryError(f"its faces count {int(counts.sum())} corners, it has {len(corners)}")
+    solid = np.maximum(counts - 2, 0)
+    solid[holes[(holes >= 0) & (holes < len(counts))]] = 0
+    first = np.repeat(np.cumsum(counts) - counts, solid)
+    step = np.arange(solid.sum()) - np.repeat(np.cumsum(solid) - solid, solid)
+    return np.stack([corners[first], corners[first + step + 1], corners[first + step + 2]], axis=1)
+
+
+def read_instances(scene: UsdStage, instancer: Any, physics: bool, notes: list[str]) -> CollisionPiece | None:
+    """All instances of the prototypes that collide; None where none does."""
+    from pxr import Usd, UsdGeom  # lazy: an optional package, and 0.3 s
+
+    kinds = UsdGeom.PointInstancer(instancer)
+    roots = [scene.stage.GetPrimAtPath(path) for path in kinds.GetPrototypesRel().GetForwardedTargets()]
+    predicate = Usd.TraverseInstanceProxies(Usd.PrimDefaultPredicate)
+    below = [Usd.PrimRange(root, predicate) if root else () for root in roots]
+    shapes = [_prototype_surface(scene, *prototype, physics, notes) for prototype in zip(roots, below, strict=True)]
+    if all(shape is None for shape in shapes):
+        return None
+    at = np.asarray(kinds.ComputeInstanceTransformsAtTime(scene.time, scene.time), dtype=np.float64).reshape(-1, 4, 4)
+    which = np.asarray(scene.get(kinds.GetProtoIndicesAttr()) or [], dtype=np.int64)
+    shown = [(shapes[k], matrix) for k, matrix in zip(which, at, strict=False) if 0 <= k < len(shapes)]
+    there = [(shape, matrix) for shape, matrix in shown if shape is not None]
+    if not there or sum(len(shape.faces) for shape, _ in there) > _MOST_TRIANGLES:
+        return CollisionPiece(None, _REASON)
+    many = [RawSurface(None, s.vertices @ m[:3, :3] + m[3, :3], s.faces) for s, m in there]
+    whole = join_surfaces(many)
+    if not np.isfinite(whole.vertices).all():
+        return CollisionPiece(None, _REASON)
+    return CollisionPiece(None, _REASON, place_surface(whole.vertices, whole.faces, *scene.placement(instancer)))
+
+
+def _prototype_surface(scene: UsdStage, root: Any, below: Any, physics: bool, notes: list[str]) -> RawSurface | None:
+    """What collides of a prototype, where the instancer puts it, in units of the stage."""
+    from pxr import UsdGeom  # lazy: an optional package, and 0.3 s
+
+    if not root:
+        return None
+    linear, offset = scene.placement(root)
+    own = np.array(UsdGeom.Xformable(root).GetLocalTransformation(scene.time), dtype=np.float64)
+    inverse = np.linalg.pinv(linear)
+    surfaces = []
+    for prim in below:
+        if prim.IsA(UsdGeom.Gprim) and (has_schema(prim, COLLISION) or not physics):
+            for part in read_parts(scene, prim, notes):
+                if shape := part.shape or part.surface:
+                    local = (np.asarray(shape.vertices) - offset) @ inverse.T
+                    surfaces.append(RawSurface(None, local @ own[:3, :3] + own[3, :3], shape.faces))
+    if not surfaces:
+        return None
+    whole = join_surfaces(surfaces)
+    return RawSurface(None, whole.vertices, whole.faces)

@@ -1,0 +1,184 @@
+"""OpenUSD, the library, used by one asset at a time, and an open stage: its prims in order, and where they are in
+metres."""
+
+from __future__ import annotations
+
+import re
+import threading
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import Any, Literal
+
+import numpy as np
+
+from meshforge.common import AssetError
+from meshforge.geometry import Floats, Pose
+
+_LOCK = threading.RLock()
+"""Layers are shared in a process: while one asset is edited in memory, nobody may read it."""
+_STAGE = re.compile(r"\s*\((?:instantiating|recomposing) stage on stage .*\)\s*$", re.S)
+_DAMAGE = (ValueError, LookupError, TypeError, AttributeError, OverflowError, MemoryError)
+_REMEDY = "Repair the file, or export it anew."
+_INSIDE = re.compile(r"\bpxrInternal\w*::|@anon:0x[0-9a-f]+:[^@]*@,?")  # the library's names for parts of its own
+_LONGEST = 300  # characters of a complaint in a message
+
+_CENTIMETRES = 0.01  # metersPerUnit of a stage that does not say it
+
+
+def require_usd(where: str) -> None:
+    """Raise AssetError where a package is not installed."""
+    try:
+        import lz4.block  # noqa: F401  # lazy: an optional package; fails here, with the remedy, rather than later
+        import pxr.Usd  # noqa: F401  # lazy: an optional package, and 0.3 s
+    except ImportError as error:
+        problem = f"USD files need the packages usd-core and lz4, and {error.name} is not installed"
+        raise AssetError(problem, where=where, remedy="Install it: pip install 'meshforge[usd]'.") from error
+
+
+@contextmanager
+def usd(where: str) -> Iterator[list[str]]:
+    """The library, for one asset alone; the list gets what it complains about in between.
+
+    Raises AssetError at `where`, with its first complaint, where it gives up.
+    """
+    require_usd(where)
+    from pxr import Tf, UsdUtils  # lazy: an optional package, and 0.3 s
+
+    complaints: list[str] = []
+    with _LOCK:
+        delegate = UsdUtils.CoalescingDiagnosticDelegate()
+        try:
+            with np.errstate(over="ignore", invalid="ignore"):  # numbers beyond all bounds are found and reported
+                yield complaints
+        except Tf.ErrorException as error:
+            problem = f"USD cannot read it: {_first_comment(error.args, where)}"
+            raise AssetError(problem, where=where, remedy=_REMEDY) from None
+        except _DAMAGE as error:  # names that are no text, values of types that their schema does not know
+            problem = f"this USD file is damaged: {shorten(str(error), where)}"
+            raise AssetError(problem, where=where, remedy=_REMEDY) from error
+        finally:
+            found = [shorten(_text_of(item), where) for item in delegate.TakeUncoalescedDiagnostics()]
+            complaints += dict.fromkeys(found)
+            del delegate
+
+
+def shorten(text: str, where: str) -> str:
+    """A complaint in one line, of a long one the beginning; paths count from the folder of the asset."""
+    line = " ".join(_INSIDE.sub("", _STAGE.sub("", text)).replace(f"{Path(where).absolute().parent}/", "").split())
+    return line if len(line) <= _LONGEST else f"{line[:_LONGEST]} ..."
+
+
+def _first_comment(errors: tuple[object, ...], where: str) -> str:
+    """The commentary of the first of the library's errors."""
+    texts = (_text_of(error) for error in errors)
+    return shorten(next((text for text in texts if text), "it gives no reason"), where)
+
+
+def _text_of(complaint: object) -> str:
+    """The text of a complaint; of one that repeats damaged text, that it does."""
+    try:
+        return str(getattr(complaint, "commentary", ""))
+    except UnicodeDecodeError:
+        return "it has names that are no text"
+
+
+@dataclass(eq=False)
+class UsdStage:
+    """A stage, to be used within `usd` only; all of it at the first moment of its time line."""
+
+    stage: Any
+    path: Path
+
+    @staticmethod
+    def open(path: Path) -> UsdStage:
+        """The stage of a file. Raises AssetError: it holds no prim, or its unit is none."""
+        from pxr import Usd  # lazy: an optional package, and 0.3 s
+
+        scene = UsdStage(Usd.Stage.Open(str(path)), path)
+        if not np.isfinite(scene.metres) or scene.metres <= 0:
+            raise AssetError(f"its metersPerUnit is {scene.metres:g}", where=str(path), remedy="Give it a unit.")
+        return scene
+
+    @cached_property
+    def metres(self) -> float:
+        """The metres of the stage's unit."""
+        from pxr import UsdGeom  # lazy: an optional package, and 0.3 s
+
+        said = UsdGeom.StageHasAuthoredMetersPerUnit(self.stage)
+        return float(UsdGeom.GetStageMetersPerUnit(self.stage)) if said else _CENTIMETRES
+
+    @cached_property
+    def kilograms(self) -> float:
+        """The kilograms of the stage's unit of mass."""
+        from pxr import UsdPhysics  # lazy: an optional package, and 0.3 s
+
+        return float(UsdPhysics.GetStageKilogramsPerUnit(self.stage))
+
+    @property
+    def up(self) -> Literal["y", "z"]:
+        from pxr import UsdGeom  # lazy: an optional package, and 0.3 s
+
+        return "z" if UsdGeom.GetStageUpAxis(self.stage) == UsdGeom.Tokens.z else "y"
+
+    @cached_property
+    def time(self) -> Any:
+        from pxr import Usd  # lazy: an optional package, and 0.3 s
+
+        return Usd.TimeCode.EarliestTime()
+
+    @cached_property
+    def _cache(self) -> Any:
+        from pxr import UsdGeom  # lazy: an optional package, and 0.3 s
+
+        return UsdGeom.XformCache(self.time)
+
+    def prims(self) -> Iterator[Any]:
+        """All prims in the order of the stage, those of instances too; of point instancers, nothing below."""
+        from pxr import Usd, UsdGeom  # lazy: an optional package, and 0.3 s
+
+        predicate = Usd.TraverseInstanceProxies(Usd.PrimDefaultPredicate)
+        below = iter(Usd.PrimRange(self.stage.GetPseudoRoot(), predicate))
+        for prim in below:
+            yield prim
+            if prim.IsA(UsdGeom.PointInstancer):
+                below.PruneChildren()
+
+    def placement(self, prim: Any) -> tuple[Floats, Floats]:
+        """The map (3, 3), (3,) from the space of a prim, in units of the stage, to the root frame in metres."""
+        matrix = np.array(self._cache.GetLocalToWorldTransform(prim), dtype=np.float64)
+        return self.metres * matrix[:3, :3].T, self.metres * matrix[3, :3]
+
+    def pose(self, prim: Any) -> Pose:
+        """root_T_prim without its scale: the rotation nearest to its map."""
+        linear, offset = self.placement(prim)
+        return Pose(rotation_of(linear), offset)
+
+    def get(self, attribute: Any) -> Any:
+        """The value of an attribute, None where it has none."""
+        return attribute.Get(self.time) if attribute else None
+
+    @cached_property
+    def base(self) -> str:
+        """The path that names leave out: of the default prim, else the root."""
+        prim = self.stage.GetDefaultPrim()
+        return str(prim.GetPath()) if prim else "/"
+
+    def shorten_path(self, path: str, base: str = "") -> str:
+        """A path as names have it: below another one, or the default prim; that prim's own name for itself."""
+        base = base or self.base
+        if path == base:
+            return path.rsplit("/", 1)[-1]
+        return path.removeprefix(base.rstrip("/") + "/").lstrip("/")
+
+
+def rotation_of(linear: Floats) -> Floats:
+    """The rotation (3, 3) nearest to a map, which may scale and shear; of one that mirrors, to its opposite.
+
+    That is how the library, and engines with it, take a reflection apart.
+    """
+    left, _, right = np.linalg.svd(linear * np.sign(np.linalg.det(linear) or 1.0))
+    rotation: Floats = left @ right
+    return rotation

@@ -1,0 +1,158 @@
+"""Which triangles of a soup hang together: by shared vertices, across edges, or by the order they are written in."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from meshforge.geometry.arrays import Bools, Floats, Ints, cross
+
+_TURN = 1e-7  # [rad] triangles around an edge closer than this lie on each other
+
+
+def row_ids(*columns: Floats | Ints) -> tuple[Ints, Ints]:
+    """A number (n,) for each row, equal for equal rows, and the first row of each number; in order of the values."""
+    order = np.lexsort(columns[::-1])
+    new = np.zeros(len(order), dtype=bool)
+    for column in columns:
+        ordered = column[order]
+        new[1:] |= ordered[1:] != ordered[:-1]
+    ids = np.empty(len(order), dtype=np.int64)
+    ids[order] = np.cumsum(new)
+    return ids, order[np.flatnonzero(new | (np.arange(len(order)) == 0))]
+
+
+def weld(vertices: Floats) -> Ints:
+    """A number (n,) for each vertex, the same for vertices at exactly one place."""
+    return row_ids(*(vertices.T + 0.0))[0]  # adding zero makes -0.0 and 0.0 one
+
+
+def weld_nearly(points: Floats, corners: Ints, reach: float) -> Ints | None:
+    """For each point (n,) the lowest number of those within `reach` [m] of it, chains included.
+
+    Only points that are corners take part; None where no two are that near.
+    """
+    from scipy.spatial import cKDTree  # lazy: a third of the time that all imports take, and seldom needed
+
+    used = np.unique(corners)
+    pairs = cKDTree(points[used]).query_pairs(reach, output_type="ndarray")
+    if len(pairs) == 0:
+        return None
+    return component_roots(used[pairs[:, 0]], used[pairs[:, 1]], len(points))
+
+
+def components_by_vertices(corners: Ints) -> Ints:
+    """The component (m,) of each triangle of corners (m, 3), connected by shared vertices, numbered by first face."""
+    count = int(corners.max(initial=-1)) + 1
+    return number_by_occurrence(
+        component_roots(corners[:, [0, 1]].ravel(), corners[:, [1, 2]].ravel(), count)[corners[:, 0]]
+    )
+
+
+def distinct_faces(corners: Ints, component: Ints) -> Ints:
+    """Indices, ascending, of the triangles with three corners; of doubled ones in one component, the first."""
+    proper = np.flatnonzero((corners != np.roll(corners, 1, axis=1)).all(axis=1))
+    keys = np.sort(corners[proper], axis=1)
+    _, first = row_ids(component[proper], *keys.T)
+    return proper[np.sort(first)]
+
+
+def find_closed_components(corners: Ints, component: Ints) -> Ints:
+    """Numbers of the components in which every edge has an even number of triangles, doubled ones counted once."""
+    total = int(component.max(initial=-1)) + 1
+    distinct = distinct_faces(corners, component)
+    edges, _ = edges_of(corners[distinct])
+    part = np.tile(component[distinct], 3)
+    ids, first = row_ids(part, *edges.T)
+    odd = np.bincount(ids, minlength=len(first)) % 2 == 1
+    closed = np.bincount(component[distinct], minlength=total) >= 4
+    closed[part[first[odd]]] = False
+    return np.flatnonzero(closed)
+
+
+def edges_of(corners: Ints) -> tuple[Ints, Bools]:
+    """The edges (3m, 2) of triangles, lower vertex first, and whether each triangle runs along it that way."""
+    directed = np.concatenate([corners[:, [0, 1]], corners[:, [1, 2]], corners[:, [2, 0]]])
+    return np.sort(directed, axis=1), directed[:, 0] < directed[:, 1]
+
+
+def component_roots(a: Ints, b: Ints, count: int) -> Ints:
+    """For each of `count` things, of which a[k] and b[k] are linked, the lowest one that it hangs together with.
+
+    Each lowest one so far takes on the lowest of its neighbours, until there is nothing to take.
+    """
+    lowest = np.arange(count)
+    while True:
+        one, other = lowest[a], lowest[b]
+        apart = one != other
+        if not apart.any():
+            return lowest
+        one, other = one[apart], other[apart]
+        a, b = a[apart], b[apart]
+        np.minimum.at(lowest, np.maximum(one, other), np.minimum(one, other))
+        while (lowest != (further := lowest[lowest])).any():
+            lowest = further
+
+
+def number_by_occurrence(labels: Ints) -> Ints:
+    """Labels (n,) of a partition, numbered by their first occurrence."""
+    _, first, inverse = np.unique(labels, return_index=True, return_inverse=True)
+    rank: Ints = np.argsort(np.argsort(first))
+    return rank[inverse.reshape(-1)]
+
+
+def find_closed_runs(corners: Ints) -> Ints:
+    """The run (m,) of each triangle: consecutive ones, cut wherever all edges so far have an even number of them.
+
+    Programs write solid by solid, so this tells solids apart that share places in a file without groups.
+    """
+    edges, _ = edges_of(corners)
+    ids, first = row_ids(*edges.T)
+    marks = np.random.default_rng(0).integers(1, 2**63, len(first), dtype=np.uint64)
+    marks[edges[first, 0] == edges[first, 1]] = 0
+    of_edge = marks[ids].reshape(3, -1)
+    open_edges = np.bitwise_xor.accumulate(of_edge[0] ^ of_edge[1] ^ of_edge[2])
+    ends = (open_edges == 0) & (corners != np.roll(corners, 1, axis=1)).all(axis=1)
+    run = np.concatenate([[0], np.cumsum(ends)[:-1]])
+    last = max(int(ends.sum()) - int(open_edges[-1] == 0), 0)
+    return np.asarray(np.minimum(run, last), dtype=np.int64)
+
+
+def is_simple(corners: Ints) -> bool:
+    """Whether no edge has more than two triangles."""
+    edges, _ = edges_of(corners)
+    return int(np.bincount(row_ids(*edges.T)[0]).max(initial=0)) <= 2
+
+
+def components_by_edges(points: Floats, corners: Ints, inward: bool) -> Ints:
+    """The component (m,) of each triangle, connected across edges only.
+
+    Where more than two triangles meet in an edge, each goes with the next one around the edge through the solid,
+    so that solids which touch in an edge or a wall come apart. inward: the windings are turned inside out.
+    """
+    edges, forward = edges_of(corners)
+    face = np.tile(np.arange(len(corners)), 3)
+    ids, first = row_ids(*edges.T)
+    angle = _angles_around_edges(points, corners, edges, first[ids])
+    begins = forward == inward  # going around the edge, the solid begins at this triangle
+    order = np.lexsort((begins, np.round(angle / _TURN), ids))
+    starts = np.searchsorted(ids[order], np.arange(len(first)))
+    following = np.append(order[1:], order[0])
+    ends = np.append(starts[1:], len(order)) - 1
+    following[ends] = order[starts]
+    joined = (np.bincount(ids)[ids[order]] == 2) | (begins[order] & ~begins[following])
+    return number_by_occurrence(component_roots(face[order[joined]], face[following[joined]], len(corners)))
+
+
+def _angles_around_edges(points: Floats, corners: Ints, edges: Ints, reference: Ints) -> Floats:
+    """The angle (3m,) of each triangle around each of its edges, from that of another triangle there, in 0..2 pi."""
+    opposite = np.concatenate([corners[:, 2], corners[:, 0], corners[:, 1]])
+    low, high = points[edges[:, 0]], points[edges[:, 1]]
+    axis = high - low
+    axis = axis / np.maximum(np.linalg.norm(axis, axis=1, keepdims=True), np.finfo(float).tiny)
+    out = points[opposite] - low
+    out = out - np.einsum("ij,ij->i", out, axis)[:, None] * axis
+    x = out[reference]
+    y = cross(axis, x)
+    turn = np.arctan2(np.einsum("ij,ij->i", out, y), np.einsum("ij,ij->i", out, x))
+    turn = np.where(turn < 0, turn + 2 * np.pi, turn)
+    return np.where(turn > 2 * np.pi - _TURN, 0.0, turn)

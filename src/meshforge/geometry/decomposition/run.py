@@ -1,0 +1,144 @@
+"""Convex decomposition of any triangle mesh: from the cache or an engine, every result verified convex.
+
+The cache keeps results on disk by content: one file each, written whole or not at all.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import os
+import zipfile
+from collections.abc import Callable, Mapping
+from importlib.metadata import version
+from pathlib import Path
+from typing import Any
+
+from meshforge.common import GeometryError, pluralize, write_atomically
+from meshforge.geometry.convex import FLATNESS, convex_hull, principal_extents
+from meshforge.geometry.decomposition.process import (
+    EngineControl,
+    EnginePiece,
+    pack_pieces,
+    run_engine,
+    unpack_pieces,
+)
+from meshforge.geometry.decomposition.settings import CoacdSettings, DecomposeSettings
+from meshforge.geometry.decomposition.triangles import TriangleMesh, cap_holes, clean_triangles
+from meshforge.geometry.shape import Polytope
+
+_CHECKSUM_SIZE = 16  # bytes
+UNCONTROLLED = EngineControl()
+
+
+def decompose(
+    vertices: Any,
+    faces: Any,
+    settings: DecomposeSettings | None = None,
+    *,
+    close: bool = False,
+    cache: Path | None = None,
+    note: Callable[[str], None] = lambda _: None,
+    control: EngineControl = UNCONTROLLED,
+) -> list[Polytope]:
+    """Convex hulls that together approximate a mesh, in the engine's order, the same for the same input.
+
+    vertices (n, 3) [m], faces (m, 3); settings: CoACD's defaults when None; close: planar holes are closed first where
+    that makes the mesh a solid, so it counts as filled; cache: a folder for results (see `cache_folder`), None keeps
+    none; note: called with what a user should know about mesh and result.
+    Raises GeometryError: a mesh that cannot be decomposed, an engine that crashed or took too long;
+    DecompositionCancelledError: `control` stopped it.
+    """
+    settings = settings or CoacdSettings()
+    mesh = clean_triangles(vertices, faces)
+    if close:
+        mesh, holes = cap_holes(mesh)
+        if holes:
+            note(f"{pluralize(holes, 'planar hole')} closed, so that it counts as solid")
+    _check_openness(mesh, settings, note)
+    pieces = _run_cached(mesh, settings, cache, note, lambda: run_engine(mesh, settings, control))
+    hulls = _make_hulls(pieces, mesh.diagonal, note)
+    if not hulls:
+        raise GeometryError(f"{settings.engine} made no hull", remedy="Try a finer resolution, or the other engine.")
+    return hulls
+
+
+def _run_cached(
+    mesh: TriangleMesh,
+    settings: DecomposeSettings,
+    cache: Path | None,
+    note: Callable[[str], None],
+    make: Callable[[], list[EnginePiece]],
+) -> list[EnginePiece]:
+    if cache is None:
+        return make()
+    key = cache_key(mesh, settings)
+    if (known := read_entry(cache, key)) is not None:
+        return known
+    pieces = make()
+    try:
+        write_entry(cache, key, pieces)
+    except OSError as error:
+        note(f"the result could not be kept in {cache}: {error.strerror or error}")
+    return pieces
+
+
+def _check_openness(mesh: TriangleMesh, settings: DecomposeSettings, note: Callable[[str], None]) -> None:
+    if not mesh.open_edges:
+        return
+    problem = f"the mesh is open ({mesh.open_edges} edges of one triangle only)"
+    if isinstance(settings, CoacdSettings) and settings.preprocess_mode == "off":
+        problem = f"{problem}, and CoACD returns nonsense for open meshes without preprocessing"
+        raise GeometryError(problem, remedy='Set preprocess_mode to "auto", or close the mesh.')
+    note(f"{problem}: the engine closes it by voxels, so its hulls may be thicker than the surface, or fill it")
+
+
+def _make_hulls(pieces: list[EnginePiece], diagonal: float, note: Callable[[str], None]) -> list[Polytope]:
+    """The convex hull of each piece: sheets get a thickness, needles and crumbs without an area are dropped."""
+    thickness = FLATNESS * diagonal
+    hulls, dropped = [], 0
+    for k, (points, _) in enumerate(pieces):
+        if len(points) < 3 or principal_extents(points)[2][1] < thickness:
+            dropped += 1
+            continue
+        hulls.append(convex_hull(points, name=f"piece {k}", thicken=thickness))
+    if dropped:
+        note(f"{dropped} of {len(pieces)} pieces were thinner than {thickness:.2g} m in two directions: left out")
+    return hulls
+
+
+def cache_folder(environment: Mapping[str, str] = os.environ) -> Path:
+    """Where results are usually kept: `MESHFORGE_CACHE`, else `XDG_CACHE_HOME/meshforge`, else `~/.cache/meshforge`."""
+    if own := environment.get("MESHFORGE_CACHE"):
+        return Path(own)
+    base = environment.get("XDG_CACHE_HOME")
+    return (Path(base) if base else Path.home() / ".cache") / "meshforge"
+
+
+def cache_key(mesh: TriangleMesh, settings: DecomposeSettings) -> str:
+    """A digest of geometry, settings, engine and its version."""
+    wheel = version(settings.package)
+    header = json.dumps([settings.engine, wheel, settings.as_dict(), mesh.vertices.shape], sort_keys=True)
+    content = header.encode() + mesh.vertices.tobytes() + mesh.faces.tobytes()
+    return hashlib.blake2b(content, digest_size=20).hexdigest()
+
+
+def read_entry(folder: Path, key: str) -> list[EnginePiece] | None:
+    """The pieces kept under a key; None where there is no entry, or one that is damaged."""
+    try:
+        content = (folder / "decompositions" / f"{key}.npz").read_bytes()
+        packed, checksum = content[:-_CHECKSUM_SIZE], content[-_CHECKSUM_SIZE:]
+        return unpack_pieces(packed) if checksum == _checksum(packed) else None
+    except (OSError, ValueError, KeyError, EOFError, zipfile.BadZipFile):
+        return None
+
+
+def write_entry(folder: Path, key: str, pieces: list[EnginePiece]) -> None:
+    """Keep pieces under a key. Raises OSError where the folder cannot be written."""
+    content = pack_pieces(pieces)
+    write_atomically(folder / "decompositions" / f"{key}.npz", content + _checksum(content))
+
+
+def _checksum(content: bytes) -> bytes:
+    """What an entry ends with, so that any damage to it is noticed."""
+    return hashlib.blake2b(content, digest_size=_CHECKSUM_SIZE).digest()

@@ -1,0 +1,151 @@
+"""Volumes of overlaps and unions of shapes, by manifold3d, and the inertia of solids of one density."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any, assert_never
+
+import manifold3d
+import numpy as np
+
+from meshforge.common import GeometryError
+from meshforge.geometry.aabb import Aabb
+from meshforge.geometry.arrays import Floats
+from meshforge.geometry.round_shapes import Capsule, Cylinder, Ellipsoid, Sphere
+from meshforge.geometry.shape import Box, Polytope, Shape
+
+_SEGMENTS = 96  # segments of a round primitive; the surface is off by about 0.1% of the radius then
+
+
+def overlap_volume(a: Shape, b: Shape) -> float:
+    """The volume [m^3] that two shapes have in common, 0 where they only touch.
+
+    Polytopes and boxes: to 1e-9 of the smaller volume. Round primitives are finely tessellated to their exact volume,
+    which leaves an error of about 0.1% of the smaller volume.
+    """
+    if not a.aabb.intersects(b.aabb):
+        return 0.0
+    bounds = Aabb.union([a.aabb, b.aabb])
+    common = to_manifold(a, bounds) ^ to_manifold(b, bounds)
+    return max(0.0, float(common.volume())) * bounds.diagonal**3
+
+
+def volume_of_union(shapes: Sequence[Shape]) -> float:
+    """The volume [m^3] that shapes fill together, what they share counted once; as exact as `overlap_volume`."""
+    if not shapes:
+        return 0.0
+    bounds = Aabb.union(shape.aabb for shape in shapes)
+    solids = [to_manifold(shape, bounds) for shape in shapes]
+    whole = manifold3d.Manifold.batch_boolean(solids, manifold3d.OpType.Add)
+    return float(whole.volume()) * bounds.diagonal**3
+
+
+def to_manifold(shape: Shape, bounds: Aabb) -> Any:
+    """The shape in coordinates where `bounds` has a diagonal of one about the origin."""
+    match shape:
+        case Polytope() | Box():
+            hull = shape.tessellate()
+            return _manifold_of_hull((hull.vertices - bounds.center) / bounds.diagonal, hull)
+        case Sphere() | Ellipsoid() | Cylinder() | Capsule():
+            fine = _tessellate(shape)
+            grown = np.cbrt(shape.volume / fine.volume())  # of equal volume, it errs to both sides of the surface
+            linear = shape.pose.rotation * (grown / bounds.diagonal)
+            offset = (shape.pose.translation - bounds.center) / bounds.diagonal
+            return fine.transform(np.column_stack([linear, offset]))
+        case _:
+            raise TypeError(f"no solid of a shape of kind {shape.kind}")
+
+
+def _manifold_of_hull(vertices: Floats, hull: Polytope) -> Any:
+    solid = manifold3d.Manifold(manifold3d.Mesh64(vertices, hull.faces.astype(np.uint64)))
+    if solid.status() != manifold3d.Error.NoError:
+        raise GeometryError(f"a hull encloses no solid ({solid.status().name})", remedy="Make its convex hull anew.")
+    return solid
+
+
+def _tessellate(shape: Sphere | Ellipsoid | Cylinder | Capsule) -> Any:
+    """A fine mesh of a round primitive about the origin of its pose."""
+    match shape:
+        case Sphere():
+            return manifold3d.Manifold.sphere(shape.radius, _SEGMENTS)
+        case Ellipsoid():
+            return manifold3d.Manifold.sphere(1.0, _SEGMENTS).scale(shape.radii)
+        case Cylinder():
+            length = 2 * shape.half_length
+            return manifold3d.Manifold.cylinder(length, shape.radius, shape.radius, _SEGMENTS, center=True)
+        case Capsule():
+            return _revolve_capsule(shape.radius, shape.half_length)
+        case _:
+            assert_never(shape)
+
+
+def _revolve_capsule(radius: float, half_length: float) -> Any:
+    """A fine mesh of a capsule about Z, turned from its outline."""
+    angle = np.linspace(0.0, np.pi / 2, _SEGMENTS // 4 + 1)
+    dome = np.column_stack([radius * np.cos(angle), radius * np.sin(angle) + half_length])
+    dome[-1, 0] = 0.0
+    outline = np.concatenate([dome[::-1] * [1.0, -1.0], dome])
+    return manifold3d.CrossSection([outline]).revolve(_SEGMENTS)
+
+
+def inertia(shapes: Sequence[Shape], mass: float, centre: Floats | None = None) -> tuple[Floats, Floats]:
+    """The centre of mass (3,), and the inertia (3, 3) about it, of shapes that weigh `mass` [kg] together.
+
+    centre: where that is known to be; None for that of the shapes. Where they overlap, they count twice, as in MuJoCo.
+    """
+    volumes = np.array([shape.volume for shape in shapes])
+    shares = volumes / volumes.sum()
+    middles = np.array([shape.centroid for shape in shapes])
+    about = shares @ middles if centre is None else centre
+    spreads = [_second_moment(shape) + np.outer(m - about, m - about) for shape, m in zip(shapes, middles, strict=True)]
+    spread = np.einsum("k,kij->ij", shares, np.array(spreads))
+    return about, mass * (np.trace(spread) * np.eye(3) - spread)
+
+
+def principal_axes(inertia: Floats) -> tuple[Floats, Floats]:
+    """The principal moments (3,) and axes, a rotation (3, 3), of an inertia (3, 3); of a diagonal one its own."""
+    if not (inertia - np.diag(np.diag(inertia))).any():
+        return np.diag(inertia).copy(), np.eye(3)
+    moments, axes = np.linalg.eigh(inertia)
+    return moments, axes * np.sign(np.linalg.det(axes))
+
+
+def _second_moment(shape: Shape) -> Floats:
+    """The mean (3, 3) of the products of two coordinates over a shape, from its centroid [m^2]."""
+    match shape:
+        case Box():
+            return _rotate(shape.pose.rotation, shape.half**2 / 3)
+        case Sphere():
+            return np.eye(3) * shape.radius**2 / 5
+        case Ellipsoid():
+            return _rotate(shape.pose.rotation, shape.radii**2 / 5)
+        case Cylinder():
+            return _rotate(shape.pose.rotation, _moment_of_rod(shape.radius, shape.half_length))
+        case Capsule():
+            return _rotate(shape.pose.rotation, _moment_of_capsule(shape.radius, shape.half_length))
+    return _moment_of_polytope(shape.tessellate(), shape.centroid)
+
+
+def _rotate(rotation: Floats, squares: Floats) -> Floats:
+    return np.asarray(rotation * squares @ rotation.T)
+
+
+def _moment_of_rod(radius: float, half: float) -> Floats:
+    return np.array([radius**2 / 4, radius**2 / 4, half**2 / 3])
+
+
+def _moment_of_capsule(radius: float, half: float) -> Floats:
+    """The moments of a cylinder and the halves of a ball on its ends, their centroids 3/8 of the radius above these."""
+    along = half**2 + 3 / 4 * half * radius + radius**2 / 5
+    ends = np.array([radius**2 / 5, radius**2 / 5, along])
+    share = half / (half + 2 / 3 * radius)  # of the volume, that of the cylinder
+    return np.asarray(share * _moment_of_rod(radius, half) + (1 - share) * ends)
+
+
+def _moment_of_polytope(polytope: Polytope, middle: Floats) -> Floats:
+    """The second moment (3, 3) of a polytope, by signed tetrahedra about its centroid [m^2]."""
+    corners = (polytope.vertices - middle)[polytope.faces]
+    volumes = np.linalg.det(corners)
+    sums = corners.sum(axis=1)
+    products = np.einsum("fki,fkj->fij", corners, corners) + np.einsum("fi,fj->fij", sums, sums)
+    return np.asarray(np.einsum("f,fij->ij", volumes, products) / (20 * volumes.sum()))

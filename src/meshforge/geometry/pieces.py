@@ -1,0 +1,280 @@
+"""The connected pieces of a triangle soup, each judged: a convex hull, or no hull, with the reason.
+
+Files disagree on what holds a piece together: groups, shared indices, shared places or edges. Each coarse
+component is read as whole or as its finer parts, whichever accounts for more of it by valid hulls.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import lru_cache
+from hashlib import blake2b
+
+import numpy as np
+
+from meshforge.common import GeometryError
+from meshforge.geometry.arrays import Bools, Floats, Ints
+from meshforge.geometry.connectivity import (
+    components_by_edges,
+    components_by_vertices,
+    distinct_faces,
+    find_closed_components,
+    find_closed_runs,
+    is_simple,
+    row_ids,
+    weld,
+    weld_nearly,
+)
+from meshforge.geometry.shape import Polytope, volume_and_centroid
+from meshforge.geometry.solidity import LEAST_FILL, SolidityVerdict, judge_solidity
+
+_MOST_MEMOIZED = 10_000  # triangles of a soup whose pieces are remembered: 64 such soups are less than 100 MB
+
+_NEAR = 1e-6  # places closer than this share of the surface's size are one, where that closes a hull
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Piece:
+    """A connected piece of a surface.
+
+    shape: its convex hull, None where the piece is no hull, with the `reason`.
+    vertices: (n, 3) [m] and faces: (m, 3), the piece as authored; face_indices: (m,) its faces in the input, ascending;
+    group: the group of its first face.
+    """
+
+    shape: Polytope | None
+    reason: str | None
+    vertices: Floats
+    faces: Ints
+    face_indices: Ints
+    group: int = 0
+
+
+def split_pieces(vertices: Floats, faces: Ints, *, name: str, groups: Ints | None = None) -> list[Piece]:
+    """The connected pieces of vertices (n, 3) [m] and faces (m, 3), in the order of their first face.
+
+    groups: (m,) the group of each face, where the file has groups.
+    Raises GeometryError naming `name`: a coordinate that is not finite, an index that is not there.
+    """
+    vertices = np.asarray(vertices, dtype=np.float64).reshape(-1, 3)
+    faces = np.asarray(faces, dtype=np.int64).reshape(-1, 3)
+    if len(faces) == 0:
+        return []
+    if faces.min() < 0 or faces.max() >= len(vertices):
+        raise GeometryError("a face names a vertex that is not there", where=name)
+    if not np.isfinite(vertices[faces]).all():
+        raise GeometryError("a coordinate is not a finite number", where=name, remedy="Fix the file's vertices.")
+    of_face = np.zeros(len(faces), dtype=np.int64) if groups is None else np.asarray(groups, dtype=np.int64)
+    soup = _Soup(vertices, faces, of_face)
+    return list(_read_memoized(soup) if len(faces) <= _MOST_MEMOIZED else _read(soup))
+
+
+class _Soup:
+    """Triangles with groups, equal to others of the same numbers."""
+
+    def __init__(self, vertices: Floats, faces: Ints, group: Ints) -> None:
+        self.vertices, self.faces, self.group = vertices, faces, group
+        arrays = (np.ascontiguousarray(array) for array in (faces, group, vertices))
+        self.digest = b"".join(blake2b(array.data, digest_size=16).digest() for array in arrays)
+
+    def __hash__(self) -> int:
+        return hash(self.digest)
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, _Soup) and self.digest == other.digest
+
+
+@lru_cache(maxsize=64)
+def _read_memoized(soup: _Soup) -> tuple[Piece, ...]:
+    """The pieces, remembered: an asset's meshes are read when it is opened, when it is written, and to check that."""
+    soup.vertices, soup.faces, soup.group = soup.vertices.copy(), soup.faces.copy(), soup.group.copy()
+    return _read(soup)
+
+
+def _read(soup: _Soup) -> tuple[Piece, ...]:
+    found = PieceReader(soup.vertices, soup.faces, soup.group).read()
+    ordered = sorted(found, key=lambda part: int(part.faces[0]))
+    return tuple(_make_piece(soup.vertices, soup.faces, part, soup.group) for part in ordered)
+
+
+def _make_piece(vertices: Floats, faces: Ints, part: PieceFaces, group: Ints) -> Piece:
+    used, local = np.unique(faces[part.faces], return_inverse=True)
+    arrays = (vertices[used], local.reshape(-1, 3), part.faces)
+    for array in arrays:
+        array.setflags(write=False)
+    return Piece(part.verdict.shape, part.verdict.reason, *arrays, int(group[part.faces[0]]))
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class PieceFaces:
+    """Faces read as one piece, ascending, and what they are."""
+
+    faces: Ints
+    verdict: SolidityVerdict
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class IndexComponents:
+    """What vertex numbers hold together: the component (m,) of each face, and whether that is closed."""
+
+    component: Ints
+    closed: Bools
+
+    @staticmethod
+    def of(corners: Ints) -> IndexComponents:
+        component = components_by_vertices(corners)
+        return IndexComponents(component, np.isin(component, find_closed_components(corners, component)))
+
+
+class PieceReader:
+    """Reads components from coarse (all that touches) to fine (solids that meet in an edge)."""
+
+    def __init__(self, vertices: Floats, faces: Ints, group: Ints) -> None:
+        self.vertices = vertices
+        self.placed = weld(vertices)[faces]  # corners by place
+        self.of_place = components_by_vertices(self.placed)  # the component of each face, by what holds it together
+        self.of_group = components_by_vertices(_number_by_group(self.placed, group))
+        self.in_groups = IndexComponents.of(_number_by_group(faces, group))
+        self.across = IndexComponents.of(faces)
+        self.points = np.zeros((int(self.placed.max()) + 1, 3))
+        self.points[self.placed] = vertices[faces]
+
+    def read(self) -> list[PieceFaces]:
+        found = [part for faces in _split(self.of_place) for part in self._split_touching(faces)]
+        return self._join_near(found) if any(part.verdict.shape is None for part in found) else found
+
+    def _join_near(self, found: list[PieceFaces]) -> list[PieceFaces]:
+        """The parts, those that are no hulls joined where welding places that nearly agree makes a hull of them."""
+        faces = np.sort(np.concatenate([part.faces for part in found if part.verdict.shape is None]))
+        near = weld_nearly(self.points, self.placed[faces], _NEAR * self._extent())
+        if near is None:
+            return found
+        welded = _subdivide(faces, components_by_vertices(near[self.placed[faces]]))
+        hulls = [part for part in (self._judge(faces, near) for faces in welded) if part.verdict.shape]
+        used = np.concatenate([part.faces for part in hulls]) if hulls else faces[:0]
+        return hulls + [part for part in found if not np.isin(part.faces[0], used)]
+
+    def _extent(self) -> float:
+        return float(np.ptp(self.points[np.unique(self.placed)], axis=0).max())
+
+    def _split_touching(self, faces: Ints) -> list[PieceFaces]:
+        """All that touches: as whole, or group by group."""
+        parts = _subdivide(faces, self.of_group[faces])
+        if len(parts) == 1:
+            return self._split_by_index(faces, self.in_groups)
+        better = self._choose_better([p for part in parts for p in self._split_by_index(part, self.in_groups)], faces)
+        return better if len(better) > 1 else self._split_by_index(faces, self.across)
+
+    def _split_by_index(self, faces: Ints, indexed: IndexComponents) -> list[PieceFaces]:
+        """What touches: as whole, or by the closed surfaces that share no vertex number."""
+        closed = indexed.closed[faces]
+        parts = _subdivide(faces[closed], indexed.component[faces[closed]])
+        if not closed.all():
+            parts += _subdivide(faces[~closed], components_by_vertices(self.placed[faces[~closed]]))
+        if len(parts) == 1:
+            return self._split_surface(faces)
+        return self._choose_better([p for part in parts for p in self._split_surface(part)], faces)
+
+    def _split_surface(self, faces: Ints) -> list[PieceFaces]:
+        """One surface: as whole, or by the solids that it was written as, or that meet in its edges and corners."""
+        whole = self._judge(faces)
+        if whole.verdict.shape is not None and is_simple(self.placed[faces]):
+            return [whole]
+        return self._split_by_order(faces) or self._split_solids(faces, whole) or [whole]
+
+    def _split_by_order(self, faces: Ints) -> list[PieceFaces]:
+        """The hulls that some faces were written as, one after the other; none where they were not."""
+        runs = _subdivide(faces, find_closed_runs(self.placed[faces]))
+        if len(runs) < 2 or min(map(len, runs)) < 4:
+            return []
+        solids: list[PieceFaces] = []
+        for run in runs:
+            found = self._split_solids(run)
+            if not found:
+                return []
+            solids += found
+        return _join_backs(solids)
+
+    def _split_solids(self, faces: Ints, whole: PieceFaces | None = None) -> list[PieceFaces]:
+        """The one hull that some faces are, or several that meet in edges and corners; none where they are not."""
+        whole = whole or self._judge(faces)
+        corners = self.placed[faces]
+        if whole.verdict.shape is not None and is_simple(corners):
+            return [whole]
+        proper = np.flatnonzero((corners != np.roll(corners, 1, axis=1)).all(axis=1))
+        if len(proper) == 0:
+            return []
+        inward = volume_and_centroid(self.points, corners)[0] < 0
+        component = components_by_edges(self.points, corners[proper], inward)
+        parts = self._add_slivers(_subdivide(faces[proper], component), np.setdiff1d(faces, faces[proper]))
+        closed = len(find_closed_components(corners[proper], component)) == len(parts) > 1
+        solids = self._judge_all(parts) if closed else []
+        return _join_backs(solids) or ([whole] if whole.verdict.shape else [])
+
+    def _judge_all(self, parts: list[Ints]) -> list[PieceFaces]:
+        """The parts judged, none where one of them is no hull."""
+        judged = []
+        for part in parts:
+            judged.append(self._judge(part))
+            if judged[-1].verdict.shape is None:
+                return []
+        return judged
+
+    def _add_slivers(self, parts: list[Ints], slivers: Ints) -> list[Ints]:
+        """The parts, each with the faces without area that lie at one of its corners."""
+        owner = np.zeros(len(self.points), dtype=np.int64)
+        for k in reversed(range(len(parts))):
+            owner[self.placed[parts[k]]] = k
+        of_sliver = owner[self.placed[slivers, 0]]
+        return [np.sort(np.concatenate([part, slivers[of_sliver == k]])) for k, part in enumerate(parts)]
+
+    def _judge(self, faces: Ints, near: Ints | None = None) -> PieceFaces:
+        corners = self.placed[faces] if near is None else near[self.placed[faces]]
+        proper = distinct_faces(corners, np.zeros(len(corners), dtype=np.int64))
+        if len(proper) < 2:
+            return PieceFaces(faces, SolidityVerdict(None, "flat"))
+        return PieceFaces(faces, judge_solidity(self.points, corners[proper]))
+
+    def _choose_better(self, parts: list[PieceFaces], faces: Ints) -> list[PieceFaces]:
+        """The parts, or the whole, whichever accounts for more by valid hulls."""
+        parts = _join_backs(parts)
+        if all(part.verdict.shape for part in parts):
+            return parts
+        whole = self._judge(faces)
+        solid = sum(abs(p.verdict.volume) for p in parts if p.verdict.shape and p.verdict.closed)
+        enough = LEAST_FILL * abs(whole.verdict.volume) if whole.verdict.shape else 0.0
+        return parts if solid > enough else [whole]
+
+
+def _join_backs(parts: list[PieceFaces]) -> list[PieceFaces]:
+    """The parts, the inside-out copy of a hull joined with that hull: both are sides of one double-sided surface."""
+    found: dict[bytes, list[int]] = {}
+    out = list(parts)
+    for k, part in enumerate(parts):
+        shape = part.verdict.shape
+        if shape is None:
+            continue
+        same = found.setdefault(np.unique(shape.vertices, axis=0).tobytes(), [])
+        front = next((j for j in same if out[j].verdict.volume * part.verdict.volume < 0), None)
+        if front is None:
+            same.append(k)
+            continue
+        same.remove(front)
+        out[front] = PieceFaces(np.sort(np.concatenate([out[front].faces, part.faces])), out[front].verdict)
+        out[k] = PieceFaces(part.faces[:0], part.verdict)
+    return [part for part in out if len(part.faces)]
+
+
+def _number_by_group(corners: Ints, group: Ints) -> Ints:
+    """Numbers for corners (m, 3) that differ from group to group."""
+    return row_ids(np.repeat(group, 3), corners.ravel())[0].reshape(-1, 3)
+
+
+def _split(component: Ints) -> list[Ints]:
+    """The members of each component, ascending, in the order of the component numbers."""
+    order = np.argsort(component, kind="stable")
+    return np.split(order, np.flatnonzero(np.diff(component[order])) + 1) if len(order) else []
+
+
+def _subdivide(faces: Ints, component: Ints) -> list[Ints]:
+    return [faces[members] for members in _split(component)]

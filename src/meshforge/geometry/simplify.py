@@ -1,0 +1,274 @@
+"""Simpler convex hulls around a convex hull: fewer vertices and faces, and nothing of the old hull left outside."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field
+from math import inf
+
+import numpy as np
+
+from meshforge.common import GeometryError
+from meshforge.geometry.arrays import Floats, Ints, nearest_on_triangles
+from meshforge.geometry.convex import convex_hull, principal_extents
+from meshforge.geometry.shape import Polytope
+from meshforge.geometry.surface import planes_of, polygon_sizes
+
+_SAME = 1e-9  # corners and planes nearer than this, where the hull is one long, wide and high, are one
+_CORNERS_TRIED = 12  # farthest corners that are tried before no further plane counts as fitting the budget
+_MOST = 2000  # planes, where a budget knows no end
+_ROUNDS = 150  # vertices that contracting takes away, at 10 to 25 ms each; from twice the budget at most
+_GROWTH = (0.0, 1e-9, 1e-8, 1e-7, 1e-6, 1e-5)  # of planes outwards, in turn, against rounding; shares of the size
+
+_EDGES_TRIED = 8  # edges of which the contraction is worked out in each round, those that promise to add least
+
+
+@dataclass(frozen=True, slots=True)
+class HullBudget:
+    """The most that a hull may have: vertices, flat faces, and vertices on one flat face."""
+
+    vertices: float = inf
+    polygons: float = inf
+    polygon_vertices: float = inf
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Enclosure:
+    """A hull around another; error: the Hausdorff distance [m], how far the new one sticks out of the old one."""
+
+    hull: Polytope
+    error: float
+
+
+def enclose(hull: Polytope, budget: HullBudget) -> Enclosure | None:
+    """A convex hull within a budget that holds all of another hull and sticks out little; None where none was found.
+
+    Found in two ways, of which the better one counts: planes around the hull, more and more of them; and edges
+    contracted outwards, fewer and fewer of them, of the hull itself or, where that has very many, of planes around it.
+    """
+    found = [made for made in (_enclose_by_planes(hull, budget), _enclose_by_contraction(hull, budget)) if made]
+    return min(found, key=lambda made: made.error, default=None)
+
+
+def _enclose_by_planes(hull: Polytope, budget: HullBudget) -> Enclosure | None:
+    """From a box around the hull, the farthest corner is cut off again and again by the plane that supports the hull
+    below it, as long as the budget holds (a sandwich algorithm, see Kamenev, 1992): the error falls about as one
+    over the number of planes, which no other placement beats by more than a factor.
+    """
+    if budget.vertices < 8 or budget.polygons < 6 or budget.polygon_vertices < 4:
+        return None  # a box has more
+    middle, axes, extents = principal_extents(hull.vertices)
+    old = (hull.vertices - middle) @ axes.T
+    search = _PlaneSearch(old, hull.faces, extents, budget)
+    search.run()
+    while True:
+        for growth in _GROWTH:
+            if made := _check_enclosure(hull, search.corners(growth) @ axes + middle, budget):
+                return made
+        if not search.undo():
+            return None
+
+
+def _enclose_by_contraction(hull: Polytope, budget: HullBudget) -> Enclosure | None:
+    """Edges contracted outwards until the budget is kept to; in the hull's own size, against rounding."""
+    most = min(budget.vertices, budget.polygons)  # more can be, where many edges meet in few vertices
+    start: Polytope | None = hull
+    if len(hull.vertices) > most + min(most, _ROUNDS):
+        nearer = _enclose_by_planes(hull, HullBudget(most + min(most, _ROUNDS)))
+        start = nearer.hull if nearer else None
+    if start is None:
+        return None
+    middle, size = hull.vertices.mean(axis=0), float(np.ptp(hull.vertices, axis=0).max())
+    goal = ((hull.vertices - middle) / size)[hull.faces]
+
+    def are_few(points: Floats) -> bool:
+        made = _try_hull(points) if len(points) <= budget.vertices else None
+        return made is not None and _is_within_budget(made, budget)
+
+    corners = contract_edges((start.vertices - middle) / size, goal, are_few)
+    if corners is None:
+        return None
+    tries = (_check_enclosure(hull, corners * (1 + growth) * size + middle, budget) for growth in _GROWTH)
+    return next((made for made in tries if made), None)
+
+
+def _check_enclosure(hull: Polytope, corners: Floats, budget: HullBudget) -> Enclosure | None:
+    """The hull of corners, where it holds another one and keeps to a budget."""
+    made = _try_hull(corners)
+    if made is None or not _has_inside(made, hull.vertices) or not _is_within_budget(made, budget):
+        return None
+    return Enclosure(made, float(_distances_to_surface(made.vertices, hull.vertices[hull.faces]).max()))
+
+
+def _try_hull(corners: Floats) -> Polytope | None:
+    try:
+        return convex_hull(corners, name="a simpler hull")
+    except GeometryError:
+        return None
+
+
+def _is_within_budget(hull: Polytope, budget: HullBudget) -> bool:
+    """Whether the hull keeps to the budget, as counted on it: rounding may break a flat face in two."""
+    sizes = polygon_sizes(hull)
+    few = len(hull.vertices) <= budget.vertices and len(sizes) <= budget.polygons
+    return few and max(sizes) <= budget.polygon_vertices
+
+
+def _has_inside(hull: Polytope, points: Floats) -> bool:
+    """Whether a hull holds all points (n, 3), but for the rounding of its own planes."""
+    planes = planes_of(hull.vertices, hull.faces)
+    rounding = 16 * np.finfo(float).eps * float(np.abs(hull.vertices).max())
+    return bool(((points - planes.middle) @ planes.normals.T <= planes.offsets + rounding).all())
+
+
+def _nearest_on_surface(points: Floats, triangles: Floats) -> Floats:
+    """The nearest point (n, 3) on a convex surface to each of points (n, 3) outside; triangles: (m, 3, 3)."""
+    found = np.empty_like(points)
+    for k, point in enumerate(points):
+        places = nearest_on_triangles(np.broadcast_to(point, (len(triangles), 3)), triangles)
+        found[k] = places[np.linalg.norm(places - point, axis=1).argmin()]
+    return found
+
+
+def _distances_to_surface(points: Floats, triangles: Floats) -> Floats:
+    gaps: Floats = np.linalg.norm(points - _nearest_on_surface(points, triangles), axis=1)
+    return gaps
+
+
+@dataclass(slots=True, eq=False)
+class _PlaneSearch:
+    """Planes around a hull, more and more of them; all in the principal frame of the hull.
+
+    normals: (k, 3), of unit length; offsets: (k,); places: the nearest point of the hull to corners met so far.
+    """
+
+    old: Floats
+    faces: Ints
+    extents: Floats
+    budget: HullBudget
+    normals: Floats = field(init=False)
+    offsets: Floats = field(init=False)
+    places: dict[bytes, Floats] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        self.normals = np.concatenate([np.eye(3), -np.eye(3)])
+        self.offsets = (self.old @ self.normals.T).max(axis=0)
+
+    def run(self) -> None:
+        """Add planes until the budget is used up, or nothing sticks out any more."""
+        least = _SAME * float(self.extents.max())
+        most = min(self.budget.polygons, 2 * self.budget.vertices - 4, _MOST)  # faces of any polytope, by Euler
+        while len(self.normals) < most:
+            corners = self.corners()
+            away = corners - self._nearest_below(corners)
+            gaps = np.linalg.norm(away, axis=1)
+            order = [k for k in np.argsort(-gaps, kind="stable")[:_CORNERS_TRIED] if gaps[k] > least]
+            if not any(self._cut(corners[k], away[k] / gaps[k]) for k in order):
+                return
+
+    def undo(self) -> bool:
+        """Take the last plane away; False where only the box is left."""
+        if len(self.normals) <= 6:
+            return False
+        self.normals, self.offsets = self.normals[:-1], self.offsets[:-1]
+        return True
+
+    def _cut(self, corner: Floats, normal: Floats) -> bool:
+        """Add the plane that supports the hull in a direction, if it cuts a corner off, and the budget allows it.
+
+        Where the nearest point is known to a few digits only, the plane may leave the corner as it is.
+        """
+        before, offset = (self.normals, self.offsets), float((self.old @ normal).max())
+        if corner @ normal - offset <= _SAME * float(self.extents.max()) / 2:
+            return False
+        self.normals = np.vstack([self.normals, normal])
+        self.offsets = np.append(self.offsets, offset)
+        if self._fits_budget():
+            return True
+        self.normals, self.offsets = before
+        return False
+
+    def _fits_budget(self) -> bool:
+        corners = self.corners() / self.extents
+        if len(corners) > self.budget.vertices:
+            return False
+        slopes = self.normals * self.extents
+        heights = corners @ slopes.T - self.offsets
+        on = np.abs(heights) <= 1e-7 * np.linalg.norm(slopes, axis=1)
+        return bool(on.sum(axis=0).max() <= self.budget.polygon_vertices)
+
+    def corners(self, growth: float = 0.0) -> Floats:
+        """The corners (n, 3) of what all planes enclose, these moved outwards by a share of the hull's extent."""
+        from scipy.spatial import HalfspaceIntersection  # lazy: slow to import, only simplifying needs it
+
+        slopes = self.normals * self.extents
+        lengths = np.linalg.norm(slopes, axis=1)
+        inner = self.old.mean(axis=0) / self.extents
+        rows = np.column_stack([slopes / lengths[:, None], -self.offsets / lengths - growth])
+        corners = HalfspaceIntersection(rows, inner).intersections
+        _, first = np.unique(np.round(corners / _SAME), axis=0, return_index=True)
+        return np.asarray(corners[np.sort(first)] * self.extents)
+
+    def _nearest_below(self, corners: Floats) -> Floats:
+        """The nearest point (n, 3) of the hull to each corner."""
+        keys = [key.tobytes() for key in np.round(corners / self.extents / _SAME)]
+        new = [k for k, key in enumerate(keys) if key not in self.places]
+        for k, place in zip(new, _nearest_on_surface(corners[new], self.old[self.faces]), strict=True):
+            self.places[keys[k]] = place
+        return np.array([self.places[key] for key in keys])
+
+
+def contract_edges(vertices: Floats, goal: Floats, are_few: Callable[[Floats], bool]) -> Floats | None:
+    """Few points (m, 3) whose hull holds that of vertices (n, 3); None where they never become few enough.
+
+    Again and again one edge becomes one point outside of all faces that meet it, where that adds the least volume
+    (progressive hulls, see Sander et al., 2000); of the edges that which leads away least from the triangles of
+    `goal` (k, 3, 3).
+    """
+    from scipy.spatial import ConvexHull, QhullError  # lazy: slow to import, only simplifying needs it
+
+    points = vertices
+    try:
+        while True:
+            hull = ConvexHull(points)
+            kept = np.asarray(hull.vertices)
+            if are_few(points[kept]):
+                return points[kept]
+            places = _find_contractions(points, np.asarray(hull.simplices), hull.equations)
+            found = [(float(_distances_to_surface(place[None], goal)[0]), edge, place) for edge, place in places]
+            if not found:
+                return None
+            _, edge, place = min(found, key=lambda one: one[0])
+            points = np.vstack([points[np.setdiff1d(kept, edge)], place])
+    except QhullError:
+        return None
+
+
+def _find_contractions(points: Floats, faces: Ints, planes: Floats) -> Iterator[tuple[Ints, Floats]]:
+    """Some edges, with the point that each may become. planes: (m, 4), a face's outward normal and minus its offset."""
+    from scipy.optimize import linprog  # lazy: slow to import, only simplifying needs it
+
+    edges = np.unique(np.sort(faces[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2)), axis=0)
+    corners = points[faces]
+    areas = np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1)
+    for edge in edges[np.argsort(_depths(points, faces, planes, edges), kind="stable")[:_EDGES_TRIED]]:
+        about = np.isin(faces, edge).any(axis=1)
+        normals, offsets = planes[about, :3], -planes[about, 3]
+        answer = linprog(areas[about] @ normals, A_ub=-normals, b_ub=-offsets, bounds=(None, None), method="highs")
+        if answer.status == 0:
+            yield edge, np.asarray(answer.x)
+
+
+def _depths(points: Floats, faces: Ints, planes: Floats, edges: Ints) -> Floats:
+    """How deep an end of each edge lies below some face that meets the other end; the less of both ends."""
+    order = np.argsort(faces.ravel(), kind="stable")
+    meeting, degrees = order // 3, np.bincount(faces.ravel(), minlength=len(points))
+    starts = np.cumsum(degrees) - degrees
+    found = []
+    for end, other in (edges.T, edges[:, ::-1].T):
+        counts = degrees[other]
+        firsts = np.cumsum(counts) - counts
+        near = meeting[np.arange(counts.sum()) + np.repeat(starts[other] - firsts, counts)]
+        below = -(points[np.repeat(end, counts)] * planes[near, :3]).sum(axis=1) - planes[near, 3]
+        found.append(np.maximum.reduceat(below, firsts))
+    return np.minimum(*found)

@@ -1,0 +1,48 @@
+"""The labels of a project: from people, names, files, a few labelled assets or a model; a person's label is never
+overwritten by a machine."""
+
+from meshforge.labels.from_files.points import PointsOptions
+from meshforge.labels.from_files.read import LabelFileOptions, label_file_beside
+from meshforge.labels.from_files.segments import PointAlignment
+from meshforge.labels.label_store import LabelStore
+from meshforge.labels.merge import LabelOutcome, OutcomeCallback, label_new_hulls
+from meshforge.labels.names.label_by_names import PatternPairs
+from meshforge.labels.offers import LabelOffers, OfferCache
+from meshforge.labels.progress import SourceTally, Tally
+from meshforge.labels.propagation.label_by_propagation import PropagationResult, Stage
+from meshforge.labels.propagation.propagate import FamilyPosterior, Propagator, propagate
+from meshforge.labels.propose import Proposal, Proposals
+from meshforge.labels.vlm.endpoint import Endpoint, endpoint_of
+from meshforge.labels.vlm.label_by_vlm import VlmForecast, VlmResult, check_vlm_settings
+from meshforge.labels.vlm.limits import Usage
+from meshforge.labels.vlm.prompt import PromptConfig
+
+__all__ = [
+    "Endpoint",
+    "FamilyPosterior",
+    "LabelFileOptions",
+    "LabelOffers",
+    "LabelOutcome",
+    "LabelStore",
+    "OfferCache",
+    "OutcomeCallback",
+    "PatternPairs",
+    "PointAlignment",
+    "PointsOptions",
+    "PromptConfig",
+    "PropagationResult",
+    "Propagator",
+    "Proposal",
+    "Proposals",
+    "SourceTally",
+    "Stage",
+    "Tally",
+    "Usage",
+    "VlmForecast",
+    "VlmResult",
+    "check_vlm_settings",
+    "endpoint_of",
+    "label_file_beside",
+    "label_new_hulls",
+    "propagate",
+]

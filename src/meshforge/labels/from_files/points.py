@@ -1,0 +1,133 @@
+"""Labels out of segmented points and meshes: each hull is what most of the points are that it holds."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+
+import numpy as np
+
+from meshforge.common import AssetError, GeometryError
+from meshforge.formats import Segmentation, attach_own_mesh, read_segmentation
+from meshforge.geometry import Aabb, Floats
+from meshforge.labels.from_files.classes import (
+    ClassMeaning,
+    FileLabels,
+    class_names_of,
+    describe_unknown_class,
+    meaning_of,
+)
+from meshforge.labels.from_files.segments import (
+    HullVotes,
+    PointAlignment,
+    PointSamples,
+    align_points,
+    samples_of_faces,
+    samples_of_points,
+    vote_by_points,
+)
+from meshforge.labels.names.hull_names import NamePattern
+from meshforge.symbolic import Label, SymbolicMesh
+
+_HELD = 0.5  # share of points that hulls hold at least, if both are in the same frame
+_DIGITS = 3
+
+
+@dataclass(frozen=True, slots=True)
+class PointsOptions:
+    """How segmented points are read. classes: the names of classes 0, 1, ..., or `vocabulary` alone where they are
+    those of the vocabulary; none where files say them. placing: how points come into the frame of an asset."""
+
+    classes: tuple[str, ...] = ()
+    placing: PointAlignment = field(default_factory=PointAlignment)
+
+
+def label_by_points(
+    mesh: SymbolicMesh, path: Path, how: PointsOptions, vocabulary: Sequence[str], patterns: Sequence[NamePattern]
+) -> FileLabels:
+    """What a file says of the hulls of an asset.
+
+    Raises AssetError: it cannot be read, does not lie where the asset does, or says classes that have no names.
+    """
+    found, asset = read_segmentation(path), mesh.asset
+    if found.vertices is None:
+        found = attach_own_mesh(found, asset.path if asset else path, str(path))
+    names = class_names_of(found, path, how.classes, vocabulary)
+    meanings = {number: meaning_of(name, vocabulary, patterns) for number, name in names.items()}
+    codes = _merge_codes(names, meanings)
+    kinds, places = np.unique(found.classes, return_inverse=True)
+    own = np.array([codes.get(int(k), -1) for k in kinds])[places.reshape(-1)]
+    samples = _sample(replace(found, classes=own), mesh, path, how.placing)
+    said = vote_by_points([hull.shape for hull in mesh.hulls], samples)
+    _refuse_points_outside(said, path, how.placing)
+    return _to_file_labels(
+        mesh, said, {code: (names[k], meanings[k]) for k, code in reversed(codes.items())}, vocabulary
+    )
+
+
+def _merge_codes(names: Mapping[int, str], meanings: Mapping[int, ClassMeaning | None]) -> dict[int, int]:
+    """The first class that means the same as each class; classes that mean nothing stay apart by their names."""
+    firsts: dict[object, int] = {}
+    key = {k: meaning.label if meaning else ("", names[k]) for k, meaning in meanings.items()}
+    return {k: firsts.setdefault(key[k], k) for k in names}
+
+
+def _sample(found: Segmentation, mesh: SymbolicMesh, path: Path, placing: PointAlignment) -> PointSamples:
+    """Points with classes in the frame of the asset."""
+    assert found.vertices is not None  # those of the asset's own mesh were found
+    try:
+        vertices = _align(found.vertices, mesh, placing)
+    except GeometryError as error:
+        raise AssetError(error.problem, where=str(path), remedy=error.remedy) from error
+    if len(found.faces):
+        return samples_of_faces(vertices, found.faces, found.classes, each=found.of_faces)
+    return samples_of_points(vertices, found.classes)
+
+
+def _align(points: Floats, mesh: SymbolicMesh, placing: PointAlignment) -> Floats:
+    """The points where the hulls are, or else where is what the asset shows, of which hulls may be only a part."""
+    box, up = mesh.aabb, mesh.asset.up if mesh.asset else None
+    if box is None:
+        return points
+    try:
+        return align_points(points, [box], placing, up)
+    except GeometryError:
+        shown = _visual_box(mesh)
+        if shown is None:
+            raise
+        return align_points(points, [box, shown], placing, up)
+
+
+def _visual_box(mesh: SymbolicMesh) -> Aabb | None:
+    """The box around all that an asset shows, None where that is nothing."""
+    surfaces = mesh.asset.visuals if mesh.asset else ()
+    corners = [surface.vertices[surface.faces].reshape(-1, 3) for surface in surfaces if len(surface.faces)]
+    box = Aabb.of_points(np.concatenate(corners)) if corners else None
+    return box if box and box.diagonal > 0 else None
+
+
+def _refuse_points_outside(said: HullVotes, path: Path, placing: PointAlignment) -> None:
+    """Raise AssetError where most points are in no hull, unless they are to be taken as they are."""
+    if placing.align != "off" and said.of_hulls and said.held < _HELD:
+        raise AssetError(
+            f"only {said.held:.0%} of its points are in hulls: it may be turned, or of another asset",
+            where=str(path),
+            remedy="If it is right, and only part of the asset has hulls, say --align off.",
+        )
+
+
+def _to_file_labels(
+    mesh: SymbolicMesh, said: HullVotes, known: Mapping[int, tuple[str, ClassMeaning | None]], vocabulary: Sequence[str]
+) -> FileLabels:
+    labels, names, odd = dict[str, Label](), dict[str, str](), Counter[str]()
+    for hull, vote in zip(mesh.hulls, said.of_hulls, strict=True):
+        name, meaning = known.get(vote.kind, ("", ClassMeaning(None))) if vote else ("", ClassMeaning(None))
+        names[hull.name] = name
+        if meaning is None:
+            odd[name] += 1
+        elif meaning.label and vote:
+            sure = round(vote.confidence * meaning.sure, _DIGITS)
+            labels[hull.name] = Label(meaning.label, sure, "file")
+    return FileLabels(labels, names, [describe_unknown_class(name, count, vocabulary) for name, count in odd.items()])

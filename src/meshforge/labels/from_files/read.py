@@ -1,0 +1,216 @@
+"""Which file says what the hulls of an asset are, and what it says: a labels file, segmented points, or PartNet's
+semantics of links."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import closing
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Literal
+
+from meshforge.batch import AssetSet, ExecutionOptions, WorkerFailure, asset_id, execute, read_prepared
+from meshforge.common import AssetError, MeshForgeError, UsageError, describe_error
+from meshforge.formats import POINTS_SUFFIXES, SEMANTICS_FILE, labels_beside, points_beside, read_semantics
+from meshforge.labels.from_files.classes import ClassMeaning, FileLabels, describe_unknown_class, meaning_of
+from meshforge.labels.from_files.points import PointsOptions, label_by_points
+from meshforge.labels.names.hull_names import HullNames, NamePattern
+from meshforge.labels.names.label_by_names import PatternPairs, names_of_mesh
+from meshforge.labels.names.words import EXACT
+from meshforge.store import AssetFacts, Store, hull_digests, iterate_survey
+from meshforge.symbolic import Label, SymbolicMesh, match_labels, read_labels
+
+LabelFileKind = Literal["labels file", "points", "semantics"]
+_LINKS_SUFFIX = ".urdf"  # the format whose links semantics are about
+
+
+def find_label_files(found: AssetSet, source: Path | None) -> dict[str, Path]:
+    """The file of each asset that has one; beside each asset: labels file, then points, then semantics.
+
+    source: a file for a single asset, or a folder that mirrors the assets; None for those beside them.
+    Raises UsageError: nothing there, a kind of file that says no labels, or one file for several assets.
+    """
+    if source is None:
+        files = {asset: label_file_beside(path) for asset, path in found.ids.items()}
+    elif source.is_file():
+        kind_of(source)
+        if len(found) > 1:
+            problem = f"one file cannot serve {len(found)} assets"
+            raise UsageError(problem, where=str(source), remedy="Give a folder that mirrors theirs.")
+        files = dict.fromkeys(found.ids, source)
+    elif source.is_dir():
+        files = {asset: _file_in_mirror(source / asset_id(path, found.base), path) for asset, path in found.ids.items()}
+    else:
+        raise UsageError("there is no such labels file or folder", where=str(source))
+    return {asset: file for asset, file in files.items() if file}
+
+
+def kind_of(file: Path) -> LabelFileKind:
+    """What a file is by its name. Raises UsageError for one that says no labels."""
+    match file.suffix.lower():
+        case ".json":
+            return "labels file"
+        case ".txt":
+            return "semantics"
+        case suffix if suffix in POINTS_SUFFIXES:
+            return "points"
+    remedy = f"Labels files are .json, segmented points {', '.join(POINTS_SUFFIXES)}; PartNet's are {SEMANTICS_FILE}."
+    raise UsageError("this is no kind of file that labels are read from", where=str(file), remedy=remedy)
+
+
+def label_file_beside(asset: Path) -> Path | None:
+    """The file beside an asset, None where there is none."""
+    labels = labels_beside(asset)
+    return labels if labels.is_file() else points_beside(labels) or _semantics_beside(asset)
+
+
+def _file_in_mirror(place: Path, asset: Path) -> Path | None:
+    """The file in a folder of them; place: where the asset would be there, which may be where it is."""
+    labels = labels_beside(place)
+    plain = (place.with_name(place.name + ".json"), labels)
+    points = (place.with_suffix(suffix) for suffix in POINTS_SUFFIXES)
+    return (
+        next((path for path in plain if path.is_file()), None)
+        or points_beside(labels)
+        or next((path for path in points if path != asset and path.is_file()), None)
+        or _semantics_beside(place)
+    )
+
+
+def _semantics_beside(asset: Path) -> Path | None:
+    file = asset.with_name(SEMANTICS_FILE)
+    return file if asset.suffix.lower() == _LINKS_SUFFIX and file.is_file() else None
+
+
+def label_by_links(
+    mesh: SymbolicMesh, path: Path, vocabulary: Sequence[str], patterns: Sequence[NamePattern]
+) -> FileLabels:
+    """What a file says of the hulls of an asset.
+
+    A hull whose own names say another label of the vocabulary, and that alone, is that: PartNet calls what is on a link
+    by its finer parts, `handle-7` on a drawer.
+    Raises AssetError: it cannot be read, or names no link of this asset.
+    """
+    semantics = {one.link: one.name for one in read_semantics(path)}
+    links = {body.name for body in mesh.asset.bodies} if mesh.asset else set()
+    if links.isdisjoint(semantics):
+        raise AssetError("it lists no link of this asset", where=str(path))
+    labels, names, odd = dict[str, Label](), dict[str, str](), Counter[str]()
+    for own in names_of_mesh(mesh):
+        if own.body not in semantics:
+            continue
+        name, meaning = _interpret(own, semantics[own.body], vocabulary, patterns)
+        names[own.hull] = name
+        if meaning is None:
+            odd[name] += 1
+        elif meaning.label:
+            labels[own.hull] = Label(meaning.label, meaning.sure, "file")
+    gone = [f"there is no link {link!r}" for link in semantics if link not in links]
+    return FileLabels(
+        labels, names, [*(describe_unknown_class(name, count, vocabulary) for name, count in odd.items()), *gone]
+    )
+
+
+def read_link_names(path: Path) -> list[str]:
+    """What links are, in the order of the file, each once."""
+    return list(dict.fromkeys(one.name for one in read_semantics(path)))
+
+
+def _interpret(
+    own: HullNames, semantic: str, vocabulary: Sequence[str], patterns: Sequence[NamePattern]
+) -> tuple[str, ClassMeaning | None]:
+    """What a hull is called, and what that means."""
+    of_link = meaning_of(semantic, vocabulary, patterns)
+    for _, name in own.own_names():
+        meaning = meaning_of(name, vocabulary, patterns)
+        if meaning and meaning.sure >= EXACT and not (of_link and meaning.label == of_link.label):
+            return name, meaning
+    return semantic, of_link
+
+
+@dataclass(frozen=True, slots=True)
+class LabelFileOptions:
+    """How files are read. meanings: what names of classes mean, besides the patterns of the project, which they
+    precede; reading: how segmented points are read."""
+
+    meanings: PatternPairs = ()
+    reading: PointsOptions = field(default_factory=PointsOptions)
+
+
+@dataclass(frozen=True, slots=True)
+class LabelFileContent:
+    """What a file says of an asset. hulls: digests by name, in order; error: why the asset or its file is not read."""
+
+    hulls: Mapping[str, str] = field(default_factory=dict)
+    given: FileLabels = field(default_factory=FileLabels)
+    error: str | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class _Work:
+    """An asset, the folder of its preparation, and a file that only its mesh makes sense of."""
+
+    path: Path
+    preparation: Path
+    file: Path
+    options: LabelFileOptions
+    vocabulary: tuple[str, ...]
+    patterns: tuple[NamePattern, ...]
+
+
+def read_label_files(
+    store: Store,
+    files: Mapping[str, Path],
+    options: LabelFileOptions,
+    vocabulary: Sequence[str],
+    patterns: Sequence[NamePattern],
+    execution: ExecutionOptions,
+) -> Iterator[tuple[str, LabelFileContent]]:
+    """What the file of each asset says, in their order, as soon as it is known; read in worker processes."""
+    plain = {asset for asset, file in files.items() if kind_of(file) == "labels file"}
+    layout, words, known = store.layout, tuple(vocabulary), tuple(patterns)
+    work = [
+        _Work(store.path(asset), layout.preparation(asset), file, options, words, known)
+        for asset, file in files.items()
+        if asset not in plain
+    ]
+    with (
+        closing(iterate_survey(store.found, layout, plain, execution=execution)) as facts,
+        closing(execute(_read_by_mesh, work, execution)) as others,
+    ):
+        for asset, file in files.items():
+            if asset in plain:
+                yield asset, _read_by_facts(next(facts)[1], file)
+            else:
+                content = next(others)
+                yield (
+                    asset,
+                    LabelFileContent(error=f"{store.path(asset)}: {content.why}")
+                    if isinstance(content, WorkerFailure)
+                    else content,
+                )
+
+
+def _read_by_facts(facts: AssetFacts, file: Path) -> LabelFileContent:
+    if facts.error:
+        return LabelFileContent(error=facts.error)
+    try:
+        labels_file = read_labels(file)
+    except MeshForgeError as error:
+        return LabelFileContent(facts.hulls, error=error.message)
+    homes = match_labels(labels_file, facts.hulls)
+    present = {name: homes.labels[name] for name in facts.hulls if name in homes.labels}
+    return LabelFileContent(facts.hulls, FileLabels({name: labels_file.labels[name] for name in homes.gone} | present))
+
+
+def _read_by_mesh(work: _Work) -> LabelFileContent:
+    try:
+        mesh = SymbolicMesh.of(read_prepared(work.path, work.preparation))
+        if kind_of(work.file) == "points":
+            given = label_by_points(mesh, work.file, work.options.reading, work.vocabulary, work.patterns)
+        else:
+            given = label_by_links(mesh, work.file, work.vocabulary, work.patterns)
+        return LabelFileContent(hull_digests(mesh), given)
+    except Exception as error:  # one asset never stops the others
+        return LabelFileContent(error=describe_error(error, str(work.path)))

@@ -1,0 +1,175 @@
+"""A store with the use cases that label hulls."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from contextlib import AbstractContextManager, nullcontext
+from dataclasses import dataclass
+from pathlib import Path
+
+from meshforge.batch import IN_PROCESS, ExecutionOptions
+from meshforge.labels.from_files.label_by_files import label_from_files, propose_from_files
+from meshforge.labels.from_files.read import LabelFileOptions
+from meshforge.labels.merge import LabelOutcome, OutcomeCallback, ignore_report, set_labels
+from meshforge.labels.names.label_by_names import PatternPairs, label_from_names, propose_from_names
+from meshforge.labels.offers import LabelOffers, OfferCache
+from meshforge.labels.progress import Tally, describe_label_plan, tally, write_contact_sheets
+from meshforge.labels.propagation.label_by_propagation import (
+    PropagationResult,
+    Stage,
+    WriteBlock,
+    ignore_stage,
+    propagate_labels,
+    propose_propagated,
+)
+from meshforge.labels.propose import Proposals
+from meshforge.labels.vlm.label_by_vlm import VlmForecast, VlmResult, forecast_vlm, label_with_vlm
+from meshforge.labels.vlm.limits import Usage
+from meshforge.store import Store, VlmSettings
+from meshforge.symbolic import LabelSource
+
+
+@dataclass(frozen=True)
+class LabelStore(Store):
+    """A `Store` whose further methods label hulls, one statement each."""
+
+    def set_labels(
+        self, asset: str, labels: Mapping[str, str | None], *, source: LabelSource = "user", confidence: float = 1.0
+    ) -> LabelOutcome:
+        """Label some hulls of an asset, or remove their labels by None. A machine never overwrites a person's label.
+
+        Raises ProjectError, with nothing written, for an unknown hull or a label that is not in the vocabulary.
+        """
+        return set_labels(self, asset, labels, source, confidence)
+
+    def label_from_files(
+        self,
+        source: Path | None = None,
+        options: LabelFileOptions | None = None,
+        *,
+        execution: ExecutionOptions = IN_PROCESS,
+        report: OutcomeCallback = ignore_report,
+    ) -> tuple[LabelOutcome, ...]:
+        """Take labels from files: labels files, segmented points and meshes, and PartNet's semantics of links.
+
+        source: a file for a single asset, a folder that mirrors the assets, or None for the files beside them. A
+        project without a vocabulary takes that of the files. report: called with the outcome of each asset, as soon as
+        its labels are written, in the order of the assets.
+        Raises ProjectError: no file at all; UsageError: a wrong pattern, or one file for several assets; AssetError: a
+        file that cannot be read while a vocabulary is looked for.
+        """
+        return label_from_files(self, source, options or LabelFileOptions(), execution, report)
+
+    def propose_from_files(
+        self,
+        source: Path | None = None,
+        options: LabelFileOptions | None = None,
+        vocabulary: Sequence[str] | None = None,
+        *,
+        execution: ExecutionOptions = IN_PROCESS,
+    ) -> Proposals:
+        """What `label_from_files` would take, with nothing written; vocabulary: one to try instead."""
+        return propose_from_files(self, source, options or LabelFileOptions(), vocabulary, execution)
+
+    def label_offers(self) -> LabelOffers:
+        """What `label_from_files` and `label_from_names` would give. To ask often, use an `OfferCache`."""
+        return OfferCache().of(self)
+
+    def label_from_names(
+        self,
+        meanings: PatternPairs = (),
+        *,
+        execution: ExecutionOptions = IN_PROCESS,
+        report: OutcomeCallback = ignore_report,
+    ) -> tuple[LabelOutcome, ...]:
+        """Label hulls without a label by their own names, those of their bodies, and what else their files call them.
+
+        Patterns count first: `meanings`, then those of the project's settings; then the words of the vocabulary, and
+        words that are nearly those. report: called with the outcome of each asset, in their order.
+        Raises ProjectError: no vocabulary; UsageError: a wrong pattern.
+        """
+        return label_from_names(self, meanings, execution, report)
+
+    def propose_from_names(
+        self,
+        meanings: PatternPairs = (),
+        vocabulary: Sequence[str] | None = None,
+        *,
+        execution: ExecutionOptions = IN_PROCESS,
+    ) -> Proposals:
+        """What `label_from_names` would take, with nothing written; vocabulary: one to try instead."""
+        return propose_from_names(self, meanings, vocabulary, execution)
+
+    def plan_labels(self) -> str:
+        """A sentence on how many assets there are of what, and how many have labels."""
+        return describe_label_plan(self)
+
+    def tally_labels(self, progress: Callable[[], None] | None = None) -> Tally:
+        """How many hulls have labels of which source and confidence."""
+        return tally(self, progress)
+
+    def draw_labels(
+        self, folder: Path, assets: Sequence[str], progress: Callable[[], None] | None = None
+    ) -> tuple[Path, ...]:
+        """Write contact sheets of some assets, `labels-001.png` and so on, in which hulls have their labels' colours.
+
+        Earlier sheets are replaced. Raises UsageError where one cannot be written.
+        """
+        return write_contact_sheets(self, folder, assets, progress)
+
+    def propagate_labels(
+        self,
+        *,
+        execution: ExecutionOptions = IN_PROCESS,
+        stage: Stage = ignore_stage,
+        report: OutcomeCallback = ignore_report,
+        write_block: WriteBlock = nullcontext,
+    ) -> PropagationResult:
+        """Propagate the labels of a few assets to all others; labels of people and files stay.
+
+        Descriptions of the hulls are kept in the project, so that the next time is quick. stage: entered for each part
+        of the work; report: called with the outcome of each asset, in their order; write_block: the block in which all
+        labels are written, given the asset that would help most.
+        Raises ProjectError: no vocabulary, no label to begin with; StoppedError on a stop, with nothing written.
+        """
+        return propagate_labels(self, execution, stage, report, write_block)
+
+    def propose_propagated(
+        self,
+        vocabulary: Sequence[str] | None = None,
+        *,
+        execution: ExecutionOptions = IN_PROCESS,
+        stage: Stage = ignore_stage,
+    ) -> Proposals:
+        """What `propagate_labels` would give, with nothing written; vocabulary: one to try instead."""
+        return propose_propagated(self, vocabulary, execution, stage)
+
+    def label_with_vlm(
+        self,
+        settings: VlmSettings | None = None,
+        *,
+        progress: Callable[[Usage], None] | None = None,
+        stop: Callable[[], bool] | None = None,
+        write_block: Callable[[], AbstractContextManager[object]] | None = None,
+        execution: ExecutionOptions = IN_PROCESS,
+    ) -> VlmResult:
+        """Ask a vision-language model for labels; labels of people and files stay.
+
+        settings: those of the project when None. progress: called for each asset, with what was spent so far; stop:
+        whether to ask no more; write_block: the block in which all labels are written in the end; None writes those of
+        an asset as soon as its answers are there; execution: how pictures are drawn. Answers are kept, so that none is
+        paid for twice. Raises MeshForgeError where nothing could be asked at all.
+        """
+        return label_with_vlm(self, settings or self.settings.vlm, progress, stop, write_block, execution)
+
+    def forecast_vlm(
+        self,
+        settings: VlmSettings | None = None,
+        *,
+        progress: Callable[[], None] | None = None,
+        stop: Callable[[], bool] | None = None,
+        vocabulary: Sequence[str] | None = None,
+        execution: ExecutionOptions = IN_PROCESS,
+    ) -> VlmForecast:
+        """What `label_with_vlm` would send and what that costs, with nothing sent; vocabulary: one to try instead."""
+        return forecast_vlm(self, settings or self.settings.vlm, progress, stop, vocabulary, execution)

@@ -1,0 +1,230 @@
+"""Labels given to hulls beside the labels that are there: a person's are never overwritten by a machine; and labels
+that follow hulls which others replace."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection, Mapping, Sequence
+from dataclasses import dataclass, replace
+
+from meshforge.common import AssetError, ProjectError, file_state, join_names, nearest_name
+from meshforge.geometry import Shape, digest, overlap_volume
+from meshforge.rendering import UNSURE
+from meshforge.store import Store, hull_digests
+from meshforge.symbolic import (
+    GIVEN_SOURCES,
+    HUMAN_SOURCES,
+    Hull,
+    Label,
+    LabelSource,
+    SymbolicMesh,
+    match_labels,
+    transfer_labels,
+)
+
+ReplacePolicy = Callable[[Label | None, Label], bool]
+"""Whether a label, or none, may be replaced by a given one at all; what people said stays in any case."""
+
+_MOST_OVERLAP = 0.5  # a hull takes a label that more than this share of what it overlaps has
+_WHOLE_OVERLAP = 0.99  # from here on it is that hull, or a part of it, and the label is as sure as it was
+
+
+@dataclass(frozen=True, slots=True)
+class LabelOutcome:
+    """What became of labels that were given to one asset; all but `asset` and `problems` are numbers of labels.
+
+    taken: written; same: those the hulls have already; kept: not written, since a person's label stands there.
+    problems: a sentence for each label that was left out; unlabelled: hulls that still have none; unsure: those whose
+    label is less certain than not.
+    """
+
+    asset: str
+    taken: int = 0
+    same: int = 0
+    kept: int = 0
+    unlabelled: int = 0
+    unsure: int = 0
+    problems: tuple[str, ...] = ()
+
+
+def set_labels(
+    store: Store, asset: str, labels: Mapping[str, str | None], source: LabelSource, confidence: float
+) -> LabelOutcome:
+    """Write labels of one asset, or remove them by None. Raises ProjectError, with nothing written, for a wrong one."""
+    given = {name: Label(label, confidence, source) for name, label in labels.items() if label is not None}
+    away = [name for name, label in labels.items() if label is None]
+    with store.lock():
+        mesh, vocabulary = store.mesh(asset), store.vocabulary
+        labelled, report = merge_labels(asset, mesh.index, mesh.labels, given, vocabulary)
+        gone = [
+            f"there is no hull {name!r}{_suggest_nearest(name, mesh.index)}" for name in away if name not in mesh.index
+        ]
+        problems = [*report.problems, *gone]
+        if problems:
+            remedy = f"The vocabulary is: {', '.join(vocabulary) or 'empty'}."
+            raise ProjectError(problems[0], where=asset, remedy=remedy)
+        kept = {name: label for name, label in labelled.items() if name not in away}
+        store.write_labels(asset, hull_digests(mesh), kept, vocabulary)
+    return report
+
+
+def merge_labels(
+    asset: str,
+    hulls: Collection[str],
+    current: Mapping[str, Label],
+    given: Mapping[str, Label],
+    vocabulary: Sequence[str],
+) -> tuple[dict[str, Label], LabelOutcome]:
+    """The labels of an asset with those that may be taken, and what became of each of these.
+
+    hulls: the names of all; current: the labels that there are, by hull.
+    """
+    taken, same, kept, problems = dict[str, Label](), 0, 0, list[str]()
+    for name, label in given.items():
+        if problem := _problem(name, label, hulls, vocabulary):
+            problems.append(problem)
+        elif current.get(name) == label:
+            same += 1
+        elif is_protected(current.get(name), label):
+            kept += 1
+        else:
+            taken[name] = label
+    labels = {**current, **taken}
+    unsure = sum(label.confidence < UNSURE for label in labels.values())
+    return labels, LabelOutcome(asset, len(taken), same, kept, len(hulls) - len(labels), unsure, tuple(problems))
+
+
+def is_protected(current: Label | None, given: Label) -> bool:
+    """Whether a label stays though another one is given: a machine's does not take the place of a person's."""
+    return current is not None and current.source in HUMAN_SOURCES and given.source not in HUMAN_SOURCES
+
+
+def _problem(name: str, label: Label, hulls: Collection[str], vocabulary: Sequence[str]) -> str | None:
+    if name not in hulls:
+        return f"there is no hull {name!r}{_suggest_nearest(name, hulls)}"
+    if label.name not in vocabulary:
+        return f"{name}: the label {label.name!r} is not in the vocabulary{_suggest_nearest(label.name, vocabulary)}"
+    return None
+
+
+def _suggest_nearest(name: str, available: Collection[str]) -> str:
+    like = nearest_name(name, available)
+    return f"; did you mean {like!r}?" if like else ""
+
+
+OutcomeCallback = Callable[[LabelOutcome], None]
+"""Called with what became of an asset, as soon as that is known; assets come in their order."""
+
+
+class LabelWriter:
+    """Writes labels of assets, each under the lock of the project, which others may change at the same time."""
+
+    def __init__(self, store: Store) -> None:
+        self._store = store
+        self._seen: object = None
+        self._vocabulary: tuple[str, ...] = ()
+
+    @property
+    def vocabulary(self) -> tuple[str, ...]:
+        """The vocabulary as it is now; settings that name very many assets are not parsed for each of them."""
+        now = file_state(self._store.layout.settings)
+        if now != self._seen:
+            self._seen, self._vocabulary = now, self._store.vocabulary
+        return self._vocabulary
+
+    def try_write(
+        self, asset: str, hulls: Mapping[str, str], given: Mapping[str, Label], may: ReplacePolicy
+    ) -> LabelOutcome:
+        """Write as `write` does; labels that cannot be read are a problem in the outcome."""
+        try:
+            return self.write(asset, hulls, given, may)
+        except AssetError as error:
+            return LabelOutcome(asset, problems=(error.message,))
+
+    def write(
+        self, asset: str, hulls: Mapping[str, str], given: Mapping[str, Label], may: ReplacePolicy
+    ) -> LabelOutcome:
+        """Write those of the labels that may be taken: since they were computed, the asset may have got others.
+
+        hulls: digests by name, in order. Raises AssetError where the present labels cannot be read.
+        """
+        with self._store.lock():
+            current = match_labels(self._store.labels(asset), hulls).labels
+            wanted = {name: label for name, label in given.items() if may(current.get(name), label)}
+            labels, report = merge_labels(asset, hulls, current, wanted, self.vocabulary)
+            if report.taken:
+                self._store.write_labels(asset, hulls, labels, self.vocabulary)
+        return report
+
+
+def ignore_report(report: LabelOutcome) -> None:
+    """A report that nobody reads."""
+
+
+def can_replace_any(current: Label | None, given: Label) -> bool:
+    """Every label may be replaced, of those that are not a person's."""
+    return True
+
+
+def can_fill_gap(current: Label | None, given: Label) -> bool:
+    """Only hulls without a label get one."""
+    return current is None
+
+
+def can_replace_less_certain(current: Label | None, given: Label) -> bool:
+    """Whether a label may be replaced: an earlier one of that machine, or one that another was less sure of."""
+    if current is None or current.source == given.source:
+        return True
+    return current.source not in GIVEN_SOURCES and current.confidence < given.confidence
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class NewHullLabels:
+    """The labels of an asset whose hulls change. mesh: the new hulls with theirs; gone: names of old ones."""
+
+    store: Store
+    asset: str
+    mesh: SymbolicMesh
+    gone: tuple[str, ...]
+    notes: tuple[str, ...]
+
+    def write(self, *, keep_old: bool) -> None:
+        """Write the labels; keep_old: those of hulls that go stay beside them."""
+        store, mesh, away = self.store, self.mesh, () if keep_old else self.gone
+        store.write_labels(self.asset, hull_digests(mesh), mesh.labels, store.vocabulary, away)
+
+
+def label_new_hulls(store: Store, asset: str, old: Mapping[str, Shape], mesh: SymbolicMesh) -> NewHullLabels | None:
+    """The labels where hulls `old`, by name, become those of a mesh; None where no label is concerned."""
+    file = store.labels(asset)
+    here = hull_digests(mesh)
+    were = {name: digest(shape) for name, shape in old.items()}
+    gone = {name: old[name] for name in file.labels if name in old and here.get(name) != were[name]}
+    if not gone:
+        return None
+    labels = {name: file.labels[name] for name in gone}
+    fresh = {h.name: _label_by_overlap(h, gone, labels) for h in mesh.hulls if were.get(h.name) != here[h.name]}
+    rest = replace(file, labels={n: label for n, label in file.labels.items() if n not in gone})
+    followed = transfer_labels(rest, mesh).mesh
+    taken = {name: label for name, label in fresh.items() if label and not followed.hull_of(name).annotation}
+    notes = [f"labels of {join_names([*gone])} went to {join_names([*taken])}"] if taken else []
+    lost = sorted({label.name for label in labels.values()} - {label.name for label in taken.values()})
+    notes += [f"no hull takes over the label {join_names(lost)}"] if lost else []
+    away = tuple(name for name in gone if name not in taken)
+    return NewHullLabels(store, asset, followed.with_labels(taken), away, tuple(notes))
+
+
+def _label_by_overlap(hull: Hull, gone: Mapping[str, Shape], labels: Mapping[str, Label]) -> Label | None:
+    """The label of most of what a hull overlaps, with the certainty of the hull that had it."""
+    common = {name: overlap_volume(hull.shape, shape) for name, shape in gone.items()}
+    covered = sum(common.values())
+    if not covered > 0:
+        return None
+    shares: dict[str, float] = {}
+    for name, volume in common.items():
+        shares[labels[name].name] = shares.get(labels[name].name, 0.0) + volume / covered
+    best = max(shares, key=lambda label: shares[label])
+    if shares[best] <= _MOST_OVERLAP:
+        return None
+    heir = labels[max((n for n in gone if labels[n].name == best), key=lambda n: common[n])]
+    certain = shares[best] >= _WHOLE_OVERLAP
+    return heir if certain else Label(best, heir.confidence * min(shares[best], 1.0), "propagated")

@@ -1,0 +1,149 @@
+"""The words in names: split apart, compared with other words, and looked up among words that mean nothing here."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Container
+from functools import cache
+from importlib.resources import files
+from itertools import pairwise
+
+Words = tuple[str, ...]
+
+_LEAST_PART = 3  # letters of a word that is joined with others
+
+EXACT = 0.7
+"""How sure a label is whose word is in a name: names are given by people, though not for this."""
+_VOWELLESS, _SLIP, _GUESS = 0.6, 0.55, 0.45
+_VOWELS = frozenset("aeiou")
+_LEAST_LETTERS = 3  # letters of a shortened word, and of a label that may be shortened one more
+_LONG = 6  # letters of a word in which any one letter may be wrong; in shorter ones that makes other words
+
+
+def words_of(name: str) -> Words:
+    """The words in a name, in lower case: `leftDoor_2` and `left-door` have two, `URDFLink` too."""
+    spaced = "".join(
+        f" {here}" if here.isupper() and (not before.isupper() or after.islower()) else here if here.isalpha() else " "
+        for before, here, after in zip(f" {name}", name, f"{name[1:]} ", strict=False)
+    )
+    return tuple(spaced.casefold().split())
+
+
+def forms(word: str) -> set[str]:
+    """What a word may be in the singular: `shelves` is one shelf, or one shelve."""
+    found = {word, word.removesuffix("s"), word.removesuffix("es")}
+    if word.endswith("ves"):
+        found |= {f"{word[:-3]}f", f"{word[:-3]}fe"}
+    if word.endswith("ies"):
+        found.add(f"{word[:-3]}y")
+    return found - {""}
+
+
+def is_one_of(word: str, words: Container[str]) -> bool:
+    """Whether a word is one of some, be it in the plural."""
+    return any(form in words for form in forms(word))
+
+
+def is_same(one: str, other: str) -> bool:
+    """Whether two words are the same, be it in the plural."""
+    return not forms(one).isdisjoint(forms(other))
+
+
+def common() -> frozenset[str]:
+    """Words that are often in names of things and mean just what they say."""
+    return _read_words("common.txt")
+
+
+@cache
+def fillers() -> frozenset[str]:
+    """Words that say nothing of what a thing is, or only which one."""
+    return _read_words("fillers.txt") | places()
+
+
+@cache
+def dictionary() -> frozenset[str]:
+    """All these words."""
+    return common() | fillers()
+
+
+def places() -> frozenset[str]:
+    """Words that tell which one as often as what: `drawer_top` is a drawer, `table_top` a top."""
+    return _read_words("places.txt")
+
+
+@cache
+def _read_words(file: str) -> frozenset[str]:
+    text = files("meshforge.labels.names").joinpath(file).read_text(encoding="utf-8")
+    return frozenset(text.split())
+
+
+def split_joined_word(word: str, more: Collection[str]) -> Words:
+    """A word that is several words joined, `kettlehandle`, as these, the fewest; any other as it is.
+
+    more: words besides the known ones. Parts have three letters at least.
+    """
+    best: list[Words | None] = [()]
+    for end in range(1, len(word) + 1):
+        ways = [
+            (*before, word[start:end])
+            for start, before in enumerate(best)
+            if before is not None and end - start >= _LEAST_PART and _is_part(word[start:end], more)
+        ]
+        best.append(min(ways, key=len, default=None))
+    return best[-1] or (word,)
+
+
+def _is_part(word: str, more: Collection[str]) -> bool:
+    return any(form in dictionary() or form in more for form in forms(word))
+
+
+def word_similarity(word: str, meant: str) -> float:
+    """How surely one word stands for another, 0 where it does not. Common words stand for themselves alone."""
+    if is_same(word, meant):
+        return EXACT
+    if (
+        is_one_of(word, dictionary())
+        or len(word) < _LEAST_LETTERS
+        or len(meant) <= _LEAST_LETTERS
+        or word[0] != meant[0]
+    ):
+        return 0.0
+    if word == _consonants_of(meant):
+        return _VOWELLESS
+    if _is_slip(word, meant):
+        return _SLIP
+    return _GUESS if _is_short_for(word, meant) or _is_misspelt(word, meant) else 0.0
+
+
+def _consonants_of(word: str) -> str:
+    """A word without its vowels, and without the second of two letters that are the same: `bottle` is `btl`."""
+    kept = [letter for letter in word if letter not in _VOWELS]
+    return "".join(letter for before, letter in pairwise(["", *kept]) if letter != before)
+
+
+def _is_slip(word: str, meant: str) -> bool:
+    """Whether two letters that follow each other are exchanged, or one is doubled or should be."""
+    if len(meant) <= _LEAST_LETTERS + 1:
+        return False
+    swapped = (meant[:k] + meant[k + 1] + meant[k] + meant[k + 2 :] for k in range(1, len(meant) - 1))
+    return word in swapped or _drop_doubles(word) == _drop_doubles(meant)
+
+
+def _drop_doubles(word: str) -> str:
+    return "".join(letter for before, letter in pairwise(["", *word]) if letter != before)
+
+
+def _is_short_for(word: str, meant: str) -> bool:
+    """Whether a word is the beginning of another, four letters at least, or most of its consonants in order."""
+    if meant.startswith(word):
+        return len(word) > _LEAST_LETTERS and 2 * len(word) >= len(meant)
+    letters = iter(_consonants_of(meant))
+    consonants = _VOWELS.isdisjoint(word) and all(letter in letters for letter in word)
+    return consonants and 5 * len(word) >= 3 * len(_consonants_of(meant))
+
+
+def _is_misspelt(word: str, meant: str) -> bool:
+    """Whether one letter is wrong, missing or too many."""
+    if len(meant) < _LONG or abs(len(word) - len(meant)) > 1:
+        return False
+    same = next((k for k, (a, b) in enumerate(zip(word, meant, strict=False)) if a != b), min(len(word), len(meant)))
+    return any(word[same + i :] == meant[same + j :] for i, j in ((1, 1), (0, 1), (1, 0)))

@@ -1,0 +1,135 @@
+"""How far a project is labelled: counted by source and confidence, planned in words, and drawn on contact sheets."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from io import BytesIO
+from itertools import islice
+from pathlib import Path
+
+from meshforge.batch import AssetJob, ExecutionOptions, plan_run, run_isolated
+from meshforge.common import AssetError, MeshForgeError
+from meshforge.rendering import UNLABELLED, UNSURE, encode_png, label_colors, make_contact_sheet, render, write_png
+from meshforge.store import AssetFiles, Store, survey
+from meshforge.symbolic import HUMAN_SOURCES, LABEL_SOURCES, match_labels
+
+SURE = 0.9
+"""Labels as certain as this are sure; those below `UNSURE` are not."""
+
+PER_SHEET = 24
+_COLUMNS = 6
+_CELL = 320, 240
+_TIMEOUT = 120.0
+
+
+@dataclass(frozen=True, slots=True)
+class SourceTally:
+    """The labels of one source: how many are sure, likely and unsure."""
+
+    source: str
+    sure: int = 0
+    likely: int = 0
+    unsure: int = 0
+
+
+@dataclass(frozen=True, slots=True)
+class Tally:
+    """All hulls of the assets that can be read. shares: of the sources that have labels here, in their order.
+
+    doubtful: the assets with hulls that have no label or an unsure one, and how many, most first; unreadable: those
+    that cannot be read, or whose labels cannot, and why.
+    """
+
+    hulls: int
+    unlabelled: int
+    shares: tuple[SourceTally, ...]
+    doubtful: tuple[tuple[str, int], ...]
+    unreadable: tuple[tuple[str, str], ...] = ()
+
+
+def tally(store: Store, progress: Callable[[], None] | None = None) -> Tally:
+    """Count the labels, as far as assets and their labels can be read."""
+    counts = {source: [0, 0, 0] for source in LABEL_SOURCES}
+    hulls = unlabelled = 0
+    doubtful: dict[str, int] = {}
+    unreadable: dict[str, str] = {}
+    for asset, facts in survey(store.found, store.layout, progress=progress).items():
+        if facts.error:
+            unreadable[asset] = facts.error
+            continue
+        try:
+            labels = match_labels(store.labels(asset), facts.hulls).labels.values()
+        except MeshForgeError as error:
+            unreadable[asset] = error.message
+            continue
+        levels = [(label.confidence < SURE) + (label.confidence < UNSURE) for label in labels]
+        for label, level in zip(labels, levels, strict=True):
+            counts[label.source][level] += 1
+        hulls += len(facts.hulls)
+        unlabelled += len(facts.hulls) - len(labels)
+        doubtful[asset] = len(facts.hulls) - len(labels) + levels.count(2)
+    shares = tuple(SourceTally(source, *levels) for source, levels in counts.items() if any(levels))
+    order = sorted((asset for asset, count in doubtful.items() if count), key=lambda asset: -doubtful[asset])
+    return Tally(
+        hulls, unlabelled, shares, tuple((asset, doubtful[asset]) for asset in order), tuple(unreadable.items())
+    )
+
+
+def describe_label_plan(store: Store) -> str:
+    """How many assets there are of what, how many have labels, and how many of these have labels of a person."""
+    layout, found = store.layout, store.found
+    places = {asset: layout.labels(asset) for asset in found.ids}
+    jobs = [
+        AssetJob(asset, path, found.base, places[asset] if places[asset].exists() else None)
+        for asset, path in found.ids.items()
+    ]
+    by_people = sum(_has_human_label(store, job.id) for job in jobs if job.labels)
+    return f"{plan_run(jobs, layout.edited).assets}, {by_people:,} of them by a person"
+
+
+def _has_human_label(store: Store, asset: str) -> bool:
+    try:
+        return any(label.source in HUMAN_SOURCES for label in store.labels(asset).labels.values())
+    except AssetError:  # reported when its turn comes
+        return False
+
+
+@dataclass(frozen=True, slots=True)
+class _Work:
+    place: AssetFiles
+    vocabulary: tuple[str, ...]
+
+
+def write_contact_sheets(
+    store: Store, folder: Path, assets: Sequence[str], progress: Callable[[], None] | None = None
+) -> tuple[Path, ...]:
+    """Write `labels-001.png` and so on, in place of earlier ones; what cannot be drawn is left out."""
+    vocabulary = store.vocabulary
+    works = [_Work(place, vocabulary) for place in store.asset_files(assets)]
+    images = run_isolated(_draw, works, ExecutionOptions(timeout=_TIMEOUT, progress=progress))
+    cells = iter([(asset, image) for asset, image in zip(assets, images, strict=True) if isinstance(image, bytes)])
+    written = list[Path]()
+    while batch := tuple(islice(cells, PER_SHEET)):
+        written.append(folder / f"labels-{len(written) + 1:03d}.png")
+        _write_sheet(written[-1], batch, vocabulary)
+    for old in folder.glob("labels-[0-9][0-9][0-9]*.png"):
+        if old not in written:
+            old.unlink()
+    return tuple(written)
+
+
+def _draw(work: _Work) -> bytes | None:
+    try:
+        mesh = work.place.read_mesh()
+    except MeshForgeError:
+        return None
+    return encode_png(render(mesh, color_by="label", size=_CELL, legend=False, vocabulary=work.vocabulary))
+
+
+def _write_sheet(path: Path, batch: Sequence[tuple[str, bytes]], vocabulary: Sequence[str]) -> None:
+    from PIL import Image  # lazy: 0.05 s, only contact sheets need it
+
+    images = [Image.open(BytesIO(image)) for _, image in batch]
+    colors = label_colors(vocabulary) | {"no label": UNLABELLED}
+    write_png(path, make_contact_sheet(images, _COLUMNS, [asset for asset, _ in batch], colors))

@@ -1,0 +1,221 @@
+"""What is done to assets before the program: hulls decomposed, cut and split, with labels that follow them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import AbstractContextManager
+from dataclasses import dataclass
+from pathlib import Path
+
+from meshforge.batch import (
+    DecompositionResult,
+    ExecutionOptions,
+    Preparation,
+    Replacement,
+    WorkerFailure,
+    apply_preparation,
+    decompose_asset,
+    read_preparation,
+    record_digest,
+    remove_preparation,
+    replay_preparation,
+    run_isolated,
+    split_hull,
+    write_preparation,
+)
+from meshforge.common import AssetError, MeshForgeError, ProjectError, describe_error, join_names
+from meshforge.formats import read
+from meshforge.geometry import DecomposeSettings, Shape, cache_folder
+from meshforge.labels import label_new_hulls
+from meshforge.project.demonstrate import find_unknown_hulls
+from meshforge.store import Store
+from meshforge.symbolic import Asset, SymbolicMesh
+
+
+@dataclass(frozen=True, slots=True)
+class PreparationResult:
+    """What became of one asset.
+
+    made: the pieces that got hulls now; notes: what that means for labels and demonstrations, and what was given up;
+    problems: why a piece, or the whole asset, could not be prepared; undone: what was taken back, in words.
+    """
+
+    asset: str
+    made: tuple[Replacement, ...] = ()
+    notes: tuple[str, ...] = ()
+    problems: tuple[str, ...] = ()
+    undone: tuple[str, ...] = ()
+
+    @property
+    def hulls(self) -> tuple[str, ...]:
+        """The names of all hulls that were made."""
+        return tuple(name for entry in self.made for name in entry.made)
+
+
+def change_preparation(
+    store: Store, asset: str, make: Callable[[Asset, Preparation], Preparation]
+) -> PreparationResult:
+    """Do one thing more to an asset. make: its preparation with that, of the asset as it was read and that before."""
+    folder = store.layout.preparation(asset)
+    seen = record_digest(folder)
+    before = read_preparation(folder) or Preparation()
+    after = make(read(store.path(asset)), before)
+    notes = exchange_preparation(store, asset, after, seen)
+    added = after.steps[len(before.steps) :]
+    return PreparationResult(asset, tuple(entry for step in added for entry in step.replaced), tuple(notes))
+
+
+def split(store: Store, asset: str, hull: str, settings: DecomposeSettings, hollow: bool) -> PreparationResult:
+    """Split a hull by a decomposition of what its body shows."""
+
+    def make(source: Asset, before: Preparation) -> Preparation:
+        return split_hull(source, before, hull, settings, hollow=hollow, cache=cache_folder())
+
+    return change_preparation(store, asset, make)
+
+
+def unprepare(store: Store, asset: str, everything: bool) -> PreparationResult:
+    """Take back the last thing that was done to an asset, or everything. Raises ProjectError where nothing was.
+
+    What is kept for an asset that is gone, or cannot be read, can be taken back as a whole.
+    """
+    if asset not in store.layout.ids_with_preparation():
+        store.path(asset)
+    folder = store.layout.preparation(asset)
+    seen = record_digest(folder)
+    if seen is None:
+        raise ProjectError("nothing was done to it that could be taken back", where=asset)
+    before = _read_or_empty(folder) if everything else read_preparation(folder) or Preparation()
+    left = 0 if everything else len(before.steps) - 1
+    notes = exchange_preparation(store, asset, before.with_only(before.steps[:left]), seen)
+    undone = tuple(map(str, before.steps[left:])) or ("what was kept, which was damaged",)
+    return PreparationResult(asset, undone=undone, notes=tuple(notes))
+
+
+def _read_or_empty(folder: Path) -> Preparation:
+    """The preparation in a folder, an empty one where there is none or a damaged one."""
+    try:
+        return read_preparation(folder) or Preparation()
+    except AssetError:
+        return Preparation()
+
+
+def exchange_preparation(store: Store, asset: str, after: Preparation, seen: str | None) -> list[str]:
+    """Write a preparation in the place of the one of a known digest. Raises ProjectError where that is another now."""
+    with store.lock():
+        if record_digest(store.layout.preparation(asset)) != seen:
+            raise ProjectError("someone else has prepared it meanwhile", where=asset, remedy="Try again.")
+        return _exchange(store, asset, after)
+
+
+def _hulls_before(source: Asset, folder: Path) -> dict[str, Shape]:
+    """The hulls of an asset by name as they are prepared, those of an outdated preparation too.
+
+    A hull that a step puts others in the place of is none of them, whether or not that step still fits the asset.
+    """
+    before = _read_or_empty(folder)
+    made = {name: before.hulls[known] for name, known in before.hull_digests.items()}
+    there = made | {geom.name: geom.shape for geom in replay_preparation(source, before).asset.geoms}
+    return {name: shape for name, shape in there.items() if name not in before.hulls_replaced}
+
+
+def _exchange(store: Store, asset: str, after: Preparation) -> list[str]:
+    """Write a preparation, under the lock that the caller holds, and let labels follow; notes on what that means.
+
+    Labels of the new hulls are written before these, and labels of the old hulls go after them: killed in between,
+    labels of hulls that are not there are left, which is harmless.
+    """
+    folder = store.layout.preparation(asset)
+    try:
+        source = read(store.path(asset))
+    except MeshForgeError as error:
+        if after.steps:
+            raise
+        remove_preparation(folder)
+        return [f"its labels stay as they are: {error.problem}"] if store.layout.labels(asset).exists() else []
+    mesh = SymbolicMesh.of(apply_preparation(source, after))
+    follow = label_new_hulls(store, asset, _hulls_before(source, folder), mesh)
+    if follow:
+        follow.write(keep_old=True)
+    if after.steps:
+        write_preparation(folder, after)
+    else:
+        remove_preparation(folder)
+    if follow:
+        follow.write(keep_old=False)
+    gone = sorted({name for _, name in find_unknown_hulls(store.steps(asset), mesh.index)})
+    notes = list(follow.notes) if follow else []
+    if gone:
+        notes.append(f"the demonstration on it names {join_names(gone)}, which it has no more: demonstrate it anew")
+    return notes
+
+
+@dataclass(frozen=True, slots=True)
+class DecomposeOptions:
+    """What is decomposed, and how.
+
+    only: names of pieces and bodies, or patterns of them, none for all; again: also what is decomposed already;
+    hollow: shells of one sheet are not filled.
+    """
+
+    settings: DecomposeSettings
+    only: tuple[str, ...] = ()
+    again: bool = False
+    hollow: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class _DecomposeWork:
+    """One asset to be decomposed; folder: of its preparation."""
+
+    path: Path
+    folder: Path
+    options: DecomposeOptions
+
+
+def decompose(
+    store: Store,
+    assets: Sequence[str],
+    options: DecomposeOptions,
+    execution: ExecutionOptions,
+    write_block: Callable[[str], AbstractContextManager[object]],
+) -> Iterator[PreparationResult]:
+    """Decompose what assets have no hulls for, in worker processes; each is kept as soon as it is done."""
+    work = [_DecomposeWork(store.path(asset), store.layout.preparation(asset), options) for asset in assets]
+    results = run_isolated(_decompose_one, work, execution)
+    for asset, result in zip(assets, results, strict=True):
+        if isinstance(result, WorkerFailure):
+            yield PreparationResult(asset, problems=(result.why,))
+        elif isinstance(result, str):
+            yield PreparationResult(asset, problems=(result,))
+        else:
+            with write_block(asset):
+                kept = _write_result(store, asset, *result)
+            yield kept
+
+
+def _decompose_one(work: _DecomposeWork) -> tuple[DecompositionResult, str | None] | str:
+    """What a worker makes of an asset and the digest of the preparation it saw, or why it failed."""
+    try:
+        seen = record_digest(work.folder)
+        before = read_preparation(work.folder) or Preparation()
+        asset = read(work.path)
+        options, cache = work.options, cache_folder()
+        done = decompose_asset(
+            asset, before, options.settings, only=options.only, again=options.again, hollow=options.hollow, cache=cache
+        )
+        return done, seen
+    except Exception as error:  # one asset never stops the others
+        return describe_error(error, str(work.path))
+
+
+def _write_result(store: Store, asset: str, result: DecompositionResult, seen: str | None) -> PreparationResult:
+    problems = [f"{lost.what}: {lost.why}" for lost in result.failed]
+    notes = [f"given up, since {lost.what} {lost.why}" for lost in result.dropped]
+    notes += [result.missed] if result.missed else []
+    try:
+        if result.made or result.dropped:
+            notes += exchange_preparation(store, asset, result.preparation, seen)
+    except MeshForgeError as error:
+        return PreparationResult(asset, problems=(*problems, error.message))
+    return PreparationResult(asset, result.made, tuple(notes), tuple(problems))

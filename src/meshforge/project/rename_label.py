@@ -1,0 +1,160 @@
+"""Another name for a label, in every file of a project."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+from pathlib import Path
+
+from meshforge.common import ProgramError, ProjectError, nearest_name, write_atomically
+from meshforge.language import Program, rename_in_orient, rename_in_program
+from meshforge.project import accept
+from meshforge.store import (
+    AnswerLine,
+    AnswersFile,
+    ConfirmationLine,
+    CorrectionsFile,
+    DemonstrationFile,
+    RepairLine,
+    Settings,
+    Store,
+    action_text,
+    edit_settings,
+    json_text,
+    orientation,
+    orientation_text,
+    parse_action_text,
+    read_json,
+    repair_id,
+    set_value,
+)
+from meshforge.symbolic import LabelFile, format_labels, read_labels
+
+
+def rename_label(store: Store, old: str, new: str) -> None:
+    """Rename a label of the vocabulary in all that the project keeps; labels files beside the assets stay.
+
+    A file that cannot be read stops it before anything is written. The vocabulary is written last: killed in between,
+    every file is whole and says one name or the other, and renaming again completes it, since the vocabulary has the
+    old name still. Only that the program was learned from what there is now may be forgotten by that.
+    Raises ProjectError: no such label, the new one is there already, or no program could write it.
+    """
+    with store.lock():
+        settings = store.settings
+        _check_names(store, settings.vocabulary, old, new)
+        texts = dict(_rewrite_files(store, old, new))
+        program = store.program()
+        after = _rename_in_settings(store, settings, old, new)
+        fresh = edit_settings(store.folder, {"vocabulary": after.vocabulary, "orient": after.orient})
+        fresh = _rename_in_tables(store, fresh, settings, old, new)
+        inputs = accept.digest_learning_inputs(store)
+        for path, text in texts.items():
+            write_atomically(path, text)
+        if program:
+            accept.replace_program(store, program, rename_in_program(program, old, new), inputs, after)
+        write_atomically(store.layout.settings, fresh)
+
+
+def _check_names(store: Store, vocabulary: tuple[str, ...], old: str, new: str) -> None:
+    where = str(store.folder)
+    if old not in vocabulary:
+        like = nearest_name(old, vocabulary)
+        remedy = f"Did you mean {like!r}?" if like else f"The vocabulary is: {', '.join(vocabulary) or 'empty'}."
+        raise ProjectError(f"there is no label {old!r}", where=where, remedy=remedy)
+    if new in vocabulary:
+        remedy = "Choose another name, or give its hulls that label."
+        raise ProjectError(f"there is a label {new!r} already", where=where, remedy=remedy)
+    if not _is_writable(new):
+        remedy = "A label is text of at least one character, without line breaks and control characters."
+        raise ProjectError(f"no program could write the label {new!r}", where=where, remedy=remedy)
+
+
+def _is_writable(label: str) -> bool:
+    try:
+        return label.isprintable() and Program.parse(str(Program(labels=(label,)))).labels == (label,)
+    except ProgramError:
+        return False
+
+
+def _rewrite_files(store: Store, old: str, new: str) -> Iterator[tuple[Path, str]]:
+    """The files that say the label, except for program and settings, with what they say then."""
+    layout = store.layout
+    for path in map(layout.labels, layout.ids_with("labels")):
+        file = read_labels(path)
+        if old in (*file.vocabulary, *(label.name for label in file.labels.values())):
+            yield path, format_labels(_rename_in_labels(file, old, new))
+    for path in map(layout.demonstration, layout.ids_with("demonstrations")):
+        yield from _rename_in_steps(path, read_json(path, DemonstrationFile), old, new)
+    for path in map(layout.corrections, layout.ids_with("corrections")):
+        yield from _rename_in_steps(path, read_json(path, CorrectionsFile), old, new)
+    answers = store.answers()
+    now = _rename_in_answers(answers, layout.answers, old, new)
+    if now != answers:
+        yield layout.answers, json_text(now)
+
+
+def _rename_in_labels(file: LabelFile, old: str, new: str) -> LabelFile:
+    labels = {key: replace(at, name=new) if at.name == old else at for key, at in file.labels.items()}
+    return LabelFile(tuple(new if word == old else word for word in file.vocabulary), labels, file.digests)
+
+
+def _rename_in_steps(
+    path: Path, kept: DemonstrationFile | CorrectionsFile | None, old: str, new: str
+) -> Iterator[tuple[Path, str]]:
+    steps = kept.steps if kept else ()
+    lines = tuple(line.model_copy(update={"action": _rename_in_action(line.action, path, old, new)}) for line in steps)
+    if kept and lines != steps:
+        yield path, json_text(kept.model_copy(update={"steps": lines}))
+
+
+def _rename_in_action(text: str, where: Path, old: str, new: str) -> str:
+    action, label = parse_action_text(text, where)
+    return action_text(action, new) if label == old else text
+
+
+def _rename_in_answers(answers: AnswersFile, where: Path, old: str, new: str) -> AnswersFile:
+    """All answers with the label by its new name; of those that are the same then, one stays."""
+    now = answers.model_copy(update={"answers": (), "confirmed": (), "rejected": ()})
+    for line in answers.answers:
+        now = now.with_line(_rename_in_answer(line, where, old, new))
+    for repair in (*answers.rejected, *answers.confirmed):
+        now = now.with_line(_rename_in_repair(repair, old, new))
+    return now
+
+
+def _rename_in_answer(line: AnswerLine, where: Path, old: str, new: str) -> AnswerLine:
+    action = None if line.action is None else _rename_in_action(line.action, where, old, new)
+    return line.model_copy(update={"action": action})
+
+
+def _rename_in_repair(line: RepairLine, old: str, new: str) -> RepairLine:
+    right = replace(
+        line.correction,
+        was=new if line.was == old else line.was,
+        to=new if line.to == old else line.to,
+    )
+    values: dict[str, object] = {"id": repair_id(right), "was": right.was, "to": right.to}
+    if isinstance(line, ConfirmationLine) and line.before and line.before.label == old:
+        values["before"] = line.before.model_copy(update={"label": new})
+    return line.model_copy(update=values)
+
+
+def _rename_in_tables(store: Store, text: str, settings: Settings, old: str, new: str) -> str:
+    """The settings with the label's other name in the patterns that say what names mean, and where it is described."""
+    descriptions, table = settings.vlm.descriptions, "vlm.descriptions"
+    try:
+        for pattern in (pattern for pattern, label in settings.names.items() if label == old):
+            text = set_value(text, pattern, new, "names")
+        if old in descriptions:
+            text = set_value(set_value(text, new, descriptions[old], table), old, None, table)
+    except ProjectError as error:
+        raise error.at(str(store.layout.settings)) from None
+    return text
+
+
+def _rename_in_settings(store: Store, settings: Settings, old: str, new: str) -> Settings:
+    vocabulary = tuple(new if word == old else word for word in settings.vocabulary)
+    before = orientation(settings, store.folder)
+    after = rename_in_orient(before, old, new) if before else None
+    text = settings.orient if after == before else orientation_text(after)
+    return settings.model_copy(update={"vocabulary": vocabulary, "orient": text})

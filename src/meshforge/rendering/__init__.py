@@ -1,0 +1,56 @@
+"""Pictures of symbolic meshes for labelling, reports, thumbnails and terminals: rays and arithmetic, no display
+needed."""
+
+from meshforge.rendering.camera import VIEWS, Up, View
+from meshforge.rendering.canvas import encode_png, encode_webp, make_contact_sheet, write_png
+from meshforge.rendering.colors import (
+    COLOR_BY,
+    DIFFERENCE_COLORS,
+    SELECTED,
+    UNLABELLED,
+    UNSURE,
+    ColorBy,
+    label_color,
+    label_colors,
+)
+from meshforge.rendering.compare import compare, draw_before_after, draw_difference, joint_bounds
+from meshforge.rendering.heat_map import draw_heat_map, draw_volumes
+from meshforge.rendering.id_buffer import count_visible_pixels, render_id_buffer, render_thumbnail
+from meshforge.rendering.labeling.picture import LabelingPicture
+from meshforge.rendering.labeling.series import draw_labeling_pictures, hull_numbers
+from meshforge.rendering.picture import render, up_axis
+from meshforge.rendering.scene import RenderMesh, to_render_mesh
+
+__all__ = [
+    "COLOR_BY",
+    "DIFFERENCE_COLORS",
+    "SELECTED",
+    "UNLABELLED",
+    "UNSURE",
+    "VIEWS",
+    "ColorBy",
+    "LabelingPicture",
+    "RenderMesh",
+    "Up",
+    "View",
+    "compare",
+    "count_visible_pixels",
+    "draw_before_after",
+    "draw_difference",
+    "draw_heat_map",
+    "draw_labeling_pictures",
+    "draw_volumes",
+    "encode_png",
+    "encode_webp",
+    "hull_numbers",
+    "joint_bounds",
+    "label_color",
+    "label_colors",
+    "make_contact_sheet",
+    "render",
+    "render_id_buffer",
+    "render_thumbnail",
+    "to_render_mesh",
+    "up_axis",
+    "write_png",
+]

@@ -1,0 +1,207 @@
+"""Words and numbers on pictures: fonts, title, legend, and the place on each hull where its number stands."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping
+from dataclasses import dataclass
+from functools import cache
+from typing import Any
+
+import numpy as np
+
+from meshforge.geometry import Ints
+from meshforge.rendering.colors import HullColors, LegendEntry, confidence_color, hexadecimal, rgb
+
+INK = "#1F2530"
+FAINT = "#6B7482"
+
+_ROWS = 3  # of a legend at most; what does not fit is counted
+_SCALE_WIDTH = 300  # of the scale of confidence in a legend, with the room about it [px]
+Chip = tuple[LegendEntry, float, int]
+"""An entry, where it begins in its row [px], and its row."""
+
+_CELLS = 64  # along each side of a thing, in which its middle is looked for
+_PULL = 0.03  # room that is given up for each pixel nearer the centre
+
+PixelBox = tuple[float, float, float, float]
+"""Left, top, right, bottom [px]."""
+_LEAST = 10  # pixels of a hull that must be seen for it to be marked
+
+
+@cache
+def font(size: int) -> Any:
+    """The scalable default font at a size in pixels."""
+    from PIL import ImageFont  # lazy: 0.03 s, only words on pictures need it
+
+    return ImageFont.load_default(size)
+
+
+def text_scale(size: tuple[int, int]) -> float:
+    """How large words and gaps are in a picture of this size; 1 at 800 by 600."""
+    width, height = size
+    return min(max(min(width / 800, height / 600), 0.62), 4.0)
+
+
+def text_width(text: str, size: int) -> float:
+    """The width of one line of text in pixels."""
+    return float(font(size).getlength(text))
+
+
+def shorten(text: str, size: int, room: float) -> str:
+    """The text, its end replaced by an ellipsis where it is wider than `room` pixels."""
+    text = " ".join(text.split())
+    if text_width(text, size) <= room:
+        return text
+    while text and text_width(text + "…", size) > room:
+        text = text[:-1]
+    return text + "…"
+
+
+def draw_heading(draw: Any, size: tuple[int, int], title: str | None, caption: str | None) -> int:
+    """Writes title (left) and caption (right, or left alone) along the top; returns the height it takes."""
+    if not title and not caption:
+        return 0
+    u = text_scale(size)
+    edge, large, small = round(16 * u), round(17 * u), round(13 * u)
+    base = round(12 * u) + large
+    room: float = size[0] - 2 * edge
+    if title:
+        caption_room = text_width(caption, small) + 2 * edge if caption else 0
+        text = shorten(title, large, max(room - caption_room, room / 3))
+        draw.text((edge, base), text, fill=INK, font=font(large), anchor="ls")
+        room -= text_width(text, large) + edge
+    if caption:
+        text = shorten(caption, small, room)
+        at, anchor = (size[0] - edge, "rs") if title else (edge, "ls")
+        draw.text((at, base), text, fill=FAINT, font=font(small), anchor=anchor)
+    return base + round(6 * u)
+
+
+def legend_height(coloring: HullColors, size: tuple[int, int]) -> int:
+    """The height that the legend takes at the bottom of a picture."""
+    rows = 1 + max((row for _, _, row in _lay_out_entries(coloring, size)), default=-1)
+    u = text_scale(size)
+    return round(rows * 24 * u + 12 * u) if rows or coloring.gradient else 0
+
+
+def draw_legend(draw: Any, size: tuple[int, int], coloring: HullColors) -> None:
+    """Draws colours with their names and counts along the bottom."""
+    u = text_scale(size)
+    small, box = round(13 * u), round(12 * u)
+    top = size[1] - legend_height(coloring, size) + round(6 * u)
+    if coloring.gradient:
+        _draw_scale(draw, size, top)
+    for entry, x, row in _lay_out_entries(coloring, size):
+        y = top + row * 24 * u
+        if entry.color:
+            outline = hexadecimal(rgb(entry.color) * 0.72)
+            draw.rounded_rectangle((x, y, x + box, y + box), round(3 * u), fill=entry.color, outline=outline)
+        name = shorten(entry.name, small, size[0] / 3)
+        after = x + (box + 6 * u if entry.color else 0)
+        middle = y + box / 2
+        draw.text((after, middle), name, fill=INK, font=font(small), anchor="lm")
+        if entry.count is not None:
+            beside = after + text_width(name + " ", small)
+            draw.text((beside, middle), str(entry.count), fill=FAINT, font=font(small), anchor="lm")
+
+
+def _lay_out_entries(coloring: HullColors, size: tuple[int, int]) -> list[Chip]:
+    """The entries laid out in rows, as many as fit; where some do not, the last place has the number of the rest."""
+    u = text_scale(size)
+    edge, right = 16 * u, size[0] - 16 * u
+    x, row = edge + (_SCALE_WIDTH * u if coloring.gradient else 0), 0
+    placed: list[Chip] = []
+    for k, entry in enumerate(coloring.legend):
+        wide = _chip_width(entry, size)
+        if x + wide > right and x > edge:
+            x, row = edge, row + 1
+        if row == _ROWS:
+            _, last, row = placed[-1]
+            return [*placed[:-1], (LegendEntry("", f"and {len(coloring.legend) - k + 1} more"), last, row)]
+        placed.append((entry, x, row))
+        x += wide + 18 * u
+    return placed
+
+
+def _chip_width(entry: LegendEntry, size: tuple[int, int]) -> float:
+    u = text_scale(size)
+    small = round(13 * u)
+    count = "" if entry.count is None else f" {entry.count}"
+    return 18 * u + text_width(shorten(entry.name, small, size[0] / 3) + count, small)
+
+
+def _draw_scale(draw: Any, size: tuple[int, int], top: int) -> None:
+    """The colours of confidence from 0 to 1."""
+    u = text_scale(size)
+    small, length, high = round(13 * u), round(150 * u), round(12 * u)
+    x = round(16 * u)
+    draw.text((x, top + high / 2), "unsure", fill=FAINT, font=font(small), anchor="lm")
+    x += round(52 * u)
+    for k in range(length):
+        color = hexadecimal(confidence_color(k / max(length - 1, 1)))
+        draw.line((x + k, top, x + k, top + high), fill=color)
+    draw.text((x + length + 8 * u, top + high / 2), "certain", fill=FAINT, font=font(small), anchor="lm")
+
+
+@dataclass(frozen=True, slots=True)
+class LabelAnchor:
+    """A pixel that shows a thing; room: how far it is from what is not that thing [px]."""
+
+    column: int
+    row: int
+    room: float
+
+
+def find_label_anchors(items: Ints, wanted: Collection[int] | None = None, least: int = 1) -> dict[int, LabelAnchor]:
+    """The middle of each wanted item, by default of all, that at least so many pixels (h, w) show; most room first."""
+    from scipy.ndimage import find_objects  # lazy: 0.3 s, only pictures need it
+
+    counts = count_pixels(items)
+    boxes: Any = find_objects((items + 1).astype(np.int32))
+    found = {
+        int(k): _find_anchor(items[boxes[k]], int(k), boxes[k])
+        for k in np.nonzero(counts >= least)[0]
+        if wanted is None or k in wanted
+    }
+    return dict(sorted(found.items(), key=lambda row: (-row[1].room, row[0])))
+
+
+def count_pixels(items: Ints, count: int = 0) -> Ints:
+    """How many pixels (h, w) show each item, for `count` items at least; -1 is none."""
+    counts: Ints = np.bincount(items.ravel() + 1, minlength=count + 1)[1:]
+    return counts
+
+
+def _find_anchor(part: Ints, item: int, where: tuple[slice, slice]) -> LabelAnchor:
+    """The middle of an item that a part of a picture shows, which lies at `where`."""
+    from scipy.ndimage import distance_transform_edt  # lazy: 0.3 s, only pictures need it
+
+    steps = [max(1, -(-n // _CELLS)) for n in part.shape]
+    cells = part[:: steps[0], :: steps[1]] == item
+    if not cells.any():  # too thin
+        steps, cells = [1, 1], part == item
+    room = distance_transform_edt(np.pad(cells, 1), sampling=steps)[1:-1, 1:-1]
+    rows, columns = (places * step for places, step in zip(np.nonzero(cells), steps, strict=True))
+    aside = np.hypot(rows - rows.mean(), columns - columns.mean())
+    depth = room[cells]
+    best = int(np.argmax(depth - _PULL * aside))
+    return LabelAnchor(where[1].start + int(columns[best]), where[0].start + int(rows[best]), float(depth[best]))
+
+
+def draw_marks(
+    draw: Any, items: Ints, marks: Mapping[int, str], corner: tuple[int, int], size: tuple[int, int]
+) -> None:
+    """Writes the marks of items on a picture; items: (h, w), what each pixel shows; corner: where that part lies.
+
+    Items with the most room come first; a mark that would cover another is written smaller, or left out.
+    """
+    taken: list[PixelBox] = []
+    for item, middle in find_label_anchors(items, marks, _LEAST).items():
+        for height in (round(14 * text_scale(size)), round(10 * text_scale(size))):
+            at, height = (corner[0] + middle.column, corner[1] + middle.row), max(8, height)
+            halo = max(1, height // 5)
+            left, top, right, bottom = box = draw.textbbox(at, marks[item], font(height), "mm", stroke_width=halo)
+            if not any(a < right and left < c and b < bottom and top < d for a, b, c, d in taken):
+                draw.text(at, marks[item], INK, font(height), "mm", stroke_width=halo, stroke_fill="white")
+                taken.append(box)
+                break

@@ -1,0 +1,173 @@
+"""The picture that drawings are laid on, contact sheets of several pictures, and pictures as bytes and files."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from io import BytesIO
+from pathlib import Path
+from types import MappingProxyType
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from meshforge.common import UsageError, write_atomically
+from meshforge.geometry import Ints
+from meshforge.rendering.annotation import (
+    FAINT,
+    INK,
+    draw_heading,
+    draw_legend,
+    draw_marks,
+    font,
+    legend_height,
+    shorten,
+    text_scale,
+)
+from meshforge.rendering.camera import Floats32
+from meshforge.rendering.colors import HullColors, LegendEntry, rgb
+
+if TYPE_CHECKING:
+    from PIL.Image import Image
+
+
+_LIGHT = ("#FFFFFF", "#EEF1F5")  # from top to bottom
+
+_PAPER = "#FFFFFF"
+_FRAME = "#DDE2E8"
+_NO_COLORS: Mapping[str, str] = MappingProxyType({})
+
+
+class Canvas:
+    """A picture in the making. `room` (left, top, right, bottom) is what title and legend leave free."""
+
+    def __init__(
+        self,
+        size: tuple[int, int],
+        background: str | None,
+        title: str | None,
+        caption: str | None,
+        coloring: HullColors,
+    ) -> None:
+        from PIL import ImageDraw  # lazy: 0.01 s, only pictures need it
+
+        self.size = size
+        self.image: Image = _make_background(size, background)
+        self._draw = ImageDraw.Draw(self.image)
+        top = draw_heading(self._draw, size, title, caption)
+        foot = legend_height(coloring, size)
+        if top + foot > size[1] - 8:  # a picture too small for words
+            coloring, top, foot = HullColors(coloring.colors), min(top, size[1] // 2), 0
+        self.room = (0, top, size[0], size[1] - foot)
+        draw_legend(self._draw, size, coloring)
+
+    def paste_drawing(self, pixels: Floats32, at: tuple[int, int]) -> None:
+        """Lays a premultiplied drawing (h, w, 4) over the paper, its corner at (left, top)."""
+        from PIL import Image  # lazy: 0.01 s, only pictures need it
+
+        part = self.image.crop((*at, at[0] + pixels.shape[1], at[1] + pixels.shape[0]))
+        below = np.asarray(part, dtype=np.float32) / 255
+        alpha = pixels[..., 3:]
+        if self.image.mode == "RGB":
+            mixed = pixels[..., :3] + below * (1 - alpha)
+        else:
+            mixed = np.concatenate([pixels[..., :3] / np.maximum(alpha, 1e-4), alpha], axis=2)
+        levels = np.rint(np.clip(mixed, 0, 1) * 255).astype(np.uint8)
+        self.image.paste(Image.fromarray(levels, self.image.mode), at)
+
+    def write_marks(self, items: Ints, marks: Mapping[int, str], at: tuple[int, int]) -> None:
+        """Writes texts on items seen at (left, top)."""
+        if marks:
+            draw_marks(self._draw, items, marks, at, self.size)
+
+    def write_message(self, text: str, box: tuple[int, int, int, int]) -> None:
+        """Writes a text into the middle of a box."""
+        left, top, right, bottom = box
+        size = round(20 * text_scale(self.size))
+        self._draw.text(((left + right) / 2, (top + bottom) / 2), text, fill=FAINT, font=font(size), anchor="mm")
+
+    def write_view_name(self, text: str, at: tuple[int, int]) -> None:
+        """Writes the name of a view into the corner at (left, top)."""
+        u = text_scale(self.size)
+        self._draw.text((at[0] + 16 * u, at[1] + 8 * u), text, fill=FAINT, font=font(round(13 * u)), anchor="lt")
+
+
+def _make_background(size: tuple[int, int], background: str | None) -> Any:
+    from PIL import Image  # lazy: 0.01 s, only pictures need it
+
+    if background is None:
+        return Image.new("RGBA", size, (0, 0, 0, 0))
+    try:
+        top, bottom = (rgb(c) for c in (_LIGHT if background == "light" else (background, background)))
+    except ValueError:
+        raise UsageError(
+            f"{background!r} is no background", remedy="Use `light` or a colour such as #FFFFFF."
+        ) from None
+    share = np.linspace(0, 1, size[1])[:, None, None]
+    levels = np.rint((top * (1 - share) + bottom * share) * 255).astype(np.uint8)
+    return Image.fromarray(np.broadcast_to(levels, (size[1], size[0], 3)).copy())
+
+
+def make_contact_sheet(
+    images: Sequence[Image],
+    columns: int | None = None,
+    titles: Sequence[str] = (),
+    colors: Mapping[str, str] = _NO_COLORS,
+) -> Image:
+    """Pictures in rows, `columns` in each (about as many as rows by default), centred in cells of equal size.
+
+    titles: a line below each picture; none, or one each. colors: what the legend at the bottom says, a colour
+    `#rrggbb` by its meaning. Raises UsageError where there is no picture.
+    """
+    from PIL import Image, ImageDraw  # lazy: 0.01 s, only pictures need it
+
+    if not images or (titles and len(titles) != len(images)):
+        raise UsageError(f"a sheet of {len(images)} pictures with {len(titles)} titles cannot be made")
+    columns = columns or math.ceil(math.sqrt(len(images)))
+    cell = max(i.width for i in images), max(i.height for i in images)
+    gap, words = _cell_spacing(cell, bool(titles))
+    rows = -(-len(images) // columns)
+    size = gap + columns * (cell[0] + gap), gap + rows * (cell[1] + words + gap)
+    legend = HullColors(np.zeros((0, 3)), tuple(LegendEntry(color, name) for name, color in colors.items()))
+    size = size[0], size[1] + legend_height(legend, size)
+    paper = Image.new("RGB", size, _PAPER)
+    draw = ImageDraw.Draw(paper)
+    draw_legend(draw, size, legend)
+    for k, image in enumerate(images):
+        x, y = gap + k % columns * (cell[0] + gap), gap + k // columns * (cell[1] + words + gap)
+        at = x + (cell[0] - image.width) // 2, y + (cell[1] - image.height) // 2
+        paper.paste(image, at, image if image.mode == "RGBA" else None)
+        draw.rectangle((x - 1, y - 1, x + cell[0], y + cell[1]), outline=_FRAME)
+        if titles:
+            small = round(15 * text_scale(cell))
+            text = shorten(titles[k], small, cell[0])
+            draw.text((x + cell[0] // 2, y + cell[1] + words // 2), text, INK, font(small), "mm")
+    return paper
+
+
+def _cell_spacing(cell: tuple[int, int], titled: bool) -> tuple[int, int]:
+    """The gap between cells, and the height of a title [px]."""
+    u = text_scale(cell)
+    return max(4, round(10 * u)), round(28 * u) if titled else 0
+
+
+def encode_png(image: Image) -> bytes:
+    """The picture as a PNG file."""
+    stream = BytesIO()
+    image.save(stream, "PNG", optimize=False, compress_level=6)
+    return stream.getvalue()
+
+
+def encode_webp(image: Image, quality: int = 82) -> bytes:
+    """The picture as a small WebP file, transparency kept."""
+    stream = BytesIO()
+    image.save(stream, "WEBP", quality=quality, alpha_quality=90, method=2)
+    return stream.getvalue()
+
+
+def write_png(path: Path, image: Image) -> None:
+    """Writes a picture as a PNG file. Raises UsageError where it cannot be written."""
+    try:
+        write_atomically(path, encode_png(image))
+    except OSError as error:
+        raise UsageError(f"the picture cannot be written: {error.strerror}", where=str(path)) from error

@@ -1,0 +1,108 @@
+"""Pictures of an edit: before and after under one camera, and what was removed and made."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from meshforge.common import pluralize
+from meshforge.geometry import Aabb
+from meshforge.rendering.camera import Up, View
+from meshforge.rendering.canvas import Canvas, make_contact_sheet
+from meshforge.rendering.colors import KEPT, MADE, REMOVED, ColorBy, HullColors, LegendEntry, color_hulls, rgb
+from meshforge.rendering.picture import Subject, build_subject, draw_on_canvas, render_meshes_of
+from meshforge.rendering.raycast import DrawLayer
+from meshforge.symbolic import Hull, SymbolicMesh
+
+if TYPE_CHECKING:
+    from PIL.Image import Image
+
+
+def compare(
+    before: SymbolicMesh,
+    after: SymbolicMesh,
+    *,
+    view: View = "iso",
+    color_by: ColorBy = "label",
+    size: tuple[int, int] = (640, 480),
+    vocabulary: Sequence[str] = (),
+    background: str | None = "light",
+    up: Up | None = None,
+) -> tuple[Image, Image]:
+    """The two pictures, without words, seen by one camera; a hull that stays keeps its colour."""
+    first = color_hulls(before, color_by, vocabulary)
+    known = {h.name: c for h, c in zip(before.hulls, first.colors, strict=True)}
+    second = color_hulls(after, color_by, vocabulary, known)
+    bounds = joint_bounds(before, after)
+    return (
+        _draw_bare(build_subject(before, first, up=up), bounds, view, size, background),
+        _draw_bare(build_subject(after, second, up=up), bounds, view, size, background),
+    )
+
+
+def draw_before_after(
+    before: SymbolicMesh,
+    after: SymbolicMesh,
+    *,
+    view: View = "iso",
+    color_by: ColorBy = "label",
+    size: tuple[int, int] = (640, 480),
+    vocabulary: Sequence[str] = (),
+    up: Up | None = None,
+) -> Image:
+    """Both pictures side by side, each of `size`, with the number of hulls below each."""
+    pair = compare(before, after, view=view, color_by=color_by, size=size, vocabulary=vocabulary, up=up)
+    titles = (f"before: {pluralize(len(before.hulls), 'hull')}", f"after: {pluralize(len(after.hulls), 'hull')}")
+    return make_contact_sheet(pair, columns=2, titles=titles)
+
+
+def draw_difference(
+    before: SymbolicMesh,
+    after: SymbolicMesh,
+    *,
+    view: View = "iso",
+    size: tuple[int, int] = (800, 600),
+    legend: bool = True,
+    title: str | None = None,
+    background: str | None = "light",
+    up: Up | None = None,
+) -> Image:
+    """What an edit did: made hulls green, kept ones grey, removed ones as red, striped shells."""
+    gone = [h for h in before.hulls if h.name not in after.index]
+    colors = np.array([rgb(KEPT if h.name in before.index else MADE) for h in after.hulls]).reshape(-1, 3)
+    made = sum(h.name not in before.index for h in after.hulls)
+    entries = (LegendEntry(REMOVED, "removed", len(gone)), LegendEntry(MADE, "made", made))
+    coloring = HullColors(colors, (*entries, LegendEntry(KEPT, "kept", len(after.hulls) - made)))
+    caption = f"{pluralize(len(before.hulls), 'hull')} before, {len(after.hulls)} after"
+    canvas = Canvas(size, background, title, caption if legend else None, coloring if legend else HullColors(colors))
+    fresh = frozenset(k for k, h in enumerate(after.hulls) if h.name not in before.index)
+    what = _with_removed(build_subject(after, coloring, up=up), gone, fresh)
+    draw_on_canvas(canvas, what, joint_bounds(before, after), view)
+    if not before.hulls and not after.hulls:
+        canvas.write_message("no hulls", canvas.room)
+    return canvas.image
+
+
+def joint_bounds(*meshes: SymbolicMesh) -> Aabb | None:
+    """The box around all hulls of some meshes, None where there is none."""
+    boxes = [m.aabb for m in meshes if m.aabb]
+    return Aabb.union(boxes) if boxes else None
+
+
+def _with_removed(what: Subject, gone: Sequence[Hull], fresh: frozenset[int]) -> Subject:
+    if not gone:
+        return what
+    red, every = np.tile(rgb(REMOVED), (len(gone), 1)), frozenset(range(len(gone)))
+    shells = DrawLayer(render_meshes_of(gone), red, before=0.55, behind=0.3, hatched=every, drawn_over=fresh)
+    return replace(what, layers=(*what.layers, shells))
+
+
+def _draw_bare(what: Subject, bounds: Aabb | None, view: View, size: tuple[int, int], background: str | None) -> Image:
+    canvas = Canvas(size, background, None, None, HullColors(what.layers[0].colors))
+    draw_on_canvas(canvas, what, bounds, view)
+    if not what.layers[0].render_meshes:
+        canvas.write_message("no hulls", canvas.room)
+    return canvas.image

@@ -1,0 +1,125 @@
+"""Which hull each pixel shows, as numbers: id buffers, counts of visible pixels, and thumbnails to be coloured by
+who shows them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TypeVar
+
+import numpy as np
+import numpy.typing as npt
+
+from meshforge.geometry import Aabb, Floats, Ints, Pose
+from meshforge.rendering.annotation import count_pixels
+from meshforge.rendering.camera import Camera, Floats32, Up, View, aim_camera
+from meshforge.rendering.light import shade
+from meshforge.rendering.paint import BORDER, CREASE, SILHOUETTE, trace_lines
+from meshforge.rendering.picture import points_to_frame, render_meshes_of, up_axis
+from meshforge.rendering.raycast import DrawLayer, RayHits, ViewFrame, cast_layer, up_vector
+from meshforge.rendering.scene import RenderMesh, to_render_mesh
+from meshforge.symbolic import SymbolicMesh
+
+ThumbnailPixels = npt.NDArray[np.uint8]
+Number = TypeVar("Number", np.int64, np.float32)
+
+_LARGE = 100_000  # pixels, from which on each is seen by fewer rays
+_GREY, _FULL = 0.72, 0.80  # a surface before light falls on it, and what then counts as full light
+_DARKER = {CREASE: 0.16, BORDER: 0.62, SILHOUETTE: 0.62}  # by how much lines take light away
+
+
+def render_id_buffer(
+    mesh: SymbolicMesh,
+    *,
+    view: View = "iso",
+    size: tuple[int, int] = (400, 300),
+    bounds: Aabb | None = None,
+    up: Up | None = None,
+) -> Ints:
+    """The index of the hull that each pixel (height, width) shows, -1 for none; framed as `render` frames a picture
+    without words."""
+    held = bounds or mesh.aabb
+    if held is None or not mesh.hulls:
+        return np.full((size[1], size[0]), -1, dtype=np.int64)
+    layer = DrawLayer(render_meshes_of(mesh.hulls), np.zeros((len(mesh.hulls), 3)))
+    axis = up_axis(mesh, up)
+    frame = ViewFrame(held, up_vector(axis))
+    points = bounds.corners if bounds else np.concatenate([s.vertices for s in layer.render_meshes])
+    return cast_layer(layer, frame, aim_camera(view, axis, size, frame.to_unit(points))).item
+
+
+def count_visible_pixels(
+    mesh: SymbolicMesh, *, view: View = "iso", size: tuple[int, int] = (400, 300), up: Up | None = None
+) -> Mapping[str, int]:
+    """How many pixels of a picture show each hull, by name; hulls that are hidden have 0."""
+    items = render_id_buffer(mesh, view=view, size=size, up=up)
+    counts = count_pixels(items, len(mesh.hulls))
+    return {hull.name: int(n) for hull, n in zip(mesh.hulls, counts, strict=True)}
+
+
+def render_thumbnail(
+    mesh: SymbolicMesh, pose: Pose | None = None, size: tuple[int, int] = (240, 180), view: View = "iso"
+) -> ThumbnailPixels:
+    """Pixels (height, width, 4): red * 256 + green is the index of a hull plus one, 0 for what is no hull (background,
+    opaque pieces); blue is the light there, alpha how much of the pixel is covered. Z points up.
+
+    pose: shown_T_incoming.
+    """
+    shown = Pose.identity() if pose is None else pose
+    opaque = [piece.surface for piece in mesh.asset.opaque if piece.surface] if mesh.asset else []
+    hulls = [_turn(one, shown) for one in render_meshes_of(mesh.hulls)]
+    others = [_turn(one, shown) for one in map(to_render_mesh, opaque) if len(one.faces)]
+    points = points_to_frame(hulls, others)
+    if not len(points):
+        return np.zeros((size[1], size[0], 4), np.uint8)
+    frame = ViewFrame(Aabb.of_points(points), up_vector("Z"))
+    fine = 2 if size[0] * size[1] > _LARGE else 3
+    close = aim_camera(view, "Z", size, frame.to_unit(points)).supersample(fine)
+    hits = cast_layer(DrawLayer([*hulls, *others], np.zeros((0, 3))), frame, close)
+    return _encode(_fine_pixels(hits.item, fine), _fine_pixels(_measure_light(hits, frame, close), fine), len(hulls))
+
+
+def _turn(one: RenderMesh, pose: Pose) -> RenderMesh:
+    normals = None if one.normals is None else one.normals @ pose.rotation.T
+    return RenderMesh(pose.apply(one.vertices), one.faces, normals)
+
+
+def _measure_light(hits: RayHits, frame: ViewFrame, camera: Camera) -> Floats32:
+    """How bright each pixel (h, w) is, in 0..1, lines drawn in."""
+    scene = hits.scene
+    light = np.zeros(hits.item.shape, np.float32)
+    rows, columns = np.nonzero(hits.item >= 0)
+    triangle = hits.triangle[rows, columns]
+    light[rows, columns] = _brightness_of(scene.normals, frame, camera)[triangle]
+    bent = np.nonzero(scene.is_round[triangle])[0]
+    if len(bent):
+        points = hits.points(camera, rows[bent], columns[bent])
+        light[rows[bent], columns[bent]] = _brightness_of(scene.smooth_normals(triangle[bent], points), frame, camera)
+    keep = np.ones(max(_DARKER) + 1, np.float32)
+    for strength, share in _DARKER.items():
+        keep[strength] = 1 - share
+    return light * keep[trace_lines(hits, 2)]
+
+
+def _brightness_of(normals: Floats, frame: ViewFrame, camera: Camera) -> Floats32:
+    grey = shade(np.full((len(normals), 3), _GREY), normals, camera, frame.upright)[:, 0]
+    light: Floats32 = np.minimum(grey / np.float32(_FULL), np.float32(1))
+    return light
+
+
+def _fine_pixels(pixels: npt.NDArray[Number], fine: int) -> npt.NDArray[Number]:
+    """The fine pixels of each pixel (fine * fine, h, w)."""
+    return np.stack([pixels[r::fine, c::fine] for r in range(fine) for c in range(fine)])
+
+
+def _encode(seen: Ints, light: Floats32, hulls: int) -> ThumbnailPixels:
+    """The pixels of what their fine ones (k, h, w) show, and how bright that is.
+
+    A pixel stands for the hull that its middle shows, else for any that it shows.
+    """
+    count = (seen >= 0).sum(axis=0)
+    middle = seen[len(seen) // 2]
+    picked = np.where(middle >= 0, middle, seen.max(axis=0))
+    item = np.where(picked < hulls, picked, -1) + 1
+    shade = np.rint(255 * light.sum(axis=0) / np.maximum(count, 1))
+    coverage = np.rint(255 * count / len(seen))
+    return np.stack([item // 256, item % 256, shade, coverage], axis=2).astype(np.uint8)

@@ -1,0 +1,223 @@
+"""Shapes as triangles to look at, round primitives with smooth normals, and many of them in one ray-casting scene."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import Any, assert_never
+
+import numpy as np
+
+from meshforge.geometry import Box, Capsule, Cylinder, Ellipsoid, Floats, Ints, Polytope, Pose, Shape, Sphere
+from meshforge.rendering.camera import Camera, Floats32
+from meshforge.symbolic import Surface
+
+_CYLINDER_PROFILE = np.array(
+    [[0, -1, 0, -1], [1, -1, 0, -1], [1, -1, 1, 0], [1, 1, 1, 0], [1, 1, 0, 1], [0, 1, 0, 1]], dtype=np.float64
+)
+"""Radius, height, and the normal's radial and axial part, from bottom to top; doubled rings make sharp rims."""
+
+_BIAS = 5e-6  # shift towards the eye, an item, so that of two faces in one plane one wins everywhere
+_SWELL = 2e-6  # the same for rays from all sides: things grow by so much of their size
+_BIAS_STEPS = 64
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class RenderMesh:
+    """Triangles of one thing: vertices (n, 3) [m], faces (m, 3); normals (n, 3) where it is to look round."""
+
+    vertices: Floats
+    faces: Ints
+    normals: Floats | None = None
+
+
+def to_render_mesh(shape: Shape | Surface, sides: int = 96) -> RenderMesh:
+    """The triangles to draw a shape with; sides: how many a round one has about its axis."""
+    match shape:
+        case Sphere():
+            return _revolve(_dome_profile(sides), sides, shape.pose, np.full(3, shape.radius))
+        case Ellipsoid():
+            return _revolve(_dome_profile(sides), sides, shape.pose, shape.radii)
+        case Cylinder():
+            scales = np.array([shape.radius, shape.radius, shape.half_length])
+            return _revolve(_CYLINDER_PROFILE, sides, shape.pose, scales)
+        case Capsule():
+            return _revolve(_capsule_profile(shape, sides), sides, shape.pose, np.full(3, shape.radius))
+        case Box() | Polytope() | Surface():
+            return RenderMesh(shape.vertices, shape.faces)
+        case Shape():
+            return RenderMesh(shape.vertices, shape.faces)
+        case _:
+            assert_never(shape)
+
+
+def _dome_profile(sides: int) -> Floats:
+    turn = np.linspace(-np.pi / 2, np.pi / 2, sides // 2 + 1)
+    r, z = np.cos(turn), np.sin(turn)
+    r[[0, -1]] = 0.0
+    return np.column_stack([r, z, r, z])
+
+
+def _capsule_profile(shape: Capsule, sides: int) -> Floats:
+    """The profile in units of the radius."""
+    dome = _dome_profile(sides)
+    middle = len(dome) // 2 + 1
+    straight = np.array([0.0, shape.half_length / shape.radius, 0.0, 0.0])
+    return np.concatenate([dome[:middle] - straight, dome[middle - 1 :] + straight])
+
+
+def _revolve(profile: Floats, sides: int, pose: Pose, scales: Floats) -> RenderMesh:
+    """The surface that a profile (k, 4) sweeps about Z, scaled along the axes, then posed."""
+    turn = np.arange(sides) * (2 * np.pi / sides)
+    circle = np.column_stack([np.cos(turn), np.sin(turn)])
+    points, normals = (_sweep(profile[:, k : k + 2], circle) for k in (0, 2))
+    normals = normals / scales @ pose.rotation.T
+    normals /= np.linalg.norm(normals, axis=1, keepdims=True)
+    return RenderMesh(pose.apply(points * scales), _ring_faces(profile, sides), normals)
+
+
+def _sweep(rings: Floats, circle: Floats) -> Floats:
+    """Points (k * sides, 3) of rings (k, 2), each a radius and a height."""
+    flat = rings[:, None, :1] * circle[None]
+    return np.concatenate([flat, np.broadcast_to(rings[:, None, 1:], (*flat.shape[:2], 1))], axis=2).reshape(-1, 3)
+
+
+def _ring_faces(profile: Floats, sides: int) -> Ints:
+    """Outward triangles between neighbouring rings; none between rings in one place, one a side at a pole."""
+    here = np.arange(sides)
+    there = (here + 1) % sides
+    faces = []
+    for k, (low, high) in enumerate(itertools.pairwise(profile)):
+        a, b = k * sides, (k + 1) * sides
+        if np.array_equal(low[:2], high[:2]):
+            continue
+        if low[0] > 0:
+            faces.append(np.column_stack([a + here, a + there, b + there]))
+        if high[0] > 0:
+            faces.append(np.column_stack([a + here, b + there, b + here]))
+    return np.concatenate(faces)
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class RayScene:
+    """Triangles (m) with their item, planar facet and normals, in a frame of unit size; embree: the ray caster.
+
+    corners: (m, 3, 3); item, facet: (m,); normals: (m, 3), outward; bent: normals at the corners (m, 3, 3), or NaN
+    where a triangle is flat.
+    """
+
+    corners: Floats
+    item: Ints
+    facet: Ints
+    normals: Floats
+    bent: Floats
+    embree: Any
+
+    @property
+    def is_round(self) -> Any:
+        """Which triangles (m,) belong to a round surface."""
+        return np.isfinite(self.bent[:, 0, 0])
+
+    def smooth_normals(self, triangles: Ints, points: Floats) -> Floats:
+        """The smooth normals at points (n, 3) of round triangles (n,)."""
+        a, b, c = (self.corners[triangles, k] for k in range(3))
+        normal = np.cross(b - a, c - a)
+        area = np.einsum("ij,ij->i", normal, normal)
+        second = np.einsum("ij,ij->i", np.cross(points - a, c - a), normal) / area
+        third = np.einsum("ij,ij->i", np.cross(b - a, points - a), normal) / area
+        shares = np.stack([1 - second - third, second, third], axis=1)
+        mixed = np.einsum("ik,ikj->ij", shares, self.bent[triangles])
+        smooth: Floats = mixed / np.linalg.norm(mixed, axis=1, keepdims=True)
+        return smooth
+
+    def is_blocked(self, origins: Floats32, directions: Floats32, reach: float) -> Any:
+        """Which rays (n,) meet something within `reach`."""
+        reaches = np.full(len(origins), reach, np.float32)
+        return self.embree.run(origins, directions, dists=reaches, query="OCCLUDED") >= 0
+
+    def depth(self, triangles: Ints, origins: Floats, directions: Floats) -> Floats:
+        """How far along its ray each hit of a known triangle (n,) lies."""
+        normals = self.normals[triangles]
+        ahead = np.einsum("ij,ij->i", self.corners[triangles, 0] - origins, normals)
+        facing = np.einsum("ij,ij->i", np.broadcast_to(directions, normals.shape), normals)
+        depth: Floats = ahead / np.where(np.abs(facing) > 1e-12, facing, 1e-12)
+        return depth
+
+
+def build_scene(render_meshes: Sequence[RenderMesh], center: Floats, unit: float) -> RayScene:
+    """The triangles of some render_meshes, moved so that `center` becomes the origin and `unit` [m] becomes one.
+
+    No rays can meet them before `prepare_for_rays`.
+    """
+    parts = [_corners_of(s, center, unit) for s in render_meshes]
+    item = np.repeat(np.arange(len(parts)), [len(p[0]) for p in parts])
+    corners = np.concatenate([p[0] for p in parts]) if parts else np.zeros((0, 3, 3))
+    bent = np.concatenate([p[1] for p in parts]) if parts else np.zeros((0, 3, 3))
+    solid, normals = _compute_normals(corners)
+    corners, bent, item, normals = corners[solid], bent[solid], item[solid], normals[solid]
+    return RayScene(corners, item, _number_facets(item, normals, bent), normals, bent, None)
+
+
+def prepare_for_rays(scene: RayScene, towards: Floats | None) -> RayScene:
+    """The scene, ready for rays from one side; towards: (3,), of unit length.
+
+    None makes it ready for all sides: things in one place then differ a little in size, not in depth.
+    """
+    from embreex.mesh_construction import TriangleMesh  # lazy: only pictures need it
+    from embreex.rtcore_scene import EmbreeScene  # lazy: only pictures need it
+
+    order = (scene.item % _BIAS_STEPS)[:, None, None]
+    away = _SWELL * (scene.corners - _item_centers(scene)[:, None]) if towards is None else _BIAS * towards
+    corners = scene.corners + order * away
+    embree = EmbreeScene()
+    if len(corners):
+        TriangleMesh(embree, corners.astype(np.float32))
+    return replace(scene, corners=corners, embree=embree)
+
+
+def _item_centers(scene: RayScene) -> Floats:
+    """The middle (m, 3) of the thing that each triangle belongs to."""
+    count = np.maximum(np.bincount(scene.item), 1)
+    sums = [np.bincount(scene.item, part) for part in scene.corners.mean(axis=1).T]
+    middles: Floats = (np.stack(sums, axis=1) / count[:, None])[scene.item]
+    return middles
+
+
+def _corners_of(render_mesh: RenderMesh, center: Floats, unit: float) -> tuple[Floats, Floats]:
+    corners = ((render_mesh.vertices - center) / unit)[render_mesh.faces]
+    bent = np.full(corners.shape, np.nan) if render_mesh.normals is None else render_mesh.normals[render_mesh.faces]
+    return corners, bent
+
+
+def _compute_normals(corners: Floats) -> tuple[Any, Floats]:
+    """Which triangles have an area, and unit normals of all."""
+    cross = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    length = np.linalg.norm(cross, axis=1)
+    solid = length > 1e-14
+    return solid, cross / np.where(solid, length, 1.0)[:, None]
+
+
+def _number_facets(item: Ints, normals: Floats, bent: Floats) -> Ints:
+    """One number for all triangles of an item with one normal: the same face of a convex piece, or one round thing."""
+    steps = np.rint(normals * 500).astype(np.int64) + 512
+    key = ((item * 1024 + steps[:, 0]) * 1024 + steps[:, 1]) * 1024 + steps[:, 2]
+    flat = ~np.isfinite(bent[:, 0, 0])
+    return np.unique(np.where(flat, key, -1 - item), return_inverse=True)[1].astype(np.int32)
+
+
+def window_rays(camera: Camera, columns: Floats, rows: Floats, start: float) -> tuple[Floats32, Floats32]:
+    """Origins (n, 3) and directions (n, 3), or (1, 3) where all agree, of the rays through pixels.
+
+    columns (w,) and rows (h,) give the n = h * w pixels of a window, row by row; start: how far towards the eye
+    parallel rays begin.
+    """
+    right, up = camera.plane_coordinates(columns, rows)
+    spread = (right[:, None] * camera.axes[0]).astype(np.float32)[None]
+    lift = (up[:, None] * camera.axes[1]).astype(np.float32)[:, None]
+    if camera.eye is None:
+        start = (camera.axes[2] * start).astype(np.float32)
+        return (lift + start + spread).reshape(-1, 3), (-camera.axes[2:]).astype(np.float32)
+    ahead = (-camera.axes[2]).astype(np.float32)
+    origin = np.broadcast_to(camera.eye.astype(np.float32), (len(right) * len(up), 3))
+    return origin, (lift + ahead + spread).reshape(-1, 3)

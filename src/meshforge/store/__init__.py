@@ -1,0 +1,78 @@
+"""The project folder on disk: its layout, its settings, every file of it read and written, and the lock. It knows no
+use case."""
+
+from meshforge.store.facts import AssetFacts, geometry_digest, iterate_survey, survey
+from meshforge.store.feedback import (
+    AnswerLine,
+    AnswersFile,
+    ConfirmationLine,
+    LabelBefore,
+    RepairLine,
+    Review,
+    RuleSelection,
+    Verdict,
+    repair_id,
+)
+from meshforge.store.folder import add_assets, create_folder, find_assets
+from meshforge.store.layout import json_text, read_json, write_json
+from meshforge.store.meshes import AssetFiles, hull_digests
+from meshforge.store.program import ProgramRecord
+from meshforge.store.settings import (
+    Settings,
+    VlmSettings,
+    edit_settings,
+    orientation,
+    orientation_text,
+    read_settings,
+    set_value,
+    toml_value,
+)
+from meshforge.store.steps import (
+    CorrectionsFile,
+    DemonstrationFile,
+    StepLine,
+    action_text,
+    action_text_without_each,
+    parse_action_text,
+)
+from meshforge.store.store import Store
+
+__all__ = [
+    "AnswerLine",
+    "AnswersFile",
+    "AssetFacts",
+    "AssetFiles",
+    "ConfirmationLine",
+    "CorrectionsFile",
+    "DemonstrationFile",
+    "LabelBefore",
+    "ProgramRecord",
+    "RepairLine",
+    "Review",
+    "RuleSelection",
+    "Settings",
+    "StepLine",
+    "Store",
+    "Verdict",
+    "VlmSettings",
+    "action_text",
+    "action_text_without_each",
+    "add_assets",
+    "create_folder",
+    "edit_settings",
+    "find_assets",
+    "geometry_digest",
+    "hull_digests",
+    "iterate_survey",
+    "json_text",
+    "orientation",
+    "orientation_text",
+    "parse_action_text",
+    "read_json",
+    "read_settings",
+    "repair_id",
+    "set_value",
+    "survey",
+    "toml_value",
+    "write_json",
+]

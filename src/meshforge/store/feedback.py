@@ -1,0 +1,193 @@
+"""What a person said: answers and label repairs in answers.json, verdicts on edited assets in review.json."""
+
+from __future__ import annotations
+
+from abc import abstractmethod
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Annotated, Literal, Self
+
+from pydantic import ConfigDict, Field, model_validator
+
+from meshforge.store.layout import JsonFile, read_json, write_json
+from meshforge.symbolic import Label, LabelSource
+from meshforge.synthesis import Answer, LabelCorrection
+
+Verdict = Literal["accepted", "flagged"]
+
+
+class _Entry(JsonFile):
+    """An answer or a repair. id: its name, which follows from the other fields."""
+
+    id: str
+
+    @model_validator(mode="after")
+    def _check_id(self) -> Self:
+        if self.id != self.proper_id:
+            raise ValueError(f"the id of this entry is {self.proper_id!r}")
+        return self
+
+    @property
+    @abstractmethod
+    def proper_id(self) -> str:
+        """The id that it must have."""
+
+
+class AnswerLine(_Entry):
+    """An answer `RULE:ASSET`. select: names of the hulls that the rule selects there, null for neither of the choices,
+    which are in `refused`.
+
+    action: what the rule does, in the language's own text without `Each`, so that an answer is not taken for one to
+    another rule when steps are put in or left out later.
+    """
+
+    rule: Annotated[int, Field(ge=1)]
+    asset: str
+    select: tuple[str, ...] | None
+    action: str | None = None
+    refused: tuple[tuple[str, ...], ...] = ()
+
+    @property
+    def proper_id(self) -> str:
+        return f"{self.rule}:{self.asset}"
+
+    @property
+    def answer(self) -> Answer:
+        return Answer(self.rule, self.asset, self.select, self.refused)
+
+
+class RepairLine(_Entry):
+    """A repair of a label `ASSET#HULL=LABEL`. was, `from` in the file: the wrong label, null for none."""
+
+    model_config = ConfigDict(populate_by_name=True)
+
+    asset: str
+    hull: str
+    was: Annotated[str | None, Field(validation_alias="from", serialization_alias="from")]
+    to: str
+
+    @property
+    def proper_id(self) -> str:
+        return repair_id(self.correction)
+
+    @property
+    def correction(self) -> LabelCorrection:
+        return LabelCorrection(self.asset, self.hull, self.was, self.to)
+
+
+class LabelBefore(JsonFile):
+    """The label that a hull had, by whom, and how sure that was."""
+
+    label: str
+    source: LabelSource
+    confidence: Annotated[float, Field(ge=0, le=1)]
+
+    @staticmethod
+    def of(label: Label | None) -> LabelBefore | None:
+        return LabelBefore(label=label.name, source=label.source, confidence=label.confidence) if label else None
+
+    @property
+    def annotation(self) -> Label:
+        return Label(self.label, self.confidence, self.source)
+
+
+class ConfirmationLine(RepairLine):
+    """A repair that was made. before: what the hull had, null for no label, so that the repair can be taken back."""
+
+    before: LabelBefore | None
+
+
+class AnswersFile(JsonFile):
+    """answers.json: answers by rule and asset, repairs by asset and hull; of one id only the last."""
+
+    answers: tuple[AnswerLine, ...] = ()
+    confirmed: tuple[ConfirmationLine, ...] = ()
+    rejected: tuple[RepairLine, ...] = ()
+
+    @property
+    def ids(self) -> tuple[str, ...]:
+        """The ids of all entries."""
+        return tuple(line.id for line in (*self.answers, *self.confirmed, *self.rejected))
+
+    def without(self, entry: str) -> AnswersFile:
+        """All but the entry of this id."""
+        return self.model_copy(
+            update={
+                "answers": tuple(line for line in self.answers if line.id != entry),
+                "confirmed": tuple(line for line in self.confirmed if line.id != entry),
+                "rejected": tuple(line for line in self.rejected if line.id != entry),
+            }
+        )
+
+    def with_line(self, line: AnswerLine | RepairLine) -> AnswersFile:
+        """All, and one entry more in place of that of the same id."""
+        rest = self.without(line.id)
+        match line:
+            case AnswerLine():
+                lines = sorted([*rest.answers, line], key=lambda one: (one.rule, one.asset))
+                return rest.model_copy(update={"answers": tuple(lines)})
+            case ConfirmationLine():
+                return rest.model_copy(update={"confirmed": tuple(sorted([*rest.confirmed, line], key=_sort_key))})
+            case _:
+                return rest.model_copy(update={"rejected": tuple(sorted([*rest.rejected, line], key=_sort_key))})
+
+
+def repair_id(correction: LabelCorrection) -> str:
+    """What a repair is called: `ASSET#HULL=LABEL`, with the label that it gives."""
+    return f"{correction.asset}#{correction.hull}={correction.to}"
+
+
+def _sort_key(line: RepairLine) -> tuple[str, str, str]:
+    return line.asset, line.hull, line.to
+
+
+def read_answers(path: Path) -> AnswersFile:
+    """All answers and repairs."""
+    return read_json(path, AnswersFile) or AnswersFile()
+
+
+def write_answers(path: Path, answers: AnswersFile) -> None:
+    """Write all answers and repairs; where there are none, there is no file."""
+    if answers.ids or answers.model_extra:
+        write_json(path, answers)
+    else:
+        path.unlink(missing_ok=True)
+
+
+class RuleSelection(JsonFile):
+    """What a rule selected on an accepted asset; action: what the rule does, in the language's text without `Each`."""
+
+    rule: Annotated[int, Field(ge=1)]
+    action: str
+    select: tuple[str, ...]
+
+
+class Review(JsonFile):
+    """What a person said about one edited asset; output: the digest of the files that were looked at.
+
+    seen: of a result that was accepted by itself, what the program did there.
+    """
+
+    verdict: Verdict
+    note: str | None = None
+    output: str | None = None
+    seen: tuple[RuleSelection, ...] = ()
+
+
+class ReviewFile(JsonFile):
+    """All reviews, by asset."""
+
+    assets: dict[str, Review] = Field(default_factory=dict)
+
+
+def read_reviews(path: Path) -> dict[str, Review]:
+    """All reviews, by asset."""
+    return (read_json(path, ReviewFile) or ReviewFile()).assets
+
+
+def write_reviews(path: Path, changes: Mapping[str, Review | None]) -> None:
+    """Write some reviews beside those of other assets; None takes one back."""
+    kept = read_json(path, ReviewFile) or ReviewFile()
+    reviews = {asset: review for asset, review in {**kept.assets, **changes}.items() if review}
+    if reviews != kept.assets:
+        write_json(path, kept.model_copy(update={"assets": dict(sorted(reviews.items()))}))

@@ -1,0 +1,136 @@
+"""Where each file of a project lies, and how its JSON files are read and written."""
+
+from __future__ import annotations
+
+import codecs
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TypeVar
+
+from pydantic import BaseModel, ConfigDict, ValidationError
+
+from meshforge.batch import RECORD_FILE, SETTINGS, STATE
+from meshforge.common import ProjectError, first_validation_error, write_atomically
+
+Model = TypeVar("Model", bound=BaseModel)
+
+
+@dataclass(frozen=True, slots=True)
+class Layout:
+    """The paths of a project; those of one asset mirror its id."""
+
+    folder: Path
+
+    def labels(self, asset: str) -> Path:
+        return self.folder / "labels" / f"{asset}.json"
+
+    def demonstration(self, asset: str) -> Path:
+        return self.folder / "demonstrations" / f"{asset}.json"
+
+    def corrections(self, asset: str) -> Path:
+        return self.folder / "corrections" / f"{asset}.json"
+
+    def preparation(self, asset: str) -> Path:
+        """The folder of what is done to an asset before the program."""
+        return self.folder / "prepared" / asset
+
+    @property
+    def settings(self) -> Path:
+        """What the project is about, as its owner writes it."""
+        return self.folder / SETTINGS
+
+    @property
+    def templates(self) -> tuple[Path, Path]:
+        """Where templates are looked for: beside the program, then in their folder."""
+        return self.folder, self.folder / "templates"
+
+    @property
+    def program(self) -> Path:
+        return self.folder / "program.mf"
+
+    @property
+    def answers(self) -> Path:
+        """What a person said while the program was learned."""
+        return self.folder / "answers.json"
+
+    @property
+    def questions(self) -> Path:
+        """Pictures of the question that is being asked."""
+        return self.folder / STATE / "questions"
+
+    @property
+    def learned(self) -> Path:
+        """What the program was learned from."""
+        return self.folder / STATE / "learned.json"
+
+    @property
+    def review(self) -> Path:
+        return self.folder / "review.json"
+
+    @property
+    def edited(self) -> Path:
+        return self.folder / "edited"
+
+    @property
+    def lock(self) -> Path:
+        return self.folder / STATE / "lock"
+
+    @property
+    def survey(self) -> Path:
+        """What is known of the asset files, so that they are not read again for a status."""
+        return self.folder / STATE / "survey.json"
+
+    @property
+    def sketches(self) -> Path:
+        """How the hulls of assets are described, so that labels are propagated quickly the next time."""
+        return self.folder / STATE / "sketches"
+
+    @property
+    def vlm(self) -> Path:
+        """What was sent to models, and what came back."""
+        return self.folder / STATE / "vlm"
+
+    def ids_with(self, kind: str) -> tuple[str, ...]:
+        """The ids of all assets that have a file in `labels`, `demonstrations` or `corrections`, sorted."""
+        root = self.folder / kind
+        return tuple(sorted(path.relative_to(root).as_posix().removesuffix(".json") for path in root.rglob("*.json")))
+
+    def ids_with_preparation(self) -> tuple[str, ...]:
+        """The ids of all assets that have a preparation, sorted."""
+        root = self.folder / "prepared"
+        return tuple(sorted(path.parent.relative_to(root).as_posix() for path in root.rglob(RECORD_FILE)))
+
+
+class JsonFile(BaseModel):
+    """Base of what a project keeps as JSON. Fields that this version does not know are kept and written back."""
+
+    model_config = ConfigDict(extra="allow", frozen=True)
+
+
+def read_json(path: Path, model: type[Model]) -> Model | None:
+    """What a JSON file holds, None where there is no such file. Raises ProjectError naming the file and the field."""
+    try:
+        return model.model_validate_json(path.read_bytes().removeprefix(codecs.BOM_UTF8))
+    except FileNotFoundError:
+        return None
+    except OSError as error:
+        raise ProjectError(f"cannot be read: {error.strerror}", where=str(path)) from error
+    except ValidationError as error:
+        raise invalid_file(path, error) from error
+
+
+def write_json(path: Path, content: BaseModel) -> None:
+    """Write a JSON file, readable and fit for git."""
+    write_atomically(path, json_text(content))
+
+
+def json_text(content: BaseModel) -> str:
+    """The text of a JSON file."""
+    return content.model_dump_json(indent=2, by_alias=True) + "\n"
+
+
+def invalid_file(path: Path, error: ValidationError) -> ProjectError:
+    """The error that names the first field that does not fit."""
+    return ProjectError(
+        first_validation_error(error), where=str(path), remedy="Correct the file by hand, or remove it."
+    )

@@ -1,0 +1,205 @@
+"""meshforge.toml: what a project is about, as its owner writes it, with the table [vlm] of the model that is asked
+for labels."""
+
+from __future__ import annotations
+
+import os
+import tomllib
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Annotated, Any, Literal
+
+import tomlkit
+from pydantic import BaseModel, ConfigDict, Field, ValidationError
+from tomlkit.items import InlineTable
+
+from meshforge.batch import SETTINGS
+from meshforge.common import MeshForgeError, ProjectError, write_atomically
+from meshforge.language import Orient, Program, show
+from meshforge.store.layout import invalid_file
+
+Price = Annotated[float, Field(ge=0, allow_inf_nan=False)]
+Seconds = Annotated[float, Field(gt=0, allow_inf_nan=False)]
+Fraction = Annotated[float, Field(gt=0, le=1)]
+TomlValue = str | float | Sequence[str]
+
+
+class VlmSettings(BaseModel):
+    """The table [vlm]: the fields of `Endpoint` and `PromptConfig`, which say what they mean.
+
+    Prices are in dollars a million tokens. The key is never written here. max_cost: the most that one run may cost [$];
+    examples: ids of labelled assets that the model is shown.
+    """
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+    base_url: str = "https://api.openai.com/v1"
+    model: str = ""
+    key_env: str | None = None
+    mode: Literal["cheap", "balanced", "exact"] = "balanced"
+    about: str = ""
+    descriptions: Mapping[str, str] = {}
+    examples: tuple[str, ...] = ()
+    names: bool = False
+    repeats: Annotated[int, Field(ge=1, le=20)] = 1
+    input_price: Price | None = None
+    output_price: Price | None = None
+    max_cost: Price | None = None
+    room: Annotated[int, Field(ge=100)] = 1000
+    size: Annotated[int, Field(ge=256, le=4096)] | None = None
+    concurrency: Annotated[int, Field(ge=1, le=256)] = 4
+    timeout: Seconds = 120.0
+    retries: Annotated[int, Field(ge=0, le=20)] = 5
+    wait: Seconds = 1.0
+    extra: Mapping[str, Any] = {}
+
+
+class Thresholds(BaseModel):
+    """epsilon and delta; None takes the language's own."""
+
+    model_config = ConfigDict(extra="allow", frozen=True)
+
+    contact: Fraction | None = None
+    extremity: Fraction | None = None
+
+
+class Settings(BaseModel):
+    """The contents of meshforge.toml; tables it does not know are left alone.
+
+    assets: files, folders and globs, relative to the project; base: the folder that ids count from.
+    orient: the directive as a program has it, without the word `orient`; empty for none.
+    names: the label that names mean, by patterns of names, in their order; empty for none.
+    """
+
+    model_config = ConfigDict(extra="allow", frozen=True)
+
+    name: str
+    assets: tuple[str, ...]
+    base: str
+    vocabulary: tuple[str, ...] = ()
+    orient: str = ""
+    thresholds: Thresholds = Thresholds()
+    vlm: VlmSettings = VlmSettings()
+    names: dict[str, str] = {}
+
+
+def read_settings(folder: Path) -> Settings:
+    """The settings of a project. Raises ProjectError: no project here, no TOML, or a field that does not fit."""
+    path = folder / SETTINGS
+    text = _read_text(path)
+    try:
+        return Settings.model_validate(tomllib.loads(text))
+    except tomllib.TOMLDecodeError as error:
+        raise ProjectError(f"this is no TOML: {error}", where=str(path), remedy="Correct the file by hand.") from error
+    except ValidationError as error:
+        raise invalid_file(path, error) from error
+
+
+def write_settings(folder: Path, settings: Settings) -> None:
+    """Write the settings of a new project, with a remark on each."""
+    vocabulary, assets, base = (toml_value(v) for v in (settings.vocabulary, settings.assets, settings.base))
+    text = f"""\
+name = {toml_value(settings.name)}
+
+# Files, folders and globs of assets, relative to this folder.
+assets = {assets}
+# The folder that the ids of assets count from. Labels and demonstrations are kept by id, so leave it as it is.
+base = {base}
+
+# What hulls can be.
+vocabulary = {vocabulary}
+# How assets are turned before the program sees them, for example "+Z: Is(leg) -> Is(panel)".
+orient = {toml_value(settings.orient)}
+"""
+    write_atomically(folder / SETTINGS, text)
+
+
+def change_setting(folder: Path, key: str, value: TomlValue) -> None:
+    """Change one value of meshforge.toml; all else stays as its owner wrote it."""
+    path = folder / SETTINGS
+    edited = edit_settings(folder, {key: value})
+    if edited != _read_text(path):
+        write_atomically(path, edited)
+
+
+def edit_settings(folder: Path, values: Mapping[str, TomlValue]) -> str:
+    """The text of meshforge.toml with some values changed."""
+    path = folder / SETTINGS
+    text = _read_text(path)
+    try:
+        for key, value in values.items():
+            text = set_value(text, key, value)
+    except ProjectError as error:
+        raise error.at(str(path)) from None
+    return text
+
+
+def toml_value(value: TomlValue) -> str:
+    """A value as TOML writes it: a string, a number, or an array of strings."""
+    if isinstance(value, str | int | float):
+        return tomlkit.item(value).as_string()
+    return f"[{', '.join(map(toml_value, value))}]"
+
+
+def set_value(text: str, key: str, value: TomlValue | None, table: str | None = None) -> str:
+    """A TOML text with one key of the top level, or of a table (`a` or `a.b`), set, or removed by None.
+
+    Comments and layout stay as their author wrote them. Raises ProjectError for a key inside an inline table.
+    """
+    document = tomlkit.parse(text)
+    part: Any = document
+    # parsed from its text, as tomlkit takes seconds to make an array of thousands of paths from a list
+    item = None if value is None else tomlkit.value(toml_value(value))
+    for name in table.split(".") if table else ():
+        part = part.get(name)
+        if part is None:
+            return text if item is None else f"{text}\n[{table}]\n{tomlkit.dumps({key: item})}"
+        if isinstance(part, InlineTable):
+            raise ProjectError(f"the key {key!r} cannot be changed where it stands", remedy="Change it by hand.")
+    if item is not None:
+        part[key] = item
+    elif key in part:
+        del part[key]
+    return tomlkit.dumps(document)
+
+
+def orientation(settings: Settings, folder: Path) -> Orient | None:
+    """The orientation directive. Raises ProjectError where its text does not parse."""
+    return parse_orientation(settings.orient, str(folder / SETTINGS))
+
+
+def parse_orientation(text: str, where: str = "orient") -> Orient | None:
+    """The directive in a text, with or without the word `orient`; None for an empty text."""
+    text = text.strip()
+    if not text:
+        return None
+    try:
+        return Program.parse(text if text.startswith("orient ") else f"orient {text}", "orient").orient
+    except MeshForgeError as error:
+        raise ProjectError(f"the orientation does not parse: {error.message}", where=where) from error
+
+
+def orientation_text(orient: Orient | None) -> str:
+    """The text of a directive, without the word `orient`."""
+    return show(orient).removeprefix("orient ") if orient else ""
+
+
+def _read_text(path: Path) -> str:
+    try:
+        return path.read_text(encoding="utf-8-sig")
+    except FileNotFoundError as error:
+        raise ProjectError(
+            "this is no project", where=str(path.parent), remedy="Make one: meshforge new PROJECT ASSETS..."
+        ) from error
+    except UnicodeDecodeError as error:
+        raise ProjectError("cannot be read: it is not text in UTF-8", where=str(path)) from error
+    except OSError as error:
+        raise ProjectError(f"cannot be read: {error.strerror}", where=str(path)) from error
+
+
+def path_seen_from(folder: Path, pattern: str) -> str:
+    """A path or glob, given from here, as it is written in a file of that folder."""
+    try:
+        return Path(os.path.relpath(pattern, folder)).as_posix()
+    except ValueError:  # another drive
+        return Path(pattern).absolute().as_posix()

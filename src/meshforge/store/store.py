@@ -1,0 +1,223 @@
+"""The project folder: its state lies in files alone, every change is one atomic write under the project's lock."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
+from contextlib import AbstractContextManager
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from meshforge.batch import AssetSet, Correction, Preparation, hold_lock, load_named_templates, read_preparation
+from meshforge.common import write_atomically
+from meshforge.language import Orient, Program, Template
+from meshforge.store.feedback import AnswersFile, Review, read_answers, read_reviews, write_answers, write_reviews
+from meshforge.store.folder import path_of
+from meshforge.store.layout import Layout, read_json, write_json
+from meshforge.store.meshes import AssetFiles, read_labels_file, read_meshes, write_labels
+from meshforge.store.program import ProgramRecord, check_template, list_templates, write_program
+from meshforge.store.settings import (
+    Settings,
+    change_setting,
+    orientation,
+    orientation_text,
+    parse_orientation,
+    read_settings,
+)
+from meshforge.store.steps import read_corrections, read_steps, write_corrections, write_steps
+from meshforge.symbolic import Label, LabelFile, SymbolicMesh
+from meshforge.synthesis import Demonstration, Step
+
+
+@dataclass(frozen=True)
+class Store:
+    """A project folder. It holds nothing but paths in memory: what is asked for is read, what is set is written.
+
+    found: the assets, as they were when the project was opened.
+    """
+
+    folder: Path
+    found: AssetSet = field(repr=False)
+
+    @property
+    def layout(self) -> Layout:
+        """Where everything lies."""
+        return Layout(self.folder)
+
+    def lock(self) -> AbstractContextManager[None]:
+        """The project's lock, under which files are read, changed and written; a thread may take it again and again."""
+        return hold_lock(self.layout.lock, str(self.folder), again=True)
+
+    # Settings
+
+    @property
+    def settings(self) -> Settings:
+        return read_settings(self.folder)
+
+    @property
+    def name(self) -> str:
+        return self.settings.name
+
+    @property
+    def vocabulary(self) -> tuple[str, ...]:
+        return self.settings.vocabulary
+
+    @property
+    def orientation(self) -> Orient | None:
+        return orientation(self.settings, self.folder)
+
+    def set_vocabulary(self, labels: Sequence[str]) -> None:
+        """Set the labels that hulls can have. Raises ProgramError for one that no program could write."""
+        Program(labels=tuple(labels))  # raises ProgramError
+        with self.lock():
+            change_setting(self.folder, "vocabulary", tuple(labels))
+
+    def set_orientation(self, orient: Orient | str | None) -> None:
+        """Set the orientation directive; a text has the form it has in a program. Raises ProjectError for another."""
+        directive = parse_orientation(orient) if isinstance(orient, str) else orient
+        with self.lock():
+            change_setting(self.folder, "orient", orientation_text(directive))
+
+    # Assets
+
+    def assets(self) -> tuple[str, ...]:
+        """The ids of all assets."""
+        return tuple(self.found.ids)
+
+    def path(self, asset: str) -> Path:
+        """The file of an asset. Raises ProjectError, naming the nearest id, where there is no such asset."""
+        return path_of(self.folder, self.found, asset)
+
+    def asset_files(self, assets: Iterable[str]) -> tuple[AssetFiles, ...]:
+        """What each of some assets is read from, for reading it in another process."""
+        layout, contact = self.layout, self.settings.thresholds.contact
+        return tuple(AssetFiles(self.path(a), layout.preparation(a), layout.labels(a), contact) for a in assets)
+
+    def mesh(self, asset: str) -> SymbolicMesh:
+        """An asset as it is prepared, with its labels. Raises AssetError where it cannot be read."""
+        (files,) = self.asset_files([asset])
+        return files.read_mesh()
+
+    def meshes(self) -> Iterator[SymbolicMesh]:
+        """All assets with their labels, one after the other; those that cannot be read are left out."""
+        return (mesh for _, mesh in self.meshes_by_id())
+
+    def meshes_by_id(self, assets: Iterable[str] | None = None) -> Iterator[tuple[str, SymbolicMesh]]:
+        """All assets, or some, with their ids and labels; those that cannot be read are left out."""
+        ids = self.assets() if assets is None else tuple(assets)
+        yield from read_meshes(ids, self.asset_files(ids))
+
+    def readers(self, assets: Iterable[str]) -> tuple[Callable[[], SymbolicMesh], ...]:
+        """Functions that read each of some assets as `mesh` does, in this process or another."""
+        return tuple(files.read_mesh for files in self.asset_files(assets))
+
+    def preparation(self, asset: str) -> Preparation:
+        """What is done to an asset before the program. Raises AssetError where its files are damaged."""
+        self.path(asset)
+        return read_preparation(self.layout.preparation(asset)) or Preparation()
+
+    # Labels
+
+    def labels(self, asset: str) -> LabelFile:
+        """The labels file of an asset; an empty one where there is none."""
+        return read_labels_file(self.layout.labels(asset))
+
+    def write_labels(
+        self,
+        asset: str,
+        hulls: Mapping[str, str],
+        labels: Mapping[str, Label],
+        vocabulary: Sequence[str],
+        away: Collection[str] = (),
+    ) -> None:
+        """Write the labels of an asset, under the lock that the caller holds.
+
+        Labels of hulls that are gone stay in the file, since hulls may come back. hulls: the digests of all, by name,
+        in order; away: names of hulls that are gone whose labels do not stay.
+        """
+        write_labels(self.layout.labels(asset), hulls, labels, vocabulary, away)
+
+    # Demonstrations, and edits by hand
+
+    def demonstration_ids(self) -> tuple[str, ...]:
+        """The ids of the assets that have a demonstration."""
+        return tuple(asset for asset in self.assets() if self.layout.demonstration(asset).exists())
+
+    def demonstrations(self) -> dict[str, Demonstration]:
+        """All demonstrations, by asset."""
+        return {asset: Demonstration(self.mesh(asset), self.steps(asset), asset) for asset in self.demonstration_ids()}
+
+    def steps(self, asset: str) -> tuple[Step, ...]:
+        """The steps that were demonstrated on an asset; none where nothing was."""
+        return read_steps(self.layout.demonstration(asset))
+
+    def write_steps(self, asset: str, steps: Sequence[Step]) -> None:
+        """Write the steps that are demonstrated on an asset; without any step its file is removed."""
+        with self.lock():
+            write_steps(self.layout.demonstration(asset), asset, steps)
+
+    def corrections(self, asset: str) -> tuple[Correction, ...]:
+        """The edits by hand that are replayed on an asset after the program."""
+        return read_corrections(self.layout.corrections(asset))
+
+    def write_corrections(self, asset: str, corrections: Sequence[Correction]) -> None:
+        """Write the edits by hand of an asset."""
+        with self.lock():
+            write_corrections(self.layout.corrections(asset), asset, corrections)
+
+    def drop_corrections(self, asset: str) -> None:
+        """Remove all edits by hand of an asset."""
+        with self.lock():
+            self.layout.corrections(asset).unlink(missing_ok=True)
+
+    # The program
+
+    def program(self) -> Program | None:
+        """The accepted program, None where there is none yet. Raises ProgramError where it does not parse."""
+        return Program.read(self.layout.program) if self.layout.program.exists() else None
+
+    def write_program(self, program: Program) -> None:
+        """Write the accepted program; the one before stays as `program.previous.mf`."""
+        with self.lock():
+            write_program(self.layout.program, program)
+
+    def program_record(self) -> ProgramRecord | None:
+        """What the program was learned from; None where none was learned."""
+        return read_json(self.layout.learned, ProgramRecord)
+
+    def write_program_record(self, record: ProgramRecord) -> None:
+        """Write what the program was learned from."""
+        with self.lock():
+            write_json(self.layout.learned, record)
+
+    def templates(self, names: Iterable[str]) -> dict[str, Template]:
+        """Hull templates by the names that programs write. Raises ProgramError where one is not there or not convex."""
+        return load_named_templates(names, self.layout.templates)
+
+    def template_names(self) -> tuple[str, ...]:
+        """The names of all templates in the project's folder of them, as actions write them."""
+        return list_templates(self.layout)
+
+    def add_template(self, name: str, data: bytes) -> None:
+        """Keep the contents of a mesh file as a template. Raises ProjectError: no plain name, or no convex hulls."""
+        check_template(self.layout, name, data)
+        with self.lock():
+            write_atomically(self.layout.templates[1] / name, data)
+
+    # What a person said
+
+    def answers(self) -> AnswersFile:
+        """All answers to questions, and all repairs of labels that were confirmed or rejected."""
+        return read_answers(self.layout.answers)
+
+    def write_answers(self, answers: AnswersFile) -> None:
+        """Write all answers and repairs, under the lock that the caller holds."""
+        write_answers(self.layout.answers, answers)
+
+    def reviews(self) -> dict[str, Review]:
+        """What a person said about edited assets."""
+        return read_reviews(self.layout.review)
+
+    def write_reviews(self, changes: Mapping[str, Review | None]) -> None:
+        """Write the reviews of some assets beside those of the others; None takes one back."""
+        with self.lock():
+            write_reviews(self.layout.review, changes)

@@ -1,0 +1,1 @@
+"""The web application: its routes, and the server that runs it."""

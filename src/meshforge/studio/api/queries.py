@@ -1,0 +1,172 @@
+"""Routes that answer questions about assets, pictures, programs, the language, and checks of outputs."""
+
+from __future__ import annotations
+
+from asyncio import wait, wrap_future
+from concurrent.futures import Future
+from typing import Literal, TypeVar
+
+from fastapi import APIRouter, Request, Response
+
+from meshforge.common import ProjectError, StoppedError
+from meshforge.language import Program
+from meshforge.studio.api.connection import CurrentSession, packet_response
+from meshforge.studio.errors import NotHereError
+from meshforge.studio.queries import assets, packets, previews, programs
+from meshforge.studio.session.session import Session
+from meshforge.studio.thumbnails import ThumbnailOf
+from meshforge.studio.wire.asset import AssetView, Checked, CheckPart, CheckPicture
+from meshforge.studio.wire.program import Generalised, Guesses, LanguageView, ProgramCheck, Selected
+from meshforge.studio.wire.requests import CheckRequest, GeneraliseRequest, PreviewRequest, SelectRequest
+from meshforge.studio.workers import wait_for
+
+router = APIRouter(prefix="/api")
+Result = TypeVar("Result")
+
+POLL_SECONDS = 0.2
+"""Seconds between two checks whether the page still waits."""
+_CACHE_FOREVER = {"Cache-Control": "private, max-age=31536000, immutable"}
+
+
+@router.get("/asset")
+def get_asset(session: CurrentSession, asset: str) -> AssetView:
+    """An asset with its steps."""
+    return assets.build_asset_view(session.project, asset, session.mesh(asset))
+
+
+@router.get("/shapes")
+def get_shapes(session: CurrentSession, asset: str) -> Response:
+    """The hulls and non-convex pieces of an asset."""
+    return packet_response(packets.pack_asset(session.mesh(asset)))
+
+
+@router.get("/visual")
+def get_visual(session: CurrentSession, asset: str) -> Response:
+    """The visual surfaces of an asset."""
+    return packet_response(packets.pack_visual(session.mesh(asset)))
+
+
+@router.get("/stage")
+def get_stage(session: CurrentSession, asset: str, steps: int) -> Response:
+    """An asset after some of its steps."""
+    return packet_response(previews.preview_steps(session.project, asset, session.mesh(asset), steps))
+
+
+@router.post("/preview")
+def preview(session: CurrentSession, request: PreviewRequest) -> Response:
+    """What one more action would do."""
+    return packet_response(
+        previews.preview_action(session.project, request.asset, session.mesh(request.asset), request)
+    )
+
+
+@router.post("/select")
+def select(session: CurrentSession, request: SelectRequest) -> Selected:
+    """What an extractor selects on an asset."""
+    program = None if request.rule is None else present_program(session)
+    return programs.select_hulls(session.project, request.asset, session.mesh(request.asset), request, program)
+
+
+@router.post("/generalise")
+def generalise(session: CurrentSession, request: GeneraliseRequest) -> Generalised:
+    """What an extractor selects on all assets."""
+    return wait_for(session.learning.generalise(request.extractor, request.rule))
+
+
+@router.get("/result")
+def get_result(session: CurrentSession, asset: str, of: Literal["program", "output"]) -> Response:
+    """What the program makes of an asset, or the output that was written."""
+    program = session.project.program() if of == "program" else None
+    return packet_response(previews.preview_result(session.project, asset, session.mesh(asset), of, program))
+
+
+@router.get("/guesses")
+def get_guesses(session: CurrentSession, asset: str) -> Guesses:
+    """What the program would select for each rule."""
+    mesh, program = session.mesh(asset), present_program(session)
+    if program is None:
+        return Guesses(asset=asset, guesses=())
+    return programs.guess_selections(session.project, asset, mesh, program)
+
+
+def present_program(session: Session) -> Program | None:
+    """The program that was learned last, or else the accepted one; one that a person wrote comes before both."""
+    learned, accepted = session.pages.lesson, session.pages.program
+    if learned and learned.program and not accepted.by_hand:
+        return Program.parse(learned.program)
+    if accepted.error:
+        raise ProjectError(accepted.error, where="program.mf")
+    return Program.parse(accepted.text) if accepted.text else None
+
+
+@router.get("/thumbnail")
+async def get_thumbnail(session: CurrentSession, asset: str, of: ThumbnailOf, v: str) -> Response:
+    """The thumbnail of an asset or of its output; v: the digest on its card."""
+    session.check_assets(asset)
+    if not (v.isalnum() and v.isascii() and len(v) == 32):
+        raise NotHereError("there is no such picture", where=asset)
+    data = await wrap_future(session.thumbnails.get(session.project, asset, of, v))
+    return Response(data, media_type="image/png", headers=_CACHE_FOREVER)
+
+
+@router.get("/picture")
+def get_picture(session: CurrentSession, asset: str, rule: int) -> Response:
+    """An asset as it is before a rule of the present program."""
+    return packet_response(
+        assets.draw_rule_picture(session.project, asset, session.mesh(asset), rule, present_program(session))
+    )
+
+
+@router.get("/language")
+def get_language() -> LanguageView:
+    """Actions, operators and directions."""
+    return programs.build_language_view()
+
+
+@router.post("/program/check")
+def check_program(request: CheckRequest) -> ProgramCheck:
+    """Whether a text is a program."""
+    return programs.check_text(request.text)
+
+
+@router.get("/checked")
+async def get_checked(session: CurrentSession, request: Request, asset: str, part: CheckPart) -> Checked:
+    """What is measured of the output of an asset."""
+    session.check_assets(asset)
+    known = session.checks.check_part(session.project, asset, part)
+    fresh = not known.done()
+    found = await _wait_while_connected(request, known)
+    if fresh:  # its card may show more now
+        session.refresh_queue.add([asset])
+    return found
+
+
+@router.get("/checked/pictures")
+async def get_check_pictures(
+    session: CurrentSession, request: Request, asset: str, part: Literal["fit", "clearance"]
+) -> tuple[CheckPicture, ...]:
+    """The pictures of what is measured."""
+    session.check_assets(asset)
+    return await _wait_while_connected(request, session.checks.draw_pictures(session.project, asset, part))
+
+
+@router.get("/checked/picture")
+def get_check_picture(session: CurrentSession, asset: str, name: str, v: str) -> Response:
+    """One of these pictures; v: the digest on the card."""
+    session.check_assets(asset)
+    if not (v.isalnum() and v.isascii() and name.replace("-", "").isalpha() and name.isascii()):
+        raise NotHereError("there is no such picture", where=asset)
+    return Response(session.checks.read_picture(asset, v, name), media_type="image/png", headers=_CACHE_FOREVER)
+
+
+async def _wait_while_connected(request: Request, future: Future[Result]) -> Result:
+    """The result of some work, which is stopped where nobody waits for it any more."""
+    waiting = wrap_future(future)
+    while not (await wait([waiting], timeout=POLL_SECONDS))[0]:
+        if await request.is_disconnected():
+            waiting.cancel()
+            raise StoppedError("the page went on")
+    if waiting.cancelled():
+        raise StoppedError("the studio is being closed")
+    waiting.exception()  # `wait_for` raises it
+    return wait_for(future)

@@ -1,0 +1,196 @@
+"""Serving the studio on this machine until it is stopped: the web application, its errors, and the built page."""
+
+from __future__ import annotations
+
+import logging
+import multiprocessing
+import signal
+import socket
+import webbrowser
+from collections.abc import Callable, Iterator
+from contextlib import ExitStack, closing, contextmanager
+from pathlib import Path
+from secrets import token_urlsafe
+from threading import Thread
+from types import FrameType
+from typing import Any
+
+import uvicorn
+from fastapi import FastAPI, Request
+from fastapi.exceptions import RequestValidationError
+from fastapi.responses import JSONResponse
+from starlette.exceptions import HTTPException
+from starlette.responses import Response
+from starlette.staticfiles import StaticFiles
+from starlette.types import ASGIApp, Scope
+
+from meshforge.batch import STATE, hold_lock
+from meshforge.common import MeshForgeError, ProjectError, UsageError
+from meshforge.project import Project
+from meshforge.studio.api import connection, edits, queries
+from meshforge.studio.api.guard import Guard
+from meshforge.studio.errors import problem_of, status_of
+from meshforge.studio.session.session import Session, StudioOptions
+from meshforge.studio.wire.events import Problem
+
+ADDRESS = "127.0.0.1"
+EXIT_TIMEOUT = 3.0
+"""Seconds that a worker process is waited for."""
+_LOG = logging.getLogger(__name__)
+
+PAGE_FOLDER = Path(__file__).parent.parent / "static"
+
+
+def serve(
+    options: StudioOptions,
+    announce: Callable[[str], None],
+    *,
+    port: int = 0,
+    browser: bool = True,
+    page: Path = PAGE_FOLDER,
+) -> None:
+    """Serve a project until Ctrl-C or SIGTERM. announce: called with the address; port: 0 takes a free one; page: the
+    built page.
+
+    Raises MeshForgeError: no project, no page, the port is taken, or the studio is open on the project already.
+    """
+    open_page(page)
+    project, token = Project.open(options.folder), token_urlsafe(24)
+    with _stop_on_signal(), ExitStack() as stack:
+        _lock_studio(stack, project)
+        listening = stack.enter_context(closing(_listen(port)))
+        session = Session(options)
+        stack.callback(_wait_for_processes)
+        stack.callback(session.close)
+        address = f"http://{ADDRESS}:{listening.getsockname()[1]}/?token={token}"
+
+        def ready() -> None:
+            announce(address)
+            if browser:
+                Thread(target=webbrowser.open, args=(address,), daemon=True).start()
+
+        session.start()
+        _Server(_make_config(session, token, page), ready).run(sockets=[listening])
+
+
+class _Server(uvicorn.Server):
+    """A server that calls `ready` once it listens."""
+
+    def __init__(self, config: uvicorn.Config, ready: Callable[[], None]) -> None:
+        super().__init__(config)
+        self._ready = ready
+
+    async def startup(self, sockets: list[socket.socket] | None = None) -> None:
+        await super().startup(sockets)
+        if self.started:
+            self._ready()
+
+
+def _make_config(session: Session, token: str, page: Path) -> uvicorn.Config:
+    return uvicorn.Config(
+        build_app(session, token, page),
+        log_level="info" if _LOG.isEnabledFor(logging.DEBUG) else "critical",
+        access_log=False,
+        lifespan="off",
+        ws="websockets-sansio",
+        ws_max_size=2**16,
+        timeout_graceful_shutdown=2,
+        server_header=False,
+    )
+
+
+def _wait_for_processes() -> None:
+    """Wait for worker processes: one that is just starting would fail if its locks went with this process."""
+    for process in multiprocessing.active_children():
+        process.join(EXIT_TIMEOUT)
+
+
+def _lock_studio(stack: ExitStack, project: Project) -> None:
+    """Lock the project for this studio: two would each have half of its history."""
+    try:
+        stack.enter_context(hold_lock(project.folder / STATE / "studio" / "lock", str(project.folder), wait=0))
+    except MeshForgeError as error:
+        remedy = "Use the page that is open, or stop that studio first."
+        raise ProjectError("the studio is open on this project already", where=error.where, remedy=remedy) from None
+
+
+def _listen(port: int) -> socket.socket:
+    try:
+        return socket.create_server((ADDRESS, port))
+    except OSError as error:
+        remedy = "Choose another: --port N; 0 takes a free one."
+        raise UsageError(f"port {port} cannot be taken: {error.strerror}", remedy=remedy) from None
+
+
+@contextmanager
+def _stop_on_signal() -> Iterator[None]:
+    """Ctrl-C and SIGTERM leave the block without an error, and all it opened is closed."""
+
+    def end(number: int, frame: FrameType | None) -> None:
+        raise KeyboardInterrupt
+
+    before = signal.signal(signal.SIGTERM, end)
+    try:
+        yield
+    except KeyboardInterrupt:
+        return
+    finally:
+        signal.signal(signal.SIGTERM, before)
+
+
+def build_app(session: Session, token: str, page: Path) -> ASGIApp:
+    """The web application of a session. page: the folder of the built page. Raises MeshForgeError as `open_page`."""
+    app = FastAPI(title="MeshForge studio", docs_url=None, redoc_url=None, openapi_url=None)
+    app.state.session = session
+    for module in (queries, edits, connection):
+        app.include_router(module.router)
+    app.mount("/", open_page(page))
+    app.add_exception_handler(MeshForgeError, _handle_error)
+    app.add_exception_handler(RequestValidationError, _handle_invalid)
+    app.add_exception_handler(HTTPException, _handle_http)
+    app.add_exception_handler(Exception, _handle_fault)
+    return Guard(app, token)
+
+
+def _respond(problem: Problem, status: int) -> JSONResponse:
+    return JSONResponse(problem.model_dump(mode="json"), status)
+
+
+def _handle_error(_: Request, error: Exception) -> JSONResponse:
+    return _respond(problem_of(error), status_of(error))
+
+
+def _handle_fault(_: Request, error: Exception) -> JSONResponse:
+    _LOG.debug("a fault of the studio", exc_info=error)
+    return _respond(problem_of(error), 500)
+
+
+def _handle_invalid(_: Request, error: Exception) -> JSONResponse:
+    assert isinstance(error, RequestValidationError)
+    first = error.errors()[0]
+    field = ".".join(str(step) for step in first["loc"])
+    return _respond(Problem(message=f"{field}: {first['msg']}"), 400)
+
+
+def _handle_http(_: Request, error: Exception) -> JSONResponse:
+    assert isinstance(error, HTTPException)
+    return _respond(Problem(message=str(error.detail)), error.status_code)
+
+
+class PageFiles(StaticFiles):
+    """The built page. Browsers keep what has a digest in its name, and ask for the rest each time."""
+
+    async def get_response(self, path: str, scope: Scope) -> Response:
+        response = await super().get_response(path, scope)
+        is_digested = path.startswith("assets/")
+        response.headers["Cache-Control"] = "private, max-age=31536000, immutable" if is_digested else "no-cache"
+        return response
+
+
+def open_page(folder: Path) -> Any:
+    """The page in a folder. Raises MeshForgeError where it was not built."""
+    if not (folder / "index.html").is_file():
+        raise MeshForgeError(
+            "the page of the studio is not built", where=str(folder), remedy="Build it: script/build-web"
+        )
+    return PageFiles(directory=folder, html=True)

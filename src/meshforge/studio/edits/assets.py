@@ -1,0 +1,145 @@
+"""Edits of assets: added, prepared before any program, reviewed and corrected after it."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Literal
+
+from meshforge.common import join_names, pluralize
+from meshforge.project import Project
+from meshforge.store import parse_action_text
+from meshforge.studio.edits.base import Edit, JobEdit
+
+Vector = tuple[float, float, float]
+
+
+class _PreparationEdit(Edit):
+    asset: str
+
+    def list_paths(self, project: Project) -> tuple[Path, ...]:
+        return (project.layout.preparation(self.asset), project.layout.labels(self.asset))
+
+
+class CutHull(_PreparationEdit):
+    """Cut a hull along a plane through `at` [m] across `across`, in the frame that the asset comes in."""
+
+    kind: Literal["cut"] = "cut"
+    hull: str
+    at: Vector
+    across: Vector
+
+    def apply(self, project: Project) -> None:
+        project.cut(self.asset, self.hull, self.at, self.across)
+
+    def describe(self, project: Project) -> str:
+        return f"{self.hull} of {self.asset} cut in two"
+
+
+class Unprepare(_PreparationEdit):
+    """Take back the last thing that was done to an asset before the program."""
+
+    kind: Literal["unprepare"] = "unprepare"
+
+    def apply(self, project: Project) -> None:
+        project.unprepare(self.asset)
+
+    def describe(self, project: Project) -> str:
+        return f"last preparation of {self.asset} taken back"
+
+
+class ReviewAssets(Edit):
+    """Accept or flag the outputs of some assets; null takes that back."""
+
+    kind: Literal["review"] = "review"
+    ids: tuple[str, ...]
+    verdict: Literal["accepted", "flagged"] | None
+    note: str | None = None
+
+    def apply(self, project: Project) -> None:
+        project.review(self.ids, self.verdict, self.note)
+
+    def list_paths(self, project: Project) -> tuple[Path, ...]:
+        return (project.layout.review,)
+
+    def describe(self, project: Project) -> str:
+        what = self.ids[0] if len(self.ids) == 1 else pluralize(len(self.ids), "asset")
+        return f"{what} {self.verdict or 'not reviewed'}"
+
+
+class _CorrectionEdit(Edit):
+    asset: str
+
+    def list_paths(self, project: Project) -> tuple[Path, ...]:
+        return (project.layout.corrections(self.asset),)
+
+
+class CorrectByHand(_CorrectionEdit):
+    """Add an edit by hand, on hulls by the names they have after the program and the edits before."""
+
+    kind: Literal["correct"] = "correct"
+    select: tuple[str, ...]
+    action: str
+
+    def apply(self, project: Project) -> None:
+        project.correct(self.asset, self.select, *parse_action_text(self.action, "action"))
+
+    def describe(self, project: Project) -> str:
+        return f"{self.asset} edited by hand: {self.action}"
+
+
+class DropCorrections(_CorrectionEdit):
+    """Take all edits by hand away from an asset, so that it is what the program makes of it."""
+
+    kind: Literal["drop-corrections"] = "drop-corrections"
+
+    def apply(self, project: Project) -> None:
+        project.drop_corrections(self.asset)
+
+    def describe(self, project: Project) -> str:
+        return f"edits by hand of {self.asset} taken away"
+
+
+class Decompose(_PreparationEdit, JobEdit):
+    """A job made hulls of the pieces of an asset that had none."""
+
+    def describe(self, project: Project) -> str:
+        return f"{self.asset} decomposed"
+
+
+class AddTemplate(Edit):
+    """Keep an uploaded file as a template. file: where it lies."""
+
+    name: str
+    file: str
+
+    def apply(self, project: Project) -> None:
+        project.add_template(self.name, Path(self.file).read_bytes())
+
+    def list_paths(self, project: Project) -> tuple[Path, ...]:
+        return (project.layout.templates[1] / self.name,)
+
+    def describe(self, project: Project) -> str:
+        return f"template {self.name} added"
+
+
+class AddAssets(Edit):
+    """Take uploaded files into the project. staged: the folder they lie in; files: their paths there; added: those of
+    them that are assets, the others being their parts; home: the folder they come to."""
+
+    staged: str
+    files: tuple[str, ...]
+    added: tuple[str, ...]
+    home: str
+
+    def apply(self, project: Project) -> None:
+        home = Path(self.home)
+        for name in self.files:
+            (home / name).parent.mkdir(parents=True, exist_ok=True)
+            (Path(self.staged) / name).replace(home / name)
+        project.add_assets([home / name for name in self.added])
+
+    def list_paths(self, project: Project) -> tuple[Path, ...]:
+        return (project.layout.settings, *(Path(self.home) / name for name in self.files))
+
+    def describe(self, project: Project) -> str:
+        return f"{pluralize(len(self.added), 'asset')} added: {join_names(self.added, most=2)}"

@@ -1,0 +1,211 @@
+"""Edits of demonstrations and of the orientation, answers given while learning, and the program itself."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Literal
+
+from meshforge.common import MeshForgeError, pluralize
+from meshforge.language import Program
+from meshforge.project import Project
+from meshforge.store import action_text, parse_action_text
+from meshforge.studio.edits.base import Edit, program_files, program_version, steps_version
+from meshforge.studio.errors import ConflictError
+from meshforge.studio.wire import Wire
+from meshforge.synthesis import Answer, LabelCorrection, Step
+
+
+class StepText(Wire):
+    """One step. select: names of hulls, [] for nothing here, null for open; action: in the language's own text."""
+
+    select: tuple[str, ...] | None
+    action: str
+
+    def parse(self, rule: int) -> Step:
+        """The step of a rule. Raises ProjectError for an action that does not parse."""
+        return Step(rule, self.select, *parse_action_text(self.action, f"step {rule}"))
+
+
+class SetSteps(Edit):
+    """Set the steps of an asset, one a rule, in order. version: of the steps that were changed."""
+
+    kind: Literal["steps"] = "steps"
+    asset: str
+    version: str
+    steps: tuple[StepText, ...]
+
+    def apply(self, project: Project) -> None:
+        if steps_version(project, self.asset) != self.version:
+            raise ConflictError(
+                "the steps were changed elsewhere meanwhile",
+                where=self.asset,
+                remedy="They are shown as they are now; do it again if it is still wanted.",
+            )
+        project.demonstrate(self.asset, [step.parse(k) for k, step in enumerate(self.steps, 1)])
+
+    def list_paths(self, project: Project) -> tuple[Path, ...]:
+        return (project.layout.demonstration(self.asset),)
+
+    def describe(self, project: Project) -> str:
+        before = [(step.select, action_text(step.action, step.label)) for step in _read_steps(project, self.asset)]
+        now = [(None if s.select is None else frozenset(s.select), s.action) for s in self.steps]
+        if len(now) == len(before) + 1 and now[:-1] == before:
+            select, action = now[-1]
+            on = "left open" if select is None else pluralize(len(select), "hull") if select else "nothing here"
+            return f"step {len(now)} of {self.asset}: {action}, {on}"
+        if len(now) < len(before):
+            return f"{pluralize(len(before) - len(now), 'step')} of {self.asset} taken away"
+        changed = [k for k, (a, b) in enumerate(zip(before, now, strict=False), 1) if a != b]
+        return f"step {changed[0]} of {self.asset} changed" if changed else f"steps of {self.asset}"
+
+
+def _read_steps(project: Project, asset: str) -> tuple[Step, ...]:
+    """The steps on disk; none where their file is damaged, so that it is written anew."""
+    try:
+        return project.steps(asset)
+    except MeshForgeError:
+        return ()
+
+
+class _RuleEdit(Edit):
+    """An edit of a rule in all demonstrations, and in the answers about it."""
+
+    def list_paths(self, project: Project) -> tuple[Path, ...]:
+        return (project.layout.folder / "demonstrations", project.layout.answers)
+
+
+class MoveRule(_RuleEdit):
+    """Put a rule at another place, in all demonstrations; rules count from 1."""
+
+    kind: Literal["move-rule"] = "move-rule"
+    rule: int
+    to: int
+
+    def apply(self, project: Project) -> None:
+        project.move_rule(self.rule, self.to)
+
+    def describe(self, project: Project) -> str:
+        return f"rule {self.rule} is now rule {self.to}"
+
+
+class DeleteRule(_RuleEdit):
+    """Take a rule away, with its steps in all demonstrations."""
+
+    kind: Literal["delete-rule"] = "delete-rule"
+    rule: int
+
+    def apply(self, project: Project) -> None:
+        project.delete_rule(self.rule)
+
+    def describe(self, project: Project) -> str:
+        return f"rule {self.rule} taken away"
+
+
+class SetOrientation(Edit):
+    """Set the orientation directive; empty takes it away."""
+
+    kind: Literal["orient"] = "orient"
+    text: str
+
+    def apply(self, project: Project) -> None:
+        project.set_orientation(self.text)
+
+    def list_paths(self, project: Project) -> tuple[Path, ...]:
+        return (project.layout.settings,)
+
+    def describe(self, project: Project) -> str:
+        return f"orientation: {self.text}" if self.text else "orientation taken away"
+
+
+class AnswerQuestion(Edit):
+    """Say which hulls a rule selects on an asset; null: neither of the choices, which are then in `refused`."""
+
+    kind: Literal["answer"] = "answer"
+    rule: int
+    asset: str
+    select: tuple[str, ...] | None
+    refused: tuple[tuple[str, ...], ...] = ()
+
+    def apply(self, project: Project) -> None:
+        project.add_answer(Answer(self.rule, self.asset, self.select, self.refused))
+
+    def list_paths(self, project: Project) -> tuple[Path, ...]:
+        return (project.layout.answers,)
+
+    def describe(self, project: Project) -> str:
+        return f"rule {self.rule} on {self.asset} answered"
+
+
+class SettleRepair(Edit):
+    """Confirm or refuse a repair of a label."""
+
+    kind: Literal["repair"] = "repair"
+    asset: str
+    hull: str
+    was: str | None
+    to: str
+    accept: bool
+
+    def apply(self, project: Project) -> None:
+        decide = project.confirm if self.accept else project.reject
+        decide(LabelCorrection(self.asset, self.hull, self.was, self.to))
+
+    def list_paths(self, project: Project) -> tuple[Path, ...]:
+        return (project.layout.answers, project.layout.labels(self.asset))
+
+    def describe(self, project: Project) -> str:
+        how = "is now labelled" if self.accept else "is not"
+        return f"{self.hull} of {self.asset} {how} {self.to}"
+
+
+class TakeBack(Edit):
+    """Take back an answer or a repair by its id."""
+
+    kind: Literal["take-back"] = "take-back"
+    id: str
+
+    def apply(self, project: Project) -> None:
+        project.take_back(self.id)
+
+    def list_paths(self, project: Project) -> tuple[Path, ...]:
+        return (project.layout.answers, project.layout.folder / "labels")
+
+    def describe(self, project: Project) -> str:
+        return f"{self.id} taken back"
+
+
+class WriteProgram(Edit):
+    """Make a text the project's program. version: of the program that was changed."""
+
+    kind: Literal["program"] = "program"
+    text: str
+    version: str
+
+    def apply(self, project: Project) -> None:
+        if program_version(project) != self.version:
+            raise ConflictError(
+                "the program was changed elsewhere meanwhile",
+                where="program.mf",
+                remedy="Copy your text, look at the present one, and do it again.",
+            )
+        project.accept(Program.parse(self.text))
+
+    def list_paths(self, project: Project) -> tuple[Path, ...]:
+        return program_files(project)
+
+    def describe(self, project: Project) -> str:
+        return "program changed by hand"
+
+
+class TakeLearned(Edit):
+    """Give up the program that was written by hand, so that the learned one takes its place."""
+
+    def apply(self, project: Project) -> None:
+        for path in program_files(project)[::2]:
+            path.unlink(missing_ok=True)
+
+    def list_paths(self, project: Project) -> tuple[Path, ...]:
+        return program_files(project)
+
+    def describe(self, project: Project) -> str:
+        return "the learned program taken in place of the one by hand"

@@ -1,0 +1,225 @@
+"""The history on disk: its entries, the one under way, and the contents of files before and after, by digest."""
+
+from __future__ import annotations
+
+import os
+import shutil
+from collections.abc import Container, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Literal
+
+from pydantic import BaseModel, ConfigDict
+
+from meshforge.batch import file_digest
+from meshforge.common import ProjectError, relative_name, replace_atomically, write_atomically
+
+FileState = dict[str, str | None]
+"""The digest of each file by its path from the project's folder, None for a file that is not there."""
+
+
+class HistoryEntry(BaseModel):
+    """One edit that was made. title: in words; edit: as the page sent it; by: the page; at: when, as ISO 8601.
+
+    group: entries of one group that follow one another are undone together.
+    """
+
+    model_config = ConfigDict(frozen=True)
+
+    title: str
+    edit: dict[str, Any]
+    before: FileState
+    after: FileState
+    at: str = ""
+    by: str | None = None
+    group: str | None = None
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """The files that it changed."""
+        return tuple(self.before)
+
+    @property
+    def digests(self) -> frozenset[str]:
+        """The digests of all contents that it mentions."""
+        return frozenset(digest for digest in (*self.before.values(), *self.after.values()) if digest)
+
+
+class PendingEntry(BaseModel):
+    """What is under way, so that it can be completed after a kill. number: of the entry, from 1; entry: for `do` as far
+    as it is known; touches: the paths that the edit may change."""
+
+    model_config = ConfigDict(frozen=True)
+
+    what: Literal["do", "undo", "redo"]
+    number: int
+    entry: HistoryEntry
+    touches: tuple[str, ...] = ()
+
+
+class EntryFiles:
+    """The entries of a history as files in a folder; all of them are in memory, too."""
+
+    def __init__(self, folder: Path) -> None:
+        self._folder = folder
+        self._pending = folder / "pending.json"
+        self._position = folder / "position"
+        self.entries = self._read_all()
+
+    @property
+    def position(self) -> int:
+        """How many entries are done; the others can be redone."""
+        try:
+            return min(int(self._position.read_text()), len(self.entries))
+        except (FileNotFoundError, ValueError):
+            return len(self.entries)
+
+    def set_position(self, position: int) -> None:
+        """Set how many entries are done; without the file, all are."""
+        if position < len(self.entries):
+            write_atomically(self._position, str(position))
+        else:
+            self._position.unlink(missing_ok=True)
+
+    def put(self, number: int, entry: HistoryEntry) -> None:
+        """Put an entry in the place of all from that number on. These are removed first, from the last one back."""
+        for gone in range(len(self.entries), number, -1):
+            self._path_of(gone).unlink()
+        write_atomically(self._path_of(number), entry.model_dump_json())
+        self.entries[number - 1 :] = [entry]
+
+    def read_pending(self) -> PendingEntry | None:
+        """What is under way, None for nothing."""
+        try:
+            return PendingEntry.model_validate_json(self._pending.read_bytes())
+        except (FileNotFoundError, ValueError):
+            return None
+
+    def begin(self, pending: PendingEntry) -> None:
+        """Note what is under way; against a kill, not a power cut, so nothing waits for the disk."""
+        with replace_atomically(self._pending) as draft:
+            draft.write_text(pending.model_dump_json(), encoding="utf-8")
+
+    def end(self) -> None:
+        """Nothing is under way any more."""
+        self._pending.unlink(missing_ok=True)
+
+    def _path_of(self, number: int) -> Path:
+        return self._folder / "entries" / f"{number:06}.json"
+
+    def _read_all(self) -> list[HistoryEntry]:
+        """The entries up to the first one that is not there or cannot be read."""
+        found: list[HistoryEntry] = []
+        while True:
+            try:
+                found.append(HistoryEntry.model_validate_json(self._path_of(len(found) + 1).read_bytes()))
+            except (FileNotFoundError, ValueError):
+                return found
+
+
+def count_group(entries: Sequence[HistoryEntry], first: int, step: int) -> int:
+    """How many entries belong to one group, from a place on in a direction (step: 1 or -1)."""
+    group, count = entries[first].group, 1
+    while group and 0 <= first + count * step < len(entries) and entries[first + count * step].group == group:
+        count += 1
+    return count
+
+
+@dataclass(frozen=True, slots=True)
+class Snapshots:
+    """Takes and restores the state of files; paths count from `folder`, and stay what they are outside of it."""
+
+    folder: Path
+    blobs: BlobStore
+
+    def take(self, paths: Iterable[Path]) -> FileState:
+        """The state of files, and of all files in folders; their contents are stored."""
+        return {relative_name(file, self.folder): self.blobs.store(file) for file in sorted(_list_files(paths))}
+
+    def read_state(self, names: Iterable[str]) -> FileState:
+        """The state of files by their names; nothing is stored."""
+        return {name: _digest_or_none(self.folder / name) for name in names}
+
+    def restore(self, wanted: Mapping[str, str | None], now: Mapping[str, str | None]) -> None:
+        """Write back what files held; those that were not there are removed, and folders that are empty then."""
+        for name, digest in wanted.items():
+            if now[name] == digest:
+                continue
+            if digest is None:
+                _remove_file(self.folder / name, self.folder)
+            else:
+                self.blobs.restore(digest, self.folder / name)
+
+
+def diff_states(before: FileState, after: FileState) -> tuple[FileState, FileState]:
+    """Two states, reduced to the files that differ."""
+    names = [name for name in sorted({*before, *after}) if before.get(name) != after.get(name)]
+    return {name: before.get(name) for name in names}, {name: after.get(name) for name in names}
+
+
+def _list_files(paths: Iterable[Path]) -> Iterator[Path]:
+    """The files among these paths and in these folders, without drafts of writers that were killed."""
+    seen = {file for path in paths for file in ([path] if path.is_file() else path.rglob("*"))}
+    return (file for file in seen if file.is_file() and not file.name.endswith(".tmp"))
+
+
+def _digest_or_none(path: Path) -> str | None:
+    try:
+        return file_digest(path)
+    except (FileNotFoundError, NotADirectoryError):
+        return None
+
+
+def _remove_file(path: Path, root: Path) -> None:
+    path.unlink(missing_ok=True)
+    for folder in path.parents:
+        if folder == root or not folder.is_dir() or any(folder.iterdir()):
+            return
+        folder.rmdir()
+
+
+@dataclass(frozen=True, slots=True)
+class BlobStore:
+    """A folder with the contents of files, by digest."""
+
+    folder: Path
+
+    def store(self, file: Path) -> str:
+        """Store what a file holds, and return its digest."""
+        digest = file_digest(file)
+        place = self.path_of(digest)
+        if not place.exists():
+            _copy(file, place)
+        return digest
+
+    def restore(self, digest: str, file: Path) -> None:
+        """Write a content back to a file. Raises ProjectError where it is lost or damaged."""
+        place = self.path_of(digest)
+        if not place.is_file() or file_digest(place) != digest:
+            raise ProjectError(
+                "what this file held before is no longer kept",
+                where=str(file),
+                remedy="The history of the studio was damaged from outside; the file is left as it is.",
+            )
+        _copy(place, file)
+
+    def prune(self, wanted: Container[str]) -> None:
+        """Remove the contents that no entry mentions any more."""
+        for place in self.folder.glob("*/*"):
+            if place.parent.name + place.name not in wanted:
+                place.unlink()
+
+    def path_of(self, digest: str) -> Path:
+        """The path of a content."""
+        return self.folder / digest[:2] / digest[2:]
+
+
+def _copy(source: Path, target: Path) -> None:
+    """Copy a file atomically; a file that is replaced keeps its mode, a new one takes that of its source."""
+    like = target if target.exists() else source
+    with replace_atomically(target) as draft:
+        with source.open("rb") as read, draft.open("wb") as write:
+            shutil.copyfileobj(read, write)
+            write.flush()
+            os.fsync(write.fileno())
+        draft.chmod(like.stat().st_mode & 0o777)

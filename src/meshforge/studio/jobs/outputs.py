@@ -1,0 +1,182 @@
+"""Jobs on outputs: running the program, checking what it wrote, and exporting it into a folder of its own."""
+
+from __future__ import annotations
+
+import os
+import shutil
+from collections import Counter
+from collections.abc import Iterable
+from pathlib import Path
+
+from meshforge.batch import (
+    OWN_FOLDERS,
+    STATE,
+    AssetOutcome,
+    ExecutionOptions,
+    Failed,
+    file_digest,
+    read_stamp,
+    status_of,
+)
+from meshforge.common import (
+    ProjectError,
+    UsageError,
+    join_names,
+    plain_path,
+    pluralize,
+    replace_atomically,
+    write_atomically,
+)
+from meshforge.studio.session.job_runner import JobProgress
+from meshforge.studio.session.session import Session
+from meshforge.studio.wire.asset import Fault
+from meshforge.studio.wire.jobs import ApplyJob, ExportJob, Job, JobLine
+
+EXPORT_MARK = ".meshforge-export"
+"""The file that an export leaves in its folder: the names of all that was exported, one a line."""
+_RESERVED = (*OWN_FOLDERS, STATE)
+
+
+def start_apply(session: Session, request: ApplyJob) -> Job:
+    """Start to run the program on all assets, or on some. Raises ProjectError where there is no program."""
+    project = session.project
+    session.check_assets(*request.assets or ())
+    assets = project.assets() if request.assets is None else tuple(dict.fromkeys(request.assets))
+    if project.program() is None:
+        raise ProjectError("there is no program yet", remedy="Demonstrate what is to be done on an asset or two.")
+
+    def work(progress: JobProgress) -> str:
+        counts: Counter[str] = Counter()
+        outcomes = project.apply(
+            assets, execution=ExecutionOptions(stop=progress.is_stopped, progress=progress.advance)
+        )
+        for outcome in outcomes:
+            counts[status_of(outcome)] += 1
+            progress.add_line(_apply_line(outcome))
+            session.note_output(outcome.asset)
+        text = ", ".join(f"{number} {word}" for word, number in counts.items())
+        return f"{pluralize(len(assets), 'asset')}: {text or 'none'}."
+
+    title = f"Applying the program to {pluralize(len(assets), 'asset')}"
+    return session.jobs.start("apply", title, len(assets), work, str(project.layout.edited))
+
+
+def _apply_line(outcome: AssetOutcome) -> JobLine:
+    if isinstance(outcome, Failed):
+        return JobLine(asset=outcome.asset, status="failed", text=outcome.error)
+    parts = [f"{outcome.before} → {pluralize(outcome.after, 'hull')}", *outcome.notes, *outcome.flags]
+    return JobLine(asset=outcome.asset, status=status_of(outcome), text="; ".join(parts))
+
+
+def start_check(session: Session) -> Job:
+    """Start to check all outputs. Raises ProjectError where there are none."""
+    assets = tuple(card.asset for card in session.pages.cards if card.check)
+    if not assets:
+        raise ProjectError("there is no output to be checked", remedy="Apply the program first.")
+
+    def work(progress: JobProgress) -> str:
+        odd = failed = 0
+        for asset, found in session.checks.check_all(session.project, assets, progress.advance, progress.is_stopped):
+            line = to_line(asset, found)
+            odd, failed = odd + bool(line.text and line.status == "done"), failed + (line.status == "failed")
+            progress.add_line(line)
+            session.refresh_queue.add([asset])
+        broken = f"; {failed} could not be checked" if failed else ""
+        return f"{pluralize(len(assets), 'result')}: {odd} with findings, limits of engines apart{broken}."
+
+    return session.jobs.start("check", f"Checking {pluralize(len(assets), 'result')}", len(assets), work)
+
+
+def to_line(asset: str, found: tuple[Fault, ...] | str) -> JobLine:
+    """The line of one output: the rules that do not hold, without limits of engines, or why it was not checked."""
+    if isinstance(found, str):
+        return JobLine(asset=asset, status="failed", text=found)
+    rules = dict.fromkeys(fault.rule for fault in found if fault.engine is None)
+    return JobLine(asset=asset, status="done", text=join_names(list(rules)))
+
+
+def start_export(session: Session, request: ExportJob) -> Job:
+    """Start to export. Raises UsageError for a folder that is not to be written, or holds other things."""
+    folder = _check_folder(session, request.folder)
+    known = _read_mark(folder)
+    rows = [card for card in session.pages.cards if not request.accepted_only or card.review == "accepted"]
+    if not rows:
+        which = "accepted" if request.accepted_only else "there"
+        raise UsageError(f"no output is {which} to be exported", remedy="Apply the program, and accept what is right.")
+    edited = session.project.layout.edited
+
+    def work(progress: JobProgress) -> str:
+        kept: dict[str, None] = {}
+        done = 0
+        for card in rows:
+            progress.raise_if_stopped()
+            line = _export_asset(edited, folder, card.asset, known, kept)
+            done += line.status == "done"
+            progress.add_line(line)
+            progress.advance()
+        _remove_files(folder, [name for name in known if name not in kept])
+        return f"{pluralize(done, 'asset')} exported."
+
+    return session.jobs.start("export", f"Exporting {pluralize(len(rows), 'asset')}", len(rows), work, str(folder))
+
+
+def _export_asset(edited: Path, folder: Path, asset: str, known: dict[str, None], kept: dict[str, None]) -> JobLine:
+    """Copy all files of one output, the main one last, so that it never names what is not there."""
+    stamp = read_stamp(edited, asset)
+    if stamp is None or stamp.status not in ("edited", "unchanged"):
+        return JobLine(asset=asset, status="skipped", text="it has no output")
+    if not stamp.is_whole(edited):
+        return JobLine(asset=asset, status="failed", text="files of its output are gone or changed: apply it again")
+    names = sorted(stamp.outputs, key=lambda name: (name == stamp.out, name))
+    foreign = [name for name in names if name not in known and (folder / name).exists()]
+    if foreign:
+        return JobLine(asset=asset, status="failed", text=f"{folder / foreign[0]} is there, and no export wrote it")
+    known |= dict.fromkeys(names)
+    write_atomically(folder / EXPORT_MARK, "".join(f"{name}\n" for name in known))
+    for name in names:
+        _copy_file(edited / name, folder / name)
+        kept[name] = None
+    return JobLine(asset=asset, status="done", text=pluralize(len(names), "file"))
+
+
+def _copy_file(source: Path, target: Path) -> None:
+    if target.is_file() and file_digest(target) == file_digest(source):
+        return
+    with replace_atomically(target) as draft:
+        shutil.copyfile(source, draft)
+        draft.chmod(source.stat().st_mode & 0o777)
+
+
+def _check_folder(session: Session, name: str) -> Path:
+    """The folder to write: below the project, or the one that was allowed when the studio was opened."""
+    root, allowed = session.project.folder, session.options.export
+    folder = plain_path(root / name)
+    if allowed and folder == plain_path(allowed):
+        return folder
+    remedy = "Choose a folder of its own inside of the project, or start the studio with --export DIR."
+    real = Path(os.path.realpath(folder))
+    if not real.is_relative_to(os.path.realpath(root)) or real == Path(os.path.realpath(root)):
+        raise UsageError("outputs are exported below the project only", where=str(folder), remedy=remedy)
+    if folder.relative_to(root).parts[0] in _RESERVED:
+        raise UsageError("this folder belongs to the project itself", where=str(folder), remedy=remedy)
+    return folder
+
+
+def _read_mark(folder: Path) -> dict[str, None]:
+    """The files of earlier exports into a folder. Raises UsageError where it holds anything else only."""
+    mark = folder / EXPORT_MARK
+    if mark.is_file():
+        return dict.fromkeys(mark.read_text(encoding="utf-8").splitlines())
+    if folder.exists() and (not folder.is_dir() or any(folder.iterdir())):
+        remedy = "Choose a new folder, or one of an earlier export."
+        raise UsageError("this folder holds something else", where=str(folder), remedy=remedy)
+    return {}
+
+
+def _remove_files(folder: Path, names: Iterable[str]) -> None:
+    """Take away what earlier exports wrote and this one does not."""
+    gone = set(names)
+    for name in gone:
+        (folder / name).unlink(missing_ok=True)
+    left = [name for name in _read_mark(folder) if name not in gone]
+    write_atomically(folder / EXPORT_MARK, "".join(f"{name}\n" for name in left))

@@ -1,0 +1,177 @@
+"""Jobs before the program runs: decomposing, propagating labels, and asking a model (and what that would cost)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from uuid import uuid4
+
+from meshforge.batch import ExecutionOptions, record_digest
+from meshforge.common import MeshForgeError, ProjectError, join_names, pluralize
+from meshforge.geometry import CoacdSettings, VhacdSettings
+from meshforge.labels import LabelOutcome, PropagationResult, VlmForecast, VlmResult, check_vlm_settings
+from meshforge.project import PreparationResult, Project
+from meshforge.store import VlmSettings
+from meshforge.studio.edits.assets import Decompose
+from meshforge.studio.edits.labels import LabelFromModel, Propagate
+from meshforge.studio.errors import ConflictError
+from meshforge.studio.session.job_runner import JobProgress
+from meshforge.studio.session.session import Session
+from meshforge.studio.wire.jobs import AskJob, DecomposeJob, ForecastJob, Job, JobLine
+from meshforge.symbolic import GIVEN_SOURCES
+
+
+def start_decompose(session: Session, request: DecomposeJob) -> Job:
+    """Start to decompose whatever some assets have no hulls for; each asset is one edit, all are undone at once."""
+    project = session.project
+    session.check_assets(*request.assets)
+    assets, group = tuple(dict.fromkeys(request.assets)), uuid4().hex
+    settings = CoacdSettings() if request.method == "coacd" else VhacdSettings()
+
+    def work(progress: JobProgress) -> str:
+        made = 0
+        results = project.decompose(
+            assets,
+            settings,
+            execution=ExecutionOptions(stop=progress.is_stopped, progress=progress.advance),
+            write_block=lambda asset: session.record_edit(Decompose(asset=asset), group),
+        )
+        for result in results:
+            made += len(result.hulls)
+            progress.add_line(_decompose_line(result))
+        return f"{pluralize(made, 'hull')} made for {pluralize(len(assets), 'asset')}."
+
+    return session.jobs.start("decompose", f"Decomposing {pluralize(len(assets), 'asset')}", len(assets), work)
+
+
+def _decompose_line(result: PreparationResult) -> JobLine:
+    text = "; ".join((*result.problems, *result.notes))
+    if result.made:
+        return JobLine(asset=result.asset, status="done", text=text or pluralize(len(result.hulls), "hull"))
+    return JobLine(asset=result.asset, status="failed" if result.problems else "unchanged", text=text)
+
+
+def start_propagate(session: Session) -> Job:
+    """Start to propagate labels. Raises ProjectError: no vocabulary, or no label that a person or a file gave."""
+    project = session.project
+    _check_labels(project)
+    began, used = _preparation_digests(project), session.history.view.undoable
+
+    @contextmanager
+    def record(best: str | None) -> Iterator[None]:
+        with session.record_edit(Propagate(used=used, next=best), uuid4().hex):
+            if _preparation_digests(session.project) != began:
+                raise ConflictError("assets or their hulls were changed meanwhile", remedy="Propagate labels again.")
+            yield
+
+    def work(progress: JobProgress) -> str:
+        options = ExecutionOptions(stop=progress.is_stopped)
+        result = project.propagate_labels(execution=options, stage=progress.stage, write_block=record)
+        for report in result.reports:
+            progress.add_line(_labels_line(report, [f"{report.unsure} unsure"] if report.unsure else []))
+        if not any(report.taken for report in result.reports):
+            session.label_changes.note_no_change(used, result.next)
+            session.refresh_queue.add()
+        return _describe_propagation(result)
+
+    assets = project.assets()
+    return session.jobs.start("propagate", "Propagating labels", len(assets), work, stays="no label was changed.")
+
+
+def _check_labels(project: Project) -> None:
+    """Raises ProjectError, before anything long starts, where there is nothing to propagate."""
+    if not project.vocabulary:
+        raise ProjectError("the vocabulary is empty", remedy="Say first what hulls can be.")
+    given = (label.source in GIVEN_SOURCES for a in project.assets() for label in project.labels(a).labels.values())
+    if not any(given):
+        raise ProjectError("there is no label to propagate", remedy="Label the hulls of one asset first.")
+
+
+def _preparation_digests(project: Project) -> dict[str, str | None]:
+    """The digest of each asset's preparation, which decides which hulls it has, besides its files."""
+    return {asset: record_digest(project.layout.preparation(asset)) for asset in project.assets()}
+
+
+def _describe_propagation(result: PropagationResult) -> str:
+    taken = sum(report.taken for report in result.reports)
+    if not taken:
+        return "Every label stays as it is."
+    assets = pluralize(sum(report.taken > 0 for report in result.reports), "asset")
+    unsure = sum(report.unsure for report in result.reports)
+    doubt = f"{pluralize(unsure, 'label')} {'is' if unsure == 1 else 'are'} unsure" if unsure else "all are sure"
+    return f"{pluralize(taken, 'label')} on {assets}; {doubt}."
+
+
+def start_forecast(session: Session, request: ForecastJob) -> Job:
+    """Start to find out what asking would send and cost. Raises MeshForgeError where nothing can be asked."""
+    project = session.project
+    settings = _check_settings(session, request)
+
+    def work(progress: JobProgress) -> str:
+        found = project.forecast_vlm(settings, progress=progress.advance, stop=progress.is_stopped)
+        progress.raise_if_stopped()
+        return _describe_forecast(found)
+
+    title = f"What asking {settings.model} would cost"
+    return session.jobs.start("forecast", title, len(project.assets()), work, stays="nothing was sent.")
+
+
+def start_ask(session: Session, request: AskJob) -> Job:
+    """Start to ask. Raises MeshForgeError where nothing can be asked."""
+    project = session.project
+    settings = _check_settings(session, request)
+    if request.max_cost is not None:
+        settings = settings.model_copy(update={"max_cost": request.max_cost})
+
+    def work(progress: JobProgress) -> str:
+        found = project.label_with_vlm(
+            settings,
+            progress=lambda usage: progress.advance(),
+            stop=progress.is_stopped,
+            write_block=lambda: session.record_edit(LabelFromModel(model=settings.model), uuid4().hex),
+        )
+        for report in found.reports:
+            bare = list(found.open.get(report.asset, {}))
+            progress.add_line(_labels_line(report, [f"none for {join_names(bare, most=3)}"] if bare else []))
+        if found.ended and not progress.is_stopped():
+            raise MeshForgeError(f"The asking ended early: {found.ended}", remedy=_describe_answers(found))
+        return _describe_answers(found)
+
+    return session.jobs.start(
+        "ask", f"Asking {settings.model}", len(project.assets()), work, stays="nothing was asked."
+    )
+
+
+def _check_settings(session: Session, request: ForecastJob | AskJob) -> VlmSettings:
+    """The settings of the project with the mode asked for, checked before anything long starts."""
+    settings = session.project.settings.vlm.model_copy(update={"mode": request.mode})
+    check_vlm_settings(settings, session.project.vocabulary)
+    return settings
+
+
+def _describe_forecast(found: VlmForecast) -> str:
+    fresh = found.questions - found.known
+    if not fresh:
+        return "Every question has its answer already: asking again costs nothing."
+    known = f", {found.known} more are answered already" if found.known else ""
+    cost = "price not known" if found.cost is None else f"about ${found.cost:.4f}"
+    sent = f"{pluralize(fresh, 'question')} with {pluralize(found.pictures, 'picture')} to {found.host}{known}"
+    return f"{sent}; about {found.input:,} tokens: {cost}."
+
+
+def _labels_line(report: LabelOutcome, notes: list[str]) -> JobLine:
+    """What became of the labels of one asset; notes: what to say besides how many were taken."""
+    if report.problems:
+        return JobLine(asset=report.asset, status="failed", text="; ".join(report.problems))
+    text = ", ".join([pluralize(report.taken, "label"), *notes])
+    return JobLine(asset=report.asset, status="done" if report.taken else "unchanged", text=text)
+
+
+def _describe_answers(found: VlmResult) -> str:
+    taken, spent = sum(report.taken for report in found.reports), found.usage
+    bare = sum(map(len, found.open.values()))
+    cost = f"{spent.usage.input + spent.usage.output:,} tokens" if spent.cost is None else f"${spent.cost:.4f}"
+    parts = [f"{pluralize(taken, 'label')} taken"]
+    parts += [f"{pluralize(bare, 'hull')} left without"] if bare else []
+    parts += [f"{pluralize(len(found.unasked), 'asset')} not asked about"] if found.unasked else []
+    return f"{', '.join(parts)}; {cost}."

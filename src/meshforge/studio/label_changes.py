@@ -1,0 +1,140 @@
+"""What the history says about labels: what the last edit of all labels changed, and what is new since propagation."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import get_args
+
+from meshforge.common import MeshForgeError
+from meshforge.project import Project
+from meshforge.rendering import UNSURE
+from meshforge.studio.history import History
+from meshforge.studio.history_store import HistoryEntry
+from meshforge.studio.wire.family import Card
+from meshforge.studio.wire.jobs import CarriedOver, LabelEditKind, Relabelled, RelabelledAsset
+from meshforge.symbolic import GIVEN_SOURCES, Label, read_labels
+
+_LABEL_EDIT_KINDS: tuple[str, ...] = get_args(LabelEditKind)
+HullNames = Mapping[str, Sequence[str]]
+"""The names of the hulls of each asset, in order."""
+
+HullLabels = Mapping[str, Label]
+"""Labels by the names of hulls."""
+
+
+@dataclass(frozen=True, slots=True)
+class _Propagation:
+    """Labels were propagated when so many entries were done; best: the asset that would help most then."""
+
+    entries: int
+    best: str | None
+
+
+class LabelChanges:
+    """Reads the history of labels; the result for the last entry is cached."""
+
+    def __init__(self, history: History) -> None:
+        self._history = history
+        self._last: tuple[HistoryEntry, int, Relabelled] | None = None
+        self._no_change: tuple[tuple[HistoryEntry, ...], str | None] | None = None
+
+    def last_change(self, names: HullNames) -> Relabelled | None:
+        """What the last edit did to assets whose hulls are known by now; None where it did not edit all labels."""
+        done = self._history.entries
+        if not done or done[-1].edit.get("kind") not in _LABEL_EDIT_KINDS:
+            return None
+        entry = done[-1]
+        if self._last is None or self._last[0] is not entry or self._last[1] != len(names):
+            self._last = entry, len(names), self._build_change(entry, len(done), names)
+        return self._last[2]
+
+    def note_no_change(self, entries: int, best: str | None) -> None:
+        """Note a propagation that changed no label and so is no entry; entries: how many there were then."""
+        self._no_change = self._history.entries[:entries], best
+
+    def propagation_state(self, project: Project, cards: Sequence[Card]) -> CarriedOver | None:
+        """What is known of the last propagation; None where there was none, or where it is undone."""
+        done = self._history.entries
+        used = self._last_propagation(done)
+        if used is None:
+            return None
+        is_open = any(card.asset == used.best and card.given < (card.hulls or 0) for card in cards)
+        states = self._label_states(project, done[used.entries :])
+        unused = sum(count_new_labels(before, now) for before, now in states)
+        return CarriedOver(unused=unused, next=used.best if is_open else None)
+
+    def _build_change(self, entry: HistoryEntry, number: int, names: HullNames) -> Relabelled:
+        files = {asset: name for asset, name in _labels_files(entry.names).items() if asset in names}
+        states = [
+            (a, self._read_state(entry.before[name]), self._read_state(entry.after[name])) for a, name in files.items()
+        ]
+        assets = (diff_labels(asset, names[asset], before, after) for asset, before, after in states)
+        return Relabelled(
+            entry=number,
+            way=entry.edit["kind"],
+            assets=tuple(filter(None, assets)),
+            settled=sum(count_newly_sure(before, after) for _, before, after in states),
+        )
+
+    def _last_propagation(self, done: tuple[HistoryEntry, ...]) -> _Propagation | None:
+        """The last propagation."""
+        last = next((k for k in reversed(range(len(done))) if done[k].edit.get("kind") == "propagate"), None)
+        edit = {} if last is None else done[last].edit
+        found = None if last is None else _Propagation(min(edit.get("used", last), last), edit.get("next"))
+        if self._no_change is None:
+            return found
+        entries, best = self._no_change
+        is_newer = found is None or len(entries) > found.entries
+        return _Propagation(len(entries), best) if is_newer and done[: len(entries)] == entries else found
+
+    def _label_states(self, project: Project, since: Sequence[HistoryEntry]) -> Iterator[tuple[HullLabels, HullLabels]]:
+        """The labels of each asset that people or files labelled since: before that, with the names of now, and now."""
+        first: dict[str, str | None] = {}
+        for entry in since:
+            first = first if entry.edit.get("kind") == "propagate" else entry.before | first
+        words = [(entry.edit["old"], entry.edit["new"]) for entry in since if entry.edit.get("kind") == "rename-label"]
+        known = set(project.assets())
+        for asset, name in _labels_files(first).items():
+            if asset in known:
+                before = self._read_state(first[name])
+                for old, new in words:
+                    before = {hull: replace(x, name=new) if x.name == old else x for hull, x in before.items()}
+                try:
+                    yield before, project.labels(asset).labels
+                except MeshForgeError:  # its card shows that they cannot be read
+                    continue
+
+    def _read_state(self, digest: str | None) -> HullLabels:
+        """What a labels file held; empty where there was none, or where the history was damaged."""
+        try:
+            return read_labels(self._history.path_of(digest)).labels if digest else {}
+        except MeshForgeError:
+            return {}
+
+
+def _labels_files(names: Iterable[str]) -> dict[str, str]:
+    """The labels files among some files, by asset; names: paths from the project's folder."""
+    return {name.removeprefix("labels/").removesuffix(".json"): name for name in names if name.startswith("labels/")}
+
+
+def diff_labels(asset: str, names: Sequence[str], before: HullLabels, after: HullLabels) -> RelabelledAsset | None:
+    """Which hulls got another label, None where none did; names: of all hulls, in order."""
+    pairs = [(k, before.get(name), after.get(name)) for k, name in enumerate(names)]
+    new = tuple(k for k, was, now in pairs if now and not was)
+    changed = {k: was.name for k, was, now in pairs if was and now and was.name != now.name}
+    if not new and not changed:
+        return None
+    return RelabelledAsset(asset=asset, new=new, changed=tuple(changed), was=tuple(changed.values()))
+
+
+def count_newly_sure(before: HullLabels, after: HullLabels) -> int:
+    """How many labels are sure now and were not."""
+    pairs = ((was, after.get(name)) for name, was in before.items())
+    return sum(was.confidence < UNSURE <= now.confidence for was, now in pairs if now)
+
+
+def count_new_labels(before: HullLabels, now: HullLabels) -> int:
+    """How many labels of people and files are new or changed."""
+    given = {name: label.name for name, label in before.items() if label.source in GIVEN_SOURCES}
+    return sum(label.source in GIVEN_SOURCES and given.get(name) != label.name for name, label in now.items())

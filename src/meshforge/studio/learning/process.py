@@ -1,0 +1,159 @@
+"""What the learning process does: it learns programs, and keeps the meshes of the family in memory."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass, replace
+from functools import cache
+from pathlib import Path
+from time import perf_counter
+
+from meshforge.batch import RECORD_FILE, source_files
+from meshforge.common import FileStates, MeshForgeError, file_states
+from meshforge.language import Program, parse_extractor
+from meshforge.project import Project, select_assets
+from meshforge.studio.learning.queue import CancelToken
+from meshforge.studio.learning.results import ProgramWithTemplates, RuleSelector, build_lesson_view, measure_reach
+from meshforge.studio.wire.program import Generalised, LessonView, Reach
+from meshforge.studio.workers import read_label_bytes, relabel
+from meshforge.symbolic import SymbolicMesh
+
+RENEW_AFTER = 64
+"""Learning runs after which memory is given back: each that has a new rule leaves about 25 kB an asset (measured on
+tables of 40 hulls). The run after that takes some tenths of a second longer."""
+
+
+@cache
+def _family_cache(folder: Path) -> FamilyCache:
+    return FamilyCache()
+
+
+@cache
+def _rule_selector(folder: Path) -> RuleSelector:
+    return RuleSelector()
+
+
+def learn(folder: Path, token: CancelToken, number: int, take: bool) -> LessonView:
+    """Learn a program from a project as it is now. take: replace the accepted one even if a person wrote it."""
+    started, stop = perf_counter(), token.stop
+    try:
+        project = Project.open(folder)
+        family = _family_cache(folder)
+        family.count_run()
+        meshes = dict(family.read_meshes(project, select_assets(project), stop))
+        accept = take or not project.program_state().by_hand
+        outcome = project.synthesize(accept=accept, meshes=meshes, stop=stop)
+    except ReadInterrupted:
+        return LessonView(number=number, status="timeout", seconds=perf_counter() - started)
+    except MeshForgeError as error:
+        return LessonView(number=number, status="error", error=error.message, seconds=perf_counter() - started)
+    return build_lesson_view(number, outcome, len(meshes), perf_counter() - started)
+
+
+def compute_reach(folder: Path, token: CancelToken, program: str) -> tuple[Reach, ...] | None:
+    """What a program does on every asset that can be read, None where it was interrupted.
+
+    In a family of more than 400 only on those that learning looks at (`select_assets`): memory has no room for all
+    assets of a very large family, and reading them anew after each change would take minutes.
+    """
+    project = Project.open(folder)
+    plan = _load_program(project, Program.parse(program))
+    try:
+        rows = _family_cache(folder).read_meshes(project, select_assets(project), token.stop)
+        return tuple(measure_reach(plan, asset, mesh) for asset, mesh in rows)
+    except ReadInterrupted:
+        return None
+
+
+def generalise(folder: Path, token: CancelToken, extractor: str, rule: int, program: str | None) -> Generalised | None:
+    """What an extractor selects on the assets that `compute_reach` looks at, None where it was interrupted.
+
+    rule: the number of the rule that it belongs to; program: whose rules before that one are applied first.
+    """
+    project, wanted = Project.open(folder), parse_extractor(extractor)
+    thresholds = project.settings.thresholds
+    bare = Program(orient=project.orientation, contact=thresholds.contact, extremity=thresholds.extremity)
+    plan = _load_program(project, (Program.parse(program) if program else bare), rule)
+    selector = _rule_selector(folder)
+    try:
+        rows = _family_cache(folder).read_meshes(project, select_assets(project), token.stop)
+        return Generalised(assets={asset: selector.select(plan, mesh, wanted) for asset, mesh in rows})
+    except ReadInterrupted:
+        return None
+
+
+def _load_program(project: Project, program: Program, before: int | None = None) -> ProgramWithTemplates:
+    """A program with its templates; before: only the rules before that one."""
+    rules = program.rules if before is None else program.rules[: max(0, before - 1)]
+    shortened = Program(program.labels, program.orient, rules, program.contact, program.extremity)
+    return ProgramWithTemplates(shortened, project.templates(shortened.templates))
+
+
+class ReadInterrupted(Exception):  # noqa: N818 (not an error)
+    """Reading meshes was interrupted: nobody waits for the result."""
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class _CacheEntry:
+    """An asset as it was read. times: of its files; contact: the threshold that was set [m]; labels: what their file
+    holds; mesh: None where it cannot be read."""
+
+    times: FileStates
+    contact: float | None
+    labels: bytes
+    mesh: SymbolicMesh | None
+
+
+class FamilyCache:
+    """The assets of a project, with the labels they have when they are asked for."""
+
+    def __init__(self) -> None:
+        self._entries: dict[str, _CacheEntry] = {}
+        self._runs = 0
+
+    def read_meshes(
+        self, project: Project, assets: Iterable[str], stop: Callable[[], bool]
+    ) -> Iterator[tuple[str, SymbolicMesh]]:
+        """The ids and meshes of those assets that can be read. Raises ReadInterrupted when `stop` says so."""
+        contact = project.settings.thresholds.contact
+        for asset in assets:
+            if stop():
+                raise ReadInterrupted
+            entry = self._entries[asset] = self._update(project, asset, contact)
+            if entry.mesh is not None:
+                yield asset, entry.mesh
+
+    def count_run(self) -> None:
+        """Count a learning run. After many of them, what was worked out about the assets meanwhile is forgotten."""
+        self._runs += 1
+        if self._runs % RENEW_AFTER == 0:
+            self._entries = {asset: _renew(entry) for asset, entry in self._entries.items()}
+
+    def _update(self, project: Project, asset: str, contact: float | None) -> _CacheEntry:
+        cached, labels = self._entries.get(asset), read_label_bytes(project, asset)
+        if cached is None or cached.contact != contact or file_states(cached.times) != cached.times:
+            return _read(project, asset, contact, labels)
+        if cached.labels == labels:
+            return cached
+        if cached.mesh is None:
+            return _read(project, asset, contact, labels)
+        try:
+            return replace(cached, labels=labels, mesh=relabel(project, asset, cached.mesh))
+        except MeshForgeError:
+            return replace(cached, labels=labels, mesh=None)
+
+
+def _read(project: Project, asset: str, contact: float | None, labels: bytes) -> _CacheEntry:
+    path = project.path(asset)
+    times = file_states([path, *source_files(path), project.layout.preparation(asset) / RECORD_FILE])
+    try:
+        mesh = project.mesh(asset)
+    except MeshForgeError:
+        return _CacheEntry(times, contact, labels, None)
+    referred = mesh.asset.files if mesh.asset else ()
+    return _CacheEntry(file_states(referred) | times, contact, labels, mesh)
+
+
+def _renew(entry: _CacheEntry) -> _CacheEntry:
+    """The entry with a new mesh object; what was worked out about the old one goes with it."""
+    return entry if entry.mesh is None else replace(entry, mesh=entry.mesh.with_hulls(entry.mesh.hulls))

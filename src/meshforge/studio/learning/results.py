@@ -1,0 +1,195 @@
+"""Results of learning as the page shows them, and what programs and extractors select on each asset."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from weakref import WeakKeyDictionary
+
+from meshforge.batch import template_digests
+from meshforge.common import MeshForgeError
+from meshforge.language import EXTREMITY, Extractor, Program, Template, apply_rule, explain, select_mask, show
+from meshforge.store import repair_id
+from meshforge.studio.queries.programs import rule_views
+from meshforge.studio.wire import program as wire
+from meshforge.symbolic import SymbolicMesh, bits_of
+from meshforge.synthesis import (
+    Demonstration,
+    LearningOutcome,
+    NoProgram,
+    Question,
+    Reading,
+    Repair,
+    begin_replay,
+    memoize,
+)
+
+
+def build_lesson_view(number: int, outcome: LearningOutcome, looked_at: int, seconds: float) -> wire.LessonView:
+    """The outcome of a learning run. number: of the run; looked_at: how many assets it looked at; seconds: its time."""
+    counts = Counter(reading.rule for reading in outcome.readings)
+    failure = outcome if isinstance(outcome, NoProgram) else None
+    suggested = failure.suggested if failure else None
+    return wire.LessonView(
+        number=number,
+        status=outcome.status,
+        program=str(outcome.program) if outcome.program else None,
+        looked_at=looked_at,
+        rules=rule_views(outcome.program or Program(rules=outcome.rules), counts),
+        settled=outcome.settled,
+        readings=tuple(map(_view_reading, outcome.readings)),
+        repairs=tuple(map(_view_repair, outcome.repairs)),
+        question=_view_question(outcome.question, outcome) if outcome.question else None,
+        nearest=_view_nearest(outcome),
+        hint=wire.HintView(asset=outcome.hint.asset, why=outcome.hint.why) if outcome.hint else None,
+        why=failure.why if failure else None,
+        advice=failure.advice if failure else (),
+        suggested_orientation=show(suggested.orient).removeprefix("orient ") if suggested else None,
+        stale=tuple(f"{answer.rule}:{answer.asset}" for answer in outcome.stale),
+        sample=() if outcome.settled else outcome.sample,
+        overruled=outcome.overruled,
+        seconds=seconds,
+    )
+
+
+def _view_reading(reading: Reading) -> wire.ReadingView:
+    return wire.ReadingView(
+        id=reading.id,
+        rule=reading.rule,
+        extractor=show(reading.extractor),
+        sentence=explain(reading.extractor),
+        size=reading.size,
+        belief=reading.belief,
+        differs_on=reading.differs_on,
+    )
+
+
+def _view_repair(repair: Repair) -> wire.RepairView:
+    wrong = repair.correction
+    return wire.RepairView(
+        id=repair_id(wrong),
+        rule=repair.rule,
+        asset=wrong.asset,
+        hull=wrong.hull,
+        was=wrong.was,
+        to=wrong.to,
+        belief=repair.belief,
+        why=repair.why,
+    )
+
+
+def _view_question(question: Question, outcome: LearningOutcome) -> wire.QuestionView:
+    readings = {reading.id: reading for reading in outcome.readings}
+    return wire.QuestionView(
+        id=question.id,
+        rule=question.rule,
+        asset=question.asset,
+        choices=tuple(
+            wire.ChoiceView(
+                reading=choice.reading,
+                extractor=show(readings[choice.reading].extractor),
+                sentence=explain(readings[choice.reading].extractor),
+                select=choice.select,
+            )
+            for choice in question.choices
+        ),
+        harm=question.harm,
+        left=question.left,
+    )
+
+
+def _view_nearest(outcome: LearningOutcome) -> wire.NearestView | None:
+    near = outcome.nearest
+    if near is None:
+        return None
+    return wire.NearestView(
+        rule=near.rule, extractor=show(near.extractor), asset=near.asset, extra=near.extra, missing=near.missing
+    )
+
+
+@dataclass(frozen=True, eq=False)
+class ProgramWithTemplates:
+    """A program with the templates that it names."""
+
+    program: Program
+    templates: Mapping[str, Template]
+
+    @cached_property
+    def key(self) -> tuple[str, str]:
+        """Two with the same key do the same on every asset."""
+        return str(self.program), str(template_digests(self.templates))
+
+
+class HullOrigins:
+    """Which of an asset's own hulls each hull is, or was made of, while a program runs."""
+
+    def __init__(self, mesh: SymbolicMesh) -> None:
+        self._own: dict[str, frozenset[int]] = {name: frozenset({k}) for name, k in mesh.index.items()}
+
+    def of(self, names: Iterable[str]) -> tuple[int, ...]:
+        """Positions of the asset's own hulls, sorted."""
+        return tuple(sorted(frozenset[int]().union(*(self._own[name] for name in names))))
+
+    def add(self, made: Sequence[str], sources: Sequence[Sequence[str]]) -> None:
+        """Add hulls that were made; sources: of each of them, the names of the hulls that it was made of."""
+        for name, parts in zip(made, sources, strict=True):
+            self._own[name] = frozenset(self.of(parts))
+
+
+def measure_reach(plan: ProgramWithTemplates, asset: str, mesh: SymbolicMesh) -> wire.Reach:
+    """What a program does on an asset; cached with the mesh."""
+    return memoize(mesh, ("reach", asset, plan.key), wire.Reach, lambda: _measure_reach(plan, asset, mesh))
+
+
+def _measure_reach(plan: ProgramWithTemplates, asset: str, mesh: SymbolicMesh) -> wire.Reach:
+    try:
+        run = plan.program.run(mesh, plan.templates)
+    except MeshForgeError as error:
+        return wire.Reach(asset=asset, before=len(mesh.hulls), after=len(mesh.hulls), error=error.message)
+    origins, rules = HullOrigins(mesh), []
+    for line in run.trace:
+        rules.append(origins.of(line.selected))
+        origins.add(line.made, line.sources)
+    return wire.Reach(asset=asset, rules=tuple(rules), before=len(mesh.hulls), after=len(run.mesh.hulls))
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class _RuleMesh:
+    """An asset after the rules of a plan, None where they cannot be done; origins: of its hulls, in their order."""
+
+    key: tuple[str, str]
+    mesh: SymbolicMesh | None
+    origins: tuple[tuple[int, ...], ...] = ()
+
+
+class RuleSelector:
+    """Assets as they are before a rule. Those of the last call are cached: extractors are typed letter by letter."""
+
+    def __init__(self) -> None:
+        self._last: WeakKeyDictionary[SymbolicMesh, _RuleMesh] = WeakKeyDictionary()
+
+    def select(self, plan: ProgramWithTemplates, mesh: SymbolicMesh, extractor: Extractor) -> tuple[int, ...]:
+        """Positions of the asset's own hulls that an extractor selects after the rules of a plan, or that the hulls it
+        selects were made of; empty where these rules cannot be done."""
+        after = self._last.get(mesh)
+        if after is None or after.key != plan.key:
+            after = self._last[mesh] = _run_rules(plan, mesh)
+        if after.mesh is None:
+            return ()
+        found = bits_of(select_mask(extractor, after.mesh, plan.program.extremity or EXTREMITY))
+        return tuple(sorted({own for k in found for own in after.origins[k]}))
+
+
+def _run_rules(plan: ProgramWithTemplates, mesh: SymbolicMesh) -> _RuleMesh:
+    program, origins, used = plan.program, HullOrigins(mesh), frozenset[str]()
+    try:
+        current = begin_replay("", Demonstration(mesh, ()), program.orient, program.contact).mesh
+        for rule in program.rules:
+            _, applied = apply_rule(current, rule, plan.templates, program.extremity, used)
+            origins.add(applied.made, applied.sources)
+            current, used = applied.mesh, applied.used
+    except MeshForgeError:
+        return _RuleMesh(plan.key, None)
+    return _RuleMesh(plan.key, current, tuple(origins.of([hull.name]) for hull in current.hulls))

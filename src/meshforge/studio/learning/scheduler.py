@@ -1,0 +1,197 @@
+"""Learning after every change: a new run, in a process of its own, takes the place of the one before."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from concurrent.futures import CancelledError, Future
+from functools import partial
+from pathlib import Path
+from threading import RLock, Timer
+from typing import Any
+
+from meshforge.common import MeshForgeError, describe_error
+from meshforge.studio.learning import process
+from meshforge.studio.learning.queue import CallKind, CancelFlag, LatestOnlyQueue
+from meshforge.studio.pages import PageState
+from meshforge.studio.wire.program import Generalised, LessonView, Reach
+from meshforge.studio.workers import Workers
+
+RESTART_DELAY = 0.03
+"""Seconds that a change waits for the next one before a learning run starts."""
+STOP_TIMEOUT = 30.0
+"""Seconds to wait for a learning run that is to stop."""
+
+
+class LearningScheduler:
+    """Starts learning runs and takes their outcomes; of several that were started, only the last one counts.
+
+    can_learn: whether anything is demonstrated; on_outcome: called when a run is over, before pages see that and its
+    reach is measured, so that a page that sees the end of the run sees its program, too.
+    """
+
+    def __init__(
+        self,
+        learner: Learner,
+        pages: PageState,
+        can_learn: Callable[[], bool],
+        on_outcome: Callable[[LessonView], None],
+    ) -> None:
+        self._learner, self._pages = learner, pages
+        self._can_learn, self._on_outcome = can_learn, on_outcome
+        self._lock = RLock()
+        self._number, self._paused = 0, False
+        self._timer: Timer | None = None
+        self._running: Future[LessonView] | None = None
+
+    def restart(self) -> None:
+        """Start a learning run, in place of the one that is under way."""
+        number = self._stop()
+        if not self._can_learn():
+            self._pages.set_lesson(None, learning=False)
+            self.measure_reach()
+            return
+        self._pages.set_lesson(self._pages.lesson, learning=True)
+        with self._lock:
+            if number == self._number:
+                self._timer = Timer(RESTART_DELAY, self._begin, [number])
+                self._timer.daemon = True
+                self._timer.start()
+
+    def stop(self) -> None:
+        """Stop the learning run that is under way; the outcome of the one before stays shown."""
+        self._stop()
+        self._pages.set_lesson(self._pages.lesson, learning=False)
+
+    def pause(self) -> None:
+        """Stop the learning run that is under way, and wait until it no longer writes anything."""
+        self._stop()
+        self._paused = True
+        running = self._running
+        if running:
+            try:
+                running.result(STOP_TIMEOUT)
+            except (Exception, CancelledError):  # it is over, which is all that matters here
+                return
+
+    def resume(self) -> None:
+        """Start the learning run again that a pause has stopped."""
+        if self._paused:
+            self._paused = False
+            self.restart()
+
+    def is_latest(self, number: int) -> bool:
+        """Whether a learning run is the last one that was started."""
+        return number == self._number
+
+    def measure_reach(self) -> None:
+        """Measure what the accepted program does on all assets."""
+        text = self._pages.program.text
+        if not text or self._pages.program.error:
+            self._pages.set_reach(self._number, ())
+            return
+        self._learner.reach(text).add_done_callback(partial(self._show_reach, self._number))
+
+    def generalise(self, extractor: str, rule: int) -> Future[Generalised]:
+        """What an extractor selects on all assets."""
+        return self._learner.generalise(extractor, rule, self._pages.program.text or None)
+
+    def close(self) -> None:
+        """Stop for good."""
+        self._stop()
+        self._learner.close()
+
+    def _stop(self) -> int:
+        with self._lock:
+            self._number += 1
+            if self._timer:
+                self._timer.cancel()
+            number = self._number
+        self._learner.interrupt()
+        return number
+
+    def _begin(self, number: int) -> None:
+        with self._lock:
+            if number != self._number:
+                return
+            try:
+                self._running = self._learner.learn(number, False)
+            except MeshForgeError:  # the studio is being closed
+                return
+        self._running.add_done_callback(partial(self._finish, number))
+
+    def _finish(self, number: int, future: Future[LessonView]) -> None:
+        try:
+            lesson = future.result()
+        except CancelledError:
+            return
+        except Exception as error:  # whatever it is, the page must see that learning is over
+            lesson = LessonView(number=number, status="error", error=describe_error(error))
+        if number != self._number:
+            return
+        try:
+            self._on_outcome(lesson)
+        finally:
+            with self._lock:  # so that no other run starts meanwhile
+                if number == self._number:
+                    self._pages.set_lesson(lesson, learning=False)
+        self.measure_reach()
+
+    def _show_reach(self, number: int, future: Future[tuple[Reach, ...]]) -> None:
+        try:
+            reach = future.result()
+        except (MeshForgeError, CancelledError):  # superseded, or its process died: the next one is measured again
+            return
+        if number == self._number:
+            self._pages.set_reach(number, reach)
+
+
+class Learner:
+    """Learns a project's program in a process of its own, which starts with the first call.
+
+    It makes one call at a time, learning runs first. A new call ends the one before of its kind, and a learning run the
+    reach of the run before, too. A call that had not started then, and a reach that was ended, raises Superseded. Where
+    the process dies, the call raises MeshForgeError, and the next call starts a new process.
+    """
+
+    def __init__(self, folder: Path) -> None:
+        self._folder = folder
+        self._workers = Workers(1)
+        self._queue = LatestOnlyQueue(self._workers)
+        self._cancel_flag = CancelFlag()
+
+    def learn(self, number: int, take: bool) -> Future[LessonView]:
+        """Learn now. take: what is found becomes the project's program even if a person wrote the present one.
+
+        A run that is interrupted has the status `timeout`; one that fails has an error.
+        """
+        self.interrupt()
+        return self._put("learn", process.learn, number, take)
+
+    def reach(self, program: str) -> Future[tuple[Reach, ...]]:
+        """What a program does on every asset that `process.compute_reach` looks at.
+
+        Raises ProgramError for a text that is no program, or a template that is not there.
+        """
+        self._cancel_flag.cancel("reach")
+        return self._put("reach", process.compute_reach, program)
+
+    def generalise(self, extractor: str, rule: int, program: str | None) -> Future[Generalised]:
+        """What an extractor selects on these assets before the rule of that number, after the rules before it.
+
+        Raises ProgramError for a text that is no extractor.
+        """
+        self._cancel_flag.cancel("generalise")
+        return self._put("generalise", process.generalise, extractor, rule, program)
+
+    def interrupt(self) -> None:
+        """End the learning run and the reach that are under way, soon."""
+        self._cancel_flag.cancel("learn", "reach")
+
+    def close(self) -> None:
+        """Stop the process."""
+        self._queue.close()
+        self._workers.close()
+        self._cancel_flag.close()
+
+    def _put(self, kind: CallKind, function: Callable[..., Any], *args: Any) -> Future[Any]:
+        return self._queue.put(kind, function, self._folder, self._cancel_flag.make_token(kind), *args)

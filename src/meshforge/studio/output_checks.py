@@ -1,0 +1,186 @@
+"""Checks outputs beside their assets, in worker processes; the results are cached by content."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from concurrent.futures import Future
+from dataclasses import dataclass
+from pathlib import Path
+from typing import get_args
+
+from pydantic import TypeAdapter, ValidationError
+
+from meshforge.batch import ExecutionOptions, WorkerFailure, count_processors, memory_share, read_stamp, run_isolated
+from meshforge.checks import draw_examination, examine_mesh
+from meshforge.common import MeshForgeError, ProjectError, describe_error, write_atomically
+from meshforge.project import Project
+from meshforge.rendering import encode_png
+from meshforge.studio.errors import NotHereError
+from meshforge.studio.output_measures import MEASURES, MeasureTask, check_key, measure, read_pair
+from meshforge.studio.wire.asset import Checked, CheckPart, CheckPicture, Fault
+from meshforge.studio.workers import WORK_TIMEOUT, Workers, future_of, project_of_one
+
+PICTURE_SIZE = (800, 600)
+
+CHECK_PARTS: tuple[CheckPart, ...] = get_args(CheckPart)
+MOST_RESULTS = 8000
+"""Files that are kept when a studio is opened."""
+_PICTURE_LIST = TypeAdapter(tuple[CheckPicture, ...])
+
+
+class OutputChecks:
+    """The checks of a project's outputs. workers: for what pages ask for; a call that is cancelled ends at once."""
+
+    def __init__(self, folder: Path, workers: Workers) -> None:
+        self._cache, self._workers = ResultCache(folder), workers
+        self._faults: dict[str, tuple[Fault, ...]] = {}
+        self._cache.remove_oldest()
+
+    def check_part(self, project: Project, asset: str, part: CheckPart) -> Future[Checked]:
+        """One part of what is measured of an asset's output. Raises ProjectError where there is no output."""
+        work = _make_task(project, asset)
+        kept = self._cache.read(work.key, part)
+        return future_of(kept) if kept else self._workers.start(_measure_part, work, part, self._cache)
+
+    def draw_pictures(self, project: Project, asset: str, part: CheckPart) -> Future[tuple[CheckPicture, ...]]:
+        """The pictures of a part, drawn if they are not cached. Raises ProjectError where there is no output."""
+        work = _make_task(project, asset)
+        kept = self._cache.read_pictures(work.key, part)
+        return future_of(kept) if kept is not None else self._workers.start(_draw, work, part, self._cache)
+
+    def read_picture(self, asset: str, key: str, name: str) -> bytes:
+        """A picture that was drawn. Raises NotHereError for any other."""
+        try:
+            return self._cache.picture_path(key, name).read_bytes()
+        except OSError:
+            raise NotHereError("there is no such picture", where=asset) from None
+
+    def faults_of(self, key: str | None) -> tuple[Fault, ...] | None:
+        """The faults of the output of a key, None where not all of its parts are measured."""
+        if key is None:
+            return None
+        if key not in self._faults and (found := self._cache.read_faults(key)) is not None:
+            self._faults[key] = found
+        return self._faults.get(key)
+
+    def check_all(
+        self, project: Project, assets: Sequence[str], done: Callable[[], None], stop: Callable[[], bool]
+    ) -> Iterator[tuple[str, tuple[Fault, ...] | str]]:
+        """The faults of the outputs of some assets, or why one was not checked; those measured already come first.
+
+        done: called for each output. Raises StoppedError where `stop` says so; what was measured stays.
+        """
+        fresh = []
+        for asset in assets:
+            try:
+                work = _make_task(project, asset)
+            except ProjectError as error:  # its output went meanwhile
+                done()
+                yield asset, error.sentence
+                continue
+            if self._cache.missing_parts(work.key):
+                fresh.append(work)
+            else:
+                done()
+                yield asset, self.faults_of(work.key) or ()
+        bound = memory_share(min(count_processors(), max(len(fresh), 1)))
+        todo = [(work, self._cache) for work in fresh]
+        results = run_isolated(
+            _measure_all, todo, ExecutionOptions(timeout=WORK_TIMEOUT, memory=bound, progress=done, stop=stop)
+        )
+        for work, result in zip(fresh, results, strict=True):
+            problem = result.why if isinstance(result, WorkerFailure) else result
+            yield work.asset, problem or self.faults_of(work.key) or ()
+
+
+def _make_task(project: Project, asset: str) -> MeasureTask:
+    key = check_key(read_stamp(project.layout.edited, asset))
+    if key is None:
+        raise ProjectError("it has no output that could be checked", where=asset, remedy="Apply the program.")
+    return MeasureTask(project_of_one(project, asset), asset, key)
+
+
+def _measure_part(task: MeasureTask, part: CheckPart, cache: ResultCache) -> Checked:
+    checked = measure(read_pair(task), part)
+    cache.write(task.key, checked)
+    return checked
+
+
+def _measure_all(work: tuple[MeasureTask, ResultCache]) -> str | None:
+    """Measure what is missing; the first problem, None where there is none."""
+    task, cache = work
+    problem = None
+    try:
+        pair = read_pair(task)
+        for part in cache.missing_parts(task.key):
+            try:
+                cache.write(task.key, measure(pair, part))
+            except MeshForgeError as error:  # the other parts can still be measured
+                problem = problem or error.sentence
+    except Exception as error:  # one that fails never stops the others
+        return describe_error(error)
+    return problem
+
+
+def _draw(task: MeasureTask, part: CheckPart, cache: ResultCache) -> tuple[CheckPicture, ...]:
+    pair = read_pair(task)
+    found = examine_mesh(pair.after, MEASURES[part], pair.before) if part in MEASURES else None
+    rows = draw_examination(pair.after, found, PICTURE_SIZE) if found else ()
+    drawn = [(CheckPicture(name=name, text=text), encode_png(image)) for name, text, image in rows]
+    cache.write_pictures(task.key, part, drawn)
+    return tuple(picture for picture, _ in drawn)
+
+
+@dataclass(frozen=True, slots=True)
+class ResultCache:
+    """A folder of results; one that cannot be read there counts as not measured."""
+
+    folder: Path
+
+    def read(self, key: str, part: CheckPart) -> Checked | None:
+        """A part that was measured."""
+        try:
+            return Checked.model_validate_json((self.folder / f"{key}.{part}.json").read_bytes())
+        except (OSError, ValidationError):
+            return None
+
+    def write(self, key: str, checked: Checked) -> None:
+        """Keep a part."""
+        write_atomically(self.folder / f"{key}.{checked.part}.json", checked.model_dump_json())
+
+    def missing_parts(self, key: str) -> tuple[CheckPart, ...]:
+        """The parts that were not measured yet."""
+        return tuple(part for part in CHECK_PARTS if self.read(key, part) is None)
+
+    def read_faults(self, key: str) -> tuple[Fault, ...] | None:
+        """The faults of all parts, None where one is not measured."""
+        parts = [checked for part in CHECK_PARTS if (checked := self.read(key, part))]
+        if len(parts) < len(CHECK_PARTS):
+            return None
+        found = [finding for checked in parts for finding in checked.findings]
+        return tuple(Fault(rule=f.rule, severity=f.severity, engine=f.engine, new=f.new) for f in found)
+
+    def read_pictures(self, key: str, part: CheckPart) -> tuple[CheckPicture, ...] | None:
+        """The pictures of a part that were drawn."""
+        try:
+            return _PICTURE_LIST.validate_json((self.folder / f"{key}.{part}.pictures.json").read_bytes())
+        except (OSError, ValidationError):
+            return None
+
+    def write_pictures(self, key: str, part: CheckPart, drawn: Iterable[tuple[CheckPicture, bytes]]) -> None:
+        """Keep the pictures of a part; the list of them comes last."""
+        drawn = tuple(drawn)
+        for picture, data in drawn:
+            write_atomically(self.picture_path(key, picture.name), data)
+        names = _PICTURE_LIST.dump_json(tuple(picture for picture, _ in drawn))
+        write_atomically(self.folder / f"{key}.{part}.pictures.json", names)
+
+    def picture_path(self, key: str, name: str) -> Path:
+        """Where a picture is kept."""
+        return self.folder / f"{key}.{name}.png"
+
+    def remove_oldest(self) -> None:
+        """Remove the oldest results, so that not too many stay."""
+        files = sorted(self.folder.glob("*.*"), key=lambda path: path.stat().st_mtime_ns)
+        for path in files[:-MOST_RESULTS]:
+            path.unlink(missing_ok=True)

@@ -1,0 +1,173 @@
+"""One asset as the page shows it: its hulls and steps, how it is turned upright, and pictures of it."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+import numpy as np
+
+from meshforge import rendering
+from meshforge.batch import software_version, text_digest
+from meshforge.common import MeshForgeError
+from meshforge.formats import VisualSurfaces
+from meshforge.geometry import Floats, Pose
+from meshforge.language import Orient, Program, orient_mesh
+from meshforge.project import Project
+from meshforge.store import action_text
+from meshforge.studio.edits.base import steps_version
+from meshforge.studio.queries.packets import contact_names, frame_packet, hull_views
+from meshforge.studio.queries.replay import AssetReplay, EditResult, replay_steps
+from meshforge.studio.wire.asset import AssetView, CorrectionView, NearMiss, OpaqueView, StepView
+from meshforge.symbolic import Asset, Label, SymbolicMesh
+from meshforge.synthesis import Step
+
+Z_FROM_Y = Pose(np.array([[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]]), np.zeros(3))
+"""Turns the Y axis to Z."""
+
+THUMBNAIL_SIZE = (240, 180)
+
+RULE_PICTURE_SIZE = (720, 540)
+
+_DRAW_VERSION = "1"
+"""To be raised when thumbnails are drawn in another way."""
+
+
+def build_asset_view(project: Project, asset: str, mesh: SymbolicMesh) -> AssetView:
+    """An asset as it is prepared; mesh: its mesh. Contacts are those that a program sees, in the canonical frame."""
+    source = mesh.asset
+    if source is None:
+        raise MeshForgeError("this mesh was made in memory and has no file")
+    replay, problem = _try_replay(project, asset, mesh)
+    seen = replay.start if replay else mesh
+    shown = compute_upright(project, mesh)
+    return AssetView(
+        asset=asset,
+        path=str(source.path),
+        format=source.format,
+        up=source.up or "z",
+        bodies=tuple(body.name for body in source.bodies),
+        hulls=hull_views(mesh),
+        opaque=tuple(
+            OpaqueView(name=o.name, body=o.body, reason=o.reason, surface=o.surface is not None) for o in source.opaque
+        ),
+        has_visual=_has_visual(source),
+        contacts=contact_names(seen),
+        near_misses=tuple(
+            NearMiss(a=seen.hulls[i].name, b=seen.hulls[j].name, gap=gap) for i, j, gap in seen.near_misses
+        ),
+        diagonal=seen.diagonal,
+        contact_distance=seen.contact_distance,
+        upright=to_numbers(shown.pose),
+        unturned=shown.problem,
+        steps=_step_views(project.steps(asset), replay.results if replay else (), shown.problem or problem),
+        version=steps_version(project, asset),
+        corrections=tuple(
+            CorrectionView(select=tuple(name for name, _ in c.hulls), action=action_text(c.action, c.label))
+            for c in project.corrections(asset)
+        ),
+        prepared=tuple(map(str, project.preparation(asset).steps)),
+        missing=source.missing,
+        notes=source.notes,
+    )
+
+
+def _try_replay(project: Project, asset: str, mesh: SymbolicMesh) -> tuple[AssetReplay | None, str | None]:
+    """The asset after its own steps; or why it cannot be turned."""
+    try:
+        return replay_steps(project, asset, mesh), None
+    except MeshForgeError as error:
+        return None, error.sentence
+
+
+def _has_visual(source: Asset) -> bool:
+    """Whether there is a visual mesh, found out without reading its files where that is possible."""
+    visuals = source.visuals
+    return bool(visuals.visuals if isinstance(visuals, VisualSurfaces) else visuals)
+
+
+def _step_views(steps: tuple[Step, ...], results: tuple[EditResult, ...], problem: str | None) -> tuple[StepView, ...]:
+    done = results or tuple(EditResult(step.rule, error=problem) for step in steps)
+    return tuple(
+        StepView(
+            rule=step.rule,
+            select=None if step.select is None else tuple(sorted(step.select)),
+            action=action_text(step.action, step.label),
+            error=result.error,
+            made=result.made,
+            removed=result.removed,
+        )
+        for step, result in zip(steps, done, strict=True)
+    )
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class UprightPose:
+    """pose: shown_T_incoming; problem: why the orientation of the project does not turn the asset."""
+
+    pose: Pose
+    problem: str | None = None
+
+
+def compute_upright(project: Project, mesh: SymbolicMesh) -> UprightPose:
+    """How an asset of a project is shown: turned by the orientation, then so that Z points up.
+
+    Z is up already where the orientation names it; otherwise the file says which axis is up.
+    """
+    orient = project.orientation
+    try:
+        pose, problem = orient_mesh(mesh, orient)[1], None
+    except MeshForgeError as error:
+        pose, problem, orient = Pose.identity(), error.sentence, None
+    return UprightPose(Z_FROM_Y @ pose if is_y_up(mesh, orient) else pose, problem)
+
+
+def is_y_up(mesh: SymbolicMesh, orient: Orient | None) -> bool:
+    """Whether Y still points up after an orientation: the file says so, and no landmark says what +Z is."""
+    named = orient is not None and any(pair.axis.endswith("Z") for pair in orient.pairs)
+    return not named and mesh.asset is not None and mesh.asset.up == "y"
+
+
+def to_numbers(pose: Pose) -> tuple[float, ...] | None:
+    """The 16 numbers of a pose row by row, None for the identity."""
+    matrix: Floats = np.eye(4)
+    matrix[:3, :3], matrix[:3, 3] = pose.rotation, pose.translation
+    return None if np.array_equal(matrix, np.eye(4)) else tuple(matrix.ravel().tolist())
+
+
+def draw_thumbnail(mesh: SymbolicMesh, pose: Pose | None = None, size: tuple[int, int] = THUMBNAIL_SIZE) -> bytes:
+    """A picture of a mesh, encoded as `rendering.render_thumbnail` describes, as a PNG file.
+
+    pose: shown_T_incoming of `compute_upright`; for an output, that of the asset as it comes.
+    """
+    from PIL import Image  # lazy: 0.1 s, only drawing needs it
+
+    return rendering.encode_png(Image.fromarray(rendering.render_thumbnail(mesh, pose, size), "RGBA"))
+
+
+def draw_rule_picture(project: Project, asset: str, mesh: SymbolicMesh, rule: int, program: Program | None) -> bytes:
+    """A packet of an asset before a rule: the names of the hulls in order, and a picture encoded as a thumbnail.
+
+    mesh: the asset as it comes; program: None for one without rules, which only turns the asset.
+    Raises MeshForgeError where the asset cannot be turned, or an action fails.
+    """
+    plan = program or Program(orient=project.orientation)
+    seen = project.mesh_before_rule(asset, rule, plan, {asset: mesh})
+    pose = Z_FROM_Y if is_y_up(mesh, plan.orient) else None
+    header = json.dumps({"names": [hull.name for hull in seen.hulls]})
+    return frame_packet(header.encode(), draw_thumbnail(seen, pose, RULE_PICTURE_SIZE))
+
+
+def picture_digest(geometry: str, labels: Iterable[Label | None], orient: str) -> str:
+    """A digest of all that decides how an asset is drawn: its hulls, and labels that turn it.
+
+    geometry: the digest in AssetStatus; labels: of its hulls in order; orient: the orientation's text.
+    """
+    landmarks = [label.name if label and label.name in orient else "" for label in labels]
+    return text_digest("\n".join([_DRAW_VERSION, software_version(), geometry, orient, *landmarks]))
+
+
+def output_picture_digest(picture: str, output: str) -> str:
+    """A digest of all that decides how an output is drawn. picture: of the asset; output: the digest of its files."""
+    return text_digest(f"{picture} {output}")

@@ -1,0 +1,166 @@
+"""Makes cards and the view of the project in the background after every change."""
+
+from __future__ import annotations
+
+import logging
+from collections.abc import Callable, Iterable
+from functools import partial
+from threading import Condition, Thread
+
+from meshforge.batch import read_stamp
+from meshforge.common import MeshForgeError, StoppedError, describe_error
+from meshforge.project import Project, Status, suggest_first_demonstration
+from meshforge.studio.label_changes import LabelChanges
+from meshforge.studio.output_checks import OutputChecks
+from meshforge.studio.output_measures import check_key
+from meshforge.studio.pages import PageState
+from meshforge.studio.queries.next_step import choose_next_step
+from meshforge.studio.queries.project import build_card, build_project_view
+from meshforge.studio.wire.family import Next, ProjectView
+from meshforge.studio.wire.jobs import Job
+
+_LOG = logging.getLogger(__name__)
+_FEWEST, _PORTIONS = 8, 20
+
+
+def initial_view(project: Project) -> ProjectView:
+    """The project before its assets are read. Raises ProjectError for a file of the project that cannot be read."""
+    return build_project_view(project, (), Next(stage="label", say="The assets are being read."), None, ())
+
+
+class Refresher:
+    """Makes cards and the view of the project, and shows how far the first reading is.
+
+    project: gives the project that is open now; queue: the assets that are still to be refreshed.
+    """
+
+    def __init__(
+        self, project: Callable[[], Project], pages: PageState, checks: OutputChecks, label_changes: LabelChanges
+    ) -> None:
+        self._project, self._pages, self._checks, self._label_changes = project, pages, checks, label_changes
+        self.queue = RefreshQueue(self.refresh, self.portion_size)
+        self._names: dict[str, tuple[str, ...]] = {}
+        self._read = 0
+        self._job: Job | None = None
+
+    def portion_size(self) -> int:
+        """How many assets are looked at together: few, so that their cards come soon."""
+        return max(_FEWEST, len(self._project().assets()) // _PORTIONS)
+
+    def refresh(self, assets: tuple[str, ...]) -> None:
+        """Look at some assets, and at the project when none are left. Never raises."""
+        try:
+            self._refresh(tuple(asset for asset in assets if asset in self._project().found.ids))
+        except StoppedError:  # the studio is being closed
+            return
+        except MeshForgeError as error:
+            self._pages.set_problem(error.message)
+        except Exception as error:
+            _LOG.debug("refreshing cards failed", exc_info=True)
+            self._pages.set_problem(describe_error(error))
+
+    def _refresh(self, assets: tuple[str, ...]) -> None:
+        project = self._project()
+        status = project.status(assets, progress=self._count_read, stop=self.queue.is_closed)
+        settings = project.settings
+        self._names |= {row.id: row.names for row in status.assets}
+        keys = [check_key(read_stamp(project.layout.edited, row.id)) for row in status.assets]
+        self._pages.set_cards(
+            build_card(row, settings.vocabulary, settings.orient, key, self._checks.faults_of(key))
+            for row, key in zip(status.assets, keys, strict=True)
+        )
+        self._report_progress()
+        if self.queue.remaining == 0 or len(assets) < self.portion_size():
+            self._pages.set_relabelled(self._label_changes.last_change(self._names))
+            self._pages.set_project(self._build_view(status))
+
+    def _build_view(self, status: Status) -> ProjectView:
+        project, cards = self._project(), self._pages.cards
+        program = self._pages.program
+        has_program = bool(program.text) and not program.error
+        suggest = partial(suggest_first_demonstration, project)
+        propagated = self._label_changes.propagation_state(project, cards)
+        next_step = choose_next_step(
+            cards, status.vocabulary, has_program, self._pages.lesson, status.problem, suggest, propagated
+        )
+        return build_project_view(project, cards, next_step, status.problem, status.lost, propagated)
+
+    def _count_read(self) -> None:
+        """One asset had to be read; called from another thread."""
+        self._read += 1
+        self._report_progress()
+
+    def _report_progress(self) -> None:
+        """Show how far the reading is, where there is any that takes time."""
+        total, left = len(self._pages.cards), self.queue.remaining
+        if self._job is None and self._read and left:
+            self._job = Job(id="read", kind="read", title="Reading assets", total=total)
+        if self._job:
+            update = {"done": total - left, "state": "running" if left else "done"}
+            self._job = self._job.model_copy(update=update)
+            self._pages.set_job(self._job)
+        if not left:
+            self._job, self._read = None, 0
+
+
+class RefreshQueue:
+    """A thread that refreshes assets by their ids: urgent ones first, then the rest, one portion at a time.
+
+    refresh: called with some ids, or none where only the project itself is to be refreshed; size: of one portion.
+    """
+
+    def __init__(self, refresh: Callable[[tuple[str, ...]], None], size: Callable[[], int]) -> None:
+        self._refresh, self._size = refresh, size
+        self._wake = Condition()
+        self._urgent: dict[str, None] = {}
+        self._rest: dict[str, None] = {}
+        self._whole = False
+        self._closed = False
+        self._thread = Thread(target=self._run, name="refresh", daemon=True)
+
+    def start(self) -> None:
+        """Begin."""
+        self._thread.start()
+
+    def add(self, assets: Iterable[str] = (), *, later: bool = False) -> None:
+        """Have some assets refreshed, and the project; later: after those that are urgent."""
+        with self._wake:
+            (self._rest if later else self._urgent).update(dict.fromkeys(assets))
+            self._whole = True
+            self._wake.notify()
+
+    @property
+    def remaining(self) -> int:
+        """How many assets are still to be refreshed."""
+        with self._wake:
+            return len(self._urgent | self._rest)
+
+    def is_closed(self) -> bool:
+        """Whether the queue is closed, so that the refresh that is running is to stop."""
+        return self._closed
+
+    def close(self) -> None:
+        """Stop, and wait for the end of the refresh that is running."""
+        with self._wake:
+            self._closed = True
+            self._wake.notify()
+        if self._thread.is_alive():
+            self._thread.join()
+
+    def _run(self) -> None:
+        while True:
+            with self._wake:
+                self._wake.wait_for(lambda: self._urgent or self._rest or self._whole or self._closed)
+                if self._closed:
+                    return
+                assets = self._take_portion()
+                self._whole = False
+            self._refresh(assets)
+
+    def _take_portion(self) -> tuple[str, ...]:
+        source = self._urgent or self._rest
+        assets = tuple(source)[: self._size()]
+        for asset in assets:
+            self._urgent.pop(asset, None)
+            self._rest.pop(asset, None)
+        return assets

@@ -1,0 +1,208 @@
+"""The session: the one place through which an open studio reads and changes its project."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from importlib.metadata import version
+from pathlib import Path
+from threading import RLock
+from typing import Literal
+
+from meshforge.batch import STATE, stamp_path
+from meshforge.common import UsageError, relative_name
+from meshforge.labels import OfferCache
+from meshforge.project import Project
+from meshforge.studio.edits.base import Edit
+from meshforge.studio.edits.program import TakeLearned
+from meshforge.studio.errors import NotHereError
+from meshforge.studio.history import History
+from meshforge.studio.history_store import HistoryEntry
+from meshforge.studio.label_changes import LabelChanges
+from meshforge.studio.learning.scheduler import Learner, LearningScheduler
+from meshforge.studio.output_checks import OutputChecks
+from meshforge.studio.pages import PageHub, PageState
+from meshforge.studio.queries.programs import read_program_view
+from meshforge.studio.session.file_sync import LEARNED_FILE, PREVIOUS_FILE, PROGRAM_FILE, FileSync, FileWatcher
+from meshforge.studio.session.job_runner import JobRunner
+from meshforge.studio.session.refresh import Refresher, initial_view
+from meshforge.studio.thumbnails import Thumbnails
+from meshforge.studio.uploads import Uploads
+from meshforge.studio.wire.events import HistoryChanged
+from meshforge.studio.wire.program import LessonView
+from meshforge.studio.wire.requests import Done
+from meshforge.studio.workers import MeshCache, ProjectWithCache, Workers
+from meshforge.symbolic import SymbolicMesh
+
+READERS = 2
+"""Processes that read assets which a page waits for."""
+
+
+@dataclass(frozen=True, slots=True)
+class StudioOptions:
+    """How a studio is opened. export: a folder that outputs may be exported to besides those in the project; tour:
+    whether pages show the guided tour."""
+
+    folder: Path
+    export: Path | None = None
+    tour: bool = False
+
+
+class Session:
+    """One open project: changes it, and keeps all pages in step with it."""
+
+    def __init__(self, options: StudioOptions) -> None:
+        self.options = options
+        self._mutex = RLock()
+        self.readers, self._drawers, self._checkers = Workers(READERS), Workers(), Workers(1)
+        project = ProjectWithCache.of(Project.open(options.folder), MeshCache(self.readers))
+        folder = project.folder / STATE / "studio"
+        self.history = History(project, _list_learned_files)
+        self.label_changes = LabelChanges(self.history)
+        self.hub = PageHub()
+        view = initial_view(project)
+        self.pages = PageState(self.hub, view, self.history.view, version("meshforge"), options.tour)
+        self.offers = OfferCache()
+        self.jobs = JobRunner(self.pages.set_job)
+        self.thumbnails = Thumbnails(folder / "thumbnails", self._drawers)
+        self.checks = OutputChecks(folder / "checks", self._checkers)
+        self.uploads = Uploads(folder / "uploads")
+        learner = Learner(project.folder)
+        self.learning = LearningScheduler(learner, self.pages, self._has_demonstrations, self._end_learning)
+        # the queue's thread must see the project that is open when it works, not the first one
+        self.refresh_queue = Refresher(lambda: self.project, self.pages, self.checks, self.label_changes).queue
+        self._watcher = FileWatcher(self._poll_files)
+        self._file_sync = FileSync(project, self.pages, self.learning, self.refresh_queue)
+        self._take_learned = False
+
+    @property
+    def project(self) -> ProjectWithCache:
+        """The project with the assets that it has now."""
+        return self._file_sync.project
+
+    def start(self) -> None:
+        """Start reading, learning and watching files."""
+        self.pages.set_assets(self.project.assets())
+        self.pages.set_program(read_program_view(self.project))
+        self.refresh_queue.add(self.project.assets(), later=True)
+        self.refresh_queue.start()
+        self._watcher.start()
+        self.learning.restart()
+
+    def close(self) -> None:
+        """Stop everything, worker processes too."""
+        self._watcher.close()
+        self.refresh_queue.close()
+        self.jobs.close()
+        self.learning.close()
+        self.readers.close()
+        self._drawers.close()
+        self._checkers.close()
+        self.hub.close()
+
+    # Reading
+
+    def mesh(self, asset: str) -> SymbolicMesh:
+        """An asset with its labels. Raises NotHereError, or AssetError where it cannot be read."""
+        self.check_assets(asset)
+        return self.project.mesh(asset)
+
+    def check_assets(self, *assets: str) -> None:
+        """Raises NotHereError for an id that no asset has."""
+        for asset in assets:
+            if asset not in self.project.found.ids:
+                raise NotHereError(f"there is no asset {asset!r}", where=self.project.name)
+
+    # Changing
+
+    def edit(self, edit: Edit, by: str | None = None) -> Done:
+        """Make an edit; it is on disk when this returns."""
+        with self._mutex:
+            title = edit.describe(self.project)
+            if self.project.layout.program in edit.list_paths(self.project):
+                self.learning.pause()
+            try:
+                entry = self.history.do(self.project, edit, by)
+            finally:
+                self.learning.resume()
+            if entry is None:
+                return Done(said=title, nothing=True)
+            self.announce((entry,), "edit", by)
+        return Done(said=entry.title)
+
+    def move(self, way: Literal["undo", "redo"], by: str | None = None) -> Done:
+        """Undo what was done last, or redo what was undone last."""
+        with self._mutex:
+            self.learning.pause()
+            try:
+                entries = self.history.undo(self.project) if way == "undo" else self.history.redo(self.project)
+            finally:
+                self.learning.resume()
+            if not entries:
+                return Done(said=f"there is nothing to {way}", nothing=True)
+            self.announce(entries, way, by)
+        return Done(said=entries[0].title)
+
+    def announce(
+        self, entries: Iterable[HistoryEntry], did: Literal["edit", "undo", "redo"], by: str | None = None
+    ) -> None:
+        """Send all pages what entries changed, then that they were made, undone or redone; the cards follow."""
+        with self._mutex:
+            entries = tuple(entries)
+            self.pages.set_relabelled(None)
+            self.update({name for entry in entries for name in entry.names})
+            self.pages.set_history(HistoryChanged(history=self.history.view, did=did, said=entries[0].title, by=by))
+
+    @contextmanager
+    def record_edit(self, edit: Edit, group: str) -> Iterator[None]:
+        """Record an edit whose change a job makes within the block."""
+        with self._mutex:
+            with self.history.record(self.project, edit, group=group) as before:
+                yield
+            if self.history.view.undoable > before:
+                self.announce((self.history.last_entry,), "edit")
+
+    def note_output(self, asset: str) -> None:
+        """The output of an asset was written."""
+        self.update([relative_name(stamp_path(self.project.layout.edited, asset), self.project.folder)])
+
+    def update(self, names: Iterable[str]) -> None:
+        """Refresh what depends on these files; names: paths from the project's folder."""
+        with self._mutex:
+            self._file_sync.update(names)
+
+    def _poll_files(self) -> None:
+        with self._mutex:
+            self._file_sync.poll()
+
+    # Learning
+
+    def learn(self) -> Done:
+        """Learn now, and take the learned program even if the present one was written by hand."""
+        if not self._has_demonstrations():
+            raise UsageError("nothing is demonstrated yet", remedy="Show the steps of the edit on one asset.")
+        with self._mutex:
+            self._take_learned = self.pages.program.by_hand
+            self.learning.restart()
+        return Done(said="learning")
+
+    def _has_demonstrations(self) -> bool:
+        shown = set(self.project.layout.ids_with("demonstrations"))
+        return any(asset in shown for asset in self.project.assets())
+
+    def _end_learning(self, lesson: LessonView) -> None:
+        """A learning run is over: it wrote its program, unless a person's is there."""
+        with self._mutex:
+            take, self._take_learned = self._take_learned, False
+            if take and lesson.program and self.learning.is_latest(lesson.number):
+                self.edit(TakeLearned())
+                return
+            self._file_sync.show_program()
+            self.refresh_queue.add()
+
+
+def _list_learned_files(project: Project) -> frozenset[str]:
+    """The files that learning writes: undo puts them back whatever they hold by then, but for a program by hand."""
+    always = {LEARNED_FILE, PREVIOUS_FILE}
+    return frozenset(always if project.program_state().by_hand else {*always, PROGRAM_FILE})

@@ -1,0 +1,108 @@
+"""Files that a page uploads: safe names, limited sizes, streamed to disk, and taken only if they can be read."""
+
+from __future__ import annotations
+
+import shutil
+from collections.abc import AsyncIterator
+from pathlib import Path, PurePosixPath
+from threading import Lock
+from uuid import uuid4
+
+from meshforge.batch import find_assets_in
+from meshforge.common import MeshForgeError, ProjectError, UsageError, join_names, replace_atomically
+from meshforge.formats import read
+from meshforge.studio.errors import TooLargeError
+from meshforge.studio.workers import Workers
+
+MB = 2**20
+MOST_TEMPLATE, MOST_ONE_FILE, MOST_ALL_FILES, MOST_FILES = 20 * MB, 500 * MB, 2000 * MB, 5000
+_LONGEST_PATH = 240
+
+
+class Uploads:
+    """Files that were uploaded and are not in the project yet."""
+
+    def __init__(self, folder: Path) -> None:
+        self.folder = folder
+        self._lock = Lock()
+        shutil.rmtree(folder, ignore_errors=True)
+
+    async def put(self, path: str, chunks: AsyncIterator[bytes]) -> None:
+        """Store one file. Raises UsageError for its path, TooLargeError for its size."""
+        target = self.folder / "assets" / confine_path(path)
+        with self._lock:
+            present = [file for file in self.folder.rglob("*") if file.is_file() and file != target]
+            room = MOST_ALL_FILES - sum(file.stat().st_size for file in present)
+        if len(present) >= MOST_FILES:
+            raise TooLargeError(f"these are more than {MOST_FILES} files", remedy="Add them in several portions.")
+        await save_stream(target, chunks, min(MOST_ONE_FILE, room))
+
+    async def put_template(self, chunks: AsyncIterator[bytes]) -> Path:
+        """Store a template, and return its path. Raises TooLargeError for its size."""
+        path = self.folder / f"template-{uuid4().hex}"
+        await save_stream(path, chunks, MOST_TEMPLATE)
+        return path
+
+    def list_files(self) -> tuple[Path, tuple[str, ...]]:
+        """The folder of the uploaded files, and their paths in it."""
+        home = self.folder / "assets"
+        return home, tuple(sorted(file.relative_to(home).as_posix() for file in home.rglob("*") if file.is_file()))
+
+    def clear(self) -> None:
+        """Remove what was uploaded."""
+        shutil.rmtree(self.folder, ignore_errors=True)
+
+
+async def save_stream(target: Path, chunks: AsyncIterator[bytes], most: int) -> None:
+    """Write a file as it comes in. Raises TooLargeError; then there is no file."""
+    size = 0
+    try:
+        with replace_atomically(target) as draft, draft.open("wb") as stream:
+            async for chunk in chunks:
+                size += len(chunk)
+                if size > most:
+                    raise TooLargeError(
+                        f"this file is larger than {most // MB} MB", where=target.name, remedy="Send a smaller one."
+                    )
+                stream.write(chunk)
+    except (FileExistsError, NotADirectoryError, IsADirectoryError):
+        raise UsageError("a file and a folder have the same name", where=target.name) from None
+
+
+def confine_path(path: str) -> PurePosixPath:
+    """A relative path without tricks. Raises UsageError for any other."""
+    pure = PurePosixPath(path)
+    parts = path.split("/")
+    odd = any(part in ("", ".", "..") or part.startswith(".") or not part.isprintable() for part in parts)
+    if odd or pure.is_absolute() or set(path) & set('\\:*?"<>|') or len(path.encode()) > _LONGEST_PATH:
+        raise UsageError(f"{path!r} is no path for a file of an asset", remedy="Give plain names, with / between them.")
+    return pure
+
+
+def find_assets(workers: Workers, home: Path) -> tuple[str, ...]:
+    """The assets among uploaded files, by their paths. Raises ProjectError: there are none, or one cannot be read."""
+    found = find_assets_in(home) if home.is_dir() else []
+    if not found:
+        raise ProjectError("there is no asset among these files", remedy="Send URDF, MJCF, SDF, glTF or mesh files.")
+    problems = [problem for path in found if (problem := _find_problem(workers, path, home))]
+    if problems:
+        more = "" if len(problems) == 1 else f"; {len(problems) - 1} more cannot be read"
+        raise ProjectError(
+            f"{problems[0]}{more}", remedy="Send each asset together with all files that it names; nothing was added."
+        )
+    return tuple(path.relative_to(home).as_posix() for path in found)
+
+
+def _find_problem(workers: Workers, path: Path, home: Path) -> str | None:
+    """Why an asset cannot be taken, None where it can."""
+    try:
+        files = workers.run(_files_of, path)
+    except MeshForgeError as error:
+        return error.message.replace(f"{home}/", "").split("\n")[0]
+    outside = [file.name for file in files if not file.resolve().is_relative_to(home.resolve())]
+    name = path.relative_to(home).as_posix()
+    return f"{name} refers to files that were not sent: {join_names(outside)}" if outside else None
+
+
+def _files_of(path: Path) -> tuple[Path, ...]:
+    return read(path).files

@@ -1,0 +1,213 @@
+"""What every file becomes: bodies with poses, convex geoms, pieces that are no hulls, joints and masses in one form for
+all formats, and the source document."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+from typing import Literal
+
+import numpy as np
+
+from meshforge.geometry import Aabb, Floats, Ints, Pose, Shape, freeze_floats
+
+JointKind = Literal["fixed", "revolute", "prismatic", "ball", "floating", "planar"]
+Mentions = tuple[tuple[str, str], ...]
+"""What a file calls a piece of collision geometry besides its own name and its body's: of what kind, and the name.
+
+Kinds: `visual`, `mesh`, `group`, `node` and `class` are its own; `shown` is what its body shows; `material`.
+"""
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Body:
+    """A rigid part (URDF link, MJCF body); pose: root_T_body with every joint at zero."""
+
+    name: str
+    pose: Pose
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Geom:
+    """One convex collision shape in the root frame.
+
+    name: unique in the asset, for ever: a made geom never takes the name of a source geom.
+    parent: None for a geom of the file, which is written back as authored; for a made one, the source geom
+    whose contact attributes it inherits.
+    contact: those attributes of a geom of the file, by the format's names for them, where it has them geom by geom.
+    mentions: what else the file calls it, which may tell what it is; a writer takes no notice of it.
+    """
+
+    name: str
+    body: str
+    shape: Shape
+    parent: str | None = None
+    contact: tuple[tuple[str, str], ...] = ()
+    mentions: Mentions = ()
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Surface:
+    """Triangles to look at, or to decompose; vertices (n, 3) [m] in the root frame, faces (m, 3).
+
+    body: the one that shows it, None where the file does not say; rgba: its colour, four shares of 1, None where it
+    has no single one.
+    """
+
+    vertices: Floats
+    faces: Ints
+    body: str | None = None
+    rgba: tuple[float, float, float, float] | None = None
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Opaque:
+    """Collision geometry that is no convex hull: shown with its reason, never selected, written back untouched.
+
+    plane: root_T_plane of one that is an endless plane, whose normal is Z; mentions: see `Geom`.
+    """
+
+    name: str
+    body: str
+    reason: str
+    surface: Surface | None = None
+    plane: Pose | None = None
+    mentions: Mentions = ()
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Joint:
+    """How a body moves against another, described where all joints are at zero.
+
+    name: empty where the file gives none; parent, child: the bodies it joins.
+    anchor: (3,), a point of the axis, or the centre of a ball [m]; axis: (3,), of unit length, the normal of a planar
+    joint; both in the root frame. limits: [rad] or [m] from zero, None where there are none.
+    damping, friction: of the file, 0 where it has none; effort [N or Nm], velocity [m/s or rad/s]: the largest, None
+    where it has none. Several joints of one child act one after another, the first one nearest to the parent.
+    """
+
+    name: str
+    kind: JointKind
+    parent: str
+    child: str
+    anchor: Floats
+    axis: Floats
+    limits: tuple[float, float] | None = None
+    damping: float = 0.0
+    friction: float = 0.0
+    effort: float | None = None
+    velocity: float | None = None
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "anchor", freeze_floats(self.anchor, (3,)))
+        object.__setattr__(self, "axis", freeze_floats(self.axis, (3,)))
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Inertial:
+    """What a body weighs: mass [kg], centre (3,) of mass [m], inertia (3, 3) about it [kg m^2], in the root frame."""
+
+    body: str
+    mass: float
+    centre: Floats
+    inertia: Floats
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "centre", freeze_floats(self.centre, (3,)))
+        object.__setattr__(self, "inertia", freeze_floats(self.inertia, (3, 3)))
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Mechanism:
+    """The joints of an asset, which make its bodies one or more trees, and the masses that the file has.
+
+    apart: pairs of bodies that the file keeps from colliding; paired: pairs of geoms that it has collide all the same,
+    whatever their bodies and contact attributes.
+    """
+
+    joints: tuple[Joint, ...] = ()
+    inertials: tuple[Inertial, ...] = field(default=())
+    apart: tuple[tuple[str, str], ...] = ()
+    paired: tuple[tuple[str, str], ...] = ()
+
+    def move(self, pose: Pose) -> Mechanism:
+        """The mechanism in another root frame; pose: new_T_old."""
+        turn = pose.rotation
+        return replace(
+            self,
+            joints=tuple(
+                replace(j, anchor=turn @ j.anchor + pose.translation, axis=turn @ j.axis) for j in self.joints
+            ),
+            inertials=tuple(
+                Inertial(i.body, i.mass, turn @ i.centre + pose.translation, turn @ i.inertia @ turn.T)
+                for i in self.inertials
+            ),
+        )
+
+
+class Document:
+    """Base of the kept source of an asset; each format keeps in its own subclass what it needs to write back.
+
+    A document is immutable and pickles, so that an asset can go to a worker process and come back.
+    """
+
+    __slots__ = ()
+
+
+@dataclass(frozen=True, eq=False)
+class Asset:
+    """A file with collision geometry; immutable, an edit is a new asset with other geoms.
+
+    files: every file that the document refers to, found, absolute, in order of mention.
+    missing: references to visual files that are not there, as written in the document.
+    notes: what a user should know about how the file was read; up: the axis that its format says points up.
+    mechanism: joints and masses, empty where the format has none.
+    """
+
+    path: Path
+    format: str
+    bodies: tuple[Body, ...]
+    geoms: tuple[Geom, ...]
+    document: Document
+    opaque: tuple[Opaque, ...] = ()
+    visuals: Sequence[Surface] = ()
+    files: tuple[Path, ...] = ()
+    missing: tuple[str, ...] = ()
+    notes: tuple[str, ...] = field(default=())
+    mechanism: Mechanism = field(default=Mechanism())
+    up: Literal["y", "z"] | None = None
+
+    @property
+    def body_poses(self) -> dict[str, Pose]:
+        return {body.name: body.pose for body in self.bodies}
+
+    @property
+    def aabb(self) -> Aabb | None:
+        """The box around all geoms, None where there is none."""
+        return Aabb.union(g.shape.aabb for g in self.geoms) if self.geoms else None
+
+    def with_geoms(self, geoms: Iterable[Geom]) -> Asset:
+        return replace(self, geoms=tuple(geoms))
+
+
+def unique_names(names: Iterable[str]) -> list[str]:
+    """The names in order, a repeated one made unique by `@2`, `@3`, ...; a name that is unique stays as it is."""
+    names = list(names)
+    taken, out = set(names), []
+    seen: dict[str, int] = {}
+    for name in names:
+        seen[name] = seen.get(name, 0) + 1
+        unique = name
+        while seen[name] > 1 and unique in taken:
+            unique = f"{name}@{seen[name]}"
+            seen[name] += unique in taken
+        taken.add(unique)
+        out.append(unique)
+    return out
+
+
+def unit_vector(axis: Floats) -> Floats | None:
+    """An axis (3,) in unit length; None where it has no direction."""
+    length = float(np.linalg.norm(axis))
+    return axis / length if length > 0 else None

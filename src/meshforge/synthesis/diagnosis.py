@@ -1,0 +1,212 @@
+"""Why learning did not end as hoped: what would help where no extractor matches, and why a program that somebody had
+in mind was not learned."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+from meshforge.common import join_names, pluralize
+from meshforge.language import (
+    All,
+    Attach,
+    BaseExtractor,
+    Diff,
+    Extractor,
+    Geo,
+    Intersect,
+    Is,
+    Program,
+    Union,
+    labels_of,
+    select_mask,
+    show,
+    show_label,
+    size_of,
+)
+from meshforge.symbolic import SymbolicMesh
+from meshforge.synthesis.demonstration import Example, RuleSpec
+from meshforge.synthesis.options import Options
+from meshforge.synthesis.outcome import reading_id
+from meshforge.synthesis.readings.rank import RankedReadings
+from meshforge.synthesis.search.smallest import NearestExtractor
+from meshforge.synthesis.task import LearningTask
+
+_MAX_SENTENCES = 4
+
+
+def give_advice(miss: NearestExtractor, examples: Sequence[Example], answered: Sequence[str] = ()) -> tuple[str, ...]:
+    """What a person can look at, the likeliest first; answered: the meshes that an answer is about."""
+    example = next(example for example in examples if example.name == miss.asset)
+    lines = [*_advise_on_missing_labels(miss, example), *_advise_on_near_contacts(miss, example)]
+    if answered:
+        one = len(answered) == 1
+        lines.append(
+            f"{'an answer was' if one else 'answers were'} given for {join_names(answered)}: "
+            f"{'it' if one else 'they'} can be taken back"
+        )
+    lines += [
+        *_advise_on_odd_labels(example, miss.missing, left_out=True),
+        *_advise_on_odd_labels(example, miss.extra, left_out=False),
+    ]
+    if len([*miss.extra, *miss.missing]) == 1 and len(example.mesh.hulls) > 1:
+        (name,) = [*miss.extra, *miss.missing]
+        lines.append(f"if only a part of {name!r} is meant, split the hull (meshforge split)")
+    if sum(bool(other.selection) for other in examples) > 1:
+        lines.append("if what was shown follows different rules, make two steps of it")
+    return tuple(dict.fromkeys(lines))[:_MAX_SENTENCES]
+
+
+def _advise_on_missing_labels(miss: NearestExtractor, example: Example) -> Iterator[str]:
+    bare = [name for name in [*miss.missing, *miss.extra] if example.mesh.hull_of(name).label is None]
+    if bare:
+        yield f"{_describe_hulls(bare, example)} {'has' if len(bare) == 1 else 'have'} no label"
+
+
+def _advise_on_odd_labels(example: Example, names: Sequence[str], left_out: bool) -> Iterator[str]:
+    """Hulls that are left out, or are too much, by their labels; left out though what is right has another one."""
+    right = {hull.label for k, hull in enumerate(example.mesh.hulls) if example.selection >> k & 1}
+    by_label: dict[str | None, list[str]] = {}
+    for name in names:
+        by_label.setdefault(example.mesh.hull_of(name).label, []).append(name)
+    for label, alike in by_label.items():
+        if label is None:
+            continue
+        hulls, verb = _describe_hulls(alike, example), "is" if len(alike) == 1 else "are"
+        others = sorted(show_label(other) for other in right - {label, None} if other)
+        if left_out and others:
+            usual = f"while others that were shown are labelled {', '.join(others)}"
+            yield f"{hulls} {verb} labelled {show_label(label)}, {usual}: is that right?"
+        elif left_out:
+            yield f"{verb} {hulls} rightly labelled {show_label(label)}?"
+        else:
+            one = len(alike) == 1
+            meant = f"if {hulls} {'is' if one else 'are'} meant, too, show {'it' if one else 'them'}"
+            yield f"{meant}; if not, is the label {show_label(label)} right?"
+
+
+def _describe_hulls(names: Sequence[str], example: Example) -> str:
+    return f"{repr(names[0]) if len(names) == 1 else join_names(names)} of {example.name}"
+
+
+def _advise_on_near_contacts(miss: NearestExtractor, example: Example) -> Iterator[str]:
+    """Hulls that miss a contact, which the nearest extractor asks for, by little."""
+    mesh = example.mesh
+    for anchor in _anchors(miss.extractor):
+        for i, j, gap in mesh.near_misses:
+            for here, there in ((i, j), (j, i)):
+                if mesh.hulls[here].name in miss.missing and _is_in_base(mesh, there, anchor):
+                    yield (
+                        f"{mesh.hulls[here].name!r} and {mesh.hulls[there].name!r} of {example.name} are {gap:.2g} m "
+                        f"apart, just too far to count as touching: a larger threshold `contact` would join them"
+                    )
+
+
+def _anchors(extractor: Extractor) -> Iterator[BaseExtractor]:
+    if isinstance(extractor, Attach):
+        yield extractor.anchor
+    elif isinstance(extractor, Union | Intersect | Diff):
+        yield from _anchors(extractor.left)
+        yield from _anchors(extractor.right)
+
+
+def _is_in_base(mesh: SymbolicMesh, index: int, base: BaseExtractor) -> bool:
+    match base:
+        case All():
+            return True
+        case Is(label):
+            return mesh.hulls[index].label == label
+
+
+def find_obstacles(task: LearningTask, wanted: Program) -> tuple[str, ...]:
+    """What keeps a wanted program from being learned before any rule is searched for."""
+    lines = []
+    if len(wanted.rules) != len(task.rules):
+        lines.append(f"{pluralize(len(task.rules), 'rule is', 'rules are')} demonstrated, not {len(wanted.rules)}")
+    if wanted.orient != task.frame.orient:
+        theirs, ours = (show(orient) if orient else "no orientation" for orient in (wanted.orient, task.frame.orient))
+        lines.append(f"it has {theirs}, the demonstrations were looked at with {ours}")
+    return tuple(lines)
+
+
+def follow_rule(
+    rule: RuleSpec,
+    wanted: Extractor,
+    ranked: RankedReadings | None,
+    names: Sequence[str],
+    examples: Sequence[Example],
+    task: LearningTask,
+) -> str:
+    """One sentence on a rule; ranked: what was learned for it, with the names of the meshes, None where nothing."""
+    text = f"rule {rule.number}, {show(wanted)}: "
+    barred = next(_find_exclusion(wanted, task), None)
+    if barred:
+        return text + barred
+    wrong = next(_find_difference(wanted, examples, task.options.geo_extremity), None)
+    if wrong:
+        return text + wrong
+    if ranked is None:
+        return text + "it selects what was shown, but the search did not get that far"
+    return text + _find_place(rule.number, wanted, ranked, names, task.options)
+
+
+def _find_exclusion(wanted: Extractor, task: LearningTask) -> Iterator[str]:
+    """Why it is none of those that are searched."""
+    unknown = [label for label in labels_of(wanted) if label not in task.frame.labels]
+    if unknown:
+        yield f"the label {show_label(unknown[0])} is not in the vocabulary"
+    if size_of(wanted) > task.options.max_size:
+        yield f"it has {size_of(wanted)} nodes, and the search ends at {task.options.max_size}"
+    for kind, letter in ((Attach, "T"), (Geo, "G")):
+        if letter not in task.options.layers and any(isinstance(leaf, kind) for leaf in _leaves_of(wanted)):
+            yield f"{kind.__name__} is switched off (layers {task.options.layers})"
+
+
+def _find_difference(wanted: Extractor, examples: Sequence[Example], extremity: float) -> Iterator[str]:
+    """On which mesh it does something else than was shown."""
+    for example in examples:
+        found = select_mask(wanted, example.mesh, extremity)
+        extra = example.mesh.names_of(found & ~example.selection)
+        missing = example.mesh.names_of(example.selection & ~found)
+        parts = [f"leaves out {join_names(missing)}"] if missing else []
+        parts += [f"selects {join_names(extra)} too"] if extra else []
+        if parts:
+            yield f"on {example.name} it {' and '.join(parts)}"
+
+
+def _find_place(rule: int, wanted: Extractor, ranked: RankedReadings, names: Sequence[str], options: Options) -> str:
+    """Where a consistent extractor stands among the readings."""
+    does = ranked.field.bits(wanted)
+    place = next((k for k, term in enumerate(ranked.terms) if term.bits == does), None)
+    if place is None and options.strategy == "paper":
+        return f"it selects what was shown, but {show(ranked.extractor)} comes before it"
+    if place is None:
+        smallest = min(term.size for term in ranked.terms)
+        if size_of(wanted) > smallest + options.above:
+            enough = f"{smallest} suffice{'s' if smallest == 1 else ''}"
+            return f"it selects what was shown, but has {size_of(wanted)} nodes where {enough}"
+        return "it selects what was shown, but there were too many readings to get that far"
+    reading = ranked.terms[place].extractor
+    same = "" if reading == wanted else f" as {show(reading)}, which selects the same on every asset"
+    if place == 0:
+        return f"learned{same}"
+    return f"reading {reading_id(rule, place)}{same}; {_explain_preference(ranked, place, names)}"
+
+
+def _explain_preference(ranked: RankedReadings, place: int, names: Sequence[str]) -> str:
+    """Why another reading was taken, and what would help."""
+    differs = [names[k] for k in ranked.differences(place)]
+    first, second = ranked.beliefs[0], ranked.beliefs[place]
+    better = "more believable" if first >= second else "smaller, though less believable"
+    one = "it" if len(differs) == 1 else "one of these"
+    return (
+        f"{show(ranked.extractor)} is {better} ({first:.0%} against {second:.0%}). "
+        f"They differ on {pluralize(len(differs), 'asset')}: {join_names(differs)}; demonstrate {one}"
+    )
+
+
+def _leaves_of(extractor: Extractor) -> Iterator[All | Is | Attach | Geo]:
+    if isinstance(extractor, Union | Intersect | Diff):
+        yield from _leaves_of(extractor.left)
+        yield from _leaves_of(extractor.right)
+    else:
+        yield extractor

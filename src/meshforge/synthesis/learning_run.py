@@ -1,0 +1,267 @@
+"""One run of learning: rule by rule, each on the meshes that the rules before it make; the program is run again on
+every demonstration before it is returned."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import partial
+from typing import TypedDict, assert_never
+
+from meshforge.common import MeshForgeError
+from meshforge.language import Program, Rule, Template
+from meshforge.symbolic import SymbolicMesh
+from meshforge.synthesis.asset_selection import choose_question, select_sample, suggest_demonstration
+from meshforge.synthesis.demonstration import Demonstration, Example, RuleSpec, name_demonstrations
+from meshforge.synthesis.diagnosis import find_obstacles, follow_rule, give_advice
+from meshforge.synthesis.options import OutOfTime, TimeBudget
+from meshforge.synthesis.orientation.suggest import OrientationSuggestion, suggest_orientation
+from meshforge.synthesis.outcome import (
+    Ambiguous,
+    Found,
+    LearningOutcome,
+    Nearest,
+    NeedsRepair,
+    NoProgram,
+    Reading,
+    TimedOut,
+    reading_id,
+)
+from meshforge.synthesis.paper.search import HitWithCorrections, PaperSearch
+from meshforge.synthesis.questions import Answer, LabelCorrection, Question, Repair
+from meshforge.synthesis.readings.enumeration import enumerate_consistent
+from meshforge.synthesis.readings.rank import RankedReadings
+from meshforge.synthesis.repair.proposals import RepairCollector, make_confirmer
+from meshforge.synthesis.replay import memoize
+from meshforge.synthesis.search.smallest import Hit, Miss, NearestExtractor, Search, SearchEffort, Unfinished
+from meshforge.synthesis.task import LearningTask, ReplaySet
+
+PLAIN_SIZE = 7
+"""Nodes up to which an extractor is plain enough to speak for an orientation that is suggested."""
+
+
+@dataclass(frozen=True, slots=True)
+class RuleOutcome:
+    """One rule, its readings, and the names of the meshes in their field."""
+
+    rule: Rule
+    readings: RankedReadings
+    names: tuple[str, ...]
+
+
+class _OutcomeFields(TypedDict):
+    rules: tuple[Rule, ...]
+    readings: tuple[Reading, ...]
+    tried: tuple[SearchEffort, ...]
+    seconds: Mapping[str, float]
+    stale: tuple[Answer, ...]
+    followed: tuple[str, ...]
+
+
+class LearningRun:
+    """Learns the rules of a task one after the other, as far as it gets."""
+
+    def __init__(self, task: LearningTask, budget: TimeBudget, confirm: Callable[[Repair], bool] | None = None) -> None:
+        self._task, self._budget, self._confirm = task, budget, confirm
+        self._replays = ReplaySet(task.demos, task.batch, task.frame, task.templates, task.answers)
+        self._learned: list[RuleOutcome] = []
+        self._tried: list[SearchEffort] = []
+        self._question: Question | None = None
+        self._searching = 0.0
+        self._followed = list(find_obstacles(task, task.options.follow)) if task.options.follow else []
+        meshes = {replay.name: replay.mesh for replay in [*self._replays.shown, *self._replays.others]}
+        self._repairs = RepairCollector(task, meshes, budget)
+
+    def run(self) -> LearningOutcome:
+        """What comes of it."""
+        for spec in self._task.rules:
+            failed = self._learn(spec)
+            if failed:
+                return failed
+        return self._propose_repairs() if self._repairs.repairs else self._finish()
+
+    def _learn(self, spec: RuleSpec) -> LearningOutcome | None:
+        """Learn one rule and run it on all meshes; what stands in the way, if anything does."""
+        while True:
+            examples, rest = self._replays.examples(spec)
+            names = (*(example.name for example in examples), *(replay.name for replay in rest))
+            start = self._budget.elapsed
+            found = self._find_readings(spec, examples, [replay.mesh for replay in rest])
+            self._searching += self._budget.elapsed - start
+            if not isinstance(found, tuple):
+                self._follow(spec, found if isinstance(found, RankedReadings) else None, names, examples)
+            match found:
+                case RankedReadings():
+                    self._accept(spec, found, names)
+                    return None
+                case Miss():
+                    return self._fail(spec, found, examples)
+                case Unfinished():
+                    nearest = _to_nearest(spec.number, found.nearest) if found.nearest else None
+                    return TimedOut(nearest=nearest, **self._common_fields())
+                case tuple():
+                    self._replays.correct(found)
+                case _:
+                    assert_never(found)
+
+    def _find_readings(
+        self, spec: RuleSpec, examples: Sequence[Example], rest: Sequence[SymbolicMesh]
+    ) -> RankedReadings | Miss | Unfinished | tuple[LabelCorrection, ...]:
+        """The readings of a rule; or corrections of labels, with which it is to be looked at again."""
+        task, budget = self._task, self._budget
+        if task.options.strategy == "paper":
+            return self._find_by_paper(spec, examples, rest)
+        search = Search(examples, task.frame.labels, budget, task.options, rest)
+        found = search.run()
+        self._record_effort(spec, found.tried)
+        if isinstance(found, Unfinished):
+            return found
+        try:
+            corrections = self._repairs.find_corrections(spec.number, examples, found)
+        except OutOfTime:
+            corrections = ()
+        if corrections:
+            return corrections
+        if isinstance(found, Miss):
+            return found
+        refused = self._replays.rejections(spec.number, search.field.meshes)
+        return RankedReadings(search, enumerate_consistent(search, found.extractor, task.options.above), refused)
+
+    def _find_by_paper(
+        self, spec: RuleSpec, examples: Sequence[Example], rest: Sequence[SymbolicMesh]
+    ) -> RankedReadings | Miss | Unfinished | tuple[LabelCorrection, ...]:
+        task = self._task
+        found = PaperSearch(
+            examples,
+            task.frame.labels,
+            self._budget,
+            task.options,
+            make_confirmer(spec.number, self._confirm) if self._confirm else None,
+            task.rejected,
+            self._repairs.counts,
+        ).run()
+        self._record_effort(spec, found.tried)
+        if isinstance(found, HitWithCorrections):
+            return self._repairs.record_inferred(spec.number, found)
+        if not isinstance(found, Hit):
+            return found
+        search = Search(examples, task.frame.labels, self._budget, task.options, rest)
+        return RankedReadings.of_single(search, found.extractor)
+
+    def _follow(
+        self, spec: RuleSpec, ranked: RankedReadings | None, names: Sequence[str], examples: Sequence[Example]
+    ) -> None:
+        wanted = self._task.options.follow
+        if wanted and spec.number <= len(wanted.rules):
+            extractor = wanted.rules[spec.number - 1].extractor
+            self._followed.append(follow_rule(spec, extractor, ranked, names, examples, self._task))
+
+    def _accept(self, spec: RuleSpec, ranked: RankedReadings, names: tuple[str, ...]) -> None:
+        rule = Rule(ranked.extractor, spec.action, spec.label)
+        self._learned.append(RuleOutcome(rule, ranked, names))
+        if not self._question:
+            declined = {a.asset for a in self._task.answers if a.rule == spec.number and a.select is None}
+            self._question = choose_question(spec.number, ranked, names, self._repairs.trust, declined)
+        self._replays.advance(spec.number, rule, last=spec.number == len(self._task.rules))
+
+    def _finish(self) -> LearningOutcome:
+        task, program = self._task, self._program()
+        verify(program, task.demos, task.templates)
+        known = [(learned.readings, learned.names) for learned in self._learned]
+        hint, sample = suggest_demonstration(known), select_sample(known, self._repairs.trust)
+        if self._question:
+            return Ambiguous(
+                program=program, question=self._question, hint=hint, sample=sample, **self._common_fields()
+            )
+        settled = bool(self._replays.others) and all(learned.readings.settled for learned in self._learned)
+        return Found(program=program, settled=settled, hint=hint, sample=sample, **self._common_fields())
+
+    def _propose_repairs(self) -> LearningOutcome:
+        return NeedsRepair(repairs=self._repairs.repairs, proposed=self._program(), **self._common_fields())
+
+    def _fail(self, spec: RuleSpec, miss: Miss, examples: Sequence[Example]) -> LearningOutcome:
+        nearest, repairs = _to_nearest(spec.number, miss.nearest), self._repairs.repairs
+        if repairs:
+            return NeedsRepair(repairs=repairs, nearest=nearest, **self._common_fields())
+        answered = self._replays.assets_with_answers(spec.number)
+        return NoProgram(
+            why=miss.why,
+            nearest=nearest,
+            advice=give_advice(miss.nearest, examples, answered),
+            suggested=self._suggest_orientation(),
+            **self._common_fields(),
+        )
+
+    def _suggest_orientation(self) -> OrientationSuggestion | None:
+        task = self._task
+        try:
+            return suggest_orientation(
+                task.demos,
+                task.rules,
+                task.frame,
+                task.templates,
+                replace(task.options, max_size=min(task.options.max_size, PLAIN_SIZE)),
+                self._budget,
+                None,
+                list(task.batch.values()),
+            )
+        except (OutOfTime, MeshForgeError):
+            return None
+
+    def _program(self) -> Program:
+        rules = tuple(learned.rule for learned in self._learned)
+        return replace(self._task.frame, rules=rules)
+
+    def _record_effort(self, spec: RuleSpec, tried: SearchEffort) -> None:
+        self._tried = [*self._tried[: spec.number - 1], tried]
+
+    def _common_fields(self) -> _OutcomeFields:
+        elapsed = self._budget.elapsed
+        return {
+            "rules": tuple(learned.rule for learned in self._learned),
+            "readings": tuple(
+                reading
+                for number, learned in enumerate(self._learned, 1)
+                for reading in _list_readings(number, learned.readings, learned.names)
+            ),
+            "tried": tuple(self._tried),
+            "seconds": {"search": self._searching, "replay": elapsed - self._searching},
+            "stale": self._replays.stale,
+            "followed": tuple(self._followed),
+        }
+
+
+def _list_readings(rule: int, ranked: RankedReadings, names: Sequence[str]) -> Iterator[Reading]:
+    for place, (term, belief) in enumerate(zip(ranked.terms, ranked.beliefs, strict=True)):
+        differs = tuple(names[k] for k in ranked.differences(place))
+        yield Reading(reading_id(rule, place), rule, term.extractor, belief, differs)
+
+
+def _to_nearest(rule: int, miss: NearestExtractor) -> Nearest:
+    return Nearest(rule, miss.extractor, miss.asset, miss.extra, miss.missing)
+
+
+def verify(program: Program, demos: Sequence[Demonstration], templates: Mapping[str, Template]) -> None:
+    """Raises AssertionError, an error of ours, where the program selects something else than was shown.
+
+    Raises ProgramError where it cannot run: it asks for labels, and a demonstrated mesh has none.
+    """
+    made_of = tuple(templates[name].digest for name in program.templates if name in templates)
+    for name, demo in name_demonstrations(demos):
+        key = ("verified", str(program), made_of, demo.steps)
+        memoize(demo.mesh, key, bool, partial(_check_demonstration, program, demo, templates, name))
+
+
+def _check_demonstration(program: Program, demo: Demonstration, templates: Mapping[str, Template], name: str) -> bool:
+    try:
+        trace = program.run(demo.mesh, templates).trace
+    except MeshForgeError as error:
+        raise error.at(name) from None
+    for done in trace:
+        step = demo.step(done.rule)
+        if step and step.select != frozenset(done.selected):
+            raise AssertionError(
+                f"the learned rule {done.rule} selects {sorted(done.selected)} on {name}, "
+                f"not {sorted(step.select or ())} as was shown"
+            )
+    return True

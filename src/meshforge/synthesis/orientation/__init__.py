@@ -1,0 +1,1 @@
+"""Which orientation makes the rules learnable, or their extractors smaller."""

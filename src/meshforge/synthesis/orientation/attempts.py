@@ -1,0 +1,232 @@
+"""Learning tried in one frame after another: how far each comes, and what frames have in common, done once."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from meshforge.common import MeshForgeError
+from meshforge.language import (
+    All,
+    BaseExtractor,
+    Extractor,
+    Geo,
+    Is,
+    Orient,
+    Program,
+    Rule,
+    Template,
+    orient_mesh,
+    select_mask,
+    size_of,
+)
+from meshforge.symbolic import NEAR_MISS, SymbolicMesh
+from meshforge.synthesis.demonstration import Demonstration, Example, RuleSpec, name_demonstrations
+from meshforge.synthesis.options import Layers, Options, OutOfTime, TimeBudget
+from meshforge.synthesis.replay import Replay, example_of
+from meshforge.synthesis.replay import advance as advanced
+from meshforge.synthesis.search.observation_table import HullTable
+from meshforge.synthesis.search.smallest import Hit, Search, Unfinished
+from meshforge.synthesis.search.terms import enumerate_leaves
+
+Signature = tuple[bytes, bool]
+"""Which leaf extractors select a hull, and whether it was selected."""
+
+_MAX_STRETCH = 2.0
+"""No turn makes the diagonal of a mesh longer than 3 ** 0.5 times, so no contact distance either."""
+
+
+class OrientationSearch:
+    """The rules to be learned, and the attempts to learn them in the frames tried so far.
+
+    floors: nodes that each rule needs in whatever frame.
+    """
+
+    def __init__(
+        self,
+        demos: Sequence[Demonstration],
+        rules: Sequence[RuleSpec],
+        frame: Program,
+        templates: Mapping[str, Template],
+        options: Options,
+        budget: TimeBudget,
+        sizes: Sequence[int] | None,
+    ) -> None:
+        self.rules = tuple(rules)
+        self._closed = all(demo.step(rule.number) for demo in demos for rule in rules)
+        self.floors = [min(nodes, 2) if self._closed else 1 for nodes in sizes or [1] * len(rules)]
+        self._frame, self._templates, self._options, self._budget = frame, templates, options, budget
+        self._turners = [
+            (name, demo, MeshTurner(demo.mesh, frame.contact)) for name, demo in name_demonstrations(demos)
+        ]
+        self._by_orient: dict[Orient, FrameAttempt | None] = {}
+        self._by_turns: dict[tuple[bytes, ...], FrameAttempt] = {}
+        self._extractors: dict[frozenset[Signature], Extractor] = {}
+        self._none_up_to: dict[frozenset[Signature], int] = {}
+
+    def attempt(self, orient: Orient) -> FrameAttempt | None:
+        """Learning in the frame of a directive, as far as it came; None where it fails on a demonstrated mesh."""
+        if orient not in self._by_orient:
+            self._budget.check()
+            self._by_orient[orient] = self._begin(orient)
+        return self._by_orient[orient]
+
+    def _begin(self, orient: Orient) -> FrameAttempt | None:
+        """Directives that turn every mesh alike share one attempt."""
+        try:
+            turned = [(name, demo, *turning.turn(orient)) for name, demo, turning in self._turners]
+        except MeshForgeError:
+            return None
+        turns = tuple(turn for *_, turn in turned)
+        if turns not in self._by_turns:
+            self._by_turns[turns] = FrameAttempt(self, [Replay(name, demo, mesh) for name, demo, mesh, _ in turned])
+        return self._by_turns[turns]
+
+    def analyze(self, rule: RuleSpec, replays: Sequence[Replay]) -> RuleInFrame:
+        """The next rule of some replays. Raises MeshForgeError where what was shown cannot be done."""
+        examples = [shown for replay in replays if (shown := example_of(replay, rule))]
+        found = analyze_rule(examples, self._frame.labels, self._options.layers, self._options.geo_extremity)
+        if not found.base and self._closed:  # bases select the same in every frame, unless open steps differ
+            self.floors[rule.number - 1] = 2
+        return found
+
+    def find_smallest(self, rule: RuleInFrame, most: int) -> Extractor | None:
+        """The extractor that learning finds, if it has at most that many nodes. Raises OutOfTime."""
+        if rule.base or rule.strays or most < rule.least:
+            return rule.base
+        if rule.signatures not in self._extractors and self._none_up_to.get(rule.signatures, 0) < most:
+            self._search(rule, most)
+        found = self._extractors.get(rule.signatures)
+        return found if found and size_of(found) <= most else None
+
+    def _search(self, rule: RuleInFrame, most: int) -> None:
+        options = replace(self._options, max_size=most)
+        answer = Search(rule.examples, self._frame.labels, self._budget, options).run()
+        if isinstance(answer, Unfinished):
+            raise OutOfTime
+        if isinstance(answer, Hit):
+            self._extractors[rule.signatures] = answer.extractor
+        else:
+            self._none_up_to[rule.signatures] = most
+
+    def advance(self, replays: Sequence[Replay], rule: RuleSpec, extractor: Extractor) -> list[Replay]:
+        """The replays after one more rule. Raises MeshForgeError where its action cannot be done."""
+        done = Rule(extractor, rule.action, rule.label)
+        return [advanced(replay, rule.number, done, self._templates, self._frame.extremity) for replay in replays]
+
+
+class FrameAttempt:
+    """One frame's rules, learned one by one, each with its smallest extractor.
+
+    sizes: nodes of those learned so far; strays: hulls that no extractor of the next rule can get right.
+    """
+
+    def __init__(self, search: OrientationSearch, replays: Sequence[Replay]) -> None:
+        self._search, self._replays = search, list(replays)
+        self._next: RuleInFrame | None = None
+        self.sizes: list[int] = []
+        self.strays = 0
+        self._over = False
+
+    @property
+    def is_done(self) -> bool:
+        """Whether every rule has an extractor."""
+        return len(self.sizes) == len(self._search.rules)
+
+    def learn(self, limit: int, most: int) -> bool:
+        """Learn on; whether every rule has an extractor, of at most `limit` nodes in all and `most` each."""
+        while not self._over and not self.is_done:
+            others = sum(self._search.floors[len(self.sizes) + 1 :])
+            room = min(most, limit - sum(self.sizes) - others)
+            if room < self._search.floors[len(self.sizes)] or not self._learn_next(room):
+                break
+        return self.is_done and sum(self.sizes) <= limit
+
+    def _learn_next(self, most: int) -> bool:
+        """Whether the next rule has an extractor of at most so many nodes; if so, it is applied."""
+        rule = self._search.rules[len(self.sizes)]
+        try:
+            self._next = self._next or self._search.analyze(rule, self._replays)
+            extractor = self._search.find_smallest(self._next, most)
+            if extractor:
+                self._apply(extractor)
+            elif self._next.strays:
+                self.strays = self._next.strays
+                self._stop()
+        except MeshForgeError:  # what was shown cannot be done in this frame
+            self._stop()
+            return False
+        return extractor is not None
+
+    def _apply(self, extractor: Extractor) -> None:
+        rule, self._next = self._search.rules[len(self.sizes)], None
+        self._replays = self._search.advance(self._replays, rule, extractor)
+        self.sizes.append(size_of(extractor))
+
+    def _stop(self) -> None:
+        self._over, self._next, self._replays = True, None, []  # there may be hundreds of attempts
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class RuleInFrame:
+    """What the demonstrations say about a rule in one frame.
+
+    base: a base that selects what was shown; it does so in every frame, so nothing needs to be searched for.
+    signatures: of all hulls; rules with equal signatures have the same extractors.
+    strays: how many hulls any extractor takes or leaves wrongly, since others of their signature were not or were.
+    least: an extractor has at least that many nodes.
+    """
+
+    examples: tuple[Example, ...]
+    base: BaseExtractor | None
+    signatures: frozenset[Signature] = frozenset()
+    strays: int = 0
+    least: int = 1
+
+
+def analyze_rule(
+    examples: Sequence[Example], vocabulary: Sequence[str], layers: Layers, extremity: float
+) -> RuleInFrame:
+    """A rule as it is met on some examples."""
+    bases: list[BaseExtractor] = [*map(Is, vocabulary), All()]
+    for base in bases:
+        if all(select_mask(base, example.mesh) == example.selection for example in examples):
+            return RuleInFrame(tuple(examples), base)
+    chosen = enumerate_leaves(vocabulary, layers)
+    table = HullTable([example.mesh for example in examples]).table(chosen, extremity)
+    shown = [bool(e.selection >> index & 1) for e in examples for index in range(len(e.mesh.hulls))]
+    fits = (table == np.array(shown)).all(axis=1)
+    least = 2 if any(isinstance(chosen[row], Geo) for row in np.flatnonzero(fits)) else 3
+    columns = [column.tobytes() for column in np.packbits(table.T, axis=1)]
+    seen = Counter(zip(columns, shown, strict=True))
+    return RuleInFrame(tuple(examples), None, frozenset(seen), _count_strays(seen), least)
+
+
+def _count_strays(seen: Counter[Signature]) -> int:
+    return sum(min(count, seen[signature, False]) for (signature, selected), count in seen.items() if selected)
+
+
+class MeshTurner:
+    """One mesh as the first rule sees it under any directive; contact: the program's epsilon, None keeps the mesh's.
+
+    Does what `to_canonical_frame` does, but measures the distances, which no turn changes, only once.
+    """
+
+    def __init__(self, mesh: SymbolicMesh, contact: float | None) -> None:
+        epsilon = mesh.epsilon if contact is None else contact
+        self._mesh = replace(mesh, epsilon=epsilon)
+        self._wide = replace(mesh, epsilon=epsilon * _MAX_STRETCH, scale=None)
+
+    def turn(self, orient: Orient | None) -> tuple[SymbolicMesh, bytes]:
+        """The mesh in the frame of a directive, and a key that turns have in common when they are the same.
+
+        Raises ProgramError where the orientation fails.
+        """
+        oriented, pose = orient_mesh(self._mesh, orient)
+        staged = replace(oriented, scale=oriented.diagonal)
+        reach = staged.contact_distance * NEAR_MISS
+        staged.set_known_graph({pair: gap for pair, gap in self._wide.graph.items() if gap <= reach})
+        return staged, (pose.rotation.round(9) + 0.0).tobytes()

@@ -1,0 +1,186 @@
+"""The readings of one rule, ranked: which one the program takes, where the others differ, and the question that
+would settle most of it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from meshforge.geometry import Floats
+from meshforge.language import Extractor
+from meshforge.synthesis.readings.belief import choose_reading, compute_beliefs, count_idle, measure_evidence
+from meshforge.synthesis.readings.enumeration import ConsistentTerms
+from meshforge.synthesis.search.smallest import Search
+from meshforge.synthesis.search.terms import Term
+
+BELIEVABLE = 0.005
+"""Readings below this belief are listed, but neither asked about nor able to unsettle a result."""
+MAX_COMPARED = 64
+"""At most so many readings are compared with each other."""
+
+SAMPLE_SEEN = 12
+"""So many results a person looks at before accepting a program (paper, protocol): what differs on many assets is seen,
+what differs on few is likely not."""
+UNSEEN_COST = 1.0
+"""What a wrong program that is accepted costs above one that is seen, in demonstrations; that one costs one. Little,
+since the results that are looked at are chosen so that they show it."""
+QUESTION_PRICE = 0.4
+"""What a question must spare to be asked, in demonstrations. Measured on the calibration set of the benchmark
+(`script/bench tuning`), where demonstrators look at the results that are proposed: all of 120 sessions end right with
+any price; demonstrations plus answers are 2.2 a task, 1.9 at a price of 0.5, 2.9 at 0.25, a person's time as modelled
+61, 63 and 51 s."""
+MAX_CHOICES = 3
+"""A person compares so many pictures at once; "neither" stands for all other readings."""
+
+_NOTHING = 1e-9  # less harm than this is none
+
+
+class RankedReadings:
+    """Consistent terms over the field of a search: first the one that the rule takes, then the more believable.
+
+    refused: places of meshes, and hulls on them that a person said are not what is meant, as bit sets.
+    """
+
+    def __init__(self, search: Search, consistent: ConsistentTerms, refused: Sequence[tuple[int, int]] = ()) -> None:
+        terms, field = consistent.terms, search.field
+        many = len(terms) > 1
+        found = measure_evidence(field, search.selections, [term.bits for term in terms]) if many else ()
+        assets = len(field.meshes) - len(search.examples)
+        against = [sum(field.on(term.bits, mesh) == mask for mesh, mask in refused) for term in terms]
+        shown = (1 << search.width) - 1
+        idle = [count_idle(term, shown, field) for term in terms]
+        shares = compute_beliefs(terms, found, shown, assets, against, idle) if many else (1.0,)
+        head = choose_reading(terms, shares)
+        order = sorted(range(len(terms)), key=lambda k: (k != head, -shares[k], k))
+        self.field, self.consistent, self.examples = field, consistent, search.examples
+        self.terms: tuple[Term, ...] = tuple(terms[k] for k in order)
+        self.beliefs = tuple(shares[k] for k in order)
+
+    @staticmethod
+    def of_single(search: Search, extractor: Extractor) -> RankedReadings:
+        """One extractor, whatever else is consistent."""
+        term = search.field.term(extractor)
+        return RankedReadings(search, ConsistentTerms((term,), term.size, False))
+
+    @property
+    def extractor(self) -> Extractor:
+        return self.terms[0].extractor
+
+    @property
+    def believable(self) -> Sequence[int]:
+        """Places of the readings that are to be reckoned with."""
+        return range(1 + sum(belief >= BELIEVABLE for belief in self.beliefs[1:MAX_COMPARED]))
+
+    @property
+    def compared(self) -> Sequence[int]:
+        """Places of the readings that are compared with the one that is taken."""
+        return range(1, min(len(self.terms), MAX_COMPARED))
+
+    @cached_property
+    def question_value(self) -> QuestionValue:
+        rows = [[self.terms[k].bits & present for present in self.field.present] for k in self.believable]
+        return QuestionValue(rows, [self.beliefs[k] for k in self.believable])
+
+    @property
+    def settled(self) -> bool:
+        """Whether all believable readings do the same on the whole batch; never where not all are known."""
+        return self.consistent.complete and len(self.believable) == 1
+
+    def differences(self, reading: int) -> tuple[int, ...]:
+        """Places of the meshes on which a reading selects something else than the one that is taken."""
+        other = self.terms[reading].bits ^ self.terms[0].bits
+        return tuple(k for k, present in enumerate(self.field.present) if other & present)
+
+    def best_question(self, trust: Mapping[int, float]) -> QuestionSplit | None:
+        """The best question about an asset of the batch.
+
+        trust: places of the meshes that it may be about, with how much an answer about each is worth.
+        """
+        return self.question_value.best_question(
+            {place: worth for place, worth in trust.items() if place >= len(self.examples)}
+        )
+
+
+@dataclass(frozen=True, slots=True)
+class QuestionSplit:
+    """An asset on which readings differ.
+
+    asset: its place; choices: places of the most believed reading of each choice, the most believed choice first; what
+    the program does is one of them.
+    left: the expected harm that stays after the answer; spared: what the answer is worth, in demonstrations.
+    """
+
+    asset: int
+    choices: tuple[int, ...]
+    left: float
+    spared: float
+
+    @property
+    def is_worth_asking(self) -> bool:
+        return self.spared > QUESTION_PRICE
+
+
+class QuestionValue:
+    """Some readings of one rule over the assets of a batch, of which the first is the one that the program has.
+
+    selections: for each reading, what it selects on each asset, in any form that can be compared; beliefs: of each.
+    """
+
+    def __init__(self, selections: Sequence[Sequence[object]], beliefs: Sequence[float]) -> None:
+        columns = [_number(column) for column in zip(*selections, strict=True)]
+        self._kinds = np.array(columns, dtype=np.int64).reshape(-1, len(beliefs)).T
+        self._beliefs = np.array(beliefs)
+        self.differs = (self._kinds[:, None] != self._kinds[None]).mean(axis=2) if columns else None
+        self._costs = None if self.differs is None else _wrong_costs(self.differs)
+
+    @property
+    def harm(self) -> float:
+        """The expected share of assets that the program edits wrongly in this rule."""
+        return 0.0 if self.differs is None else float(self._beliefs @ self.differs[0])
+
+    def best_question(self, trust: Mapping[int, float]) -> QuestionSplit | None:
+        """The question that spares most; of equals, the first.
+
+        trust: the assets that can be asked about, with how much an answer there is worth: where labels are wrong, what
+        is right to say is what no reading does.
+        """
+        splits = (split for asset in trust if (split := self._split(asset)))
+        return min(splits, key=lambda one: (-round(one.spared * trust[one.asset], 12), one.asset), default=None)
+
+    def gains(self, first: int) -> dict[int, float]:
+        """How much harm an answer about each asset from `first` on would spare, where there is any."""
+        assets = range(first, self._kinds.shape[1])
+        found = {asset: self.harm - split.left for asset in assets if (split := self._split(asset))}
+        return {asset: gain for asset, gain in found.items() if gain > _NOTHING}
+
+    def _split(self, asset: int) -> QuestionSplit | None:
+        assert self.differs is not None
+        assert self._costs is not None
+        kinds = self._kinds[:, asset]
+        if not kinds.any():
+            return None
+        choices_by_belief, left, spared = [], 0.0, float(self._beliefs @ self._costs[0])
+        for kind in range(int(kinds.max()) + 1):
+            part = np.flatnonzero(kinds == kind)
+            heads = part[np.argmax(self._beliefs[part])] if kind else 0
+            left += float(self._beliefs[part] @ self.differs[heads][part])
+            spared -= float(self._beliefs[part] @ self._costs[heads][part])
+            choices_by_belief.append((-float(self._beliefs[part].sum()), int(heads)))
+        ours, *others = choices_by_belief
+        choices = sorted([ours, *sorted(others)[: MAX_CHOICES - 1]])
+        return QuestionSplit(asset, tuple(head for _, head in choices), left, spared)
+
+
+def _wrong_costs(differs: Floats) -> Floats:
+    """What it costs to have one reading where another is meant, in demonstrations; differs: shares of assets."""
+    costs: Floats = np.where(differs > 0, 1 + UNSEEN_COST * (1 - differs) ** SAMPLE_SEEN, 0.0)
+    return costs
+
+
+def _number(column: Sequence[object]) -> list[int]:
+    """Equal entries get equal numbers, the first 0, the next new one 1."""
+    numbers: dict[object, int] = {}
+    return [numbers.setdefault(entry, len(numbers)) for entry in column]

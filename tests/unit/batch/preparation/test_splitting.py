@@ -1,0 +1,139 @@
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from meshforge.batch import Preparation, apply_preparation, cut_hull, split_hull
+from meshforge.common import AssetError, GeometryError
+from meshforge.formats import load, read, save
+from meshforge.symbolic import SymbolicMesh
+from tests.unit.batch.preparation.samples import QUICK, stand, write_boxes, write_stand
+from tests.urdf_sample import corner_obj
+
+NONE = Preparation()
+
+
+def test_a_cut_hull_becomes_two_in_its_place(tmp_path: Path) -> None:
+    asset = read(write_boxes(tmp_path / "row.obj"))
+    done = cut_hull(asset, NONE, "geom0#1", (1.5, 0, 0), (1, 0, 0))
+    ready = apply_preparation(asset, done)
+    assert [geom.name for geom in ready.geoms] == ["geom0#0", "geom0#1#0", "geom0#1#1", "geom0#2"]
+    assert [geom.shape.volume for geom in ready.geoms] == pytest.approx([1, 0.5, 1.5, 1])
+    assert [geom.parent for geom in ready.geoms] == [None, "geom0#1", "geom0#1", None]
+
+
+def test_the_side_that_the_direction_shows_is_the_second(tmp_path: Path) -> None:
+    asset = read(write_boxes(tmp_path / "row.obj"))
+    ready = apply_preparation(asset, cut_hull(asset, NONE, "geom0#1", (1.5, 0, 0), (-1, 0, 0)))
+    assert [geom.shape.volume for geom in ready.geoms][1:3] == pytest.approx([1.5, 0.5])
+
+
+def test_parts_can_be_cut_again_and_inherit_from_the_hull_of_the_file(tmp_path: Path) -> None:
+    asset = read(write_boxes(tmp_path / "row.obj"))
+    once = cut_hull(asset, NONE, "geom0#1", (2, 0, 0), (1, 0, 0))
+    twice = cut_hull(asset, once, "geom0#1#1", (0, 0.5, 0), (0, 1, 0))
+    names = {geom.name: geom.parent for geom in apply_preparation(asset, twice).geoms if geom.parent}
+    assert names == {f"geom0#1#{k}": "geom0#1" for k in ("0", "1#0", "1#1")}
+    assert [geom.name for geom in apply_preparation(asset, twice.with_only(twice.steps[:1])).geoms if geom.parent] == [
+        "geom0#1#0",
+        "geom0#1#1",
+    ]
+
+
+def test_a_native_box_of_a_urdf_is_cut_into_meshes_with_its_attributes(tmp_path: Path) -> None:
+    asset = read(write_stand(tmp_path / "in"))
+    done = cut_hull(asset, NONE, "frame/foot", (0, 0, -1), (1, 1, 0))
+    saved = save(SymbolicMesh.of(apply_preparation(asset, done)), tmp_path / "out/stand.urdf")
+    back = {hull.name: hull.volume for hull in load(saved.path).hulls}
+    assert back == {"frame/foot#0": pytest.approx(2.0), "frame/foot#1": pytest.approx(2.0)}
+    assert done.steps[0].replaced[0].told == "2 hulls"
+
+
+def test_hulls_of_a_decomposition_inherit_from_the_piece(tmp_path: Path) -> None:
+    asset, preparation = stand(tmp_path)
+    done = cut_hull(asset, preparation, "frame/body#0", (0, 0, 0.5), (0, 0, 1))
+    bare = cut_hull(asset, done, "cover/geom0#0", (0, 0, 2.25), (0, 0, 1))
+    parents = {geom.name: geom.parent for geom in apply_preparation(asset, bare).geoms}
+    assert parents["frame/body#0#1"] == "frame/body"
+    assert parents["cover/geom0#0#1"] is None
+
+
+@pytest.mark.parametrize("at", [(-1, 0, 0), (1, 0, 0), (3, 0, 0)])
+def test_a_plane_beside_the_hull_is_refused_with_its_box(tmp_path: Path, at: tuple[float, float, float]) -> None:
+    asset = read(write_boxes(tmp_path / "row.obj"))
+    with pytest.raises(GeometryError, match=r"from \(1, 0, 0\) to \(3, 1, 1\)"):
+        cut_hull(asset, NONE, "geom0#1", at, (1, 0, 0))
+
+
+def test_what_is_no_hull_and_no_direction_is_refused(tmp_path: Path) -> None:
+    asset = read(write_boxes(tmp_path / "row.obj"))
+    with pytest.raises(GeometryError, match="Did you mean 'geom0#1'"):
+        cut_hull(asset, NONE, "geom0#11", (0, 0, 0), (1, 0, 0))
+    for across in ((0, 0, 0), (float("nan"), 0, 0)):
+        with pytest.raises(GeometryError, match="not zero"):
+            cut_hull(asset, NONE, "geom0#1", (2, 0, 0), across)
+
+
+def test_a_hull_is_split_by_what_its_body_shows(tmp_path: Path) -> None:
+    (tmp_path / "corner.obj").write_text(corner_obj())
+    path = tmp_path / "crude.urdf"
+    shown = '<visual><geometry><mesh filename="corner.obj"/></geometry></visual>'
+    crude = '<collision><origin xyz="1.5 1.5 0.5"/><geometry><box size="3 3 1"/></geometry></collision>'
+    path.write_text(f'<robot name="r"><link name="a">{shown}{crude}</link></robot>')
+    asset = read(path)
+    done = split_hull(asset, NONE, "a/geom0", QUICK)
+    parts = apply_preparation(asset, done).geoms
+    assert [geom.name for geom in parts] == ["a/geom0#0", "a/geom0#1"]
+    assert sum(geom.shape.volume for geom in parts) == pytest.approx(5.0, rel=0.02)
+    assert done.steps[0].replaced[0].told == "2 hulls; 44% of its volume is in no part"
+    box = asset.geoms[0].shape.aabb
+    assert all((g.shape.aabb.min >= box.min - 1e-9).all() and (g.shape.aabb.max <= box.max + 1e-9).all() for g in parts)
+
+
+def test_a_hull_of_an_opaque_piece_is_split_by_that_piece(tmp_path: Path) -> None:
+    path = tmp_path / "corner.obj"
+    path.write_text(corner_obj())
+    asset = read(path)
+    crude = cut_hull(asset, _as_one_hull(tmp_path), "geom0#0", (0, 0, 0.5), (0, 0, 1))
+    done = split_hull(asset, crude, "geom0#0#1", QUICK)
+    parts = [geom for geom in apply_preparation(asset, done).geoms if geom.name.startswith("geom0#0#1#")]
+    assert len(parts) == 2 and sum(g.shape.volume for g in parts) == pytest.approx(2.5, rel=0.02)
+
+
+def _as_one_hull(folder: Path) -> Preparation:
+    from meshforge.batch import decompose_asset
+    from meshforge.geometry.decomposition.settings import CoacdSettings
+
+    coarse = CoacdSettings(threshold=1, resolution=200, mcts_iterations=20, mcts_nodes=8)
+    done = decompose_asset(read(folder / "corner.obj"), Preparation(), coarse)
+    assert len(done.preparation.hull_digests) == 1
+    return done.preparation
+
+
+def test_a_split_that_divides_nothing_is_refused(tmp_path: Path) -> None:
+    asset = read(write_boxes(tmp_path / "row.obj"))
+    with pytest.raises(GeometryError, match="shows nothing"):
+        split_hull(asset, NONE, "geom0#1", QUICK)
+    stand_asset = read(write_stand(tmp_path / "stand"))
+    with pytest.raises(GeometryError, match="nothing of what its body shows lies in it"):
+        split_hull(stand_asset, NONE, "frame/foot", QUICK)
+
+
+def test_a_split_hull_that_changed_since_is_noticed(tmp_path: Path) -> None:
+    path = write_boxes(tmp_path / "row.obj")
+    asset = read(path)
+    done = cut_hull(asset, NONE, "geom0#1", (2, 0, 0), (1, 0, 0))
+    path.write_text(path.read_text().replace("v 3.0", "v 3.5"))
+    with pytest.raises(AssetError, match="geom0#1 has another geometry now"):
+        apply_preparation(read(path), done)
+
+
+def test_vertices_of_the_hull_stay_bit_for_bit(tmp_path: Path) -> None:
+    asset = read(write_boxes(tmp_path / "row.obj"))
+    whole = next(geom.shape for geom in asset.geoms if geom.name == "geom0#1")
+    parts = apply_preparation(asset, cut_hull(asset, NONE, "geom0#1", (2, 0.3, 0.4), (0.3, 0.2, 0.1))).geoms[1:3]
+    corners = {row.tobytes() for part in parts for row in part.shape.vertices + 0.0}
+    assert {row.tobytes() for row in whole.vertices + 0.0} <= corners
+    assert np.isclose(sum(part.shape.volume for part in parts), whole.volume)

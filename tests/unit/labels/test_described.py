@@ -1,0 +1,84 @@
+"""Descriptions of hulls: the same part, however it lies and whatever its mesh is called, is described alike."""
+
+from __future__ import annotations
+
+import tracemalloc
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from benchmark.assets import samples
+from meshforge.geometry import Aabb, Box, Floats, Polytope, Pose
+from meshforge.labels.propagation.describe import ROW_WIDTH, MeshDescriber
+from meshforge.labels.propagation.propagate import metric_weights
+from meshforge.labels.propagation.surroundings import points_inside, points_on_surface
+from meshforge.symbolic import Hull, SymbolicMesh
+from tests.synthesis_boxes import boxes
+
+CHAIR = samples("chair", calibration=True)[0].mesh
+
+
+def described(mesh: SymbolicMesh) -> Floats:
+    return MeshDescriber(mesh).describe().rows
+
+
+def test_every_hull_has_a_row_of_finite_numbers_as_wide_as_the_metric() -> None:
+    rows = described(CHAIR)
+    assert rows.shape == (len(CHAIR.hulls), ROW_WIDTH) == (len(CHAIR.hulls), len(metric_weights()))
+    assert np.isfinite(rows).all()
+    assert (metric_weights() > 0).all()
+
+
+def test_no_hulls_have_no_rows_and_one_alone_has_one() -> None:
+    assert described(boxes()).shape == (0, ROW_WIDTH)
+    alone = described(SymbolicMesh(CHAIR.hulls[:1]))
+    assert alone.shape == (1, ROW_WIDTH)
+    assert np.isfinite(alone).all()
+
+
+@pytest.mark.slow
+@given(yaw=st.floats(-3.0, 3.0), x=st.floats(-100.0, 100.0), scale=st.sampled_from([0.001, 1.0, 40.0]))
+def test_neither_place_nor_size_nor_yaw_changes_a_row(yaw: float, x: float, scale: float) -> None:
+    pose = Pose.from_rpy((x * scale, -x * scale, x * scale), (0.0, 0.0, yaw))
+    shapes = (Polytope(pose.apply(hull.vertices * scale), hull.faces) for hull in CHAIR.hulls)
+    moved = [Hull(hull.name, "body", shape, hull.annotation) for hull, shape in zip(CHAIR.hulls, shapes, strict=True)]
+    far = np.abs(described(SymbolicMesh(tuple(moved), scale=CHAIR.diagonal * scale)) - described(CHAIR))
+    assert np.median(far) < 1e-6
+    assert far @ metric_weights() == pytest.approx(0.0, abs=0.25)  # a point may change its ring by a rounding
+
+
+def test_the_order_of_hulls_does_not_matter() -> None:
+    turned = SymbolicMesh(CHAIR.hulls[::-1])
+    assert described(turned)[::-1] == pytest.approx(described(CHAIR), abs=1e-9)
+
+
+@pytest.mark.slow
+def test_very_many_hulls_are_described_in_bounded_memory() -> None:
+    rows = [
+        Hull(
+            f"h{k}",
+            "body",
+            Box.of_bounds(Aabb(np.array([k % 50, k // 50, 0.0]), np.array([k % 50 + 0.5, k // 50 + 1.0, 1.0]))),
+        )
+        for k in range(1500)
+    ]
+    tracemalloc.start()
+    found = described(SymbolicMesh(tuple(rows)))
+    _, most = tracemalloc.get_traced_memory()
+    tracemalloc.stop()
+    assert np.isfinite(found).all()
+    assert most < 700e6  # all points at once would take 2 GB
+
+
+def test_points_are_where_they_should_be() -> None:
+    hull = CHAIR.hulls[0]
+    first, second, third = (hull.vertices[hull.faces[:, k]] for k in range(3))
+    normals = np.cross(second - first, third - first)
+    reach = (normals * first).sum(axis=1)
+    within = points_inside(hull.vertices, np.zeros(2), 8)
+    assert (within @ normals.T <= reach + 1e-12).all()
+    on = points_on_surface(hull.vertices[hull.faces], 500)
+    assert (on @ normals.T <= reach + 1e-9).all()
+    assert ((np.abs(on @ normals.T - reach) / np.linalg.norm(normals, axis=1)).min(axis=1) < 1e-9).all()

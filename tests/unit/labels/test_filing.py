@@ -1,0 +1,323 @@
+"""Labels out of files of other tools: segmented points and meshes, and PartNet's semantics."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from meshforge.common import AssetError, MeshForgeError, ProjectError, UsageError
+from meshforge.formats import read
+from meshforge.geometry import Floats
+from meshforge.labels import LabelFileOptions, LabelOutcome, OfferCache, PointsOptions
+from meshforge.labels.from_files.segments import PointAlignment
+from meshforge.project import Project
+from meshforge.symbolic import Label
+from tests.unit.batch.families import label_of, tree, write_table
+from tests.unit.labels.partnet import HULLS, write_partnet
+from tests.unit.project.tables import FIRST, SECOND, fresh
+
+ASSET = "mobility.urdf"
+VOCABULARY = ("drawer", "door", "handle", "frame")
+NAMES = ("top", "leg", "misc")
+MEANINGS = (("furniture_body", "frame"), ("*knob*", "handle"))
+
+
+def partnet(folder: Path, *vocabulary: str, semantics: str | None = None) -> Project:
+    """A project of one asset, in a folder of its own."""
+    path = write_partnet(folder / "assets", *([semantics] if semantics is not None else []))
+    return Project.create(folder / "p", [path], vocabulary=vocabulary or VOCABULARY)
+
+
+def labels(project: Project, asset: str = ASSET) -> dict[str, tuple[str, float, str]]:
+    return {name: (label.name, label.confidence, label.source) for name, label in project.labels(asset).labels.items()}
+
+
+# PartNet's semantics
+
+
+def test_hulls_are_what_their_links_are_or_what_they_say_of_themselves(tmp_path: Path) -> None:
+    project = partnet(tmp_path)
+    (report,) = project.label_from_files(options=LabelFileOptions(MEANINGS))
+    assert (report.taken, report.unlabelled, report.problems) == (6, 0, ())
+    assert labels(project) == {
+        "link_2/geom0": ("frame", 1.0, "file"),
+        "link_2/geom1": ("frame", 1.0, "file"),
+        "link_0/geom0": ("drawer", 1.0, "file"),
+        "link_0/geom1": ("handle", 0.7, "file"),
+        "link_1/geom0": ("door", 0.7, "file"),
+        "link_1/geom1": ("handle", 1.0, "file"),
+    }
+
+
+def test_what_means_nothing_in_the_vocabulary_is_told_and_left_out(tmp_path: Path) -> None:
+    project = partnet(tmp_path)
+    (report,) = project.label_from_files()
+    assert report == LabelOutcome(
+        ASSET,
+        taken=5,
+        unlabelled=1,
+        problems=("1 hull left out: 'furniture_body' is not in the vocabulary, and no pattern says what it means",),
+    )
+    assert "link_2/geom1" not in labels(project)
+
+
+def test_a_pattern_of_the_settings_says_what_a_semantic_means_or_that_it_means_nothing(tmp_path: Path) -> None:
+    project = partnet(tmp_path)
+    settings = project.layout.settings
+    settings.write_text(f'{settings.read_text()}\n[names]\n"furniture_body" = "frame"\n"*door*" = ""\n')
+    (report,) = project.label_from_files()
+    assert (report.taken, report.unlabelled, report.problems) == (4, 2, ())
+    assert {name for name in HULLS if name not in labels(project)} == {"link_1/geom0", "link_1/geom1"}
+
+
+def test_links_that_are_not_there_are_told(tmp_path: Path) -> None:
+    project = partnet(tmp_path, semantics="link_0 slider drawer\nlink_9 hinge door\n")
+    (report,) = project.label_from_files()
+    assert report.taken == 2 and report.problems == ("there is no link 'link_9'",)
+
+
+def test_semantics_of_another_asset_and_damaged_ones_are_refused(tmp_path: Path) -> None:
+    project = partnet(tmp_path, semantics="link_9 hinge door\n")
+    file = tmp_path / "assets/semantics.txt"
+    assert project.label_from_files() == (LabelOutcome(ASSET, problems=(f"{file}: it lists no link of this asset",)),)
+    file.write_text("link_0 slider\n")
+    (report,) = project.label_from_files()
+    assert "this line has 2 words, not three" in report.problems[0]
+    assert not project.layout.labels(ASSET).exists()
+
+
+def test_a_project_without_a_vocabulary_takes_what_links_are(tmp_path: Path) -> None:
+    project = Project.create(tmp_path / "p", [write_partnet(tmp_path / "assets")])
+    project.label_from_files()
+    assert project.vocabulary == ("drawer", "rotation_door", "furniture_body")
+    assert labels(project)["link_1/geom0"] == ("rotation_door", 1.0, "file")
+
+
+# Segmented points
+
+
+def surface_points(project: Project, asset: str, count: int = 300) -> tuple[Floats, list[str]]:
+    """Points on the hulls of an asset, spread evenly, and the hull of each."""
+    rng = np.random.default_rng(0)
+    points, owner = [], []
+    for geom in read(project.path(asset)).geoms:
+        box, at = geom.shape.aabb, rng.random((count, 3))
+        side = rng.integers(0, 3, count)
+        at[np.arange(count), side] = rng.integers(0, 2, count)
+        points.append(box.min + at * box.size)
+        owner += [geom.name] * count
+    return np.concatenate(points), owner
+
+
+def segmented(project: Project, asset: str, path: Path, **more: object) -> Path:
+    """A file of points on the hulls of a table, as classes in the order of NAMES."""
+    points, owner = surface_points(project, asset)
+    path.parent.mkdir(parents=True, exist_ok=True)
+    arrays = {"points": points, "labels": np.array([NAMES.index(label_of(name)) for name in owner]), **more}
+    np.savez(path, **arrays)  # type: ignore[arg-type]
+    return path
+
+
+def table(folder: Path, *vocabulary: str) -> Project:
+    """A project of one table."""
+    write_table(folder / "assets/t.obj", labels=False)
+    return Project.create(folder / "p", [folder / "assets"], vocabulary=vocabulary)
+
+
+def named(classes: str) -> LabelFileOptions:
+    return LabelFileOptions(reading=PointsOptions(tuple(classes.split(","))))
+
+
+def right(project: Project, asset: str = "t.obj") -> bool:
+    return all(name == label_of(hull) for hull, (name, _, _) in labels(project, asset).items())
+
+
+def test_each_hull_is_what_most_of_its_points_are(tmp_path: Path) -> None:
+    project = table(tmp_path, *NAMES)
+    segmented(project, "t.obj", tmp_path / "assets/t.points.npz", names=NAMES)
+    (report,) = project.label_from_files()
+    assert (report.taken, report.unlabelled, report.problems) == (6, 0, ())
+    assert right(project)
+    assert all(0.5 < sure <= 1.0 and source == "file" for _, sure, source in labels(project, "t.obj").values())
+    (again,) = project.label_from_files()
+    assert (again.taken, again.same) == (0, 6)
+
+
+def test_names_of_classes_come_from_the_user_or_the_file_or_beside_it(tmp_path: Path) -> None:
+    project = table(tmp_path, *NAMES)
+    file = segmented(project, "t.obj", tmp_path / "given.npz")
+    for how in (named("top,leg,misc"), named("vocabulary")):
+        assert project.label_from_files(file, how)[0].problems == () and right(project)
+    (tmp_path / "classes.txt").write_text("leg\ntop\nmisc\n")
+    project.label_from_files(file)
+    assert labels(project, "t.obj")["top"][0] == "leg"
+    (tmp_path / "given.classes.txt").write_text("top\nleg\nmisc\n")
+    project.label_from_files(file)
+    assert right(project)
+
+
+def test_classes_without_names_are_refused_with_the_ways_to_name_them(tmp_path: Path) -> None:
+    project = table(tmp_path, *NAMES)
+    file = segmented(project, "t.obj", tmp_path / "given.npz")
+    (report,) = project.label_from_files(file)
+    assert report.problems == (
+        f"{file}: its classes are numbers, and nothing names them\n"
+        "  Name them in order: --classes drawer,handle,leg, or --classes vocabulary where they are those of the "
+        "vocabulary; or put them beside it, a name a line, in given.classes.txt or classes.txt.",
+    )
+    (report,) = project.label_from_files(file, named("top,leg"))
+    assert report.problems[0].startswith(f"{file}: class 2 has no name\n")
+    with pytest.raises(AssetError, match="nothing names them"):
+        table(tmp_path / "bare").label_from_files(file)
+
+
+def test_classes_mean_labels_as_names_do_and_several_may_mean_one(tmp_path: Path) -> None:
+    project = table(tmp_path, "leg", "top")
+    points, owner = surface_points(project, "t.obj")
+    kinds = {"top": 0, "crumb": 3} | {name: 1 + name.startswith("left") for name in set(owner) - {"top", "crumb"}}
+    file = tmp_path / "given.npz"
+    names = ["board", "right legs", "left_leg", "crumb"]
+    np.savez(file, points=points, labels=[kinds[name] for name in owner], names=names)
+    (report,) = project.label_from_files(file, LabelFileOptions((("board", "top"),)))
+    assert report.problems == ("1 hull left out: 'crumb' is not in the vocabulary, and no pattern says what it means",)
+    assert right(project) and len(labels(project, "t.obj")) == 5
+    sure = {name: sure for name, (_, sure, _) in labels(project, "t.obj").items()}
+    project.label_from_files(file, LabelFileOptions((("board", "top"), ("*leg*", "leg"))))
+    assert all(now > sure[name] for name, (label, now, _) in labels(project, "t.obj").items() if label == "leg")
+
+
+def test_points_without_class_leave_hulls_without_label(tmp_path: Path) -> None:
+    project = table(tmp_path, *NAMES)
+    points, owner = surface_points(project, "t.obj")
+    kinds = [-1 if name == "crumb" else NAMES.index(label_of(name)) for name in owner]
+    np.savez(tmp_path / "given.npz", points=points, labels=kinds, names=NAMES)
+    (report,) = project.label_from_files(tmp_path / "given.npz")
+    assert (report.taken, report.unlabelled, report.problems) == (5, 1, ())
+
+
+def test_points_elsewhere_are_refused_and_taken_when_the_way_is_said(tmp_path: Path) -> None:
+    project = partnet(tmp_path, "link_0", "link_1", "link_2")
+    points, owner = surface_points(project, ASSET)
+    turned = np.column_stack([points[:, 0], points[:, 2], -points[:, 1]]) / 7
+    kinds = [int(name[5]) for name in owner]
+    np.savez(tmp_path / "given.npz", points=turned, labels=kinds)
+    (report,) = project.label_from_files(tmp_path / "given.npz", named("vocabulary"))
+    assert report.taken == 0 and len(report.problems) == 1
+    assert "its points do not lie where the asset does" in report.problems[0]
+    assert report.problems[0].endswith("They would fit with --points-up y --align box.")
+    how = LabelFileOptions(reading=PointsOptions(("vocabulary",), PointAlignment("box", "y")))
+    (report,) = project.label_from_files(tmp_path / "given.npz", how)
+    assert report.taken == 6 and all(hull.startswith(label) for hull, (label, _, _) in labels(project).items())
+
+
+def test_points_that_most_hulls_do_not_hold_are_refused_unless_they_are_to_be_taken(tmp_path: Path) -> None:
+    project = table(tmp_path, *NAMES)
+    box = project.mesh("t.obj").aabb
+    assert box is not None
+    points = box.min + np.random.default_rng(5).random((500, 3)) * box.size
+    np.savez(tmp_path / "given.npz", points=points, labels=np.zeros(500, int), names=["top"])
+    (report,) = project.label_from_files(tmp_path / "given.npz")
+    assert "of its points are in hulls: it may be turned, or of another asset" in report.problems[0]
+    (report,) = project.label_from_files(
+        tmp_path / "given.npz", LabelFileOptions(reading=PointsOptions(placing=PointAlignment("off")))
+    )
+    assert report.taken > 0 and not report.problems
+
+
+def test_faces_of_the_asset_itself_need_no_points(tmp_path: Path) -> None:
+    project = table(tmp_path, *NAMES)
+    faces = np.concatenate(
+        [np.full(len(geom.shape.faces), NAMES.index(label_of(geom.name))) for geom in read(project.path("t.obj")).geoms]
+    )
+    count = project.path("t.obj").read_text().count("\nf ")
+    np.save(tmp_path / "assets/t.points.npy", faces.reshape(count, -1)[:, 0])
+    (report,) = project.label_from_files(options=named("vocabulary"))
+    assert report.taken == 6 and right(project)
+
+
+def test_a_person_is_never_overwritten_and_a_machine_is(tmp_path: Path) -> None:
+    project = table(tmp_path, *NAMES)
+    segmented(project, "t.obj", tmp_path / "assets/t.points.npz", names=NAMES)
+    project.set_labels("t.obj", {"top": "misc"})
+    project.set_labels("t.obj", {"crumb": "leg"}, source="propagated", confidence=0.99)
+    (report,) = project.label_from_files()
+    assert (report.taken, report.kept) == (5, 1)
+    kept = project.labels("t.obj").labels
+    assert kept["top"] == Label("misc") and kept["crumb"].name == "misc" and kept["crumb"].source == "file"
+
+
+# Which file
+
+
+def test_a_labels_file_goes_before_points_and_these_before_semantics(tmp_path: Path) -> None:
+    project = partnet(tmp_path, *VOCABULARY, "leg")
+    points, owner = surface_points(project, ASSET)
+    np.savez(tmp_path / "assets/mobility.points.npz", points=points, labels=np.zeros(len(owner), int), names=["leg"])
+    project.label_from_files()
+    assert {label for label, _, _ in labels(project).values()} == {"leg"}
+    (tmp_path / "assets/mobility.labels.json").write_text(json.dumps({"hulls": {"link_0/geom1": "handle"}}))
+    (report,) = project.label_from_files()
+    assert report.taken == 1 and labels(project)["link_0/geom1"] == ("handle", 1.0, "file")
+
+
+def test_a_folder_mirrors_the_assets_with_files_of_every_kind(tmp_path: Path) -> None:
+    project = fresh(tmp_path)
+    project.set_vocabulary(NAMES)
+    folder = tmp_path / "out"
+    segmented(project, FIRST, folder / "table0/model.npz", names=NAMES)
+    segmented(project, SECOND, folder / "table1/model.points.npz", names=NAMES)
+    reports = project.label_from_files(folder)
+    assert [(report.asset, report.taken) for report in reports] == [(FIRST, 6), (SECOND, 6)]
+    assert right(project, FIRST) and right(project, SECOND)
+
+
+def test_a_folder_mirrors_semantics_too(tmp_path: Path) -> None:
+    project = partnet(tmp_path)
+    (tmp_path / "out").mkdir()
+    (tmp_path / "assets/semantics.txt").rename(tmp_path / "out/semantics.txt")
+    assert project.label_from_files(tmp_path / "out")[0].taken == 5
+
+
+def test_what_cannot_serve_is_refused_before_anything_is_read(tmp_path: Path) -> None:
+    project = fresh(tmp_path)
+    cases: dict[str, tuple[type[MeshForgeError], str]] = {
+        "a.npz": (UsageError, "one file cannot serve 3 assets"),
+        "a.pcd": (UsageError, "this is no kind of file that labels are read from"),
+        "nowhere": (UsageError, "there is no such labels file or folder"),
+        "empty": (ProjectError, "there is no labels file for any asset"),
+    }
+    (tmp_path / "a.npz").touch()
+    (tmp_path / "a.pcd").touch()
+    (tmp_path / "empty").mkdir()
+    before = tree(project.folder)
+    for name, (kind, message) in cases.items():
+        for ask in (project.label_from_files, project.propose_from_files):
+            with pytest.raises(kind, match=message):
+                ask(tmp_path / name)
+    assert tree(project.folder) == before
+
+
+# Offers
+
+
+def test_points_and_semantics_are_offered_until_something_was_taken(tmp_path: Path) -> None:
+    project, offers = partnet(tmp_path), OfferCache()
+    assert offers.of(project).files == (ASSET,)
+    project.set_labels(ASSET, {"link_0/geom0": "drawer"}, source="propagated", confidence=0.6)
+    assert offers.of(project).files == (ASSET,)
+    project.label_from_files()
+    assert offers.of(project).files == ()
+
+
+def test_they_are_not_offered_where_a_person_said_everything(tmp_path: Path) -> None:
+    project = partnet(tmp_path)
+    project.set_labels(ASSET, dict.fromkeys(HULLS, "frame"))
+    assert project.label_offers().files == ()
+
+
+def test_status_advises_to_take_them(tmp_path: Path) -> None:
+    advice = partnet(tmp_path).status(workers=0).next
+    assert advice.command is not None and advice.command.endswith("--with file")

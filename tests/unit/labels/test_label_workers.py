@@ -1,0 +1,123 @@
+"""Labels by worker processes: one asset that cannot be read costs one asset, a kill costs nothing that was done."""
+
+from __future__ import annotations
+
+import shutil
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from meshforge.batch import IN_PROCESS, ExecutionOptions
+from meshforge.batch.workers import MIB
+from meshforge.common import file_state
+from meshforge.labels import LabelOutcome
+from meshforge.project import Project
+from tests.unit.batch.families import label_of, table_boxes, tree, write_table
+from tests.unit.deaths import deaths, needs_fork
+from tests.unit.labels.test_propagating import family
+
+NAMES = tuple(table_boxes())
+WAYS: dict[str, Callable[[Project, ExecutionOptions], tuple[LabelOutcome, ...]]] = {
+    "names": lambda project, spread: project.label_from_names(execution=spread),
+    "file": lambda project, spread: project.label_from_files(execution=spread),
+    "propagate": lambda project, spread: project.propagate_labels(execution=spread).reports,
+}
+
+
+def begun(folder: Path, count: int = 4) -> Project:
+    """Tables, one of which a person labelled, and one that has a labels file."""
+    project = family(folder, count)
+    project.set_labels("t0.obj", {name: label_of(name) for name in NAMES})
+    write_table(folder / "assets/t1.obj", height=1.1)
+    return project
+
+
+@pytest.mark.parametrize("way", WAYS)
+def test_labels_are_the_same_whatever_the_number_of_workers(tmp_path: Path, way: str) -> None:
+    project, found = begun(tmp_path), []
+    before = tree(project.folder / "labels")
+    for workers in (0, 1, 3):
+        found.append((WAYS[way](project, ExecutionOptions(workers)), tree(project.folder / "labels")))
+        assert found[-1][1] != before
+        shutil.rmtree(project.folder)
+        begun(tmp_path)
+    assert found[0] == found[1] == found[2]
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="only Linux bounds the memory of a process")
+def test_an_asset_without_room_is_told_and_the_others_are_labelled(tmp_path: Path) -> None:
+    project = begun(tmp_path, 3)
+    monster = "".join(f"v {k} 0 0\n" for k in range(2_000_000)) + "f 1 2 3\n"
+    (tmp_path / "assets/t0a.obj").write_text(monster)
+    (tmp_path / "assets/t0a.labels.json").write_text('{"hulls": {"top": "top"}}')
+    project = Project.open(project.folder)
+    for way, others in (("names", ["t1.obj", "t2.obj"]), ("file", ["t1.obj"]), ("propagate", ["t2.obj"])):
+        reports = {report.asset: report for report in WAYS[way](project, ExecutionOptions(1, memory=200 * MIB))}
+        assert reports["t0a.obj"].problems[0].startswith(f"{tmp_path / 'assets/t0a.obj'}: there is not enough memory")
+        assert all(reports[asset].taken and not reports[asset].problems for asset in others)
+
+
+def test_each_asset_is_told_in_order_when_its_labels_are_there(tmp_path: Path) -> None:
+    project, told = begun(tmp_path), list[str]()
+
+    def report(labelled: LabelOutcome) -> None:
+        told.append(labelled.asset)
+        there = [asset for asset in project.assets() if project.layout.labels(asset).exists()]
+        assert there == sorted({"t0.obj", *told})
+
+    project.label_from_names(execution=ExecutionOptions(2), report=report)
+    assert told == list(project.assets())
+    shutil.rmtree(project.folder)
+    told.clear()
+    begun(tmp_path).propagate_labels(execution=ExecutionOptions(2), report=report)
+    assert told == list(project.assets())
+
+
+@needs_fork
+@pytest.mark.parametrize("way", WAYS)
+def test_whenever_it_is_killed_labels_are_whole_and_another_run_completes_them(tmp_path: Path, way: str) -> None:
+    project = begun(tmp_path / "whole")
+    before = tree(project.folder / "labels")
+    WAYS[way](project, IN_PROCESS)
+    whole = tree(project.folder / "labels")
+    project, died = begun(tmp_path / "killed"), 0
+    for _ in deaths(lambda: WAYS[way](project, IN_PROCESS)):
+        died += 1
+        left = {name: data for name, data in tree(project.folder / "labels").items() if not name.endswith(".tmp")}
+        assert before.items() <= left.items() and left.items() <= whole.items()
+    assert died >= len(whole) - len(before) > 0
+    assert {name: data for name, data in tree(project.folder / "labels").items() if not name.endswith(".tmp")} == whole
+
+
+def test_only_assets_that_changed_are_described_again(tmp_path: Path) -> None:
+    project = begun(tmp_path)
+    project.propagate_labels()
+    kept, labels = sorted((project.layout.sketches / "seen").iterdir()), tree(project.folder / "labels")
+    assert [path.name for path in kept] == [f"{asset}.npz" for asset in project.assets()]
+    times = [file_state(path) for path in kept]
+    project.propagate_labels()
+    assert [file_state(path) for path in kept] == times
+    kept[1].write_bytes(kept[1].read_bytes()[:200])
+    kept[2].write_bytes(b"")
+    project.propagate_labels()
+    now = [file_state(path) for path in kept]
+    assert [a == b for a, b in zip(now, times, strict=True)] == [True, False, False, True]
+    assert tree(project.folder / "labels") == labels
+    write_table(tmp_path / "assets/t3.obj", height=2.0, labels=False)
+    project.propagate_labels()
+    assert file_state(kept[0]) == times[0] and file_state(kept[3]) != times[3]
+
+
+def test_what_is_foretold_is_what_is_carried_over_then(tmp_path: Path) -> None:
+    project = begun(tmp_path)
+    project.set_labels("t1.obj", {"top": "leg"}, source="vlm", confidence=0.999)
+    before = tree(project.folder / "labels")
+    shown = project.propose_propagated()
+    assert tree(project.folder / "labels") == before
+    reports = project.propagate_labels().reports
+    assert sum(row.hulls for row in shown.rows) == sum(report.taken for report in reports)
+    assert shown.labelled == len(NAMES) + 1
+    assert {row.label for row in shown.rows} == {"top", "leg", "misc"}
+    assert project.propose_propagated().rows == ()

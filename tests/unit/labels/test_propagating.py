@@ -1,0 +1,147 @@
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from meshforge.common import ProjectError
+from meshforge.project import Project
+from meshforge.symbolic import HUMAN_SOURCES, Label
+from tests.examples import examples
+from tests.unit.batch.families import label_of, table_boxes, write_table
+
+NAMES = tuple(table_boxes())
+
+
+def family(folder: Path, count: int = 3, *vocabulary: str) -> Project:
+    """Tables of different heights, none of which is labelled."""
+    for k in range(count):
+        write_table(folder / f"assets/t{k}.obj", height=0.8 + 0.3 * k, labels=False)
+    return Project.create(folder / "p", [folder / "assets"], vocabulary=vocabulary or ("top", "leg", "misc"))
+
+
+def test_one_labelled_table_labels_the_others(tmp_path: Path) -> None:
+    project = family(tmp_path)
+    project.set_labels("t0.obj", {name: label_of(name) for name in NAMES})
+    carried = project.propagate_labels()
+    assert [report.asset for report in carried.reports] == ["t0.obj", "t1.obj", "t2.obj"]
+    assert [report.taken for report in carried.reports] == [0, len(NAMES), len(NAMES)]
+    assert carried.next in ("t1.obj", "t2.obj")
+    for asset in ("t1.obj", "t2.obj"):
+        labels = project.labels(asset).labels
+        assert {name: label.name for name, label in labels.items()} == {name: label_of(name) for name in NAMES}
+        assert {label.source for label in labels.values()} == {"propagated"}
+
+
+def test_again_changes_nothing_and_a_correction_teaches_the_others(tmp_path: Path) -> None:
+    project = family(tmp_path)
+    project.set_labels("t0.obj", {name: label_of(name) for name in NAMES})
+    project.propagate_labels()
+    before = project.labels("t1.obj").labels
+    assert [report.same for report in project.propagate_labels().reports] == [0, len(NAMES), len(NAMES)]
+    assert project.labels("t1.obj").labels == before
+    project.set_labels("t1.obj", {"crumb": "leg"})
+    project.propagate_labels()
+    assert project.labels("t1.obj").labels["crumb"] == Label("leg")
+    crumb = project.labels("t2.obj").labels["crumb"]
+    assert crumb.name == "leg" or crumb.confidence < before["crumb"].confidence
+
+
+def test_a_surer_label_of_another_machine_stays_and_a_less_sure_one_gives_way(tmp_path: Path) -> None:
+    project = family(tmp_path)
+    project.set_labels("t0.obj", {name: label_of(name) for name in NAMES})
+    project.set_labels("t1.obj", {"top": "misc"}, source="vlm", confidence=0.999)
+    project.set_labels("t1.obj", {"crumb": "top"}, source="name", confidence=0.01)
+    project.propagate_labels()
+    labels = project.labels("t1.obj").labels
+    assert labels["top"] == Label("misc", 0.999, "vlm")
+    assert labels["crumb"].source == "propagated"
+
+
+def test_what_a_file_says_stays_however_unsure_it_is(tmp_path: Path) -> None:
+    project = family(tmp_path)
+    project.set_labels("t0.obj", {name: label_of(name) for name in NAMES})
+    project.set_labels("t1.obj", {"top": "misc"}, source="file", confidence=0.01)
+    project.propagate_labels()
+    assert project.labels("t1.obj").labels["top"] == Label("misc", 0.01, "file")
+
+
+def test_what_a_file_says_without_being_sure_teaches_nothing(tmp_path: Path) -> None:
+    project = family(tmp_path)
+    wrong = dict.fromkeys(NAMES, "misc")
+    project.set_labels("t0.obj", wrong, source="file", confidence=0.4)
+    with pytest.raises(ProjectError, match="no label that others could be taken from"):
+        project.propagate_labels()
+    project.set_labels("t1.obj", {name: label_of(name) for name in NAMES}, source="file", confidence=0.8)
+    project.propagate_labels()
+    assert {name: label.name for name, label in project.labels("t2.obj").labels.items()} == {
+        name: label_of(name) for name in NAMES
+    }
+    assert {label.name for label in project.labels("t0.obj").labels.values()} == {"misc"}
+
+
+def test_without_a_label_or_a_vocabulary_it_says_what_to_do(tmp_path: Path) -> None:
+    project = family(tmp_path)
+    with pytest.raises(ProjectError, match=r"no label that others could be taken from\n  Label .* best t\d\.obj"):
+        project.propagate_labels()
+    project.set_vocabulary(())
+    with pytest.raises(ProjectError, match="the vocabulary is empty"):
+        project.propagate_labels()
+
+
+def test_a_label_that_left_the_vocabulary_teaches_nothing(tmp_path: Path) -> None:
+    project = family(tmp_path)
+    project.set_labels("t0.obj", {name: label_of(name) for name in NAMES})
+    project.set_vocabulary(("top", "leg"))
+    carried = project.propagate_labels()
+    assert not any(report.problems for report in carried.reports)
+    assert {label.name for label in project.labels("t1.obj").labels.values()} == {"top", "leg"}
+    assert project.labels("t0.obj").labels["crumb"] == Label("misc")
+
+
+def test_an_asset_that_cannot_be_read_is_told_and_does_not_hide_the_others(tmp_path: Path) -> None:
+    project = family(tmp_path)
+    project.set_labels("t0.obj", {name: label_of(name) for name in NAMES})
+    (tmp_path / "assets/t1.obj").write_text("nothing of use")
+    reports = {report.asset: report for report in project.propagate_labels().reports}
+    assert "t1.obj" in reports["t1.obj"].problems[0]
+    assert reports["t2.obj"].taken == len(NAMES)
+
+
+Act = tuple[str, str, str, str]
+ACTS = st.lists(
+    st.tuples(
+        st.sampled_from(["user", "vlm", "name", "propagate"]),
+        st.sampled_from(["t0.obj", "t1.obj"]),
+        st.sampled_from(NAMES),
+        st.sampled_from(["top", "leg", "misc"]),
+    ),
+    max_size=12,
+)
+
+
+@examples(25)
+@given(acts=ACTS)
+def test_no_label_of_a_person_is_ever_changed_by_a_machine(
+    tmp_path_factory: pytest.TempPathFactory, acts: list[Act]
+) -> None:
+    project = family(tmp_path_factory.mktemp("family"), 2)
+    said: dict[tuple[str, str], str] = {}
+    for who, asset, hull, label in acts:
+        match who:
+            case "user":
+                project.set_labels(asset, {hull: label})
+                said[asset, hull] = label
+            case "propagate" if said:
+                project.propagate_labels()
+            case "vlm" | "name":
+                project.set_labels(asset, {hull: label}, source=who, confidence=0.9)
+        kept = {
+            (one, name): label.name
+            for one in project.assets()
+            for name, label in project.labels(one).labels.items()
+            if label.source in HUMAN_SOURCES
+        }
+        assert kept == said

@@ -1,0 +1,456 @@
+from __future__ import annotations
+
+import json
+import os
+import random
+import signal
+import subprocess
+import sys
+import time
+from collections import Counter
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager, suppress
+from pathlib import Path
+from typing import Any
+
+import pytest
+from hypothesis import HealthCheck, given
+from hypothesis import strategies as st
+
+from meshforge.batch import IN_PROCESS, ExecutionOptions
+from meshforge.common import MeshForgeError, ProjectError, UsageError
+from meshforge.labels import VlmResult
+from meshforge.labels.vlm import label_by_vlm, prompt
+from meshforge.project import Project
+from meshforge.symbolic import GIVEN_SOURCES, Label, SymbolicMesh
+from tests.examples import examples
+from tests.loopback import CUT, FAULTS, Asked, Server, labels_as_json, serving, sometimes, status
+from tests.unit.labels.vlm_family import KEY, VARIABLE, WORDS, family, hulls, right, settings, truth
+
+MANY = 200
+
+
+@pytest.fixture(autouse=True)
+def key(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv(VARIABLE, KEY)
+
+
+def labels(project: Project, asset: str) -> dict[str, str]:
+    return {name: label.name for name, label in project.labels(asset).labels.items()}
+
+
+def charged(server: Server) -> float:
+    """What the server charged [$], at the prices of `settings`."""
+    return (server.usage["input"] + 4 * server.usage["output"]) / 1e6
+
+
+def test_a_model_labels_a_family_and_a_second_run_asks_nothing(tmp_path: Path) -> None:
+    project = family(tmp_path, 4)
+    with serving(right) as server:
+        found = project.label_with_vlm(settings(server))
+        assert [report.asset for report in found.reports] == list(project.assets())
+        assert all((report.taken, report.unlabelled, report.problems) == (6, 0, ()) for report in found.reports)
+        assert (found.open, found.unasked, found.ended, found.blind) == ({}, (), None, False)
+        assert all(labels(project, asset) == truth(asset) for asset in project.assets())
+        assert {label.source for label in project.labels("t000.obj").labels.values()} == {"vlm"}
+        before, asked = project.labels("t001.obj").labels, len(server.asked)
+        again = project.label_with_vlm(settings(server))
+        assert [report.same for report in again.reports] == [6] * 4
+        assert (again.usage.answered, again.usage.cost, len(server.asked)) == (0, 0.0, asked)
+        assert project.labels("t001.obj").labels == before
+
+
+def test_drawn_in_worker_processes_it_asks_the_same_and_labels_the_same(tmp_path: Path) -> None:
+    asked = []
+    for name, spread in (("here", IN_PROCESS), ("workers", ExecutionOptions(workers=2))):
+        project = family(tmp_path / name, 5)
+        (project.path("t003.obj")).write_text("f 1 2 3\n")
+        with serving(right) as server:
+            seen = project.forecast_vlm(settings(server), execution=spread)
+            assert (seen.assets, seen.questions, seen.unreadable) == (4, 4, ("t003.obj",))
+            found = project.label_with_vlm(settings(server), execution=spread)
+            asked.append(sorted(one.raw for one, _, _ in server.asked))
+        assert [report.taken for report in found.reports] == [6, 6, 6, 0, 6]
+        assert "t003.obj" in found.reports[3].problems[0]
+        assert all(labels(project, asset) == truth(asset) for asset in project.assets() if asset != "t003.obj")
+    assert asked[0] == asked[1]
+
+
+def test_an_asset_that_takes_too_long_to_draw_costs_itself(tmp_path: Path) -> None:
+    project = family(tmp_path, 3)
+    with serving(right) as server:
+        found = project.label_with_vlm(settings(server), execution=ExecutionOptions(workers=1, timeout=0.001))
+    assert not server.asked
+    assert all("took longer than 0.001 seconds" in report.problems[0] for report in found.reports)
+
+
+def lying(asked: Asked) -> str:
+    """A model that knows it all, but says for one question in five what is of no use, no vocabulary, or no hull."""
+    mood = random.Random(asked.raw).random() * 20
+    if asked.is_again or mood > 4:
+        return right(asked)
+    if mood > 3:
+        return "As a language model I would rather not."
+    if mood > 2:
+        return labels_as_json({number: "wheel" for number in asked.numbers if number < 2})
+    if mood > 1:
+        return labels_as_json({number + 100: "leg" for number in asked.numbers})
+    return right(asked)[:-1] + ', "hulls": [{"number": 0, "label": "leg"}, {"number": 0, "label": "top"}]}'
+
+
+@pytest.mark.slow
+def test_two_hundred_meshes_with_a_fifth_of_faults_are_all_labelled_or_named(tmp_path: Path) -> None:
+    project = family(tmp_path, MANY)
+    hopeless = {f"t{k:03}.obj" for k in (7, 70)}
+
+    def fault(asked: Asked) -> object:
+        if asked.asset in hopeless:
+            return status(500, "out of order")
+        return sometimes(0.2)(asked)
+
+    told = []
+    with serving(lying, fault=fault, slow=60.0, logprobs="given") as server:
+        how = settings(server, concurrency=8, timeout=2.0, retries=6)
+        found = project.label_with_vlm(how, progress=lambda bill: told.append(bill.answered))
+        assert len(told) == MANY
+        assert [report.asset for report in found.reports] == list(project.assets())
+        assert (found.unasked, found.ended) == ((), None)
+        for report in found.reports:  # labelled, or named as unlabelled with the reason
+            here = labels(project, report.asset)
+            assert here.keys() | found.open.get(report.asset, {}).keys() == set(hulls(report.asset))
+            assert here.keys().isdisjoint(found.open.get(report.asset, {}))
+            assert report.unlabelled == len(found.open.get(report.asset, {}))
+            assert here.items() <= truth(report.asset).items()
+            assert bool(report.problems) == (report.asset in hopeless)
+        wholly = [asset for asset in project.assets() if labels(project, asset) == truth(asset)]
+        assert len(wholly) >= MANY - 10
+        assert all(set(found.open[asset].values()) == {"the question got no answer"} for asset in hopeless)
+        faults = sum(not whole for asked, _, whole in server.asked if asked.asset not in hopeless)
+        assert faults > 0.1 * MANY
+        assert max(Counter(asked.raw for asked in server.answered).values()) == 1  # nothing asked twice
+        assert found.usage.cost == pytest.approx(charged(server))
+        assert (found.usage.usage.input, found.usage.usage.output) == (server.usage["input"], server.usage["output"])
+        broken = sum(not whole for _, _, whole in server.asked)  # slow ones may be under way there still
+        assert found.usage.retries + len(hopeless) >= broken
+
+
+def test_what_a_person_or_a_file_says_stays_and_so_does_what_is_surer(tmp_path: Path) -> None:
+    project = family(tmp_path, 1)
+    asset = project.assets()[0]
+    project.set_labels(asset, {"top": "misc"})
+    project.set_labels(asset, {"crumb": "leg"}, source="file", confidence=0.1)
+    project.set_labels(asset, {"left_low": "misc"}, source="propagated", confidence=0.999)
+    project.set_labels(asset, {"left_high": "misc"}, source="name", confidence=0.01)
+    with serving(right) as server:
+        (report,) = project.label_with_vlm(settings(server)).reports
+    assert report.taken == 3
+    now = project.labels(asset).labels
+    assert now["top"] == Label("misc")
+    assert now["crumb"] == Label("leg", 0.1, "file")
+    assert now["left_low"] == Label("misc", 0.999, "propagated")
+    assert (now["left_high"].name, now["left_high"].source) == ("leg", "vlm")
+
+
+def test_assets_that_are_labelled_by_hand_are_not_asked_about(tmp_path: Path) -> None:
+    project = family(tmp_path, 2)
+    first, second = project.assets()
+    project.set_labels(first, truth(first))
+    with serving(right) as server:
+        found = project.label_with_vlm(settings(server))
+        assert {asked.asset for asked in server.answered} == {second}
+        assert [report.taken for report in found.reports] == [0, 6]
+
+
+def test_a_correction_afterwards_does_not_make_the_rest_be_asked_about_again(tmp_path: Path) -> None:
+    project = family(tmp_path, 1)
+    asset = project.assets()[0]
+    with serving(right) as server:
+        project.label_with_vlm(settings(server))
+        project.set_labels(asset, {"top": "misc"})
+        before = len(server.asked)
+        project.label_with_vlm(settings(server))
+        assert len(server.asked) == before
+    assert project.labels(asset).labels["top"] == Label("misc")
+
+
+def test_a_label_given_by_hand_while_the_model_thinks_stays(tmp_path: Path) -> None:
+    project = family(tmp_path, 1)
+    asset = project.assets()[0]
+
+    def meanwhile(asked: Asked) -> str:
+        project.set_labels(asset, {"top": "misc"})
+        return right(asked)
+
+    with serving(meanwhile) as server:
+        (report,) = project.label_with_vlm(settings(server)).reports
+    assert report.taken == 5
+    assert labels(project, asset) == truth(asset) | {"top": "misc"}
+
+
+@pytest.mark.slow
+def test_the_forecast_sends_nothing_and_says_what_is_sent_then(tmp_path: Path) -> None:
+    project = family(tmp_path, 3)
+    (tmp_path / "assets/broken.obj").write_text("nothing of use")
+    project = Project.open(project.folder)
+    with serving(right) as server:
+        how = settings(server)
+        told = project.forecast_vlm(how)
+        assert not server.asked
+        assert not (project.layout.vlm).exists()
+        found = project.label_with_vlm(how)
+        assert told.questions == len(server.answered)
+        assert told.pictures == sum(len(asked.pictures) for asked in server.answered)
+        assert (told.assets, told.hulls, told.known, told.unreadable) == (3, 18, 0, ("broken.obj",))
+        assert told.cost == pytest.approx((told.input + 4 * told.output) / 1e6)
+        assert told.output / 3 < server.usage["output"] < told.output * 3
+        assert (told.host, told.model, told.mode) == (server.base_url[7:-3], server.model, "cheap")
+        after = project.forecast_vlm(how)
+        assert (after.known, after.pictures, after.input, after.cost) == (3, 0, 0, 0.0)
+    (broken,) = [report for report in found.reports if report.problems]
+    assert broken.asset == "broken.obj"
+
+
+@pytest.mark.slow
+def test_a_limit_on_the_cost_ends_it_and_a_higher_one_goes_on(tmp_path: Path) -> None:
+    project = family(tmp_path, 12)
+    with serving(right) as server:
+        how = settings(server, max_cost=0.02, concurrency=2)
+        found = project.label_with_vlm(how)
+        assert charged(server) <= 0.02
+        assert found.usage.cost == pytest.approx(charged(server))
+        assert found.ended and "of $0.02 are spent" in found.ended
+        done = [report.asset for report in found.reports]
+        assert done and len(done) + len(found.unasked) == 12
+        assert all(labels(project, asset) == truth(asset) for asset in done)
+        assert not any(labels(project, asset) for asset in found.unasked)
+        rest = project.label_with_vlm(how.model_copy(update={"max_cost": 1.0}))
+        assert rest.ended is None
+        assert max(Counter(asked.raw for asked in server.answered).values()) == 1
+    assert all(labels(project, asset) == truth(asset) for asset in project.assets())
+
+
+@pytest.mark.slow
+def test_a_stop_keeps_what_was_answered_and_the_next_run_goes_on(tmp_path: Path) -> None:
+    project = family(tmp_path, 10)
+    with serving(right, delay=0.01) as server:
+        found = project.label_with_vlm(settings(server, concurrency=2), stop=lambda: len(server.answered) >= 4)
+        assert found.ended
+        assert 4 <= len(server.answered) < 10
+        assert len(found.reports) + len(found.unasked) == 10
+        assert [report.asset for report in found.reports if report.taken] == [
+            asset for asset in project.assets() if labels(project, asset)
+        ]
+        project.label_with_vlm(settings(server))
+        assert max(Counter(asked.raw for asked in server.answered).values()) == 1
+    assert all(labels(project, asset) == truth(asset) for asset in project.assets())
+
+
+_RUN = """
+import sys
+import time
+from meshforge.project import Project
+from meshforge.store import VlmSettings
+Project.open(sys.argv[1]).label_with_vlm(VlmSettings.model_validate_json(sys.argv[2]))
+"""
+
+
+@pytest.mark.slow
+def test_a_killed_run_loses_nothing_that_was_paid_for_but_what_was_under_way(tmp_path: Path) -> None:
+    project = family(tmp_path, 16)
+    kills = iter([4, 9])
+    with serving(right, delay=0.02) as server:
+        how = settings(server, concurrency=2)
+        for answers in kills:
+            run = subprocess.Popen([sys.executable, "-c", _RUN, str(project.folder), how.model_dump_json()])
+            while len(server.answered) < answers and run.poll() is None:
+                time.sleep(0.005)
+            os.kill(run.pid, signal.SIGKILL)
+            run.wait()
+            assert all(labels(project, asset).items() <= truth(asset).items() for asset in project.assets())
+        kept = list((project.layout.vlm / "answers").glob("*.json"))
+        assert len(kept) >= 9 - 2 * how.concurrency
+        project.label_with_vlm(how)
+        often = Counter(asked.raw for asked in server.answered)
+        assert sum(often.values()) - len(often) <= 2 * how.concurrency
+        assert len(often) == 16
+    assert all(labels(project, asset) == truth(asset) for asset in project.assets())
+
+
+Act = tuple[str, str, str]
+ACTS = st.lists(
+    st.tuples(
+        st.sampled_from(["user", "file", "propagated", "ask", "ask"]),
+        st.sampled_from(hulls("t001.obj")),
+        st.sampled_from(WORDS),
+    ),
+    min_size=1,
+    max_size=8,
+)
+
+
+@examples(15, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@given(acts=ACTS, seed=st.integers(0, 1000))
+def test_no_label_of_a_person_or_a_file_is_ever_changed(
+    tmp_path_factory: pytest.TempPathFactory, acts: list[Act], seed: int
+) -> None:
+    project = family(tmp_path_factory.mktemp("family"), 2)
+    said: dict[str, Label] = {}
+    with serving(lying, fault=sometimes(0.5, FAULTS[:4], seed)) as server:
+        for who, hull, word in acts:
+            match who:
+                case "ask":
+                    with suppress(MeshForgeError):  # where not even the first question gets through
+                        project.label_with_vlm(settings(server, retries=1))
+                case "propagated" if hull not in said:
+                    project.set_labels("t001.obj", {hull: word}, source="propagated", confidence=0.5)
+                case "user":
+                    said[hull] = Label(word)
+                    project.set_labels("t001.obj", {hull: word})
+                case "file" if hull not in said:
+                    said[hull] = Label(word, 0.2, "file")
+                    project.set_labels("t001.obj", {hull: word}, source="file", confidence=0.2)
+            now = project.labels("t001.obj").labels
+            assert {name: label for name, label in now.items() if label.source in GIVEN_SOURCES} == said
+
+
+def test_the_settings_of_the_project_say_whom_to_ask(tmp_path: Path) -> None:
+    project = family(tmp_path, 2)
+    project.set_labels("t000.obj", truth("t000.obj"))
+    with serving(right) as server:
+        path = project.layout.settings
+        path.write_text(
+            f'{path.read_text()}\n[vlm]\nbase_url = "{server.base_url}"\nmodel = "{server.model}"\n'
+            f'key_env = "{VARIABLE}"\nmode = "cheap"\nsize = 256\nnames = true\n'
+            'examples = ["t000.obj"]\nabout = "small tables"\n'
+            '[vlm.descriptions]\nmisc = "what fell off"\n[vlm.extra]\ntop_k = 1\n'
+        )
+        found = project.label_with_vlm()
+        (asked,) = server.answered
+        assert "- misc: what fell off" in asked.text
+        assert "The objects are: small tables." in asked.text
+        assert asked.body["top_k"] == 1
+        assert json.loads(asked.body["messages"][2]["content"])["hulls"][-1] == {"number": 5, "label": "top"}
+        assert found.usage.cost is None
+    project.set_vocabulary([*WORDS, "handle"])  # a change of another setting leaves the table alone
+    assert project.settings.vlm.descriptions == {"misc": "what fell off"}
+
+
+@pytest.mark.parametrize(
+    ("lines", "message"),
+    [
+        ('modell = "x"', "the field vlm.modell: Extra inputs are not permitted"),
+        ('mode = "thorough"', "the field vlm.mode"),
+        ("concurrency = 0", "the field vlm.concurrency"),
+        ("input_price = -1", "the field vlm.input_price"),
+        ("size = 3", "the field vlm.size"),
+    ],
+)
+def test_settings_that_do_not_fit_are_told_with_the_field(tmp_path: Path, lines: str, message: str) -> None:
+    project = family(tmp_path, 1)
+    path = project.layout.settings
+    path.write_text(f"{path.read_text()}\n[vlm]\n{lines}\n")
+    with pytest.raises(ProjectError, match=message):
+        project.label_with_vlm()
+
+
+def test_what_cannot_be_asked_is_told_before_anything_is_sent(tmp_path: Path) -> None:
+    project = family(tmp_path, 2)
+    with serving(right) as server:
+        how = settings(server)
+        bad: dict[str, dict[str, Any]] = {
+            "no model is named": {"model": ""},
+            "needs to know the prices": {"max_cost": 1.0, "input_price": None},
+            "'wheel' is described, but is not in the vocabulary": {"descriptions": {"wheel": "round"}},
+            "this example has no label that a person or a file gave": {"examples": ("t001.obj",)},
+        }
+        for message, change in bad.items():
+            with pytest.raises(UsageError, match=message):
+                project.label_with_vlm(how.model_copy(update=change))
+        with pytest.raises(ProjectError, match=r"there is no asset 't009\.obj'"):
+            project.label_with_vlm(how.model_copy(update={"examples": ("t009.obj",)}))
+        project.set_vocabulary(())
+        with pytest.raises(UsageError, match="the vocabulary is empty"):
+            project.label_with_vlm(how)
+        assert not server.asked
+
+
+def test_a_wrong_key_is_one_error_and_changes_nothing(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    project = family(tmp_path, 3)
+    monkeypatch.setenv(VARIABLE, "sk-wrong")
+    with serving(right) as server:
+        with pytest.raises(MeshForgeError, match="does not accept the key"):
+            project.label_with_vlm(settings(server))
+        assert len(server.asked) == 1
+    assert not project.layout.ids_with("labels")
+
+
+def test_a_model_that_takes_red_for_blue_is_told_to_be_blind(tmp_path: Path) -> None:
+    project = family(tmp_path, 1)
+    with serving(right) as server:
+        server._probed = lambda asked: '{"colour": "blue"}'  # type: ignore[method-assign]
+        assert project.label_with_vlm(settings(server)).blind
+
+
+def test_all_assets_are_written_in_the_end_within_the_block_that_is_given(tmp_path: Path) -> None:
+    project = family(tmp_path, 2)
+    assets = project.assets()
+    inside: list[list[int]] = []
+
+    @contextmanager
+    def keeping() -> Iterator[None]:
+        before = [len(labels(project, asset)) for asset in assets]
+        yield
+        inside.append([*before, *(len(labels(project, asset)) for asset in assets)])
+
+    with serving(right) as server:
+        found = project.label_with_vlm(settings(server), write_block=keeping)
+    assert inside == [[0, 0, 6, 6]]
+    assert [report.taken for report in found.reports] == [6, 6]
+
+
+def test_pages_show_what_was_sent_and_what_came_back(tmp_path: Path) -> None:
+    project = family(tmp_path, 1)
+
+    def answer(asked: Asked) -> str:
+        return labels_as_json({0: "<b>leg</b>"}) if not asked.is_again else labels_as_json({1: "leg"})
+
+    with serving(answer) as server:
+        project.label_with_vlm(settings(server))
+    page = project.layout.vlm / "pages" / "t000.obj.html"
+    text = page.read_text()
+    assert "&lt;b&gt;leg&lt;/b&gt;" in text and "<b>" not in text
+    assert text.count("<h2>Question") == 2
+    pictures = [line.partition('"')[0] for line in text.split('<img src="')[1:]]
+    assert len(pictures) >= 4
+    assert all((page.parent / picture).is_file() for picture in pictures)
+    assert "none: the model said nothing usable of it" in text
+
+
+def test_an_asset_that_cannot_be_drawn_is_named_and_the_others_are_labelled(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    project = family(tmp_path, 3)
+    real = prompt.build_questions
+
+    def looks(
+        mesh: SymbolicMesh, wanted: Sequence[str], manner: prompt.PromptConfig, name: str
+    ) -> Iterator[prompt.HullQuestion]:
+        if name == "t001.obj":
+            raise ZeroDivisionError("no room for the picture")
+        return real(mesh, wanted, manner, name)
+
+    monkeypatch.setattr(label_by_vlm, "build_questions", looks)
+    with serving(right) as server:
+        assert project.forecast_vlm(settings(server)).unreadable == ("t001.obj",)
+        found = project.label_with_vlm(settings(server))
+    assert [report.taken for report in found.reports] == [6, 0, 6]
+    assert "t001.obj: ZeroDivisionError: no room for the picture" in found.reports[1].problems[0]
+
+
+def test_a_cut_answer_that_stays_cut_names_the_hulls(tmp_path: Path) -> None:
+    project = family(tmp_path, 1)
+    with serving(right, fault=lambda asked: None if asked.is_probe else CUT) as server:
+        found: VlmResult = project.label_with_vlm(settings(server))
+    here = labels(project, "t000.obj")
+    assert set(found.open["t000.obj"].values()) == {"the answer was cut off"}
+    assert here.keys() | found.open["t000.obj"].keys() == set(hulls("t000.obj"))

@@ -1,0 +1,390 @@
+from __future__ import annotations
+
+import itertools
+import json
+import subprocess
+import sys
+import threading
+from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+import pytest
+
+from meshforge.common import MeshForgeError, UsageError
+from meshforge.labels.vlm.endpoint import EndError, Endpoint, QuestionError, RefusalError, TokenCount
+from meshforge.labels.vlm.request import ServerFeatures
+from tests.loopback import DROP, FAULTS, GARBAGE, SLOW, Asked, Fault, serving, status
+from tests.unit.labels.vlm.asking import SCHEMA, VARIABLE, client, key, question
+
+__all__ = ["key"]
+pytestmark = pytest.mark.usefixtures("key")
+PASSING = [fault for fault in FAULTS if fault.kind != "cut"]
+
+
+def first(*faults: Fault) -> object:
+    """These faults for the first requests that are no probe, then none."""
+    rest = iter(faults)
+    return lambda asked: None if asked.is_probe else next(rest, None)
+
+
+def test_an_answer_is_counted_and_kept_and_not_asked_for_again(tmp_path: Path) -> None:
+    with serving(lambda asked: "leg") as server:
+        one = client(server, tmp_path, input_price=2.0, output_price=10.0)
+        reply = one.ask(question())
+        assert (reply.text, reply.cached) == ("leg", False)
+        assert one.usage.usage == TokenCount(server.usage["input"], server.usage["output"])
+        assert one.usage.cost == pytest.approx((2 * server.usage["input"] + 10 * server.usage["output"]) / 1e6)
+        again = client(server, tmp_path, input_price=2.0, output_price=10.0)
+        known = again.ask(question())
+        assert (known.text, known.cached, known.usage, known.cost) == ("leg", True, reply.usage, reply.cost)
+        assert (again.usage.cached, again.usage.answered, again.usage.cost) == (1, 0, 0.0)
+        assert len(server.answered) == 1
+
+
+@pytest.mark.parametrize("schema", ["honoured", "ignored", "refused"])
+@pytest.mark.parametrize("logprobs", ["given", "ignored", "refused"])
+@pytest.mark.parametrize("thinks", [False, True])
+def test_only_what_the_server_understands_is_asked_of_it(schema: str, logprobs: str, thinks: bool) -> None:
+    with serving(lambda asked: "leg", schema=schema, logprobs=logprobs, thinks=thinks) as server:
+        one = client(server)
+        reply = one.ask(question(schema=SCHEMA))
+        limit = "max_completion_tokens" if thinks else "max_tokens"
+        assert one.features() == ServerFeatures(schema == "honoured", logprobs == "given", not thinks, limit)
+        (asked,) = server.answered
+        sent = {"response_format", "logprobs", "temperature", "max_tokens", "max_completion_tokens"} & asked.body.keys()
+        wanted = {"response_format"} if schema == "honoured" else set()
+        wanted |= {"logprobs"} if logprobs == "given" else set()
+        assert sent == wanted | ({limit} if thinks else {limit, "temperature"})
+        assert asked.body.get("temperature", 0) == 0
+        assert (reply.tokens is not None) == (logprobs == "given")
+
+
+def test_a_model_that_forbids_logprobs_is_asked_without_them() -> None:
+    def fault(asked: Asked) -> Fault | None:
+        return status(403, "You are not allowed to request logprobs.") if "logprobs" in asked.body else None
+
+    with serving(lambda asked: "leg", fault=fault, thinks=True) as server:
+        one = client(server)
+        assert one.ask(question()).text == "leg"
+        assert one.features() == ServerFeatures(logprobs=False, temperature=False, limit="max_completion_tokens")
+
+
+def test_a_server_is_probed_once_even_by_many_at_one_time_and_in_later_runs(tmp_path: Path) -> None:
+    with serving(lambda asked: "leg", delay=0.02) as server:
+        one = client(server, tmp_path, concurrency=8)
+        with ThreadPoolExecutor(8) as pool:
+            list(pool.map(one.ask, [question(str(k)) for k in range(8)]))
+        client(server, tmp_path).ask(question("another"))
+        assert sum(asked.is_probe for asked, _, _ in server.asked) == 1
+        client(server, tmp_path, extra={"top_k": 1}).ask(question())
+        assert server.answered[-1].body["top_k"] == 1
+        assert sum(asked.is_probe for asked, _, _ in server.asked) == 2
+
+
+def test_pictures_arrive_as_they_are_and_are_kept_beside_the_answer(tmp_path: Path) -> None:
+    from PIL import Image
+
+    from meshforge.rendering import encode_png
+
+    pictures = [encode_png(Image.new("RGB", (20, 10), colour)) for colour in ("white", "black")]
+    with serving(lambda asked: "leg") as server:
+        one = client(server, tmp_path)
+        asked = question("Look.", *pictures)
+        one.ask(asked)
+        assert list(server.answered[0].pictures) == pictures
+    kept = {path.read_bytes() for path in (tmp_path / "pictures").iterdir()}
+    assert kept == set(pictures)
+    (answer,) = (tmp_path / "answers").iterdir()
+    data = json.loads(answer.read_text())
+    assert data["answered"]["text"] == "leg"
+    assert [part["picture"] for part in data["asked"]["messages"][1]["parts"][1:]] == list(asked.digests)
+
+
+@pytest.mark.parametrize("fault", PASSING, ids=lambda fault: f"{fault.kind} {fault.code}")
+def test_faults_that_pass_are_tried_again_and_cost_nothing(fault: Fault) -> None:
+    with serving(lambda asked: "leg", fault=first(fault, fault), slow=0.4) as server:
+        one = client(server, timeout=0.2, input_price=1.0, output_price=1.0)
+        assert one.ask(question()).text == "leg"
+        assert (one.usage.retries, one.usage.answered) == (2, 2)
+        assert one.usage.usage == TokenCount(server.usage["input"], server.usage["output"])
+        lost = fault.kind != "status"
+        assert (one.usage.lost, one.usage.perhaps > 0) == (2 * lost, lost)
+
+
+def test_a_question_that_gets_no_answer_does_not_end_the_others() -> None:
+    def fault(asked: Asked) -> Fault | None:
+        return status(500, "out of order") if "hard" in asked.text else None
+
+    with serving(lambda asked: "leg", fault=fault) as server:
+        one = client(server, retries=2)
+        with pytest.raises(QuestionError, match="no answer after 3 attempts, the last: 500: out of order"):
+            one.ask(question("hard"))
+        assert one.end is None
+        assert one.ask(question("easy")).text == "leg"
+
+
+def test_when_nobody_answers_any_more_the_asking_ends() -> None:
+    with serving(lambda asked: "leg", fault=first(*[status(503)] * 1000)) as server:
+        one = client(server, retries=1, concurrency=2)
+        ends = 0
+        for k in range(8):
+            with pytest.raises(QuestionError) as raised:
+                one.ask(question(str(k)))
+            ends += isinstance(raised.value, EndError)
+        assert ends == 4
+        assert one.end and "several questions in a row got no answer after 2 attempts" in one.end.message
+        assert sum(not asked.is_probe for asked, _, _ in server.asked) == 2 * 5
+
+
+@pytest.mark.parametrize(
+    ("fault", "message"),
+    [
+        (status(401, "no such key"), "does not accept the key: no such key"),
+        (status(403, "not allowed"), "does not accept the key: not allowed"),
+        (status(400, "API key not valid. Please pass a valid API key."), "does not accept the key"),
+        (status(404, "model is not there"), "there is no model 'loopback-vl' here: model is not there"),
+        (status(402, "pay first"), "no money left: pay first"),
+        (status(429, "You exceeded your current quota", type="insufficient_quota"), "no money left"),
+        (status(429, "come back tomorrow", headers={"Retry-After": "86400"}), "left alone for 1440 minutes"),
+    ],
+)
+def test_what_no_patience_mends_ends_the_asking_with_one_message(fault: Fault, message: str) -> None:
+    with serving(lambda asked: "leg", fault=first(fault)) as server:
+        one = client(server)
+        with pytest.raises(EndError, match=message):
+            one.ask(question())
+        before = len(server.asked)
+        with pytest.raises(EndError, match=message):
+            one.ask(question("something else"))
+        assert len(server.asked) == before
+
+
+def test_a_server_that_is_not_there_is_told_soon() -> None:
+    with serving(lambda asked: "leg") as server:
+        pass
+    with pytest.raises(
+        EndError, match=r"the server cannot be reached: .*\n  Is the server running, and base_url right\?"
+    ):
+        client(server).ask(question())
+
+
+def test_a_model_without_eyes_ends_it_where_there_are_pictures_only() -> None:
+    from meshforge.labels.vlm.request import probe_question
+
+    (picture,) = probe_question(True).pictures
+    with serving(lambda asked: "leg", sees=False) as server:
+        one = client(server)
+        assert one.ask(question()).text == "leg"
+        assert not one.features().pictures
+        with pytest.raises(EndError, match="this model takes no pictures"):
+            one.ask(question("What is this?", picture))
+
+
+def test_a_refused_question_is_asked_without_its_schema_and_then_given_up() -> None:
+    def fault(asked: Asked) -> Fault | None:
+        if asked.is_probe:
+            return None
+        return status(400, "too long" if "long" in asked.text else "schema is too complex" if asked.schema else "")
+
+    def only_schemas(asked: Asked) -> Fault | None:
+        return status(400, "schema is too complex") if asked.schema and not asked.is_probe else None
+
+    with serving(lambda asked: "leg", fault=only_schemas) as server:
+        one = client(server)
+        assert one.ask(question(schema=SCHEMA)).text == "leg"
+    with serving(lambda asked: "leg", fault=fault) as server:
+        one = client(server)
+        with pytest.raises(RefusalError, match=r"the server refused the question \(400\): too long"):
+            one.ask(question("a long one", schema=SCHEMA))
+        assert one.end is None
+        assert one.usage.retries == 0
+
+
+def test_the_key_is_in_no_message_and_in_no_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, key: str) -> None:
+    with serving(lambda asked: f"your key is not told, {asked.key == key}") as server:
+        one = client(server, tmp_path)
+        assert one.ask(question()).text.endswith("True")
+        assert not any(key in path.read_text(errors="replace") for path in tmp_path.rglob("*") if path.is_file())
+        monkeypatch.setenv(VARIABLE, "sk-another-secret")
+        with pytest.raises(EndError) as raised:
+            client(server).ask(question())
+        assert "sk-another-secret" not in raised.value.message
+        assert f"The key is what the environment variable {VARIABLE} holds." in raised.value.message
+
+
+def test_a_key_is_sent_only_where_it_belongs(monkeypatch: pytest.MonkeyPatch, key: str) -> None:
+    monkeypatch.setenv("OPENAI_API_KEY", key)
+    with serving(lambda asked: "leg", key="") as server:
+        client(server, key_env=None).ask(question())
+        assert {asked.key for asked, _, _ in server.asked} == {"none"}
+    names = {
+        "https://api.openai.com/v1": "OPENAI_API_KEY",
+        "https://generativelanguage.googleapis.com/v1beta/openai/": "GEMINI_API_KEY",
+        "https://api.anthropic.com/v1/": "ANTHROPIC_API_KEY",
+        "http://localhost:11434/v1": "",
+    }
+    assert {url: Endpoint(url, "m").key_name for url in names} == names
+    assert Endpoint("https://api.openai.com/v1", "m", key_env="MINE").key_name == "MINE"
+
+
+def test_a_key_that_is_not_there_is_told_by_its_variable(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.delenv(VARIABLE)
+    with serving(lambda asked: "leg") as server:
+        with pytest.raises(
+            EndError, match=f"{VARIABLE}, which holds the key, is not set\n  Set it: export {VARIABLE}="
+        ):
+            client(server).ask(question())
+        assert not server.asked
+
+
+@pytest.mark.parametrize(
+    ("url", "message"),
+    [
+        ("api.openai.com/v1", "is no address"),
+        ("ftp://host/v1", "is no address"),
+        ("https://me:secret@host/v1", "a base_url holds no key, name or query"),
+        ("https://host/v1?key=secret", "a base_url holds no key, name or query"),
+    ],
+)
+def test_an_address_that_cannot_be_is_told_without_its_secrets(url: str, message: str) -> None:
+    with pytest.raises(UsageError, match=message) as raised:
+        Endpoint(url, "m")
+    assert "secret" not in raised.value.message
+
+
+def test_no_more_than_so_many_are_under_way_at_once() -> None:
+    with serving(lambda asked: "leg", delay=0.02) as server:
+        one = client(server, concurrency=3)
+        with ThreadPoolExecutor(12) as pool:
+            list(pool.map(one.ask, [question(str(k)) for k in range(12)]))
+        assert server.most_at_once == 3
+
+
+@pytest.mark.parametrize("kept", [True, False])
+def test_the_same_question_at_one_time_is_asked_once(tmp_path: Path, kept: bool) -> None:
+    with serving(lambda asked: "leg", delay=0.1) as server:
+        one = client(server, tmp_path if kept else None, concurrency=4)
+        one.features()
+        together = threading.Barrier(4)
+
+        def ask(_: int) -> str:
+            together.wait()
+            return one.ask(question()).text
+
+        with ThreadPoolExecutor(4) as pool:
+            assert set(pool.map(ask, range(4))) == {"leg"}
+        assert len(server.answered) == 1
+        assert (one.usage.answered, one.usage.cached) == (2, 3)  # the question about the red picture is one, too
+
+
+def test_repeats_are_told_apart(tmp_path: Path) -> None:
+    with serving(lambda asked: str(asked.time)) as server:
+        one = client(server, tmp_path)
+        texts = [one.ask(question(repeat=k)).text for k in (0, 1, 2, 1)]
+        assert texts == ["0", "1", "2", "1"]
+
+
+DAMAGES: dict[str, Callable[[str], str]] = {
+    "empty": lambda text: "",
+    "cut": lambda text: text[: len(text) // 2],
+    "another thing": lambda text: "[1, 2]",
+    "no answer": lambda text: text.replace('"answered"', '"unanswered"'),
+    "another question": lambda text: text.replace("Say a word.", "Say two words."),
+    "odd tokens": lambda text: text.replace('"tokens": null', '"tokens": [["x", "y", 3]]'),
+    "odd characters": lambda text: text.replace('"tokens": null', '"tokens": [["\\u2026", 0.5, {}]]'),
+}
+
+
+@pytest.mark.parametrize("damage", DAMAGES)
+def test_a_damaged_answer_is_asked_for_again(tmp_path: Path, damage: str) -> None:
+    with serving(lambda asked: "leg") as server:
+        one = client(server, tmp_path)
+        one.ask(question())
+        (path,) = (tmp_path / "answers").iterdir()
+        whole = path.read_text()
+        path.write_text(DAMAGES[damage](whole))
+        assert path.read_text() != whole
+        assert one.ask(question()).text == "leg"
+        assert len(server.answered) == 2
+        assert path.read_text() == whole
+
+
+def test_damaged_knowledge_of_a_server_is_found_out_again(tmp_path: Path) -> None:
+    with serving(lambda asked: "leg") as server:
+        client(server, tmp_path).ask(question())
+        (path,) = (tmp_path / "servers").iterdir()
+        for text in ("", "{}", '{"features": {"wings": true}}'):
+            path.write_text(text)
+            client(server, tmp_path).ask(question(text))
+        assert sum(asked.is_probe for asked, _, _ in server.asked) == 4
+
+
+def test_tokens_come_back_from_disk_as_they_were(tmp_path: Path) -> None:
+    with serving(lambda asked: "Füße und €", logprobs="given") as server:
+        asked = client(server, tmp_path).ask(question())
+        known = client(server, tmp_path).find_answer(question())
+        assert known and known.tokens == asked.tokens and known.tokens
+
+
+def test_a_server_that_tells_no_tokens_is_told_to_be_estimated() -> None:
+    with serving(lambda asked: "leg", tells=False) as server:
+        one = client(server)
+        one.ask(question("word " * 300))
+        assert one.usage.usage.estimated
+        assert 300 < one.usage.usage.input < 3000
+
+
+def test_a_stop_ends_the_asking_before_and_between_attempts() -> None:
+    asked_for = itertools.count()
+    with serving(lambda asked: "leg", fault=first(*[DROP] * 100)) as server:
+        one = client(server, wait=10.0, stop=lambda: next(asked_for) > 12)
+        with pytest.raises(EndError, match=r"stopped\n  What was answered is kept"):
+            one.ask(question())
+        assert 1 <= sum(not asked.is_probe for asked, _, _ in server.asked) <= 3
+        before = len(server.asked)
+        with pytest.raises(EndError, match="stopped"):
+            one.ask(question("another"))
+        assert len(server.asked) == before
+
+
+def test_garbage_that_tells_what_it_cost_is_counted() -> None:
+    with serving(lambda asked: "leg") as server:
+        real = server._completion
+        times = iter([True, False])
+
+        def completion(asked: Asked, *, cut: bool) -> dict[str, object]:
+            data = real(asked, cut=cut)
+            return data if asked.is_probe or not next(times) else data | {"choices": []}
+
+        server._completion = completion  # type: ignore[method-assign]
+        one = client(server)
+        assert one.ask(question()).text == "leg"
+        assert one.usage.usage == TokenCount(server.usage["input"], server.usage["output"])
+        assert (one.usage.retries, one.usage.lost) == (1, 0)
+
+
+def test_without_the_sdk_the_message_names_the_extra(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "openai", None)
+    with serving(lambda asked: "leg") as server, pytest.raises(EndError, match=r"pip install 'meshforge\[vlm\]'"):
+        client(server).ask(question())
+
+
+@pytest.mark.slow
+def test_nothing_heavy_is_loaded_before_something_is_asked() -> None:
+    code = "import sys, meshforge.labels.vlm.client, meshforge.project; print({'openai', 'PIL'} & sys.modules.keys())"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout.strip() == "set()"
+
+
+def test_errors_are_of_the_one_family() -> None:
+    assert issubclass(EndError, QuestionError)
+    assert issubclass(RefusalError, QuestionError)
+    assert issubclass(QuestionError, MeshForgeError)
+
+
+def test_slow_and_garbled_answers_are_told_as_such() -> None:
+    for fault, message in ((SLOW, "no answer within 0.2 seconds"), (GARBAGE, "something that is no JSON")):
+        serve = serving(lambda asked: "leg", fault=first(fault, fault), slow=0.4)
+        with serve as server, pytest.raises(QuestionError, match=message):
+            client(server, retries=1, timeout=0.2).ask(question())

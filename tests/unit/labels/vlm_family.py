@@ -1,0 +1,66 @@
+"""Families of small tables that a model on loopback is asked about."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+from meshforge.project import Project
+from meshforge.store import VlmSettings
+from tests.loopback import KEY, Asked, Server, labels_as_json
+from tests.unit.batch.families import Corner, label_of, obj, table_boxes
+
+VARIABLE = "MESHFORGE_TEST_KEY"
+WORDS = ("top", "leg", "misc")
+
+
+def boxes_of(height: float) -> dict[str, tuple[Corner, Corner]]:
+    """The boxes of a table, with what belongs to nothing beside its foot."""
+    return table_boxes(height) | {"crumb": ((0.7, 0.2, 0), (1.2, 0.7, 0.3))}
+
+
+def family(folder: Path, count: int) -> Project:
+    """Tables that look different, without labels; every third has its hulls in another order."""
+    for k in range(count):
+        boxes = list(boxes_of(0.8 + 0.01 * k).items())
+        path = folder / f"assets/t{k:03}.obj"
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(obj(dict(boxes[::-1] if k % 3 == 0 else boxes)))
+    return Project.create(folder / "p", [folder / "assets"], vocabulary=WORDS)
+
+
+def hulls(asset: str) -> list[str]:
+    """The names of the hulls of an asset, in its order."""
+    names = list(boxes_of(1.0))
+    return names[::-1] if int(Path(asset).stem[1:]) % 3 == 0 else names
+
+
+def right(asked: Asked) -> str:
+    """The right answer, of a model that is told the name of the asset."""
+    names = hulls(asked.asset)
+    return labels_as_json({number: label_of(names[number]) for number in asked.numbers})
+
+
+def settings(server: Server, **how: Any) -> VlmSettings:
+    """Small pictures, short waits, and prices; how: other settings."""
+    told: dict[str, Any] = {
+        "base_url": server.base_url,
+        "model": server.model,
+        "key_env": VARIABLE,
+        "mode": "cheap",
+        "size": 256,
+        "names": True,
+        "wait": 0.001,
+        "timeout": 5.0,
+        "input_price": 1.0,
+        "output_price": 4.0,
+    }
+    return VlmSettings(**told | how)
+
+
+def truth(asset: str) -> dict[str, str]:
+    """The right label of each hull."""
+    return {name: label_of(name) for name in hulls(asset)}
+
+
+__all__ = ["KEY", "VARIABLE", "WORDS", "family", "hulls", "right", "settings", "truth"]

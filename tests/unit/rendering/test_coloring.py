@@ -1,0 +1,104 @@
+"""Which hull gets which colour."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.random import default_rng
+
+from meshforge.rendering.colors import (
+    LABEL_COLORS,
+    UNLABELLED,
+    candidate_colors,
+    color_distance,
+    color_hulls,
+    hexadecimal,
+    highlight_hulls,
+    label_colors,
+    perceive_colors,
+    pick_distinct_colors,
+    rgb,
+)
+from meshforge.symbolic import SymbolicMesh
+from tests.unit.rendering.scenes import box, hull, table
+
+
+def row(count: int) -> SymbolicMesh:
+    """Cubes in a row, each touching the next."""
+    return SymbolicMesh(tuple(hull(f"h{k}", box((k, 0, 0), (1, 1, 1))) for k in range(count)))
+
+
+def test_the_vocabulary_s_order_gives_the_colours() -> None:
+    assert list(label_colors(["b", "a"]).values()) == list(LABEL_COLORS[:2])
+    colors = color_hulls(table(), "label", ["leg", "panel"]).colors
+    assert [hexadecimal(c) for c in colors] == [LABEL_COLORS[k] for k in (1, 1, 0, 0)] + [UNLABELLED]
+
+
+def test_labels_outside_the_vocabulary_come_after_it_by_alphabet() -> None:
+    legend = color_hulls(table(), "label", ["drawer"]).legend
+    assert [(e.name, e.color, e.count) for e in legend[:3]] == [
+        ("leg", LABEL_COLORS[1], 2),
+        ("panel", LABEL_COLORS[2], 2),
+        ("no label", UNLABELLED, 1),
+    ]
+
+
+def test_unsure_labels_are_hatched() -> None:
+    coloring = color_hulls(table(), "label")
+    assert coloring.hatched == {3}
+    assert coloring.legend[-1].name.startswith("hatched")
+
+
+def test_two_dozen_label_colours_are_all_different() -> None:
+    seen = perceive_colors(np.array([rgb(c) for c in (*LABEL_COLORS, UNLABELLED)]))
+    for k in range(seen.shape[1]):
+        gaps = np.delete(np.linalg.norm(seen - seen[:, k : k + 1], axis=2), k, axis=1)
+        assert gaps[0].min() > 0.045, "for most eyes"
+        assert gaps[:, :8].min() > 0.03, "the first eight for colour-blind ones as well"
+
+
+def test_touching_hulls_differ_clearly_even_in_a_long_row() -> None:
+    colors = color_hulls(row(90), "hull").colors
+    seen = perceive_colors(colors)
+    gaps = [float(color_distance(seen[:, k : k + 1], seen[:, k + 1 : k + 2])[0]) for k in range(89)]
+    assert min(gaps) > 0.08
+
+
+def test_forty_hulls_have_forty_colours() -> None:
+    colors = color_hulls(row(40), "hull").colors
+    assert len({hexadecimal(c) for c in colors}) == 40
+
+
+def test_however_many_hulls_there_are_no_two_have_the_same_colour() -> None:
+    colors = color_hulls(row(200), "hull").colors
+    assert len({hexadecimal(c) for c in colors}) == 200
+    assert colors.min() >= 0
+    assert colors.max() <= 1
+
+
+def test_picked_hulls_have_colours_as_if_there_were_no_others() -> None:
+    picked = range(20, 30)
+    assert np.array_equal(pick_distinct_colors(row(60), picked), color_hulls(row(10), "hull").colors)
+
+
+def test_known_hulls_keep_their_colour() -> None:
+    mesh = row(6)
+    known = {"h2": candidate_colors()[0][7]}
+    colors = color_hulls(mesh, "hull", known=known).colors
+    assert np.array_equal(colors[2], known["h2"])
+
+
+def test_confidence_runs_from_red_to_blue() -> None:
+    mesh = SymbolicMesh(tuple(hull(str(c), box((c, 0, 0), (1, 1, 1)), "a", c) for c in (0.0, 0.5, 1.0)))
+    low, _, high = color_hulls(mesh, "confidence").colors
+    assert low[0] > low[2]
+    assert high[2] > high[0]
+
+
+def test_highlighting_counts_the_selected() -> None:
+    legend = highlight_hulls(table(), frozenset({"knob", "leg0"})).legend
+    assert [(e.name, e.count) for e in legend] == [("selected", 2), ("others", 3)]
+
+
+def test_colours_survive_their_spelling() -> None:
+    for value in default_rng(0).integers(0, 256, (50, 3)):
+        assert np.array_equal(np.rint(rgb(hexadecimal(value / 255)) * 255), value)

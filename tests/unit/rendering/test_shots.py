@@ -1,0 +1,321 @@
+"""Pictures for labelling: every hull is seen and numbered, exactly as the pictures tell."""
+
+from __future__ import annotations
+
+import itertools
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from meshforge.common import UsageError
+from meshforge.formats import load
+from meshforge.geometry import Box, Floats, Ints, Pose, Sphere, convex_hull
+from meshforge.rendering import LabelingPicture, draw_labeling_pictures, encode_png, hull_numbers
+from meshforge.rendering.camera import Camera
+from meshforge.rendering.labeling.page import head_height
+from meshforge.rendering.labeling.picture import LabelingCanvas
+from meshforge.rendering.labeling.placement import LEAST_PIXELS
+from meshforge.rendering.labeling.series import propose_arrangements
+from meshforge.rendering.labeling.subject import Arrangement, LabelingSubject
+from meshforge.rendering.labeling.viewpoints import VIEW_PREFERENCES, VIEW_WORDS
+from meshforge.symbolic import Asset, Document, Opaque, Surface, SymbolicMesh
+from tests.corpus_path import corpus
+from tests.examples import examples
+from tests.unit.rendering.scenes import box, hull, pixels, table
+
+SMALL = 320
+
+
+def mesh_of(*boxes: Box) -> SymbolicMesh:
+    return SymbolicMesh(tuple(hull(f"h{k}", shape) for k, shape in enumerate(boxes)))
+
+
+def scattered(count: int, seed: int = 0) -> SymbolicMesh:
+    random = np.random.default_rng(seed)
+    return mesh_of(*(box(random.uniform(-5, 5, 3).tolist(), random.uniform(0.3, 2, 3).tolist()) for _ in range(count)))
+
+
+def nested(count: int) -> SymbolicMesh:
+    return mesh_of(*(box((0, 0, 0), (1 - 0.15 * k,) * 3) for k in range(count)))
+
+
+def block(side: int) -> SymbolicMesh:
+    """Cubes that fill a larger one."""
+    places = itertools.product(range(side), repeat=3)
+    return mesh_of(*(box(place, (0.98, 0.98, 0.98)) for place in places))
+
+
+def with_asset(mesh: SymbolicMesh, **parts: Any) -> SymbolicMesh:
+    return SymbolicMesh(mesh.hulls, Asset(Path("a.urdf"), "urdf", (), (), Document(), **parts))
+
+
+def surface_of(shape: Box, rgba: tuple[float, float, float, float] | None = None) -> Surface:
+    return Surface(shape.vertices, shape.faces, rgba=rgba)
+
+
+def in_place(taken: tuple[LabelingPicture, ...]) -> list[LabelingPicture]:
+    return [shot for shot in taken if shot.name in VIEW_WORDS.values()]
+
+
+def assert_all_shown(mesh: SymbolicMesh, wanted: set[str], taken: tuple[LabelingPicture, ...], unmet: int = 0) -> None:
+    """Each wanted hull is numbered, and seen there but for `unmet` that no ray can meet; nothing else is numbered."""
+    assert set().union(*(shot.numbered for shot in taken)) == wanted
+    best = {name: max(shot.visible_pixels[name] for shot in taken if name in shot.numbered) for name in wanted}
+    assert sum(count < LEAST_PIXELS for count in best.values()) <= unmet
+    assert len({shot.name for shot in taken}) == len(taken)
+    assert all(list(shot.visible_pixels) == [h.name for h in mesh.hulls] for shot in taken)
+
+
+PLACES = st.tuples(*[st.integers(-2, 2)] * 3)
+LENGTHS = st.tuples(*[st.sampled_from([0.02, 0.3, 1.0, 1.0, 3.0])] * 3)
+
+
+@examples(30)
+@given(st.lists(st.tuples(PLACES, LENGTHS), min_size=1, max_size=9), st.data())
+def test_each_wanted_hull_is_seen_and_numbered(parts: list[tuple[Any, Any]], data: st.DataObject) -> None:
+    mesh = mesh_of(*(box(place, lengths) for place, lengths in parts))
+    names = [h.name for h in mesh.hulls]
+    wanted = data.draw(st.none() | st.sets(st.sampled_from(names), min_size=1))
+    most = data.draw(st.integers(1, 6))
+    taken = draw_labeling_pictures(mesh, hulls=wanted, most=most, size=SMALL)
+    assert_all_shown(mesh, wanted or set(names), taken)
+    assert 1 <= len(in_place(taken)) <= most
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    "mesh",
+    [
+        nested(5),
+        mesh_of(*[box((0, 0, 0), (1, 1, 1))] * 4),
+        mesh_of(box((0, 0, 0), (1, 1, 1)), box((0.2, 0.1, 0.5005), (0.001, 0.001, 0.001))),
+        mesh_of(box((0, 0, 0), (1, 1, 1)), box((2, 2, 2), (1e-5, 1e-5, 1e-5))),
+        mesh_of(box((0, 0, 0), (1, 1, 1e-9)), box((0, 0, 1), (1, 1e-9, 1))),
+        block(4),
+        scattered(150),
+    ],
+    ids=["nested", "in one place", "small", "very small", "flat", "block", "many"],
+)
+def test_odd_meshes_are_shown_whole(mesh: SymbolicMesh) -> None:
+    assert_all_shown(mesh, set(mesh.index), draw_labeling_pictures(mesh))
+
+
+def test_a_hull_too_thin_for_any_ray_is_numbered_all_the_same() -> None:
+    needle = convex_hull(np.array([[0, 0, 0], [1, 1, 1], [1, 1, 1 + 1e-5], [1, 1 + 1e-5, 1]]))
+    mesh = SymbolicMesh((hull("needle", needle), *mesh_of(box((0.5, 0.5, 0.5), (2, 2, 2))).hulls))
+    thread = mesh_of(box((0, 0, 0), (1e-7, 1e-7, 1)), box((2, 0, 0), (1, 1, 1)))
+    for odd in (mesh, thread):
+        assert_all_shown(odd, set(odd.index), draw_labeling_pictures(odd, size=SMALL), unmet=1)
+
+
+def test_no_hulls_no_pictures() -> None:
+    assert draw_labeling_pictures(SymbolicMesh(())) == ()
+    assert draw_labeling_pictures(table(), hulls=()) == ()
+    assert hull_numbers(SymbolicMesh(())) == {}
+
+
+def test_numbers_are_indices() -> None:
+    assert hull_numbers(table()) == {"left": 0, "right": 1, "leg0": 2, "leg1": 3, "knob": 4}
+
+
+def slabs(mesh: SymbolicMesh, camera: Camera, middle: Floats, unit: float) -> Ints:
+    """What the middle of each pixel (h, w) shows of boxes along the axes, by arithmetic: -1 for nothing."""
+    width, height = camera.size
+    rows, columns = (part.ravel() for part in np.mgrid[0:height, 0:width])
+    aside, ahead = camera.pixel_rays(columns, rows)
+    ahead = np.where(np.abs(ahead) < 1e-12, 1e-12, ahead)
+    nearest, found = np.full(len(aside), np.inf), np.full(len(aside), -1)
+    for k, one in enumerate(mesh.hulls):
+        low, high = ((corner - middle) / unit for corner in (one.aabb.min, one.aabb.max))
+        first, second = (low - aside) / ahead, (high - aside) / ahead
+        enter, leave = np.minimum(first, second).max(axis=1), np.maximum(first, second).min(axis=1)
+        met = (enter < leave) & (enter < nearest)
+        nearest[met], found[met] = enter[met], k
+    return found.reshape(height, width)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", range(3))
+def test_what_is_seen_is_what_arithmetic_says_of_boxes(seed: int) -> None:
+    mesh = scattered(12, seed)
+    subject = LabelingSubject(mesh, tuple(range(12)), "Z")
+    canvas, whole = LabelingCanvas(subject, 256), Arrangement.in_place(subject)
+    for view in VIEW_PREFERENCES:
+        camera = whole.camera(view, canvas.drawing_size)
+        told = slabs(mesh, camera, whole.view_frame.bounds.center, whole.view_frame.unit)
+        counts = np.bincount(told[told >= 0], minlength=12)
+        seen = np.array(list(canvas.draw(whole, view).visible_pixels.values()))
+        assert np.abs(seen - counts).max() <= 2, f"{view}: rays along an edge may go either way"
+
+
+def test_a_picture_of_a_cube_from_before_it_shows_as_many_pixels_as_it_has_room_for() -> None:
+    canvas = LabelingCanvas(
+        LabelingSubject(mesh_of(box((3, 4, 5), (2, 2, 2)), box((3, 6, 5), (1, 1, 1))), (0, 1), "Z"), 512
+    )
+    shot = canvas.draw(Arrangement.in_place(canvas.subject), "front")
+    side = 0.88 * min(canvas.drawing_size)
+    assert shot.visible_pixels["h0"] == pytest.approx(side**2, abs=4 * side)
+    assert shot.visible_pixels["h1"] == 0
+
+
+def test_pixels_in_the_picture_have_the_colour_of_the_hull_they_are_counted_for() -> None:
+    mesh = mesh_of(box((0, 0, 0), (1, 1, 1)), box((1.5, 0, 0), (1, 1, 1)))
+    for shot in draw_labeling_pictures(mesh):
+        picture = pixels(shot.marked)[60:-40]
+        for name, color in zip(mesh.index, LabelingSubject(mesh, (0, 1), "Z").colors, strict=True):
+            ratio = picture / np.maximum(picture.max(axis=2, keepdims=True), 1e-9)
+            alike = (np.abs(ratio - color / color.max()).max(axis=2) < 0.15).sum()
+            assert alike == pytest.approx(shot.visible_pixels[name], rel=0.12), "but for lines and words"
+
+
+def test_what_can_be_seen_in_place_is_neither_moved_nor_taken_out() -> None:
+    for mesh in (table(), scattered(8), mesh_of(box((0, 0, 0), (1, 2, 3)))):
+        taken = draw_labeling_pictures(mesh)
+        assert in_place(taken) == list(taken)
+
+
+@pytest.mark.slow
+def test_hidden_hulls_are_drawn_alone_and_a_deep_block_is_drawn_apart() -> None:
+    names = [shot.name for shot in draw_labeling_pictures(nested(3))]
+    assert [name.split(" alone")[0] for name in names if "alone" in name] == ["hulls 1, 2", "hull 2"]
+    assert any("drawn apart" in shot.name for shot in draw_labeling_pictures(block(5), most=1))
+
+
+def test_a_hull_far_smaller_than_the_mesh_is_shown_from_close_up() -> None:
+    mesh = mesh_of(box((0, 0, 0), (1, 1, 1)), box((0, 0, 0.504), (0.008, 0.008, 0.008)))
+    taken = draw_labeling_pictures(mesh)
+    (close,) = (shot for shot in taken if "close up of hull 1" in shot.name)
+    assert close.visible_pixels["h1"] > 10 * max(shot.visible_pixels["h1"] for shot in taken if shot is not close)
+
+
+def test_a_picture_from_close_up_has_the_whole_in_a_corner_which_hides_what_is_behind_it() -> None:
+    mesh = mesh_of(box((0, 0, 0), (1, 1, 1)), box((0, 0, 0.504), (0.008, 0.008, 0.008)))
+    canvas = LabelingCanvas(LabelingSubject(mesh, (0, 1), "Z"), 512)
+    (near, _), *_ = propose_arrangements(canvas.subject, [1])
+    shot = canvas.draw(near, "top")
+    width, height = canvas.drawing_size
+    side = round(0.24 * 512)
+    assert sum(shot.visible_pixels.values()) == width * height - side**2, "the large cube is everywhere behind"
+    assert shot.numbered == {"h0", "h1"}
+    corner = pixels(shot.marked)[head_height(512) : head_height(512) + side, -side:]
+    assert corner.min() < 0.2, "a frame marks the place"
+    assert np.ptp(corner[:, side // 4], axis=1).max() < 0.1, "the large cube is pale there"
+
+
+def test_pictures_are_no_more_than_asked_for_where_all_is_seen() -> None:
+    mesh = scattered(30)
+    for most in (1, 2, 4):
+        taken = draw_labeling_pictures(mesh, most=most, size=SMALL)
+        assert len(in_place(taken)) <= most
+        assert in_place(taken)[0] is taken[0]
+
+
+def test_the_first_picture_is_from_above_a_corner() -> None:
+    for mesh in (table(), scattered(10), nested(2)):
+        assert draw_labeling_pictures(mesh, most=1)[0].name.endswith("above")
+
+
+def test_hulls_that_are_not_asked_for_are_pale_and_have_no_number() -> None:
+    mesh = scattered(10)
+    taken = draw_labeling_pictures(mesh, hulls={"h3"})
+    assert set().union(*(shot.numbered for shot in taken)) == {"h3"}
+    picture = pixels(taken[0].marked)[60:-60]
+    strong = (np.ptp(picture, axis=2) > 0.25).sum()
+    assert 0 < strong <= taken[0].visible_pixels["h3"]
+    assert sum(count > 0 for count in taken[0].visible_pixels.values()) > 1, "the others are there"
+
+
+def test_pictures_have_the_size_asked_for_and_the_same_bytes_every_time() -> None:
+    first, second = (draw_labeling_pictures(nested(3), size=size) for size in (SMALL, SMALL))
+    for one, other in zip(first, second, strict=True):
+        assert one.marked.size == one.plain.size == (SMALL, SMALL)
+        assert encode_png(one.marked) == encode_png(other.marked)
+        assert encode_png(one.plain) == encode_png(other.plain)
+        assert (one.name, one.visible_pixels, one.numbered) == (other.name, other.visible_pixels, other.numbered)
+
+
+def test_the_plain_picture_shows_the_visual_mesh_in_its_colour_under_the_same_camera() -> None:
+    shape = box((0, 0, 0), (1, 1, 1))
+    glass = surface_of(box((0, 0, 0), (3, 3, 3)), (0.0, 0.0, 1.0, 0.0))
+    mesh = with_asset(mesh_of(shape), visuals=(surface_of(shape, (0.8, 0.1, 0.1, 1.0)), glass))
+    (shot, *_) = draw_labeling_pictures(mesh)
+    plain = pixels(shot.plain)
+    red = (plain[..., 0] - plain[..., 1]) > 0.2
+    assert red.sum() == pytest.approx(shot.visible_pixels["h0"], rel=0.02)
+    assert not ((plain[..., 2] - plain[..., 0]) > 0.2).any(), "what is clear is not drawn"
+
+
+def test_without_a_visual_mesh_the_plain_picture_shows_the_hulls_in_one_material() -> None:
+    (shot, *_) = draw_labeling_pictures(scattered(6))
+    plain, marked = pixels(shot.plain), pixels(shot.marked)
+    assert np.ptp(plain, axis=2).max() < 0.12
+    assert np.ptp(marked, axis=2).max() > 0.3
+    drawn = (plain.min(axis=2) < 0.85).sum()
+    assert drawn == pytest.approx(sum(shot.visible_pixels.values()), rel=0.1), "outlines are drawn around what is seen"
+
+
+def test_collision_geometry_that_is_no_hull_is_drawn_faintly_and_is_in_the_plain_picture() -> None:
+    shape = box((0, 0, 0), (1, 1, 1))
+    beside = Opaque("beside", "body", "it is open", surface_of(box((1.5, 0, 0), (1, 1, 1))))
+    (alone, *_), (shot, *_) = (
+        draw_labeling_pictures(mesh_of(shape)),
+        draw_labeling_pictures(with_asset(mesh_of(shape), opaque=(beside,))),
+    )
+    assert shot.numbered == {"h0"}
+    assert 0 < shot.visible_pixels["h0"] < alone.visible_pixels["h0"], "it is framed as well"
+    drawn = (pixels(shot.plain).min(axis=2) < 0.97).sum()
+    assert drawn > 1.7 * shot.visible_pixels["h0"]
+    assert (pixels(shot.marked)[50:-40].min(axis=2) < 0.9).sum() > 1.02 * shot.visible_pixels["h0"]
+
+
+def test_up_may_be_y() -> None:
+    turn = Pose(np.array([[1.0, 0, 0], [0, 0, 1.0], [0, -1.0, 0]]), np.zeros(3))  # Z up to Y up
+    lying = SymbolicMesh(tuple(h.move(turn) for h in table().hulls))
+    for one, other in zip(
+        draw_labeling_pictures(table(), size=SMALL), draw_labeling_pictures(lying, size=SMALL, up="Y"), strict=True
+    ):
+        assert one.name == other.name
+        assert all(abs(count - other.visible_pixels[name]) <= 4 for name, count in one.visible_pixels.items())
+
+
+def test_many_round_hulls_are_round_enough() -> None:
+    mesh = SymbolicMesh(tuple(hull(f"s{k}", Sphere(Pose.of_translation((3 * k, 0, 0)), 1.0)) for k in range(12)))
+    canvas = LabelingCanvas(LabelingSubject(mesh, tuple(range(12)), "Z"), 1024)
+    shot = canvas.draw(Arrangement.in_place(canvas.subject), "front")
+    radius = 0.88 * 1024 / 35
+    assert all(count == pytest.approx(np.pi * radius**2, rel=0.02) for count in shot.visible_pixels.values())
+
+
+@pytest.mark.parametrize(
+    ("options", "words"),
+    [
+        ({"hulls": {"left", "lef"}}, "'lef'"),
+        ({"most": 0}, "0 pictures"),
+        ({"size": 100}, "100 pixels"),
+        ({"size": 5000}, "5000 pixels"),
+    ],
+)
+def test_impossible_wishes_are_named(options: dict[str, Any], words: str) -> None:
+    with pytest.raises(UsageError, match=words):
+        draw_labeling_pictures(table(), **options)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("path", "hidden"),
+    [
+        ("doors_cabinets/IsaacGymEnvs/sektion_cabinet_model/urdf/sektion_cabinet.urdf", "alone"),
+        ("kettles_teapots/CoACD/python/out.obj", "alone"),
+        ("tables_desks/clvrai-furniture/objects/toy_table.xml", "alone"),
+    ],
+)
+def test_every_hull_of_real_assets_is_found(path: str, hidden: str) -> None:
+    mesh = load(corpus(path))
+    taken = draw_labeling_pictures(mesh)
+    assert_all_shown(mesh, set(mesh.index), taken)
+    assert any(hidden in shot.name for shot in taken)
+    assert len(taken) <= 8
