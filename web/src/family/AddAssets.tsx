@@ -112,14 +112,14 @@ function useDrop(): boolean {
 }
 
 /** The files in what was dropped or picked, folders with all that lies in them. */
-async function droppedFiles(data: DataTransfer): Promise<PlacedFile[]> {
+export async function droppedFiles(data: DataTransfer): Promise<PlacedFile[]> {
   // entries must be taken before the event is over
   const entries = [...data.items].flatMap((item) => item.webkitGetAsEntry() ?? []);
   if (entries.length === 0) return [...data.files].map((file) => ({ path: file.name, file }));
   return (await Promise.all(entries.map(filesOf))).flat();
 }
 
-function pickedFiles(files: FileList | null): PlacedFile[] {
+export function pickedFiles(files: FileList | null): PlacedFile[] {
   return [...(files ?? [])].map((file) => ({ path: file.webkitRelativePath || file.name, file }));
 }
 

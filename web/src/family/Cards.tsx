@@ -69,7 +69,7 @@ export function Cards({ least, large = false }: { least: number; large?: boolean
 }
 
 /** Arrow keys go to the assets beside, above and below; Enter shows the one that is open in the view. */
-function moveByKey(event: KeyboardEvent, shown: readonly string[], columns: number): void {
+export function moveByKey(event: KeyboardEvent, shown: readonly string[], columns: number): void {
   if (event.altKey || event.ctrlKey || event.metaKey) return;
   const { asset } = useWorkspace.getState();
   const here = asset === null ? -1 : shown.indexOf(asset);

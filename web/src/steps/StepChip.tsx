@@ -86,7 +86,7 @@ function showStep(view: AssetView, place: number): void {
   select(hullsAfter(step));
 }
 
-function hullsAfter({ select: selected, made, removed }: StepView): string[] {
+export function hullsAfter({ select: selected, made, removed }: StepView): string[] {
   const gone = new Set(removed);
   return [...(selected ?? []).filter((name) => !gone.has(name)), ...made];
 }
@@ -98,7 +98,7 @@ function handleKey(event: KeyboardEvent, view: AssetView, place: number, count: 
   act();
 }
 
-function keyAction(event: KeyboardEvent, view: AssetView, place: number, count: number): (() => void) | null {
+export function keyAction(event: KeyboardEvent, view: AssetView, place: number, count: number): (() => void) | null {
   if (event.key === "Enter") return () => runInTurn(() => draftStep(place));
   if (event.key === "Delete" || event.key === "Backspace") return () => removeStepHere(view.asset, place);
   if (event.altKey && event.key === "ArrowLeft" && place > 0) return () => moveRule(place, place - 1);
