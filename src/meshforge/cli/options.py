@@ -99,7 +99,7 @@ def takes(kind: type[Arguments]) -> Callable[[Callable[[Arguments], None]], Call
             function(kind(**values))
 
         command.__annotations__ = hints
-        command.__signature__ = Signature(  # type: ignore[attr-defined]
+        command.__signature__ = Signature(  # type: ignore[attr-defined]  # Typer reads it
             [
                 Parameter(
                     field.name,
@@ -107,7 +107,7 @@ def takes(kind: type[Arguments]) -> Callable[[Callable[[Arguments], None]], Call
                     default=Parameter.empty if field.default is MISSING else field.default,
                     annotation=hints[field.name],
                 )
-                for field in fields(kind)  # type: ignore[arg-type]
+                for field in fields(kind)  # type: ignore[arg-type]  # a dataclass
             ]
         )
         return command
