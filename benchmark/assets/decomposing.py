@@ -11,8 +11,8 @@ from manifold3d import Manifold
 
 from benchmark.assets.asset import Asset
 from meshforge.geometry import Floats, Polytope, Pose, convex_hull
+from meshforge.geometry.decomposition.engines import CoacdSettings
 from meshforge.geometry.decomposition.run import decompose
-from meshforge.geometry.decomposition.settings import CoacdSettings
 from script.samples.part import Part
 from script.samples.pieces import DIGITS, triangles
 from script.samples.solids import union

@@ -10,7 +10,7 @@ from meshforge.common import MeshForgeError
 from meshforge.language import Program
 from meshforge.symbolic import SymbolicMesh
 from meshforge.synthesis import Demonstration
-from meshforge.synthesis.replay import advance, begin_replay
+from meshforge.synthesis.task import advance, begin_replay
 
 
 @dataclass(frozen=True, eq=False)

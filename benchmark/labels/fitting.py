@@ -11,7 +11,7 @@ from scipy.optimize import minimize
 
 from benchmark.assets import Sample
 from meshforge.geometry import Floats
-from meshforge.label_model.family import ColumnScale
+from meshforge.label_model.posterior import ColumnScale
 from meshforge.labels.propagation.describe import ROW_WIDTH, MeshDescriber
 
 PURE = 0.8

@@ -11,7 +11,7 @@ from time import perf_counter
 
 from benchmark.labels.sampling import LABELLED, Family
 from meshforge.common import UsageError
-from meshforge.labels.names.hull_names import HullNames, match_names
+from meshforge.labels.names.label_by_names import HullNames, match_names
 from meshforge.symbolic import Label, SymbolicMesh
 from meshforge.symbolic.label_file import read_labels
 

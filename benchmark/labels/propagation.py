@@ -14,8 +14,7 @@ from benchmark.assets import CATEGORIES, Sample, samples
 from benchmark.labels.fitting import PURE, fitted, rows_of
 from benchmark.report import Cell, Goal, Result, Table, Tell
 from meshforge.geometry import Floats, Pose
-from meshforge.label_model.family import ColumnScale, FamilyTable
-from meshforge.label_model.posterior import refine_by_neighbors, vote_by_similarity
+from meshforge.label_model.posterior import ColumnScale, FamilyTable, refine_by_neighbors, vote_by_similarity
 from meshforge.labels import FamilyPosterior, Propagator
 from meshforge.labels.propagation.propagate import metric_weights
 from meshforge.symbolic import SymbolicMesh, descriptors

@@ -22,7 +22,7 @@ from benchmark.report import Cell, Result, Table, Tell
 from meshforge.geometry import Floats
 from meshforge.synthesis.readings import belief
 from meshforge.synthesis.readings.belief import count_idle, measure_evidence
-from meshforge.synthesis.readings.enumeration import enumerate_consistent
+from meshforge.synthesis.readings.rank import enumerate_consistent
 from meshforge.synthesis.search.smallest import Hit
 from meshforge.synthesis.search.terms import Term
 

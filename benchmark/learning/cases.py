@@ -13,8 +13,7 @@ from meshforge.language import Extractor, select_mask, show
 from meshforge.symbolic import SymbolicMesh
 from meshforge.synthesis.demonstration import Example
 from meshforge.synthesis.options import Options, TimeBudget
-from meshforge.synthesis.readings.enumeration import enumerate_consistent
-from meshforge.synthesis.readings.rank import RankedReadings
+from meshforge.synthesis.readings.rank import RankedReadings, enumerate_consistent
 from meshforge.synthesis.search.smallest import Hit, Search
 
 FAMILY = 30

@@ -17,8 +17,7 @@ from meshforge.language import Extractor, show, size_of
 from meshforge.synthesis.options import Options, TimeBudget
 from meshforge.synthesis.paper.search import PaperSearch
 from meshforge.synthesis.questions import LabelCorrection
-from meshforge.synthesis.readings.enumeration import enumerate_consistent
-from meshforge.synthesis.readings.rank import RankedReadings
+from meshforge.synthesis.readings.rank import RankedReadings, enumerate_consistent
 from meshforge.synthesis.repair.explain import CorrectionSearch, Explanation
 from meshforge.synthesis.search.smallest import Hit
 

@@ -12,8 +12,7 @@ import numpy as np
 from benchmark.clock import in_turns
 from benchmark.learning.boxes import SIZED, boxes_case
 from benchmark.report import Cell, Goal, Result, Table, Tell
-from meshforge.synthesis.readings.enumeration import enumerate_consistent
-from meshforge.synthesis.readings.rank import RankedReadings
+from meshforge.synthesis.readings.rank import RankedReadings, enumerate_consistent
 from meshforge.synthesis.search.smallest import Hit, Search
 
 _ROUNDS = 3

@@ -12,7 +12,7 @@ from benchmark.learning.tables import DEMONSTRATED, PROGRAM, stretched, template
 from meshforge.language import Program, Rule, Template, select
 from meshforge.symbolic import SymbolicMesh
 from meshforge.synthesis import Demonstration, LearningOutcome, Step
-from meshforge.synthesis.replay import Replay, advance, begin_replay
+from meshforge.synthesis.task import Replay, advance, begin_replay
 
 _TEXTS: dict[str, tuple[str, ...]] = {
     "table": (

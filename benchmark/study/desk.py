@@ -24,7 +24,7 @@ from meshforge.synthesis import (
     choose_first_demonstration,
     synthesize,
 )
-from meshforge.synthesis.replay import Replay, advance, begin_replay
+from meshforge.synthesis.task import Replay, advance, begin_replay
 
 Selections = tuple[frozenset[str], ...]
 """What each rule selects on a mesh, by hull names."""

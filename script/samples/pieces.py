@@ -9,8 +9,8 @@ import numpy as np
 from manifold3d import Manifold
 
 from meshforge.geometry import Floats, Ints, Polytope, Pose, convex_hull
+from meshforge.geometry.decomposition.engines import CoacdSettings
 from meshforge.geometry.decomposition.run import decompose
-from meshforge.geometry.decomposition.settings import CoacdSettings
 from script.samples.part import Part
 
 DIGITS = 5  # of coordinates in the files: hundredths of a millimetre

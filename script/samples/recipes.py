@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from meshforge.geometry.decomposition.settings import CoacdSettings
+from meshforge.geometry.decomposition.engines import CoacdSettings
 
 
 def coacd(threshold: float, *, merge: bool = True, most: int = -1, seed: int = 0) -> CoacdSettings:

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from meshforge.geometry import Pose
-from meshforge.geometry.decomposition.settings import CoacdSettings
+from meshforge.geometry.decomposition.engines import CoacdSettings
 from script.samples.part import Part
 
 

@@ -7,7 +7,7 @@ from collections import Counter
 import pytest
 
 from meshforge.formats import read
-from meshforge.labels.names.hull_names import HullNames, match_names
+from meshforge.labels.names.label_by_names import HullNames, match_names
 from tests.corpus_path import corpus
 
 VOCABULARY = ("door", "drawer", "handle", "knob", "top", "back", "trim", "shelf", "window", "lid", "leg", "blade")

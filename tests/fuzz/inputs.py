@@ -17,8 +17,8 @@ import numpy as np
 from meshforge.common import MeshForgeError
 from meshforge.formats.segmentation.reader import read_segmentation
 from meshforge.language import Program
+from meshforge.store.program import read_steps
 from meshforge.store.settings import read_settings
-from meshforge.store.steps import read_steps
 from meshforge.symbolic import read_labels
 from tests.corpus_case import ROOT
 from tests.damage import damaged

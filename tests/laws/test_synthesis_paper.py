@@ -12,9 +12,9 @@ from meshforge.language import All, Attach, BaseExtractor, Extractor, Geo, Is, l
 from meshforge.symbolic import Label, SymbolicMesh, bits_of
 from meshforge.synthesis.demonstration import Example
 from meshforge.synthesis.options import LAYERS, Layers, Options, TimeBudget
-from meshforge.synthesis.paper.evaluate import ExampleMasks, bounds, is_feasible
 from meshforge.synthesis.paper.partial import (
     BaseHole,
+    ExampleMasks,
     Hole,
     HoleGrammar,
     Open,
@@ -22,7 +22,9 @@ from meshforge.synthesis.paper.partial import (
     OpenGeo,
     OpenOperator,
     Partial,
+    bounds,
     count_nodes,
+    is_feasible,
     make_attach,
     make_operator,
 )

@@ -13,8 +13,7 @@ from meshforge.language import Extractor, select_mask, size_of
 from meshforge.symbolic import SymbolicMesh
 from meshforge.synthesis.demonstration import Example
 from meshforge.synthesis.options import Options, Shortcuts, TimeBudget
-from meshforge.synthesis.readings.enumeration import ConsistentTerms, enumerate_consistent
-from meshforge.synthesis.readings.rank import RankedReadings
+from meshforge.synthesis.readings.rank import ConsistentTerms, RankedReadings, enumerate_consistent
 from meshforge.synthesis.search.smallest import Hit, Search
 from tests.examples import examples
 from tests.strategies import extractors, grid_boxes, meshes

@@ -14,7 +14,7 @@ from meshforge.symbolic import SymbolicMesh
 from meshforge.synthesis.demonstration import Example
 from meshforge.synthesis.options import Options, TimeBudget
 from meshforge.synthesis.paper.search import PaperSearch
-from meshforge.synthesis.readings.enumeration import enumerate_consistent
+from meshforge.synthesis.readings.rank import enumerate_consistent
 from meshforge.synthesis.search.smallest import Hit, Search
 from tests.examples import examples
 from tests.strategies import extractors

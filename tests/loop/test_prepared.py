@@ -14,7 +14,7 @@ from meshforge.batch import IN_PROCESS
 from meshforge.batch import status_of as word
 from meshforge.formats import load
 from meshforge.geometry import Floats, is_convex
-from meshforge.geometry.decomposition.settings import VhacdSettings
+from meshforge.geometry.decomposition.engines import VhacdSettings
 from meshforge.language import Each, Merge, Replace
 from meshforge.project import Project
 from meshforge.synthesis import Step

@@ -23,6 +23,7 @@ from meshforge.batch.jobs import (
     load_named_templates,
     load_templates,
     make_jobs,
+    plan_run,
     read_template,
     template_folders,
 )
@@ -38,7 +39,6 @@ from meshforge.batch.outcome import (
     status_of,
     to_json_line,
 )
-from meshforge.batch.plan import plan_run
 from meshforge.batch.preparation.decompose import DecompositionResult, decompose_asset
 from meshforge.batch.preparation.record import (
     Preparation,

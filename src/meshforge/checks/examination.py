@@ -8,9 +8,8 @@ from typing import Any
 from meshforge.checks.clearance import Clearance, measure_clearance
 from meshforge.checks.engines import find_engine
 from meshforge.checks.fit import MeshFit, measure_fit
-from meshforge.checks.legality import Finding, check_legality
+from meshforge.checks.legality import Finding, check_legality, find_oddities
 from meshforge.checks.limits import check_limits
-from meshforge.checks.oddities import find_oddities
 from meshforge.checks.physics.simulation import Physics, simulate
 from meshforge.symbolic import SymbolicMesh
 

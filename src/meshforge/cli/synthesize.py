@@ -13,8 +13,7 @@ from typing import Annotated, Literal
 import typer
 
 from meshforge.cli.options import Json, takes
-from meshforge.cli.synthesize_script import check_all_asked, read_answers, run_script
-from meshforge.cli.synthesize_session import LearningSession
+from meshforge.cli.synthesize_session import LearningSession, check_all_asked, read_answers, run_script
 from meshforge.cli.synthesize_text import (
     LearningContext,
     format_answer_help,

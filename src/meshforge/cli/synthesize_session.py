@@ -1,22 +1,25 @@
-"""Learning again after each thing that a person said, and pictures of what is asked, in the project while it is
-asked."""
+"""Learning again after each thing that a person said, with pictures of what is asked; and without a person at the
+terminal, with answers from a file.
+"""
 
 from __future__ import annotations
 
+import json
 import shutil
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
+from typing import Any
 
 from meshforge.cli.synthesize_text import describe_change
-from meshforge.cli.terminal import catch_interrupt
-from meshforge.common import MeshForgeError
+from meshforge.cli.terminal import catch_interrupt, remark
+from meshforge.common import MeshForgeError, UsageError
 from meshforge.language import Program
 from meshforge.project import FamilyMeshes, Project, select_assets
 from meshforge.rendering import Up, render, write_png
 from meshforge.symbolic import SymbolicMesh
-from meshforge.synthesis import Answer, LearningOutcome, Options, Question, Repair
+from meshforge.synthesis import Ambiguous, Answer, LearningOutcome, Options, Question, Repair
 
 PICTURE_SIZE = (720, 560)
 
@@ -123,3 +126,102 @@ class QuestionPictures:
         """Whether the orientation says what +Z is, so that Z points up whatever the files say."""
         orient = self._session.project.orientation
         return orient is not None and any(pair.axis.endswith("Z") for pair in orient.pairs)
+
+
+ANSWERS_FORM = (
+    'The file holds a list of {"question": "RULE:ASSET", "choice": 1} (null for neither) '
+    'or {"rule": 1, "asset": "ASSET", "select": ["HULL", ...]} (null for neither).'
+)
+
+
+@dataclass(frozen=True, slots=True)
+class ScriptAnswers:
+    """What a file answers. direct: whether asked or not; choices: by the question's id, counted from 1."""
+
+    direct: tuple[Answer, ...]
+    choices: dict[str, int | None]
+
+
+def read_answers(path: Path, project: Project) -> ScriptAnswers:
+    """Read the file. Raises UsageError naming the entry: not of that form, or a question that cannot be."""
+    entries = _read_entries(path)
+    direct, choices = [], {}
+    for number, entry in enumerate(entries, 1):
+        match entry:
+            case {"question": str(question), "choice": int() | None as choice, **rest} if not rest:
+                if isinstance(choice, bool) or (choice is not None and choice < 1):
+                    raise _entry_error(path, number, f"the choice {choice!r} is no number from 1")
+                _check_question(question, path, number, project)
+                choices[question] = choice
+            case {"rule": int(rule), "asset": str(asset), "select": list() | None as select, **rest} if rest.keys() <= {
+                "id",
+                "action",
+                "refused",
+            } and all(isinstance(name, str) for name in select or ()):
+                project.path(asset)
+                direct.append(Answer(rule, asset, select))
+            case _:
+                raise _entry_error(path, number, "it has not the right form")
+    return ScriptAnswers(tuple(direct), choices)
+
+
+def _read_entries(path: Path) -> list[Any]:
+    try:
+        entries = json.loads(path.read_text(encoding="utf-8-sig"))
+    except OSError as error:
+        raise UsageError(f"cannot be read: {error.strerror}", where=str(path)) from error
+    except ValueError as error:
+        raise UsageError(f"this is no JSON: {error}", where=str(path), remedy=ANSWERS_FORM) from error
+    if not isinstance(entries, list):
+        raise UsageError("this is no list of answers", where=str(path), remedy=ANSWERS_FORM)
+    return entries
+
+
+def _check_question(question: str, path: Path, number: int, project: Project) -> None:
+    """Whether there can be such a question: of a rule, and an asset of the project."""
+    rule, _, asset = question.partition(":")
+    if not rule.isdecimal() or not asset:
+        raise _entry_error(path, number, f"{question!r} is no question; one is called RULE:ASSET")
+    project.path(asset)
+
+
+def _entry_error(path: Path, number: int, problem: str) -> Exception:
+    return UsageError(f"answer {number}: {problem}", where=str(path), remedy=ANSWERS_FORM)
+
+
+def run_script(session: LearningSession, given: ScriptAnswers | None, verdict: bool | None) -> LearningOutcome:
+    """The outcome after all answers that were given; verdict: what is said to each repair, None leaves it open."""
+    for answer in given.direct if given else ():
+        session.answer(answer)
+    waiting = given.choices if given else {}
+    confirm = None if verdict is None else _confirm_always(verdict)
+    outcome = session.learn(confirm)
+    while isinstance(outcome, Ambiguous) and outcome.question.id in waiting:
+        session.answer(outcome.question.answer_with(_choice_index(outcome.question, waiting.pop(outcome.question.id))))
+        outcome = session.learn(confirm)
+    return outcome
+
+
+def check_all_asked(project: Project, given: ScriptAnswers | None, outcome: LearningOutcome) -> None:
+    """Raise UsageError where a choice is left over, whose question did not come up now or earlier."""
+    known = set(project.answers().ids)
+    odd = [question for question in (given.choices if given else {}) if question not in known]
+    if odd:
+        asked = f"The open question is {outcome.question.id}." if outcome.question else "No question is open."
+        raise UsageError(f"the question {odd[0]} did not come up", remedy=asked)
+
+
+def _choice_index(question: Question, choice: int | None) -> int | None:
+    if choice is not None and choice > len(question.choices):
+        count = len(question.choices)
+        raise UsageError(f"the question {question.id} has {count} choices, there is no choice {choice}")
+    return None if choice is None else choice - 1
+
+
+def _confirm_always(verdict: bool) -> Callable[[Repair], bool]:
+
+    def said(repair: Repair) -> bool:
+        remark(f"{'repaired' if verdict else 'left as it is'}: {describe_change(repair)}")
+        return verdict
+
+    return said

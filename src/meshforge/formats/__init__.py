@@ -2,7 +2,6 @@
 
 from meshforge.formats.base import Format, Loss, Mass, Output
 from meshforge.formats.engine_names.base import EngineName
-from meshforge.formats.loader import NO_GEOMETRY, labels_beside, load, load_many, read
 from meshforge.formats.mesh_reader import read_triangles, split_into_pieces
 from meshforge.formats.meshfile.surface import RawSurface
 from meshforge.formats.output_tree import SaveResult, output_path_of, save
@@ -13,14 +12,25 @@ from meshforge.formats.registry import (
     ENGINE_FORMATS,
     FORMATS,
     MESH_SUFFIXES,
+    NO_GEOMETRY,
     SUFFIXES,
     format_for,
     format_of,
     format_with_names,
     is_asset,
+    labels_beside,
+    load,
+    load_many,
+    read,
 )
-from meshforge.formats.segmentation.base import POINTS_SUFFIXES, Segmentation, points_beside
-from meshforge.formats.segmentation.class_names import SEMANTICS_FILE, read_class_names, read_semantics
+from meshforge.formats.segmentation.base import (
+    POINTS_SUFFIXES,
+    SEMANTICS_FILE,
+    Segmentation,
+    points_beside,
+    read_class_names,
+    read_semantics,
+)
 from meshforge.formats.segmentation.reader import attach_own_mesh, read_segmentation
 from meshforge.formats.visuals import VisualSurfaces
 

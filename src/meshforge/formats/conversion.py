@@ -9,7 +9,7 @@ from pathlib import Path
 
 from meshforge.common import join_names
 from meshforge.formats.base import Format, Loss, Output
-from meshforge.formats.companions import find_companions
+from meshforge.formats.references import find_companions
 from meshforge.formats.visuals import Visual, VisualSurfaces
 from meshforge.geometry import Pose
 from meshforge.symbolic import Asset, Body, Feature, FeatureKind, Opaque, Surface, features_of

@@ -12,12 +12,11 @@ from pathlib import Path
 import numpy as np
 
 from meshforge.common import MeshForgeError
-from meshforge.formats.companions import find_companions
 from meshforge.formats.kinematic_tree import drop_rounding
 from meshforge.formats.mesh_reader import read_triangles
 from meshforge.formats.meshfile.surface import join_surfaces, stack_triangles
 from meshforge.formats.plain.obj_text import format_obj_rows
-from meshforge.formats.references import Resolver, placement
+from meshforge.formats.references import Resolver, find_companions, placement
 from meshforge.formats.visuals import Rgba, Visual
 from meshforge.geometry import Floats, Ints, Pose, Shape
 from meshforge.symbolic import Surface

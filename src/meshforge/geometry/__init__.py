@@ -2,11 +2,10 @@
 
 from meshforge.geometry.aabb import Aabb, bounds
 from meshforge.geometry.arrays import Floats, Ints, freeze_floats, freeze_ints, nearest_on_triangles
-from meshforge.geometry.convex import FLATNESS, convex_hull, principal_extents, spans_volume
+from meshforge.geometry.convex import FLATNESS, convex_hull, measure_extents, principal_extents, spans_volume
 from meshforge.geometry.cut import cut, intersect, partition
-from meshforge.geometry.decomposition.process import EngineControl
+from meshforge.geometry.decomposition.engines import CoacdSettings, DecomposeSettings, EngineControl, VhacdSettings
 from meshforge.geometry.decomposition.run import cache_folder, decompose
-from meshforge.geometry.decomposition.settings import CoacdSettings, DecomposeSettings, VhacdSettings
 from meshforge.geometry.decomposition.triangles import is_line, is_sheet, sheet_hulls, volume_inside
 from meshforge.geometry.distance import close_pairs, distance
 from meshforge.geometry.fill import aabb_box, aabb_capsule, aabb_cylinder, aabb_sphere, longest_axis, map_to_box
@@ -84,6 +83,7 @@ __all__ = [
     "is_sheet",
     "longest_axis",
     "map_to_box",
+    "measure_extents",
     "nearest_aligned_rotation",
     "nearest_aligned_rotation_between",
     "nearest_on_triangles",

@@ -8,8 +8,7 @@ from dataclasses import dataclass, field
 from meshforge.common import MeshForgeError, file_state
 from meshforge.labels.from_files.read import kind_of, label_file_beside
 from meshforge.labels.merge import is_protected
-from meshforge.labels.names.hull_names import NamePattern, match_names
-from meshforge.labels.names.label_by_names import name_patterns, names_of_facts, to_label
+from meshforge.labels.names.label_by_names import NamePattern, match_names, name_patterns, names_of_facts, to_label
 from meshforge.store import AssetFacts, Store, survey
 from meshforge.symbolic import HUMAN_SOURCES, Label, match_labels, read_labels
 

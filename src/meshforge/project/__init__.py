@@ -1,7 +1,7 @@
 """What is done with a project folder: demonstrate, learn, ask, review, apply, and how far everything is."""
 
-from meshforge.project.accept import ProgramState
 from meshforge.project.family import FamilyMeshes, select_assets, suggest_first_demonstration
+from meshforge.project.learn import ProgramState
 from meshforge.project.prepare import PreparationResult
 from meshforge.project.project import Project
 from meshforge.project.review import output_digest

@@ -8,9 +8,9 @@ from functools import partial
 from meshforge.batch import ApplyTask, AssetJob, ExecutionOptions, Stamp, inputs_of, read_stamp
 from meshforge.common import MeshForgeError
 from meshforge.language import Program
-from meshforge.project.accept import program_state_of
 from meshforge.project.demonstrate import find_unknown_hulls
 from meshforge.project.family import suggest_first_demonstration
+from meshforge.project.learn import program_state_of
 from meshforge.project.review import output_digest
 from meshforge.project.run import build_jobs, build_task
 from meshforge.project.status import AssetStatus, OutputState, Status, advise

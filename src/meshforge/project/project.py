@@ -20,7 +20,6 @@ from meshforge.batch import (
 from meshforge.geometry import CoacdSettings, DecomposeSettings
 from meshforge.labels import LabelStore
 from meshforge.language import Action, Orient, Program, Template
-from meshforge.project.accept import ProgramState, read_program_state
 from meshforge.project.answer import (
     add_answer,
     answer_by_choice,
@@ -30,7 +29,7 @@ from meshforge.project.answer import (
     take_back_all,
 )
 from meshforge.project.demonstrate import delete_rule, demonstrate, move_rule
-from meshforge.project.learn import LearnOptions, learn_program
+from meshforge.project.learn import LearnOptions, ProgramState, learn_program, read_program_state
 from meshforge.project.overview import compute_status
 from meshforge.project.prepare import (
     DecomposeOptions,

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from meshforge.common import ProgramError, ProjectError, nearest_name, write_atomically
 from meshforge.language import Program, rename_in_orient, rename_in_program
-from meshforge.project import accept
+from meshforge.project import learn
 from meshforge.store import (
     AnswerLine,
     AnswersFile,
@@ -47,11 +47,11 @@ def rename_label(store: Store, old: str, new: str) -> None:
         after = _rename_in_settings(store, settings, old, new)
         fresh = edit_settings(store.folder, {"vocabulary": after.vocabulary, "orient": after.orient})
         fresh = _rename_in_tables(store, fresh, settings, old, new)
-        inputs = accept.digest_learning_inputs(store)
+        inputs = learn.digest_learning_inputs(store)
         for path, text in texts.items():
             write_atomically(path, text)
         if program:
-            accept.replace_program(store, program, rename_in_program(program, old, new), inputs, after)
+            learn.replace_program(store, program, rename_in_program(program, old, new), inputs, after)
         write_atomically(store.layout.settings, fresh)
 
 

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any, Literal
 
 from meshforge.labels import label_file_beside
-from meshforge.project.accept import ProgramState
+from meshforge.project.learn import ProgramState
 from meshforge.symbolic import Label
 
 OutputState = Literal["none", "edited", "unchanged", "failed"]

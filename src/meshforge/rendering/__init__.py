@@ -13,8 +13,14 @@ from meshforge.rendering.colors import (
     label_color,
     label_colors,
 )
-from meshforge.rendering.compare import compare, draw_before_after, draw_difference, joint_bounds
-from meshforge.rendering.heat_map import draw_heat_map, draw_volumes
+from meshforge.rendering.compare import (
+    compare,
+    draw_before_after,
+    draw_difference,
+    draw_heat_map,
+    draw_volumes,
+    joint_bounds,
+)
 from meshforge.rendering.id_buffer import count_visible_pixels, render_id_buffer, render_thumbnail
 from meshforge.rendering.labeling.picture import LabelingPicture
 from meshforge.rendering.labeling.series import draw_labeling_pictures, hull_numbers

@@ -1,7 +1,6 @@
 """The project folder on disk: its layout, its settings, every file of it read and written, and the lock. It knows no
 use case."""
 
-from meshforge.store.facts import AssetFacts, geometry_digest, iterate_survey, survey
 from meshforge.store.feedback import (
     AnswerLine,
     AnswersFile,
@@ -15,8 +14,16 @@ from meshforge.store.feedback import (
 )
 from meshforge.store.folder import add_assets, create_folder, find_assets
 from meshforge.store.layout import json_text, read_json, write_json
-from meshforge.store.meshes import AssetFiles, hull_digests
-from meshforge.store.program import ProgramRecord
+from meshforge.store.meshes import AssetFacts, AssetFiles, geometry_digest, hull_digests, iterate_survey, survey
+from meshforge.store.program import (
+    CorrectionsFile,
+    DemonstrationFile,
+    ProgramRecord,
+    StepLine,
+    action_text,
+    action_text_without_each,
+    parse_action_text,
+)
 from meshforge.store.settings import (
     Settings,
     VlmSettings,
@@ -26,14 +33,6 @@ from meshforge.store.settings import (
     read_settings,
     set_value,
     toml_value,
-)
-from meshforge.store.steps import (
-    CorrectionsFile,
-    DemonstrationFile,
-    StepLine,
-    action_text,
-    action_text_without_each,
-    parse_action_text,
 )
 from meshforge.store.store import Store
 

@@ -1,16 +1,219 @@
-"""The assets of a project as the language sees them, prepared and labelled; their labels files."""
+"""The assets of a project as the language sees them, prepared and labelled; their labels files; and what they hold,
+kept on disk, so that a status need not read hundreds of files again.
+"""
 
 from __future__ import annotations
 
 import json
-from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Generator, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
+from time import monotonic
+from typing import Literal
 
-from meshforge.batch import read_prepared
-from meshforge.common import MeshForgeError, write_atomically
+from pydantic import BaseModel, ConfigDict, ValidationError
+
+from meshforge.batch import (
+    AssetSet,
+    ExecutionOptions,
+    Preparation,
+    WorkerFailure,
+    apply_preparation,
+    asset_digests,
+    execute,
+    find_sources,
+    read_preparation,
+    read_prepared,
+    record_digest,
+    software_version,
+    source_files,
+    text_digest,
+)
+from meshforge.common import MeshForgeError, describe_error, relative_name, write_atomically
+from meshforge.formats import read
 from meshforge.geometry import digest
-from meshforge.symbolic import Label, LabelFile, SymbolicMesh, format_labels, match_labels, read_labels, transfer_labels
+from meshforge.store.layout import Layout
+from meshforge.symbolic import (
+    Label,
+    LabelFile,
+    Mentions,
+    SymbolicMesh,
+    format_labels,
+    match_labels,
+    read_labels,
+    transfer_labels,
+)
+
+_OFTEN = 20.0  # seconds of reading after which what was read is kept, so that a kill does not lose more
+_SHARE = 20  # and as many times as long as keeping it took
+
+
+class AssetFacts(BaseModel):
+    """What one asset holds. hulls: the digest of each by its name; files: the digest of each by its path from the base.
+
+    bodies, mentions: the name of the body of each hull, in order, and what else its file calls it; sources: how many
+    pieces and bodies have no hulls but could be decomposed; preparation: the digest of what was done to the asset
+    before; prepared: that in words; replaced: what each hull that was split has become.
+    times: modification time [ns] and size of each file, by which a change is guessed without reading it; only the
+    digests decide what is stale. error: why the asset cannot be read.
+    """
+
+    model_config = ConfigDict(frozen=True)
+
+    hulls: dict[str, str] = {}
+    bodies: tuple[str, ...] = ()
+    mentions: tuple[Mentions, ...] = ()
+    sources: int = 0
+    preparation: str | None = None
+    prepared: tuple[str, ...] = ()
+    replaced: dict[str, tuple[str, ...]] = {}
+    files: dict[str, str] = {}
+    times: dict[str, tuple[int, int]] = {}
+    error: str | None = None
+
+
+class _SurveyFile(BaseModel):
+    """form: counts the forms that this file had, as facts were added."""
+
+    form: Literal[3]
+    software: str
+    assets: dict[str, AssetFacts]
+
+
+def survey(
+    found: AssetSet,
+    layout: Layout,
+    only: Collection[str] | None = None,
+    *,
+    execution: ExecutionOptions | None = None,
+    progress: Callable[[], None] | None = None,
+) -> dict[str, AssetFacts]:
+    """The facts of all assets, or of some, by id; see `iterate_survey`."""
+    return dict(iterate_survey(found, layout, only, execution=execution, progress=progress))
+
+
+def iterate_survey(
+    found: AssetSet,
+    layout: Layout,
+    only: Collection[str] | None = None,
+    *,
+    execution: ExecutionOptions | None = None,
+    progress: Callable[[], None] | None = None,
+) -> Generator[tuple[str, AssetFacts], None, None]:
+    """The ids of all assets in order, or of some, with their facts, as soon as these are known.
+
+    Those whose files changed since are read; what was read is kept now and then, and at the end. layout: where the
+    project keeps preparations, and these facts; progress: called for each that had to be read.
+    """
+    known = _FactsMemory(layout.survey, found.ids)
+    wanted = {key: path for key, path in found.ids.items() if only is None or key in only}
+    work = {key: _AssetPaths(path, found.base, layout.preparation(key)) for key, path in wanted.items()}
+    fresh = {key for key, own in work.items() if key in known.facts and _is_current(known.facts[key], own)}
+    todo = tuple(own for key, own in work.items() if key not in fresh)
+    results = execute(_read_facts, todo, replace(execution or ExecutionOptions(), progress=progress))
+    try:
+        for key, own in work.items():
+            if key not in fresh:
+                result = next(results)
+                known.add(
+                    key, AssetFacts(error=f"{own.path}: {result.why}") if isinstance(result, WorkerFailure) else result
+                )
+            yield key, known.facts[key]
+    finally:  # also when the caller stops early
+        results.close()
+        known.keep()
+
+
+class _FactsMemory:
+    """What is known of assets, in memory and in a file; ids: of those that there are."""
+
+    def __init__(self, file: Path, ids: Collection[str]) -> None:
+        self._file, self._ids = file, ids
+        kept = _read_memory(file)
+        self.facts = {key: kept[key] for key in ids if key in kept}
+        self._has_news = len(self.facts) < len(kept)
+        self._kept_at, self._pause = monotonic(), _OFTEN
+
+    def add(self, key: str, facts: AssetFacts) -> None:
+        """Take up the facts of an asset."""
+        self.facts[key] = facts
+        self._has_news = True
+        if monotonic() - self._kept_at > self._pause:
+            self.keep()
+
+    def keep(self) -> None:
+        """Write what is new, and next time only after so long that this takes a small share of the time."""
+        if not self._has_news:
+            return
+        began = monotonic()
+        every = {key: self.facts[key] for key in self._ids if key in self.facts and not self.facts[key].error}
+        write_atomically(self._file, _SurveyFile(form=3, software=software_version(), assets=every).model_dump_json())
+        self._has_news, self._kept_at = False, monotonic()
+        self._pause = max(_OFTEN, (self._kept_at - began) * _SHARE)
+
+
+def geometry_digest(hulls: Mapping[str, str]) -> str:
+    """One digest of all hulls of an asset; hulls: the digest of each by its name, in order."""
+    return text_digest("\n".join(f"{name} {known}" for name, known in hulls.items()))
+
+
+def _read_memory(memory: Path) -> dict[str, AssetFacts]:
+    """The facts that were kept; none of them where the file is damaged or from another version."""
+    try:
+        kept = _SurveyFile.model_validate_json(memory.read_bytes())
+    except (OSError, ValidationError):
+        return {}
+    return kept.assets if kept.software == software_version() else {}
+
+
+@dataclass(frozen=True, slots=True)
+class _AssetPaths:
+    """An asset, the folder that names of its files count from, and that of its preparation."""
+
+    path: Path
+    base: Path
+    preparation: Path
+
+
+def _is_current(facts: AssetFacts, work: _AssetPaths) -> bool:
+    """Whether every file still has the time and size it had, and the preparation is what it was."""
+    base = work.base
+    try:
+        main = {relative_name(file, base) for file in source_files(work.path)}
+        same = main <= facts.times.keys() and all(
+            _time_and_size(base / name) == time for name, time in facts.times.items()
+        )
+        return same and record_digest(work.preparation) == facts.preparation
+    except OSError:
+        return False
+
+
+def _read_facts(work: _AssetPaths) -> AssetFacts:
+    path, base = work.path, work.base
+    try:
+        source = read(path)
+        times = {relative_name(file, base): _time_and_size(file) for file in (*source_files(path), *source.files)}
+        preparation = read_preparation(work.preparation) or Preparation()
+        asset = apply_preparation(source, preparation)
+        entries = [entry for step in preparation.steps for entry in step.replaced]
+        return AssetFacts(
+            hulls={geom.name: digest(geom.shape) for geom in asset.geoms},
+            bodies=tuple(geom.body for geom in asset.geoms),
+            mentions=tuple(geom.mentions for geom in asset.geoms),
+            sources=sum(not source.is_hopeless for source in find_sources(asset)),
+            preparation=record_digest(work.preparation),
+            prepared=tuple(map(str, preparation.steps)),
+            replaced={entry.what: tuple(entry.made) for entry in entries if entry.kind == "hull"},
+            files=asset_digests(path, source.files, base),
+            times=times,
+        )
+    except Exception as error:  # one asset never hides the others
+        return AssetFacts(error=describe_error(error, str(path)))
+
+
+def _time_and_size(path: Path) -> tuple[int, int]:
+    stat = path.stat()
+    return stat.st_mtime_ns, stat.st_size
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,15 +1,22 @@
-"""program.mf, the record of what it was learned from, and the templates that it names."""
+"""program.mf, the record of what it was learned from and the templates it names; and the steps that it is learned from:
+demonstrations/ID.json, and corrections/ID.json, replayed after the program.
+"""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 from tempfile import TemporaryDirectory
+from typing import Annotated
 
-from meshforge.batch import read_template
+from pydantic import Field
+
+from meshforge.batch import Correction, read_template
 from meshforge.common import MeshForgeError, ProjectError, join_names, relative_name, write_atomically
 from meshforge.formats import MESH_SUFFIXES
-from meshforge.language import Program
-from meshforge.store.layout import JsonFile, Layout
+from meshforge.language import Action, Each, Program, show_label
+from meshforge.store.layout import JsonFile, Layout, read_json, write_json
+from meshforge.synthesis import Step
 
 
 def list_templates(layout: Layout) -> tuple[str, ...]:
@@ -60,3 +67,105 @@ def write_program(path: Path, program: Program) -> None:
     if old != text:
         write_atomically(path.with_name("program.previous.mf"), old)
     write_atomically(path, text)
+
+
+class StepLine(JsonFile):
+    """One step. select: names of hulls, [] for nothing, null for open; action: in the language's own text."""
+
+    rule: Annotated[int, Field(ge=1)]
+    select: tuple[str, ...] | None
+    action: str
+
+
+class DemonstrationFile(JsonFile):
+    """demonstrations/ID.json."""
+
+    asset: str
+    steps: tuple[StepLine, ...]
+
+
+class CorrectionLine(JsonFile):
+    """One edit by hand; hulls: the digest of each by its name, so that a hull that changed is noticed."""
+
+    hulls: dict[str, str]
+    action: str
+
+
+class CorrectionsFile(JsonFile):
+    """corrections/ID.json."""
+
+    asset: str
+    steps: tuple[CorrectionLine, ...]
+
+
+def to_step_lines(steps: Sequence[Step]) -> tuple[StepLine, ...]:
+    """Steps as a file keeps them, names sorted."""
+    return tuple(
+        StepLine(
+            rule=step.rule,
+            select=None if step.select is None else tuple(sorted(step.select)),
+            action=action_text(step.action, step.label),
+        )
+        for step in steps
+    )
+
+
+def steps_of(lines: Sequence[StepLine], path: Path) -> tuple[Step, ...]:
+    """The steps of a file. Raises ProjectError for an action that does not parse."""
+    return tuple(Step(line.rule, line.select, *parse_action_text(line.action, path)) for line in lines)
+
+
+def to_correction_lines(corrections: Sequence[Correction]) -> tuple[CorrectionLine, ...]:
+    """Edits by hand as a file keeps them."""
+    return tuple(CorrectionLine(hulls=dict(c.hulls), action=action_text(c.action, c.label)) for c in corrections)
+
+
+def corrections_of(lines: Sequence[CorrectionLine], path: Path) -> tuple[Correction, ...]:
+    """The edits by hand of a file. Raises ProjectError for an action that does not parse."""
+    return tuple(Correction(tuple(line.hulls.items()), *parse_action_text(line.action, path)) for line in lines)
+
+
+def action_text(action: Action, label: str | None) -> str:
+    """An action as a rule has it after its arrow: `Add(+X, "knob.obj") as handle`."""
+    return f"{action} as {show_label(label)}" if label else str(action)
+
+
+def action_text_without_each(action: Action, label: str | None) -> str:
+    """The same without `Each`: what a rule does, whether to all hulls together or to each."""
+    return action_text(action.action if isinstance(action, Each) else action, label)
+
+
+def parse_action_text(text: str, where: str | Path) -> tuple[Action, str | None]:
+    """The action and the label it gives. Raises ProjectError, about `where`, where the text is no action."""
+    try:
+        (rule,) = Program.parse(f"All => {text}", "action").rules
+    except (MeshForgeError, ValueError) as error:
+        raise ProjectError(f"{text!r} is no action: {error}", where=str(where)) from error
+    return rule.action, rule.label
+
+
+def read_steps(path: Path) -> tuple[Step, ...]:
+    """The steps in a demonstrations file, none where there is no such file."""
+    kept = read_json(path, DemonstrationFile)
+    return steps_of(kept.steps, path) if kept else ()
+
+
+def read_corrections(path: Path) -> tuple[Correction, ...]:
+    """The edits by hand in a file, none where there is no such file."""
+    kept = read_json(path, CorrectionsFile)
+    return corrections_of(kept.steps, path) if kept else ()
+
+
+def write_steps(path: Path, asset: str, steps: Sequence[Step]) -> None:
+    """Write the steps of a demonstrations file; without any step the file is removed."""
+    if not steps:
+        path.unlink(missing_ok=True)
+        return
+    kept = read_json(path, DemonstrationFile) or DemonstrationFile(asset=asset, steps=())
+    write_json(path, kept.model_copy(update={"asset": asset, "steps": to_step_lines(steps)}))
+
+
+def write_corrections(path: Path, asset: str, corrections: Sequence[Correction]) -> None:
+    """Write the edits by hand of a corrections file."""
+    kept = read_json(path, CorrectionsFile) or CorrectionsFile(asset=asset, steps=())
+    write_json(path, kept.model_copy(update={"steps": to_correction_lines(corrections)}))

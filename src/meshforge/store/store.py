@@ -14,7 +14,16 @@ from meshforge.store.feedback import AnswersFile, Review, read_answers, read_rev
 from meshforge.store.folder import path_of
 from meshforge.store.layout import Layout, read_json, write_json
 from meshforge.store.meshes import AssetFiles, read_labels_file, read_meshes, write_labels
-from meshforge.store.program import ProgramRecord, check_template, list_templates, write_program
+from meshforge.store.program import (
+    ProgramRecord,
+    check_template,
+    list_templates,
+    read_corrections,
+    read_steps,
+    write_corrections,
+    write_program,
+    write_steps,
+)
 from meshforge.store.settings import (
     Settings,
     change_setting,
@@ -23,7 +32,6 @@ from meshforge.store.settings import (
     parse_orientation,
     read_settings,
 )
-from meshforge.store.steps import read_corrections, read_steps, write_corrections, write_steps
 from meshforge.symbolic import Label, LabelFile, SymbolicMesh
 from meshforge.synthesis import Demonstration, Step
 

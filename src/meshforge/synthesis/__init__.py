@@ -17,7 +17,7 @@ from meshforge.synthesis.outcome import (
 )
 from meshforge.synthesis.questions import Answer, Choice, Hint, LabelCorrection, Question, Repair
 from meshforge.synthesis.readings.rank import BELIEVABLE
-from meshforge.synthesis.replay import Replay, advance, begin_replay, memoize
+from meshforge.synthesis.task import Replay, advance, begin_replay, memoize
 
 __all__ = [
     "BELIEVABLE",

@@ -16,7 +16,7 @@ from meshforge.symbolic import SymbolicMesh
 from meshforge.synthesis.outcome import reading_id
 from meshforge.synthesis.questions import Choice, Hint, Question
 from meshforge.synthesis.readings.rank import RankedReadings
-from meshforge.synthesis.replay import memoize
+from meshforge.synthesis.task import memoize
 
 MAX_NEITHER_ANSWERS = 4
 """After so many answers that neither choice is right a rule is not asked about: what is meant is none of its readings,

@@ -29,12 +29,10 @@ from meshforge.synthesis.outcome import (
 )
 from meshforge.synthesis.paper.search import HitWithCorrections, PaperSearch
 from meshforge.synthesis.questions import Answer, LabelCorrection, Question, Repair
-from meshforge.synthesis.readings.enumeration import enumerate_consistent
-from meshforge.synthesis.readings.rank import RankedReadings
-from meshforge.synthesis.repair.proposals import RepairCollector, make_confirmer
-from meshforge.synthesis.replay import memoize
+from meshforge.synthesis.readings.rank import RankedReadings, enumerate_consistent
+from meshforge.synthesis.repair.explain import RepairCollector, make_confirmer
 from meshforge.synthesis.search.smallest import Hit, Miss, NearestExtractor, Search, SearchEffort, Unfinished
-from meshforge.synthesis.task import LearningTask, ReplaySet
+from meshforge.synthesis.task import LearningTask, ReplaySet, memoize
 
 PLAIN_SIZE = 7
 """Nodes up to which an extractor is plain enough to speak for an orientation that is suggested."""

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from meshforge.checks.fit import measure_fit
-from meshforge.checks.oddities import find_oddities
+from meshforge.checks.legality import find_oddities
 from meshforge.checks.pictures import draw_fit
 from meshforge.geometry import Aabb, Box, Shape
 from meshforge.symbolic import Hull, SymbolicMesh

@@ -5,7 +5,7 @@ import itertools
 import numpy as np
 import pytest
 
-from meshforge.checks.physics.masses import check_masses
+from meshforge.checks.physics.mechanism import check_masses
 from meshforge.checks.physics.simulation import simulate
 from meshforge.geometry import (
     Aabb,

@@ -12,8 +12,14 @@ import pytest
 
 from meshforge.common import AssetError
 from meshforge.formats import is_asset
-from meshforge.formats.segmentation.base import Segmentation, is_segmentation, points_beside
-from meshforge.formats.segmentation.class_names import LinkSemantics, read_class_names, read_semantics
+from meshforge.formats.segmentation.base import (
+    LinkSemantics,
+    Segmentation,
+    is_segmentation,
+    points_beside,
+    read_class_names,
+    read_semantics,
+)
 from meshforge.formats.segmentation.reader import attach_own_mesh, read_segmentation
 from tests.mesh_files import obj, stl_binary
 from tests.soups import box

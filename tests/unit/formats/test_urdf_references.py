@@ -7,8 +7,7 @@ from pathlib import Path
 import pytest
 
 from meshforge.common import AssetError
-from meshforge.formats.companions import find_companions
-from meshforge.formats.references import placement
+from meshforge.formats.references import find_companions, placement
 from tests.urdf_sample import THREE, link, put, read, robot, sample, write
 
 

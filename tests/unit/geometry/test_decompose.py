@@ -10,10 +10,15 @@ import pytest
 
 from meshforge.common import GeometryError, UsageError
 from meshforge.geometry import Floats, Ints, is_convex
-from meshforge.geometry.decomposition import process
-from meshforge.geometry.decomposition.process import DecompositionCancelledError, EngineControl
+from meshforge.geometry.decomposition import engines
+from meshforge.geometry.decomposition.engines import (
+    CoacdSettings,
+    DecomposeSettings,
+    DecompositionCancelledError,
+    EngineControl,
+    VhacdSettings,
+)
 from meshforge.geometry.decomposition.run import cache_folder, cache_key, decompose, read_entry, write_entry
-from meshforge.geometry.decomposition.settings import CoacdSettings, DecomposeSettings, VhacdSettings
 from meshforge.geometry.decomposition.triangles import clean_triangles
 
 QUICK = CoacdSettings(resolution=200, mcts_iterations=20, mcts_nodes=8)
@@ -42,7 +47,7 @@ CUBE = prism([(0, 0), (1, 0), (1, 1), (0, 1)], [(0, 1, 2), (0, 2, 3)])
 def fake_engine(monkeypatch: pytest.MonkeyPatch, folder: Path, code: str) -> None:
     script = folder / "engine.py"
     script.write_text(code)
-    monkeypatch.setattr(process, "worker", SimpleNamespace(__file__=str(script)))
+    monkeypatch.setattr(engines, "worker", SimpleNamespace(__file__=str(script)))
 
 
 @pytest.mark.parametrize(

@@ -7,8 +7,8 @@ import pytest
 
 from meshforge.common import GeometryError
 from meshforge.geometry import Floats, Ints, is_closed, principal_extents
+from meshforge.geometry.decomposition.engines import CoacdSettings, VhacdSettings
 from meshforge.geometry.decomposition.run import decompose
-from meshforge.geometry.decomposition.settings import CoacdSettings, VhacdSettings
 from meshforge.geometry.decomposition.triangles import cap_holes, clean_triangles, is_sheet, sheet_hulls, volume_inside
 from tests.unit.geometry.test_decompose import CUBE, L_SHAPE, QUICK
 

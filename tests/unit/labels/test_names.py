@@ -9,9 +9,17 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from meshforge.common import UsageError
-from meshforge.labels.names.hull_names import HullNames, NameMatch, find_pattern, match_names, pattern_of
-from meshforge.labels.names.match import match_label
-from meshforge.labels.names.words import EXACT, common, fillers, is_same, places, split_joined_word, words_of
+from meshforge.labels.names.label_by_names import HullNames, NameMatch, find_pattern, match_names, pattern_of
+from meshforge.labels.names.words import (
+    EXACT,
+    common,
+    fillers,
+    is_same,
+    match_label,
+    places,
+    split_joined_word,
+    words_of,
+)
 
 VOCABULARY = ("drawer", "handle", "door", "knob", "leg", "top", "back", "frame", "shelf", "panel", "seat", "armrest")
 SURE = 0.5

@@ -60,6 +60,6 @@ def test_assets_are_not_read_again(tmp_path: Path, monkeypatch: pytest.MonkeyPat
     def read(*_: object) -> SymbolicMesh:
         raise AssertionError("an asset was read")
 
-    monkeypatch.setattr("meshforge.store.facts.read", read)
+    monkeypatch.setattr("meshforge.store.meshes.read", read)
     monkeypatch.setattr("meshforge.store.meshes.read_prepared", read)
     assert made.label_offers() == before

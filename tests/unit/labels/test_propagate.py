@@ -135,8 +135,7 @@ def test_advice_begins_with_what_stands_for_most_and_names_each_mesh_once() -> N
 
 @pytest.mark.slow
 def test_of_very_many_hulls_that_are_told_some_vote_for_all() -> None:
-    from meshforge.label_model.family import ColumnScale, FamilyTable
-    from meshforge.label_model.posterior import vote_by_similarity
+    from meshforge.label_model.posterior import ColumnScale, FamilyTable, vote_by_similarity
 
     count, rare = 7_000, 7
     rows = np.linspace(0.0, 1.0, count)[:, None]

@@ -12,7 +12,7 @@ from meshforge.batch import IN_PROCESS
 from meshforge.common import DemonstrationError, MeshForgeError, ProjectError
 from meshforge.language import Program, parse_action
 from meshforge.project import Project
-from meshforge.studio.queries import previews, programs
+from meshforge.studio.queries import packets, programs
 from meshforge.studio.wire.requests import PreviewRequest, SelectRequest
 from meshforge.symbolic import SymbolicMesh
 from meshforge.synthesis import Step
@@ -60,7 +60,7 @@ def test_the_first_steps_do_what_as_many_rules_of_the_learned_program_do(
 ) -> None:
     mesh = project.mesh(SHOWN)
     wanted = ran(project, program, SHOWN, steps)
-    header = check_same(previews.preview_steps(project, SHOWN, mesh, steps), mesh, wanted)
+    header = check_same(packets.preview_steps(project, SHOWN, mesh, steps), mesh, wanted)
     assert header["made"] == [hull.name for hull in wanted.hulls if hull.name not in mesh.index]
     assert len(header["trace"]) == steps
     assert header["note"] is None
@@ -72,12 +72,12 @@ def test_a_preview_shows_what_the_step_then_does(tmp_path: Path) -> None:
     mesh = project.mesh(SHOWN)
     legs = ("convex_06~1", "convex_10~1")
     request = PreviewRequest(asset=SHOWN, steps=3, select=legs, action="Each(Replace(cylinder)) as post")
-    header, shapes = read_packet(previews.preview_action(project, SHOWN, mesh, request))
+    header, shapes = read_packet(packets.preview_action(project, SHOWN, mesh, request))
     assert header["removed"] == list(legs)
     assert header["made"] == ["convex_06~2", "convex_10~2"]
     step = Step(4, legs, parse_action("Each(Replace(cylinder))"), "post")
     project.demonstrate(SHOWN, [*project.steps(SHOWN)[:3], step])
-    after, then = read_packet(previews.preview_steps(project, SHOWN, mesh, 4))
+    after, then = read_packet(packets.preview_steps(project, SHOWN, mesh, 4))
     assert after["hulls"] == header["hulls"]
     assert [row["name"] for row in header["rows"]] == [row["name"] for row in after["rows"]]
     assert all(np.array_equal(a, b) for (a, _), (b, _) in zip(shapes, then, strict=True))
@@ -87,7 +87,7 @@ def test_a_preview_shows_what_the_step_then_does(tmp_path: Path) -> None:
 def test_a_preview_says_what_a_user_should_know(project: Project) -> None:
     mesh = project.mesh(SHOWN)
     request = PreviewRequest(asset=SHOWN, select=("convex_00",), action="Replace(capsule)")
-    header, _ = read_packet(previews.preview_action(project, SHOWN, mesh, request))
+    header, _ = read_packet(packets.preview_action(project, SHOWN, mesh, request))
     assert header["note"] == "sides of the capsule differ by more than 1%, so it is a hull mesh"
     assert header["trace"][0]["selected"] == ["convex_00"]
 
@@ -98,7 +98,7 @@ def test_a_preview_of_what_cannot_be_done_has_one_clear_message(project: Project
     def refused(select: str, action: str) -> MeshForgeError:
         with pytest.raises(MeshForgeError) as caught:
             request = PreviewRequest(asset=SHOWN, steps=1, select=(select,), action=action)
-            previews.preview_action(project, SHOWN, mesh, request)
+            packets.preview_action(project, SHOWN, mesh, request)
         return caught.value
 
     assert "'Replce(box)' is no action" in str(refused("convex_00", "Replce(box)"))
@@ -116,7 +116,7 @@ def test_a_step_left_open_does_what_the_program_does(tmp_path: Path) -> None:
     open_steps = [Step(step.rule, None, step.action, step.label) for step in project.steps(SHOWN)[:3]]
     project.demonstrate(OTHER, open_steps)
     mesh = project.mesh(OTHER)
-    check_same(previews.preview_steps(project, OTHER, mesh, 3), mesh, ran(project, program, OTHER, 3))
+    check_same(packets.preview_steps(project, OTHER, mesh, 3), mesh, ran(project, program, OTHER, 3))
 
 
 @pytest.mark.parametrize("text", ["Is(leg)", "Geo(Is(panel), +Z)", "Diff(All, Attach(Is(leg), Is(panel)))"])
@@ -194,11 +194,11 @@ def test_a_guess_meets_what_was_shown_before_it(tmp_path: Path) -> None:
 
 def test_the_result_is_what_the_program_makes_of_it(project: Project, program: Program) -> None:
     mesh = project.mesh(OTHER)
-    packet = previews.preview_result(project, OTHER, mesh, "program", program)
+    packet = packets.preview_result(project, OTHER, mesh, "program", program)
     header = check_same(packet, mesh, ran(project, program, OTHER))
     assert header["removed"]
     assert [line["rule"] for line in header["trace"]] == [1, 2, 3, 4, 5]
-    nothing, _ = read_packet(previews.preview_result(project, OTHER, mesh, "program", None))
+    nothing, _ = read_packet(packets.preview_result(project, OTHER, mesh, "program", None))
     assert (nothing["made"], nothing["removed"]) == ([], [])
 
 
@@ -208,16 +208,16 @@ def test_an_edit_by_hand_is_previewed_as_it_is_then_replayed(tmp_path: Path) -> 
     mesh = project.mesh(OTHER)
     panel = ran(project, program, OTHER).hulls[-1].name if program else ""
     request = PreviewRequest(asset=OTHER, select=(panel,), action="Scale(all, 0.5)", result=True)
-    header, shapes = read_packet(previews.preview_action(project, OTHER, mesh, request))
+    header, shapes = read_packet(packets.preview_action(project, OTHER, mesh, request))
     assert header["removed"] == [panel]
     assert len(header["made"]) == 1
     project.correct(OTHER, [panel], parse_action("Scale(all, 0.5)"))
-    after, then = read_packet(previews.preview_result(project, OTHER, mesh, "program", program))
+    after, then = read_packet(packets.preview_result(project, OTHER, mesh, "program", program))
     assert after["hulls"] == header["hulls"]
     assert all(np.array_equal(a, b) for (a, _), (b, _) in zip(shapes, then, strict=True))
     with pytest.raises(ProjectError, match="after the program there is no hull 'nobody'"):
         wrong = PreviewRequest(asset=OTHER, select=("nobody",), action="Delete", result=True)
-        previews.preview_action(project, OTHER, mesh, wrong)
+        packets.preview_action(project, OTHER, mesh, wrong)
 
 
 @pytest.mark.slow
@@ -227,10 +227,10 @@ def test_the_output_is_what_was_written(tmp_path: Path) -> None:
     assert program
     mesh = project.mesh(OTHER)
     with pytest.raises(ProjectError, match="it has no output yet"):
-        previews.preview_result(project, OTHER, mesh, "output", None)
+        packets.preview_result(project, OTHER, mesh, "output", None)
     list(project.apply(execution=IN_PROCESS))
-    header, _ = read_packet(previews.preview_result(project, OTHER, mesh, "output", None))
-    now, _ = read_packet(previews.preview_result(project, OTHER, mesh, "program", program))
+    header, _ = read_packet(packets.preview_result(project, OTHER, mesh, "output", None))
+    now, _ = read_packet(packets.preview_result(project, OTHER, mesh, "program", program))
     assert {hull["name"] for hull in header["hulls"]} == {hull["name"] for hull in now["hulls"]}
     assert {row["name"] for row in header["rows"]} == {row["name"] for row in now["rows"]}
     assert header["trace"] == now["trace"]
@@ -241,4 +241,4 @@ def test_steps_on_an_asset_that_cannot_be_turned_have_one_clear_message(project:
     mesh = project.mesh(SHOWN)
     bare = mesh.with_labels(dict.fromkeys(mesh.index))
     with pytest.raises(MeshForgeError, match=r"the landmark Is\(leg\) selects nothing"):
-        previews.preview_steps(project, SHOWN, bare, 1)
+        packets.preview_steps(project, SHOWN, bare, 1)

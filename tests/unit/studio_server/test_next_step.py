@@ -2,7 +2,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from meshforge.studio.queries.next_step import choose_next_step
+from meshforge.studio.queries.project import choose_next_step
 from meshforge.studio.wire.family import Card, Next
 from meshforge.studio.wire.jobs import CarriedOver
 from meshforge.studio.wire.program import LessonView, NearestView, QuestionView, RepairView

@@ -16,8 +16,7 @@ from meshforge.synthesis import Demonstration, Found, Options, Step, synthesize
 from meshforge.synthesis.demonstration import collect_rule_specs
 from meshforge.synthesis.options import OutOfTime, TimeBudget
 from meshforge.synthesis.orientation.attempts import MeshTurner
-from meshforge.synthesis.orientation.directives import Directives
-from meshforge.synthesis.orientation.suggest import OrientationSuggestion, suggest_orientation
+from meshforge.synthesis.orientation.suggest import Directives, OrientationSuggestion, suggest_orientation
 from tests.synthesis_boxes import Piece, boxes, table, turned
 
 LABELS = ("panel", "leg", "handle", "drawer", "misc")

@@ -12,16 +12,20 @@ from pathlib import Path
 from typing import Any, NamedTuple, get_args
 
 from meshforge.batch.report.contents import (
+    CHECK_PICTURE_SIZE,
     ORDINARY,
+    PICTURE_SIZE,
     REMARKABLE,
+    AssetPictures,
     CheckStatus,
+    PictureOptions,
     ReportAsset,
     ReportStatus,
     RunFigures,
+    draw_asset,
     format_change,
     format_duration,
 )
-from meshforge.batch.report.pictures import CHECK_PICTURE_SIZE, PICTURE_SIZE, AssetPictures, PictureOptions, draw_asset
 from meshforge.checks import Finding
 from meshforge.common import join_names, pluralize, write_atomically
 from meshforge.language import ACTIONS, OPERATORS, Program, Rule, explain, show, show_label

@@ -6,8 +6,13 @@ from typing import Any
 
 import numpy as np
 
-from meshforge.checks.physics.masses import find_inertial_problem
-from meshforge.checks.physics.mechanism import WELDED_JOINTS, ContactAttributes, ContactRules, JointTree
+from meshforge.checks.physics.mechanism import (
+    WELDED_JOINTS,
+    ContactAttributes,
+    ContactRules,
+    JointTree,
+    find_inertial_problem,
+)
 from meshforge.geometry import Box, Capsule, Cylinder, Ellipsoid, Pose, Shape, Sphere
 from meshforge.symbolic import Hull, Inertial, Joint, SymbolicMesh
 

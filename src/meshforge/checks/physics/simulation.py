@@ -9,8 +9,7 @@ from typing import Any
 import numpy as np
 
 from meshforge.checks.legality import Finding, check_legality
-from meshforge.checks.physics.masses import check_masses
-from meshforge.checks.physics.mechanism import ContactRules, JointTree
+from meshforge.checks.physics.mechanism import ContactRules, JointTree, check_masses
 from meshforge.checks.physics.model import FLOOR, STEP, compile_model
 from meshforge.common import join_names, pluralize
 from meshforge.geometry import Floats

@@ -11,11 +11,9 @@ import numpy as np
 from meshforge.common import GeometryError
 from meshforge.formats.collision_pieces import CollisionPiece, place_pieces, place_surface
 from meshforge.formats.engine_names.base import godot_kind, unreal_kind
-from meshforge.formats.engine_names.godot_unity import holds_colliders
-from meshforge.formats.engine_names.unreal import interpret_unreal_shape
+from meshforge.formats.engine_names.conventions import holds_colliders, interpret_unreal_shape
 from meshforge.formats.gltf.document import Convention
-from meshforge.formats.gltf.mechanism import rigid_pose_of
-from meshforge.formats.gltf.physics import collider_of, has_collider, physics_extension_of
+from meshforge.formats.gltf.physics import collider_of, has_collider, physics_extension_of, rigid_pose_of
 from meshforge.formats.meshfile.gltf_document import entry
 from meshforge.formats.meshfile.gltf_meshes import INSTANCING, GltfMesh, is_instanced, repeat_surface
 from meshforge.formats.meshfile.gltf_scene import GltfScene, Placement

@@ -19,8 +19,7 @@ from meshforge.formats.gltf.draft import SceneDraft
 from meshforge.formats.gltf.edit import assign_names
 from meshforge.formats.gltf.edit_physics import PhysicsStyle, pose_keys
 from meshforge.formats.gltf.edit_styles import PlainStyle
-from meshforge.formats.gltf.mechanism import motion_of
-from meshforge.formats.gltf.physics import KHR
+from meshforge.formats.gltf.physics import KHR, motion_of
 from meshforge.formats.meshfile.gltf_document import Container, Json
 from meshforge.formats.meshfile.gltf_scene import GltfScene
 from meshforge.formats.visuals import Rgba, linear_color, read_visual_surfaces

@@ -11,8 +11,8 @@ from typing import Any
 import numpy as np
 
 from meshforge.common import AssetError
-from meshforge.formats.gltf.mechanism import body_nodes
 from meshforge.formats.gltf.output import GeometryBuffer
+from meshforge.formats.gltf.physics import body_nodes
 from meshforge.formats.meshfile.gltf_document import Json, entries, entry, extension
 from meshforge.formats.meshfile.gltf_scene import GltfScene
 from meshforge.geometry import Floats, Ints, Shape

@@ -10,18 +10,17 @@ from pathlib import Path
 
 from meshforge.common import AssetError, pluralize
 from meshforge.formats.base import Output, note_renames
-from meshforge.formats.collision_meshes import refuse_changed_files
-from meshforge.formats.collision_pieces import names_to_keep, new_hulls
-from meshforge.formats.companions import find_companions
+from meshforge.formats.collision_pieces import names_to_keep, new_hulls, refuse_changed_files
 from meshforge.formats.gltf.colliders import collision_name_of
 from meshforge.formats.gltf.document import BODY, Convention, GltfDocument, NodeRecord
 from meshforge.formats.gltf.draft import SceneDraft
 from meshforge.formats.gltf.edit_physics import PhysicsStyle
 from meshforge.formats.gltf.edit_styles import EditStyle, GodotStyle, PlainStyle, UnityStyle, UnrealStyle
-from meshforge.formats.gltf.mechanism import body_nodes
 from meshforge.formats.gltf.output import pack_scene, prepare_base
+from meshforge.formats.gltf.physics import body_nodes
 from meshforge.formats.meshfile.gltf_document import report_damage
 from meshforge.formats.meshfile.gltf_scene import GltfScene
+from meshforge.formats.references import find_companions
 from meshforge.formats.slots import name_element_pieces
 from meshforge.symbolic import Asset, Geom
 

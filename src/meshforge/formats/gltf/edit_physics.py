@@ -12,8 +12,17 @@ import numpy as np
 from meshforge.formats.gltf.document import Convention, NodeRecord
 from meshforge.formats.gltf.draft import SceneDraft
 from meshforge.formats.gltf.edit_styles import EditStyle
-from meshforge.formats.gltf.mechanism import rigid_pose_of
-from meshforge.formats.gltf.physics import KHR, OLD_SHAPES, OMI, OMI_COLLIDER, OMI_SHAPES, SHAPES, Z_TO_Y, collider_of
+from meshforge.formats.gltf.physics import (
+    KHR,
+    OLD_SHAPES,
+    OMI,
+    OMI_COLLIDER,
+    OMI_SHAPES,
+    SHAPES,
+    Z_TO_Y,
+    collider_of,
+    rigid_pose_of,
+)
 from meshforge.formats.meshfile.gltf_document import Json, entries, extension
 from meshforge.geometry import Box, Capsule, Cylinder, Pose, Sphere
 from meshforge.symbolic import Geom, Opaque, Surface

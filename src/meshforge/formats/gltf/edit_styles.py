@@ -9,8 +9,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from meshforge.formats.engine_names.base import godot_kind, strip_godot_suffix, unreal_kind, visible_mesh_of
-from meshforge.formats.engine_names.godot_unity import holds_colliders
-from meshforge.formats.engine_names.unreal import NATIVE_SHAPES, next_name
+from meshforge.formats.engine_names.conventions import NATIVE_SHAPES, holds_colliders, next_name
 from meshforge.formats.gltf.colliders import nodes_below_colliders
 from meshforge.formats.gltf.document import NodeRecord
 from meshforge.formats.gltf.draft import SceneDraft, material_without_texture

@@ -10,12 +10,11 @@ from typing import Any, ClassVar, Literal
 from meshforge.common import AssetError
 from meshforge.formats.base import BODY_FEATURES, SCENE_FEATURES, Format, Mass, Output, ReadOptions, feature_of
 from meshforge.formats.engine_names.base import CollisionNames, fallbacks_of
-from meshforge.formats.engine_names.godot_unity import GodotNames, UnityNames
-from meshforge.formats.engine_names.unreal import UnrealNames
+from meshforge.formats.engine_names.conventions import GodotNames, UnityNames, UnrealNames
 from meshforge.formats.gltf.create import create_for_engine, create_gltf
 from meshforge.formats.gltf.document import GltfDocument
 from meshforge.formats.gltf.edit import write_gltf
-from meshforge.formats.gltf.mechanism import explain_missing_mass, read_motion
+from meshforge.formats.gltf.physics import explain_missing_mass, read_motion
 from meshforge.formats.gltf.read import read_gltf
 from meshforge.formats.meshfile.gltf_document import Json, entries, entry, extension, report_damage
 from meshforge.formats.meshfile.gltf_scene import GltfScene

@@ -15,10 +15,10 @@ import numpy as np
 import numpy.typing as npt
 
 from meshforge.formats.base import Output
-from meshforge.formats.companions import find_companions
 from meshforge.formats.gltf.json_text import rewrite_json
 from meshforge.formats.meshfile.gltf_document import Container, Json, entries
 from meshforge.formats.meshfile.gltf_scene import GltfScene
+from meshforge.formats.references import find_companions
 from meshforge.geometry import Ints
 
 _VERTICES, _INDICES = 34962, 34963  # targets of buffer views

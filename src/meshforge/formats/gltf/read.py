@@ -11,16 +11,15 @@ import numpy as np
 
 from meshforge.common import AssetError, MeshForgeError, file_digest, pluralize
 from meshforge.formats.collision_pieces import CollisionElement, drop_repeats, geoms_of, opaque_of, place_surface
-from meshforge.formats.companions import find_companions
 from meshforge.formats.engine_names.base import godot_kind, unreal_kind
 from meshforge.formats.gltf.colliders import CollisionReader, NodeCollision, convention_of, nodes_below_colliders
 from meshforge.formats.gltf.document import BODY, Convention, GltfDocument, NodeRecord
-from meshforge.formats.gltf.mechanism import body_nodes, read_inertial, rigid_pose_of
-from meshforge.formats.gltf.physics import is_trigger
+from meshforge.formats.gltf.physics import body_nodes, is_trigger, read_inertial, rigid_pose_of
 from meshforge.formats.mesh_reader import read_content
 from meshforge.formats.meshfile.gltf_document import Json, entries, entry, report_damage
 from meshforge.formats.meshfile.gltf_meshes import GltfMesh
 from meshforge.formats.meshfile.gltf_scene import GltfScene
+from meshforge.formats.references import find_companions
 from meshforge.formats.slots import name_element_pieces
 from meshforge.formats.visuals import GAMMA, LazySurfaces, Rgba
 from meshforge.geometry import Pose

@@ -8,7 +8,6 @@ from pathlib import Path
 
 from meshforge.common import AssetError, join_names
 from meshforge.formats.base import Mass, Output
-from meshforge.formats.companions import note_absolute
 from meshforge.formats.mjcf.document import MjcfDocument, MjcfNode, MjcfTree, read_tree
 from meshforge.formats.mjcf.edit_check import find_changed_masses, find_differences
 from meshforge.formats.mjcf.edit_geoms import ElementContext, HullGeomMaker, HullMeshes
@@ -24,6 +23,7 @@ from meshforge.formats.mjcf.elements import (
 from meshforge.formats.mjcf.model import MjcfModel
 from meshforge.formats.mjcf.reduce import read_model, read_partial_model, read_unscaled_model, read_whole_model
 from meshforge.formats.mjcf.references import list_copies, output_places
+from meshforge.formats.references import note_absolute
 from meshforge.formats.slots import Slot, append_elements, child_indent_of
 from meshforge.formats.xml import Splice, XmlText, apply_splices, newline_of, parse_xml
 from meshforge.symbolic import Asset

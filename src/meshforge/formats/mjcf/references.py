@@ -10,9 +10,9 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from meshforge.common import MeshForgeError, is_file, relative_name
-from meshforge.formats.companions import add_copy, find_companions, note_absolute
 from meshforge.formats.mesh_reader import read_content
 from meshforge.formats.mjcf.document import MjcfDocument, MjcfNode, MjcfTree, read_tree
+from meshforge.formats.references import add_copy, find_companions, note_absolute
 from meshforge.symbolic import Asset
 
 _OF_TEXTURE = tuple(f"file{side}" for side in ("", "right", "left", "up", "down", "front", "back"))

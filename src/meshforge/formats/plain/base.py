@@ -19,8 +19,7 @@ import numpy.typing as npt
 from meshforge.common import AssetError, GeometryError
 from meshforge.formats.base import Format, Mass, Output, ReadOptions, note_renames
 from meshforge.formats.collision_pieces import drop_repeats
-from meshforge.formats.companions import find_companions
-from meshforge.formats.engine_names.unreal import NATIVE_SHAPES
+from meshforge.formats.engine_names.conventions import NATIVE_SHAPES
 from meshforge.formats.mesh_reader import read_content
 from meshforge.formats.meshfile.surface import Soup
 from meshforge.formats.plain.parts import (
@@ -35,6 +34,7 @@ from meshforge.formats.plain.parts import (
     owners_of,
     to_parts,
 )
+from meshforge.formats.references import find_companions
 from meshforge.geometry import Ints, Piece, Pose, Shape, convex_hull, split_pieces
 from meshforge.symbolic import PRIMITIVE_FEATURES, Asset, Body, FeatureKind, Geom, Mentions, Opaque, Surface
 

@@ -10,10 +10,10 @@ from pathlib import Path
 
 from meshforge.common import AssetError, join_names, nearest_name, pluralize
 from meshforge.formats.base import Mass, Output
-from meshforge.formats.collision_meshes import SourceMeshes
-from meshforge.formats.companions import add_copy, note_absolute
+from meshforge.formats.collision_pieces import SourceMeshes
 from meshforge.formats.mesh_output import HullFiles
 from meshforge.formats.mesh_reader import split_into_pieces
+from meshforge.formats.references import add_copy, note_absolute
 from meshforge.formats.sdf.document import (
     CONFIG,
     ROUND_SHAPES,

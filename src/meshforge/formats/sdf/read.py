@@ -12,17 +12,19 @@ import numpy as np
 
 from meshforge.common import MeshForgeError, join_names, plain_path, pluralize
 from meshforge.formats.base import ReadOptions
-from meshforge.formats.collision_meshes import CollisionMeshes, MeshUse, refuse_missing
 from meshforge.formats.collision_pieces import (
     CollisionElement,
+    CollisionMeshes,
     CollisionPiece,
+    MeshUse,
     ShapeNames,
     collect_mentions,
     geoms_of,
     opaque_of,
+    refuse_missing,
     stem_of,
 )
-from meshforge.formats.companions import find_companions
+from meshforge.formats.references import find_companions
 from meshforge.formats.sdf.document import (
     CONFIG,
     NEWEST,

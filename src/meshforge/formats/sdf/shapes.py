@@ -8,8 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from meshforge.common import AssetError, GeometryError, join_names
-from meshforge.formats.collision_meshes import CollisionMeshes, MeshUse
-from meshforge.formats.collision_pieces import CollisionPiece, place_pieces, turn_z_to
+from meshforge.formats.collision_pieces import CollisionMeshes, CollisionPiece, MeshUse, place_pieces, turn_z_to
 from meshforge.formats.meshfile.surface import RawSurface
 from meshforge.formats.sdf.document import geometry_of
 from meshforge.formats.sdf.frames import is_true, read_floats, read_values, text_of

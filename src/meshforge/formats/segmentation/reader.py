@@ -25,9 +25,10 @@ from meshforge.formats.segmentation.base import (
     Segmentation,
     check_segmentation,
     label_rank_of,
+    number_names,
+    parse_comments,
     to_whole_numbers,
 )
-from meshforge.formats.segmentation.class_names import number_names, parse_comments
 from meshforge.geometry import Floats, Ints
 
 _MESHES = (".obj", ".ply", ".stl", ".glb", ".gltf")

@@ -6,12 +6,10 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from meshforge.formats.base import Output
-from meshforge.formats.collision_meshes import SourceMeshes
-from meshforge.formats.collision_pieces import is_flat
-from meshforge.formats.companions import add_copy, note_absolute
+from meshforge.formats.collision_pieces import SourceMeshes, is_flat
 from meshforge.formats.mesh_output import HullFiles
 from meshforge.formats.mesh_reader import split_into_pieces
-from meshforge.formats.references import Resolver, placement
+from meshforge.formats.references import Resolver, add_copy, note_absolute, placement
 from meshforge.formats.slots import ElementPlan, Slot, assign_names
 from meshforge.formats.urdf.document import UrdfDocument, collisions, geometry_of, parse_robot, references
 from meshforge.formats.urdf.elements import (

@@ -12,8 +12,13 @@ import numpy as np
 
 from meshforge.common import AssetError
 from meshforge.formats.base import Mass, Output, note_renames
-from meshforge.formats.collision_meshes import change_error, refuse_changed_files
-from meshforge.formats.collision_pieces import CollisionPiece, names_to_keep, new_hulls
+from meshforge.formats.collision_pieces import (
+    CollisionPiece,
+    change_error,
+    names_to_keep,
+    new_hulls,
+    refuse_changed_files,
+)
 from meshforge.formats.usd.colliders import StageBodies, physics_material
 from meshforge.formats.usd.document import UsdDocument, export_layer, is_crate, is_crate_wanted, pack_usdz, unpack_usdz
 from meshforge.formats.usd.edit_stage import UsdEdit

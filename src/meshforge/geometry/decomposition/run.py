@@ -16,14 +16,15 @@ from typing import Any
 
 from meshforge.common import GeometryError, pluralize, write_atomically
 from meshforge.geometry.convex import FLATNESS, convex_hull, principal_extents
-from meshforge.geometry.decomposition.process import (
+from meshforge.geometry.decomposition.engines import (
+    CoacdSettings,
+    DecomposeSettings,
     EngineControl,
     EnginePiece,
     pack_pieces,
     run_engine,
     unpack_pieces,
 )
-from meshforge.geometry.decomposition.settings import CoacdSettings, DecomposeSettings
 from meshforge.geometry.decomposition.triangles import TriangleMesh, cap_holes, clean_triangles
 from meshforge.geometry.shape import Polytope
 

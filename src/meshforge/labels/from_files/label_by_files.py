@@ -8,7 +8,7 @@ from pathlib import Path
 
 from meshforge.batch import ExecutionOptions
 from meshforge.common import AssetError, ProjectError
-from meshforge.labels.from_files.classes import class_names_in_file
+from meshforge.labels.from_files.points import class_names_in_file
 from meshforge.labels.from_files.read import (
     LabelFileContent,
     LabelFileOptions,

@@ -1,4 +1,6 @@
-"""Labels out of segmented points and meshes: each hull is what most of the points are that it holds."""
+"""Labels out of segmented points and meshes: what the classes of other tools and datasets mean in the vocabulary of a
+project, and each hull as what most of the points are that it holds.
+"""
 
 from __future__ import annotations
 
@@ -9,16 +11,9 @@ from pathlib import Path
 
 import numpy as np
 
-from meshforge.common import AssetError, GeometryError
-from meshforge.formats import Segmentation, attach_own_mesh, read_segmentation
+from meshforge.common import AssetError, GeometryError, join_names, nearest_name, pluralize
+from meshforge.formats import Segmentation, attach_own_mesh, read_class_names, read_segmentation
 from meshforge.geometry import Aabb, Floats
-from meshforge.labels.from_files.classes import (
-    ClassMeaning,
-    FileLabels,
-    class_names_of,
-    describe_unknown_class,
-    meaning_of,
-)
 from meshforge.labels.from_files.segments import (
     HullVotes,
     PointAlignment,
@@ -28,8 +23,95 @@ from meshforge.labels.from_files.segments import (
     samples_of_points,
     vote_by_points,
 )
-from meshforge.labels.names.hull_names import NamePattern
+from meshforge.labels.names.label_by_names import NamePattern, find_pattern
+from meshforge.labels.names.words import match_label
 from meshforge.symbolic import Label, SymbolicMesh
+
+VOCABULARY = "vocabulary"
+"""What is given in place of names of classes where they are the vocabulary, in its order."""
+
+
+@dataclass(frozen=True, slots=True)
+class ClassMeaning:
+    """label: the label that a class means, None for one that is to be left out; sure: how surely it means that."""
+
+    label: str | None
+    sure: float = 1.0
+
+
+def meaning_of(name: str, vocabulary: Sequence[str], patterns: Sequence[NamePattern] = ()) -> ClassMeaning | None:
+    """What a class means: by a pattern, else the label of its name, else the one whose words are in it; None: nothing.
+
+    `rotation_door` means `door`; words that are only nearly those of a label do not count.
+    """
+    if pattern := find_pattern(name, patterns):
+        return ClassMeaning(pattern.label or None)
+    if name in vocabulary:
+        return ClassMeaning(name)
+    one = match_label(name, vocabulary)
+    return ClassMeaning(one.label, one.confidence) if one and one.exact else None
+
+
+def class_names_of(
+    found: Segmentation, path: Path, given: Sequence[str], vocabulary: Sequence[str]
+) -> Mapping[int, str]:
+    """The names of the classes that occur, by their number; given: those of 0, 1, ..., or `vocabulary` alone.
+
+    Raises AssetError where a class has none.
+    """
+    names = (
+        dict(enumerate(vocabulary if tuple(given) == (VOCABULARY,) else given))
+        or found.names
+        or _read_classes_beside(path)
+    )
+    kinds = [int(k) for k in np.unique(found.classes) if k >= 0]
+    bare = [str(number) for number in kinds if not names.get(number)]
+    if bare:
+        problem = (
+            f"class {join_names(bare)} has no name" if names else "its classes are numbers, and nothing names them"
+        )
+        raise AssetError(
+            problem,
+            where=str(path),
+            remedy="Name them in order: --classes drawer,handle,leg, or --classes vocabulary where they are those of "
+            f"the vocabulary; or put them beside it, a name a line, in {_class_files(path)[0].name} or classes.txt.",
+        )
+    return {number: names[number] for number in kinds}
+
+
+def class_names_in_file(path: Path, given: Sequence[str]) -> list[str]:
+    """The names of the classes in a file, in their order. Raises AssetError."""
+    names = class_names_of(read_segmentation(path), path, given, ())
+    return list(dict.fromkeys(names[number] for number in sorted(names)))
+
+
+def _read_classes_beside(path: Path) -> dict[int, str]:
+    file = next((place for place in _class_files(path) if place.is_file()), None)
+    return read_class_names(file) if file else {}
+
+
+def _class_files(path: Path) -> tuple[Path, Path]:
+    return path.with_name(f"{path.stem.removesuffix('.points')}.classes.txt"), path.with_name("classes.txt")
+
+
+@dataclass(frozen=True, slots=True)
+class FileLabels:
+    """labels, names: by hull, its label and what the file itself calls it; problems: a sentence on each left out."""
+
+    labels: Mapping[str, Label] = field(default_factory=dict)
+    names: Mapping[str, str] = field(default_factory=dict)
+    problems: Sequence[str] = ()
+
+
+def describe_unknown_class(name: str, hulls: int, vocabulary: Sequence[str]) -> str:
+    """The sentence on a name that means nothing in a vocabulary."""
+    like = nearest_name(name, vocabulary)
+    hint = f"; did you mean {like!r}?" if like else ""
+    return (
+        f"{pluralize(hulls, 'hull')} left out: {name!r} is not in the vocabulary, and no pattern says what "
+        f"it means{hint}"
+    )
+
 
 _HELD = 0.5  # share of points that hulls hold at least, if both are in the same frame
 _DIGITS = 3

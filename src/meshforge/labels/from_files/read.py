@@ -13,10 +13,15 @@ from typing import Literal
 from meshforge.batch import AssetSet, ExecutionOptions, WorkerFailure, asset_id, execute, read_prepared
 from meshforge.common import AssetError, MeshForgeError, UsageError, describe_error
 from meshforge.formats import POINTS_SUFFIXES, SEMANTICS_FILE, labels_beside, points_beside, read_semantics
-from meshforge.labels.from_files.classes import ClassMeaning, FileLabels, describe_unknown_class, meaning_of
-from meshforge.labels.from_files.points import PointsOptions, label_by_points
-from meshforge.labels.names.hull_names import HullNames, NamePattern
-from meshforge.labels.names.label_by_names import PatternPairs, names_of_mesh
+from meshforge.labels.from_files.points import (
+    ClassMeaning,
+    FileLabels,
+    PointsOptions,
+    describe_unknown_class,
+    label_by_points,
+    meaning_of,
+)
+from meshforge.labels.names.label_by_names import HullNames, NamePattern, PatternPairs, names_of_mesh
 from meshforge.labels.names.words import EXACT
 from meshforge.store import AssetFacts, Store, hull_digests, iterate_survey
 from meshforge.symbolic import Label, SymbolicMesh, match_labels, read_labels

@@ -1,17 +1,136 @@
-"""Labels for the hulls of a project from names: hulls, bodies, meshes and materials are often called what they are."""
+"""Labels for the hulls of a project from names of hulls, bodies, meshes and materials, by words or by patterns."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+import re
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from fnmatch import translate
 from pathlib import Path
+from typing import Literal
 
 from meshforge.batch import SETTINGS, ExecutionOptions
 from meshforge.common import MeshForgeError, ProjectError, UsageError, nearest_name
 from meshforge.labels.merge import LabelOutcome, LabelWriter, OutcomeCallback, can_fill_gap
-from meshforge.labels.names.hull_names import HullNames, NameMatch, NamePattern, match_names, pattern_of
+from meshforge.labels.names.words import UNSURE, match_label
 from meshforge.labels.propose import LabelEvidence, Proposals, group_evidence
 from meshforge.store import AssetFacts, Settings, Store, iterate_survey
-from meshforge.symbolic import Label, SymbolicMesh, match_labels
+from meshforge.symbolic import Label, Mentions, SymbolicMesh, match_labels
+
+MatchKind = Literal["pattern", "word", "likeness"]
+
+NAMELESS = "body"
+"""What formats without bodies call the only one."""
+_PATTERN = 0.9
+_SURE = 0.5  # a name that is less sure gives way to the next
+_LESS = {"body": 0.1, "class": 0.1, "shown": 0.1, "material": 0.2}  # what a name says of several things at once
+_HULL = "hull"
+_OWN = ("visual", "mesh", "group", "node")
+_DIGITS = 2
+
+
+@dataclass(frozen=True, slots=True)
+class NamePattern:
+    """text: a glob `*drawer*` for whole names, or `/^d\\d+$/` for a part of one; cases are not told apart.
+
+    label: what such names mean, empty for what is to be left without a label.
+    """
+
+    text: str
+    label: str
+    expression: re.Pattern[str]
+
+    def matches(self, name: str) -> bool:
+        return self.expression.search(name) is not None
+
+
+def pattern_of(text: str, label: str) -> NamePattern:
+    """A pattern. Raises UsageError for a regular expression that is none."""
+    is_expression = len(text) > 1 and text.startswith("/") and text.endswith("/")
+    try:
+        expression = re.compile(text[1:-1] if is_expression else rf"\A{translate(text)}", re.IGNORECASE)
+    except re.error as error:
+        raise UsageError(f"the pattern {text} is no regular expression: {error}", remedy="Correct it.") from None
+    return NamePattern(text, label, expression)
+
+
+def find_pattern(name: str, patterns: Iterable[NamePattern]) -> NamePattern | None:
+    """The first pattern that fits a name."""
+    return next((pattern for pattern in patterns if pattern.matches(name)), None)
+
+
+@dataclass(frozen=True, slots=True)
+class HullNames:
+    """The names of a hull: its own, that of its body, and what else its file calls it."""
+
+    hull: str
+    body: str
+    mentions: Mentions = ()
+
+    @property
+    def own(self) -> str:
+        """Its name without that of its body."""
+        return self.hull.removeprefix(f"{self.body}/")
+
+    def own_names(self) -> Iterator[tuple[str, str]]:
+        """The kinds and the names that are its own, not its body's."""
+        yield _HULL, self.own
+        yield from ((kind, name) for kind, name in self.mentions if kind in _OWN)
+
+    def all_names(self) -> Iterator[tuple[str, str]]:
+        """The kinds and the names, what is most its own first; a body that has no real name is left out."""
+        yield from self.own_names()
+        if self.body != NAMELESS:
+            yield "body", self.body
+        yield from ((kind, name) for kind, name in self.mentions if kind not in _OWN)
+
+
+@dataclass(frozen=True, slots=True)
+class NameMatch:
+    """What names say: a label, None for a hull that a pattern leaves without one; how sure, and by which name of what
+    kind (`hull`, `body`, or one of `Mentions`)."""
+
+    label: str | None
+    confidence: float
+    kind: str
+    name: str
+    how: MatchKind
+
+
+def match_names(names: HullNames, vocabulary: Sequence[str], patterns: Sequence[NamePattern] = ()) -> NameMatch | None:
+    """What the names of a hull say, None where they say nothing.
+
+    Patterns come first, then words; each name of the hull is asked in turn, its own first.
+    """
+    return _match_patterns(names, patterns) or _match_words(names, vocabulary)
+
+
+def _match_patterns(names: HullNames, patterns: Sequence[NamePattern]) -> NameMatch | None:
+    for kind, name in (*names.all_names(), (_HULL, names.hull)):
+        if pattern := find_pattern(name, patterns):
+            return NameMatch(pattern.label or None, _PATTERN, kind, name, "pattern")
+    return None
+
+
+def _match_words(names: HullNames, vocabulary: Sequence[str]) -> NameMatch | None:
+    """What the first name says that is sure of it, else the one that is surest.
+
+    It is unsure after all where another name of the hull's own is as sure of another label.
+    """
+    found = list(_match_each_name(names, vocabulary))
+    sure = [one for one in found if one.confidence >= _SURE]
+    if not sure:
+        return max(found, key=lambda one: one.confidence, default=None)
+    own = {one.label for one in sure if one.kind in (_HULL, *_OWN)}
+    return replace(sure[0], confidence=UNSURE) if len(own) > 1 else sure[0]
+
+
+def _match_each_name(names: HullNames, vocabulary: Sequence[str]) -> Iterator[NameMatch]:
+    for kind, name in names.all_names():
+        if one := match_label(name, vocabulary):
+            confidence = round(one.confidence - _LESS.get(kind, 0.0), _DIGITS)
+            yield NameMatch(one.label, confidence, kind, name, "word" if one.exact else "likeness")
+
 
 PatternPairs = Sequence[tuple[str, str]]
 """Patterns of names, each with the label that such names mean, empty for none; the first that fits counts."""

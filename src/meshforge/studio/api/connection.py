@@ -1,16 +1,129 @@
-"""How requests reach the session, and the WebSocket on which a page gets all events."""
+"""How requests reach the session: from pages that it served itself, from this machine, with the token; and the
+WebSocket on which a page gets all events.
+"""
 
 from __future__ import annotations
 
 from asyncio import FIRST_COMPLETED, create_task, get_running_loop, wait
+from dataclasses import dataclass
+from secrets import compare_digest
 from typing import Annotated, Any
+from urllib.parse import urlsplit
 
 from fastapi import APIRouter, Depends, Header, WebSocket, WebSocketDisconnect
-from fastapi.requests import HTTPConnection
 from fastapi.responses import Response
+from starlette.datastructures import Headers, MutableHeaders
+from starlette.requests import HTTPConnection
+from starlette.responses import JSONResponse
+from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from meshforge.studio.pages import PageConnection
 from meshforge.studio.session.session import Session
+from meshforge.studio.wire.events import Problem
+
+LOOPBACK = frozenset({"127.0.0.1", "localhost", "::1"})
+MOST_BYTES = 16 * 2**20
+"""Bytes of the body of a request that is no upload."""
+
+_REOPEN = "Open the address that `meshforge studio` has printed."
+
+
+@dataclass(frozen=True, slots=True)
+class _Refusal:
+    status: int
+    problem: Problem
+
+
+class Guard:
+    """Lets requests pass that come from a page of this studio, and gives every answer its safety headers."""
+
+    def __init__(self, app: ASGIApp, token: str) -> None:
+        self._app = app
+        self._token = token.encode()
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        if scope["type"] not in ("http", "websocket"):
+            await self._app(scope, receive, send)
+            return
+        refusal = self._find_refusal(HTTPConnection(scope))
+        if scope["type"] == "websocket":
+            await (_refuse_socket(receive, send) if refusal else self._app(scope, receive, send))
+            return
+
+        host = Headers(scope=scope).get("host", "")
+
+        async def send_with_headers(message: Message) -> None:
+            if message["type"] == "http.response.start":
+                MutableHeaders(scope=message).update(_safety_headers(host if not refusal else ""))
+            await send(message)
+
+        if refusal:
+            response = JSONResponse(refusal.problem.model_dump(mode="json"), refusal.status)
+            await response(scope, receive, send_with_headers)
+        else:
+            await self._app(scope, receive, send_with_headers)
+
+    def _find_refusal(self, request: HTTPConnection) -> _Refusal | None:
+        """Why a request is refused. A foreign name in `Host` means that a foreign page has rebound its name to us."""
+        host = request.headers.get("host", "")
+        if _host_name(f"//{host}") not in LOOPBACK:
+            return _Refusal(403, Problem(message="the studio answers on this machine only", remedy=_REOPEN))
+        origin = request.headers.get("origin")
+        if origin is not None and origin != f"http://{host}":
+            return _Refusal(403, Problem(message="another site asked for this", where=origin, remedy=_REOPEN))
+        if not _needs_token(request.url.path):
+            return None
+        if not self._has_token(request):
+            return _Refusal(401, Problem(message="this page has no valid token for the studio", remedy=_REOPEN))
+        return _check_length(request) if request.scope.get("method") == "POST" else None
+
+    def _has_token(self, request: HTTPConnection) -> bool:
+        kind, _, given = request.headers.get("authorization", "").partition(" ")
+        token = given if kind.lower() == "bearer" else request.query_params.get("token", "")
+        return compare_digest(token.encode(), self._token)
+
+
+def _needs_token(path: str) -> bool:
+    return path == "/ws" or path.startswith(("/api/", "/ws/"))
+
+
+def _check_length(request: HTTPConnection) -> _Refusal | None:
+    length = request.headers.get("content-length", "")
+    if not length.isdigit():
+        return _Refusal(411, Problem(message="this request does not say how long it is"))
+    if int(length) > MOST_BYTES:
+        return _Refusal(413, Problem(message=f"this request is longer than {MOST_BYTES >> 20} MB"))
+    return None
+
+
+def _host_name(address: str) -> str | None:
+    try:
+        return urlsplit(address).hostname
+    except ValueError:
+        return None
+
+
+async def _refuse_socket(receive: Receive, send: Send) -> None:
+    await receive()
+    await send({"type": "websocket.close", "code": 1008})
+
+
+def _safety_headers(host: str) -> dict[str, str]:
+    socket = f" ws://{host}" if host else ""
+    policy = (
+        "default-src 'none'; script-src 'self'; style-src 'self' 'unsafe-inline'; font-src 'self' data:; "
+        f"img-src 'self' blob: data:; connect-src 'self'{socket}; worker-src 'self' blob:; "
+        "base-uri 'none'; form-action 'none'; frame-ancestors 'none'"
+    )
+    return {
+        "Content-Security-Policy": policy,
+        "X-Content-Type-Options": "nosniff",
+        "X-Frame-Options": "DENY",
+        "Referrer-Policy": "no-referrer",
+        "Cross-Origin-Resource-Policy": "same-origin",
+        "Cross-Origin-Opener-Policy": "same-origin",
+    }
+
 
 SenderId = Annotated[str | None, Header(alias="X-Page")]
 """The page that sends the request, by its own name."""

@@ -12,7 +12,7 @@ from meshforge.common import ProjectError, StoppedError
 from meshforge.language import Program
 from meshforge.studio.api.connection import CurrentSession, packet_response
 from meshforge.studio.errors import NotHereError
-from meshforge.studio.queries import assets, packets, previews, programs
+from meshforge.studio.queries import assets, packets, programs
 from meshforge.studio.session.session import Session
 from meshforge.studio.thumbnails import ThumbnailOf
 from meshforge.studio.wire.asset import AssetView, Checked, CheckPart, CheckPicture
@@ -49,15 +49,13 @@ def get_visual(session: CurrentSession, asset: str) -> Response:
 @router.get("/stage")
 def get_stage(session: CurrentSession, asset: str, steps: int) -> Response:
     """An asset after some of its steps."""
-    return packet_response(previews.preview_steps(session.project, asset, session.mesh(asset), steps))
+    return packet_response(packets.preview_steps(session.project, asset, session.mesh(asset), steps))
 
 
 @router.post("/preview")
 def preview(session: CurrentSession, request: PreviewRequest) -> Response:
     """What one more action would do."""
-    return packet_response(
-        previews.preview_action(session.project, request.asset, session.mesh(request.asset), request)
-    )
+    return packet_response(packets.preview_action(session.project, request.asset, session.mesh(request.asset), request))
 
 
 @router.post("/select")
@@ -77,7 +75,7 @@ def generalise(session: CurrentSession, request: GeneraliseRequest) -> Generalis
 def get_result(session: CurrentSession, asset: str, of: Literal["program", "output"]) -> Response:
     """What the program makes of an asset, or the output that was written."""
     program = session.project.program() if of == "program" else None
-    return packet_response(previews.preview_result(session.project, asset, session.mesh(asset), of, program))
+    return packet_response(packets.preview_result(session.project, asset, session.mesh(asset), of, program))
 
 
 @router.get("/guesses")

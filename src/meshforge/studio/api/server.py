@@ -28,7 +28,7 @@ from meshforge.batch import STATE, hold_lock
 from meshforge.common import MeshForgeError, ProjectError, UsageError
 from meshforge.project import Project
 from meshforge.studio.api import connection, edits, queries
-from meshforge.studio.api.guard import Guard
+from meshforge.studio.api.connection import Guard
 from meshforge.studio.errors import problem_of, status_of
 from meshforge.studio.session.session import Session, StudioOptions
 from meshforge.studio.wire.events import Problem

@@ -1,9 +1,9 @@
-"""The project as a whole and the cards of its assets, as the page shows them."""
+"""The project as a whole, the cards of its assets and the next sensible step, as the page shows them."""
 
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from importlib.util import find_spec
 
 from meshforge.common import MeshForgeError, pluralize
@@ -16,8 +16,138 @@ from meshforge.studio.queries.assets import output_picture_digest, picture_diges
 from meshforge.studio.wire.asset import Fault
 from meshforge.studio.wire.family import Card, Next, ProjectView, RuleLine, Said, VocabularyLabel
 from meshforge.studio.wire.jobs import CarriedOver, Model
+from meshforge.studio.wire.program import LessonView
 from meshforge.symbolic import GIVEN_SOURCES
 from meshforge.synthesis import Step
+
+
+def choose_next_step(
+    cards: Sequence[Card],
+    vocabulary: Sequence[str],
+    has_program: bool,
+    lesson: LessonView | None,
+    problem: str | None,
+    suggest: Callable[[Sequence[str]], str | None],
+    propagated: CarriedOver | None = None,
+) -> Next:
+    """The first thing that is missing on the way from assets to exported outputs.
+
+    lesson: the outcome of the last learning run; problem: why the program cannot be applied; suggest: which of some
+    assets, by id, to demonstrate first; propagated: what is known of the last propagation of labels.
+    """
+    return (
+        _step_for_hulls(cards)
+        or (None if vocabulary else Next(stage="label", say="Name what hulls can be: the labels of this family."))
+        or _step_before_learning(cards, has_program, suggest, propagated)
+        or _step_for_learning(lesson, has_program)
+        or (Next(stage="learn", say=f"The program cannot be applied: {problem.splitlines()[0]}") if problem else None)
+        or _step_for_outputs(cards)
+        or _step_for_reviews(cards, lesson.sample if lesson else ())
+    )
+
+
+def _step_for_hulls(cards: Sequence[Card]) -> Next | None:
+    bare = [card for card in cards if card.hulls == 0 and card.sources]
+    if not bare:
+        return None
+    say = f"{_count_assets(bare, 'has', 'have')} no hulls: decompose what is shown there."
+    return Next(stage="label", say=say, asset=bare[0].asset)
+
+
+def _count_assets(cards: Sequence[Card], one: str, many: str) -> str:
+    """The asset by its id, or how many there are, with the verb."""
+    return f"{cards[0].asset} {one}" if len(cards) == 1 else f"{pluralize(len(cards), 'asset')} {many}"
+
+
+def _step_before_learning(
+    cards: Sequence[Card],
+    has_program: bool,
+    suggest: Callable[[Sequence[str]], str | None],
+    propagated: CarriedOver | None,
+) -> Next | None:
+    if has_program or any(card.demonstrated for card in cards):
+        return None
+    labelled = [card.asset for card in cards if any(place >= 0 for place in card.labels)]
+    if not labelled:
+        first = next((card.asset for card in cards if card.hulls), None)
+        return Next(stage="label", say="No hull has a label yet: label those of one asset.", asset=first)
+    if step := _step_for_propagation(cards, propagated):
+        return step
+    best = suggest(labelled)
+    say = f"Show the first step of the edit on one asset{f', best on {best}' if best else ''}."
+    return Next(stage="demonstrate", say=say, asset=best or labelled[0])
+
+
+def _step_for_propagation(cards: Sequence[Card], propagated: CarriedOver | None) -> Next | None:
+    """What leads to sure labels with the least work."""
+    bare = [card for card in cards if card.hulls and all(place < 0 for place in card.labels)]
+    if bare and any(card.hulls and card.given == card.hulls for card in cards):
+        return Next(stage="label", say=f"{_count_assets(bare, 'has', 'have')} no label: propagate labels.")
+    doubtful = [card for card in cards if card.unsure]
+    unsure = sum(len(card.unsure) for card in doubtful)
+    if not unsure:
+        return None
+    if propagated and propagated.unused >= unsure:
+        used = pluralize(propagated.unused, "label")
+        return Next(stage="label", say=f"Propagate labels again: {used} of yours not used yet.")
+    are = "1 label is unsure" if unsure == 1 else f"{unsure} labels are unsure"
+    best = next((card for card in cards if propagated and card.asset == propagated.next), None)
+    if best and len(best.labels) - best.given < unsure:
+        return Next(stage="label", say=f"{are}: label {best.asset} next.", asset=best.asset)
+    return Next(stage="label", say=f"{are}: press N.", asset=doubtful[0].asset)
+
+
+def _step_for_learning(lesson: LessonView | None, has_program: bool) -> Next | None:
+    if lesson is None:
+        return None
+    if lesson.repairs:
+        first = lesson.repairs[0]
+        return Next(stage="learn", say=f"Is {first.hull} of {first.asset} labelled wrongly?", asset=first.asset)
+    if lesson.question:
+        say = f"Which hulls does rule {lesson.question.rule} select on {lesson.question.asset}?"
+        return Next(stage="learn", say=say, asset=lesson.question.asset)
+    if lesson.status in ("none", "timeout", "error"):
+        return Next(stage="learn", say=_explain_failure(lesson), asset=lesson.nearest.asset if lesson.nearest else None)
+    return None if has_program else Next(stage="learn", say="Learn the program from what is demonstrated.")
+
+
+def _explain_failure(lesson: LessonView) -> str:
+    """What to do where there is no program; the panel of the learning run says why."""
+    if lesson.status == "error":
+        return "Learning failed: see why."
+    if lesson.status == "timeout":
+        return "Learning was stopped: learn again, or show the steps on another asset."
+    if lesson.nearest:
+        return f"No selection fits rule {lesson.nearest.rule} yet: see what comes nearest."
+    return "No program does all that is demonstrated: see why, and what may help."
+
+
+def _step_for_outputs(cards: Sequence[Card]) -> Next | None:
+    behind = [c for c in cards if c.output == "none" or c.stale]
+    if behind:
+        return Next(stage="review", say=f"Apply the program: {_count_assets(behind, 'is', 'are')} not up to date.")
+    failed = [c for c in cards if c.output == "failed"]
+    if failed:
+        say = f"The program fails on {pluralize(len(failed), 'asset')}: fix what is named, then apply it again."
+        return Next(stage="review", say=say, asset=failed[0].asset)
+    return None
+
+
+def _step_for_reviews(cards: Sequence[Card], sample: Sequence[str]) -> Next:
+    flagged = [c for c in cards if c.review == "flagged"]
+    if flagged:
+        return Next(stage="review", say=f"{pluralize(len(flagged), 'asset')} flagged: fix it.", asset=flagged[0].asset)
+    open_ = [c for c in cards if c.review is None]
+    waiting = {c.asset for c in open_}
+    best = [asset for asset in sample if asset in waiting]
+    if best:  # before all others, as these show best whether the program is right
+        what = pluralize(len(best), "result that shows", "results that show")
+        say = f"Look at {what} best whether the program is right{', first' if len(best) > 1 else ':'} {best[0]}."
+        return Next(stage="review", say=say, asset=best[0])
+    if open_:
+        say = f"Look through the results: {pluralize(len(open_), 'asset')} to accept or flag."
+        return Next(stage="review", say=say, asset=open_[0].asset)
+    return Next(stage="review", say="All results are accepted: export them.")
 
 
 def build_project_view(

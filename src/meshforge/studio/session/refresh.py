@@ -14,8 +14,7 @@ from meshforge.studio.label_changes import LabelChanges
 from meshforge.studio.output_checks import OutputChecks
 from meshforge.studio.output_measures import check_key
 from meshforge.studio.pages import PageState
-from meshforge.studio.queries.next_step import choose_next_step
-from meshforge.studio.queries.project import build_card, build_project_view
+from meshforge.studio.queries.project import build_card, build_project_view, choose_next_step
 from meshforge.studio.wire.family import Next, ProjectView
 from meshforge.studio.wire.jobs import Job
 

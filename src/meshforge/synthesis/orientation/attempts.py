@@ -26,11 +26,11 @@ from meshforge.language import (
 from meshforge.symbolic import NEAR_MISS, SymbolicMesh
 from meshforge.synthesis.demonstration import Demonstration, Example, RuleSpec, name_demonstrations
 from meshforge.synthesis.options import Layers, Options, OutOfTime, TimeBudget
-from meshforge.synthesis.replay import Replay, example_of
-from meshforge.synthesis.replay import advance as advanced
 from meshforge.synthesis.search.observation_table import HullTable
 from meshforge.synthesis.search.smallest import Hit, Search, Unfinished
 from meshforge.synthesis.search.terms import enumerate_leaves
+from meshforge.synthesis.task import Replay, example_of
+from meshforge.synthesis.task import advance as advanced
 
 Signature = tuple[bytes, bool]
 """Which leaf extractors select a hull, and whether it was selected."""

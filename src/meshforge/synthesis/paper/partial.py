@@ -1,16 +1,18 @@
-"""Partial programs: extractors with holes, all ways to fill the first hole, and the worklist of them, simplest first
-(paper, section on synthesis). A tree without holes is an extractor of the language; every other one has a node of
-this module at its root."""
+"""Partial programs: extractors with holes, all ways to fill the first hole, the worklist of them, simplest first; and
+what they select at least on one demonstrated mesh, under its labels or others.
+"""
 
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import cache
 from typing import assert_never
 
 from meshforge.language import (
     DIRECTIONS,
+    EXTREMITY,
     All,
     Attach,
     BaseExtractor,
@@ -21,9 +23,13 @@ from meshforge.language import (
     Intersect,
     Is,
     Union,
+    attach_mask,
+    geo_mask,
     size_of,
 )
+from meshforge.synthesis.demonstration import Example, LabelChange
 from meshforge.synthesis.options import Layers
+from meshforge.synthesis.search.smallest import NearestExtractor
 from meshforge.synthesis.search.terms import SetOperator
 
 OPERATORS: tuple[SetOperator, ...] = (Union, Intersect, Diff)
@@ -150,3 +156,135 @@ class Worklist:
             if queue:
                 return size, queue.popleft()
         return None
+
+
+LabelMasks = Mapping[str, int]
+"""The hulls of each label, as bit sets."""
+
+Bounds = tuple[int, int]
+"""The hulls selected by every completion, and those selected by any, as bit sets."""
+
+
+class ExampleMasks:
+    """An example with its hulls by label; what is in contact or farthest is looked up once for the same bit sets."""
+
+    def __init__(self, example: Example, extremity: float = EXTREMITY) -> None:
+        self.example, mesh = example, example.mesh
+        self.name, self.target = example.name, example.selection
+        self.everything = (1 << len(mesh.hulls)) - 1
+        self.labels = _masks_by_label([hull.label for hull in mesh.hulls])
+
+        @cache
+        def attach(selected: int, anchor: int) -> int:
+            return attach_mask(mesh, selected, anchor)
+
+        @cache
+        def geo(base: int, direction: Direction) -> int:
+            return geo_mask(mesh, base, direction, extremity)
+
+        self.attach, self.geo = attach, geo
+
+    def select(self, extractor: Extractor, labels: LabelMasks | None = None) -> int:
+        """What an extractor selects, as a bit set; labels: those to go by, without them the mesh's own."""
+        labels = self.labels if labels is None else labels
+        match extractor:
+            case All():
+                return self.everything
+            case Is(label):
+                return labels.get(label, 0)
+            case Attach(selected, anchor):
+                return self.attach(self.select(selected, labels), self.select(anchor, labels))
+            case Geo(base, direction):
+                return self.geo(self.select(base, labels), direction)
+            case Union(left, right):
+                return self.select(left, labels) | self.select(right, labels)
+            case Intersect(left, right):
+                return self.select(left, labels) & self.select(right, labels)
+            case Diff(left, right):
+                return self.select(left, labels) & ~self.select(right, labels)
+            case _:
+                assert_never(extractor)
+
+    def differences(self, extractor: Extractor) -> int:
+        """The hulls that an extractor selects though they were not shown, or the other way round, as a bit set."""
+        return self.select(extractor) ^ self.target
+
+    def relabel(self, changes: Iterable[LabelChange]) -> LabelMasks:
+        """The labels after some changes."""
+        labels = dict(self.labels)
+        for index, to in changes:
+            was = self.example.mesh.hulls[index].label
+            if was is not None:
+                labels[was] &= ~(1 << index)
+            labels[to] = labels.get(to, 0) | 1 << index
+        return labels
+
+
+def _masks_by_label(labels: Iterable[str | None]) -> dict[str, int]:
+    masks: dict[str, int] = {}
+    for index, label in enumerate(labels):
+        if label is not None:
+            masks[label] = masks.get(label, 0) | 1 << index
+    return masks
+
+
+def is_feasible(partial: Partial, demo: ExampleMasks) -> bool:
+    """Whether a completion may select what was shown, as far as bounds tell."""
+    low, high = bounds(partial, demo)
+    return not low & ~demo.target and not demo.target & ~high
+
+
+def bounds(partial: Partial, demo: ExampleMasks) -> Bounds:
+    """The bounds of a partial program on a demonstration; both are its selection where it has no holes.
+
+    `Attach` grows with both its operands, so the bounds of these give its own; `Geo` does not grow with its base.
+    """
+    match partial:
+        case Hole() | OpenGeo():
+            return 0, demo.everything
+        case OpenAttach(selected, anchor):
+            (low, high), (anchor_low, anchor_high) = _base_bounds(selected, demo), _base_bounds(anchor, demo)
+            return demo.attach(low, anchor_low), demo.attach(high, anchor_high)
+        case OpenOperator(operator, left, right):
+            return _combine_bounds(operator, bounds(left, demo), bounds(right, demo))
+        case _:
+            selection = demo.select(partial)
+            return selection, selection
+
+
+def _base_bounds(base: BaseExtractor | BaseHole, demo: ExampleMasks) -> Bounds:
+    return (0, demo.everything) if isinstance(base, BaseHole) else bounds(base, demo)
+
+
+def _combine_bounds(operator: SetOperator, left: Bounds, right: Bounds) -> Bounds:
+    if operator is Union:
+        return left[0] | right[0], left[1] | right[1]
+    if operator is Intersect:
+        return left[0] & right[0], left[1] & right[1]
+    assert operator is Diff
+    return left[0] & ~right[1], left[1] & ~right[0]
+
+
+class NearestTracker:
+    """The extractor with the fewest differing hulls so far; of several, the first met."""
+
+    def __init__(self, demos: Sequence[ExampleMasks]) -> None:
+        self._demos = demos
+        self._best: tuple[int, Extractor] | None = None
+
+    def offer(self, extractor: Extractor) -> int:
+        """In how many hulls an extractor differs from what was shown: 0 is a match."""
+        count = sum(demo.differences(extractor).bit_count() for demo in self._demos)
+        if self._best is None or count < self._best[0]:
+            self._best = (count, extractor)
+        return count
+
+    def miss(self) -> NearestExtractor | None:
+        """How the nearest differs on the mesh where it differs most, None when nothing was offered."""
+        if self._best is None:
+            return None
+        extractor = self._best[1]
+        worst = max(self._demos, key=lambda demo: demo.differences(extractor).bit_count())
+        wrong = worst.differences(extractor)
+        names_of = worst.example.mesh.names_of
+        return NearestExtractor(extractor, worst.name, names_of(wrong & ~worst.target), names_of(wrong & worst.target))

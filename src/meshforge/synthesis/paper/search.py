@@ -13,8 +13,15 @@ from meshforge.language import Extractor, labels_of
 from meshforge.symbolic import bits_of
 from meshforge.synthesis.demonstration import Example, LabelChange, to_correction
 from meshforge.synthesis.options import Options, OutOfTime, TimeBudget
-from meshforge.synthesis.paper.evaluate import ExampleMasks, NearestTracker, is_feasible
-from meshforge.synthesis.paper.partial import Hole, HoleGrammar, Open, Worklist
+from meshforge.synthesis.paper.partial import (
+    ExampleMasks,
+    Hole,
+    HoleGrammar,
+    NearestTracker,
+    Open,
+    Worklist,
+    is_feasible,
+)
 from meshforge.synthesis.questions import LabelCorrection
 from meshforge.synthesis.search.smallest import Hit, Miss, SearchEffort, SearchResult, Unfinished
 

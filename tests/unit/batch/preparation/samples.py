@@ -8,7 +8,7 @@ from tempfile import TemporaryDirectory
 
 from meshforge.batch import Preparation, decompose_asset
 from meshforge.formats import read
-from meshforge.geometry.decomposition.settings import CoacdSettings, VhacdSettings
+from meshforge.geometry.decomposition.engines import CoacdSettings, VhacdSettings
 from meshforge.symbolic import Asset
 from tests.urdf_sample import boxes_obj, corner_obj
 

@@ -10,7 +10,7 @@ from meshforge.batch import Preparation, apply_preparation, decompose_asset, fin
 from meshforge.common import AssetError
 from meshforge.formats import NO_GEOMETRY, load, read, save
 from meshforge.geometry import volume_of_union
-from meshforge.geometry.decomposition.settings import DecomposeSettings
+from meshforge.geometry.decomposition.engines import DecomposeSettings
 from meshforge.symbolic import Opaque, Surface, SymbolicMesh
 from tests.unit.batch.preparation.samples import PIECES, QUICK, VOXELS, stand, write_boxes, write_stand
 

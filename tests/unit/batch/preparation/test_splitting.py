@@ -104,7 +104,7 @@ def test_a_hull_of_an_opaque_piece_is_split_by_that_piece(tmp_path: Path) -> Non
 
 def _as_one_hull(folder: Path) -> Preparation:
     from meshforge.batch import decompose_asset
-    from meshforge.geometry.decomposition.settings import CoacdSettings
+    from meshforge.geometry.decomposition.engines import CoacdSettings
 
     coarse = CoacdSettings(threshold=1, resolution=200, mcts_iterations=20, mcts_nodes=8)
     done = decompose_asset(read(folder / "corner.obj"), Preparation(), coarse)
