@@ -10,33 +10,14 @@ from dataclasses import replace
 from functools import partial
 from pathlib import Path
 
+from meshforge.batch import outputs, provenance
 from meshforge.batch.corrections import corrections_digest, replay_corrections
 from meshforge.batch.discovery import STATE
 from meshforge.batch.execution import execute
 from meshforge.batch.jobs import APPLY_DEFAULTS, ApplyOptions, ApplyTask, AssetJob
 from meshforge.batch.lock import hold_lock
 from meshforge.batch.outcome import AssetOutcome, Edited, Failed, RuleEffect, Unchanged
-from meshforge.batch.outputs import (
-    DISK_ERRORS,
-    DRAFT_STAMP,
-    OutputFolder,
-    WorkerResult,
-    drafts_folder,
-    plan_draft,
-    write_draft,
-)
 from meshforge.batch.preparation.storage import prepare_from_folder, record_digest
-from meshforge.batch.provenance import (
-    OutputInputs,
-    Stamp,
-    asset_digests,
-    file_digest,
-    has_same_files,
-    program_digest,
-    read_stamp,
-    software_version,
-    template_digests,
-)
 from meshforge.batch.workers import EXECUTION_DEFAULTS, ExecutionOptions, WorkerFailure
 from meshforge.common import UsageError, describe_error, join_names
 from meshforge.formats import format_for, format_with_names, read
@@ -74,15 +55,15 @@ def _run_task(jobs: tuple[AssetJob, ...], task: ApplyTask, execution: ExecutionO
         ledger = None
         if not task.options.dry_run:
             stack.enter_context(hold_lock(task.out / STATE / "lock", str(task.out), wait=0))
-            stack.callback(shutil.rmtree, drafts_folder(task.out), ignore_errors=True)
-            shutil.rmtree(drafts_folder(task.out), ignore_errors=True)
-            ledger = OutputFolder(task.out, (job.id for job in jobs))
+            stack.callback(shutil.rmtree, outputs.drafts_folder(task.out), ignore_errors=True)
+            shutil.rmtree(outputs.drafts_folder(task.out), ignore_errors=True)
+            ledger = outputs.OutputFolder(task.out, (job.id for job in jobs))
         results = execute(partial(edit_asset, task), jobs, execution)
         stack.callback(results.close)  # the workers stop first, so that none writes a draft any more
         for job, result in zip(jobs, results, strict=True):
             if isinstance(result, WorkerFailure):
                 why = f"{job.path}: {result.why}\n  The other assets are not affected."
-                result = WorkerResult(Failed(job.id, why, result.seconds))
+                result = outputs.WorkerResult(Failed(job.id, why, result.seconds))
             yield ledger.commit(result) if ledger else result.outcome
 
 
@@ -101,7 +82,7 @@ def _check_arguments(jobs: tuple[AssetJob, ...], task: ApplyTask) -> None:
             )
 
 
-def edit_asset(task: ApplyTask, job: AssetJob) -> WorkerResult:
+def edit_asset(task: ApplyTask, job: AssetJob) -> outputs.WorkerResult:
     """Run a task on one asset. Never raises: whatever goes wrong is the asset's outcome."""
     started, inputs = time.perf_counter(), None
     try:
@@ -109,53 +90,55 @@ def edit_asset(task: ApplyTask, job: AssetJob) -> WorkerResult:
         if skipped:
             return skipped
         asset = read(job.path)
-        inputs = inputs_of(task, job, asset_digests(job.path, asset.files, job.base))
+        inputs = inputs_of(task, job, provenance.asset_digests(job.path, asset.files, job.base))
         ready = prepare_from_folder(asset, job.preparation) if job.preparation else asset
         return _run_program(task, job, ready, inputs, started)
     except MemoryError:
         why = f"{job.path}: there is not enough memory for it\n  {_MEMORY}"
-        return WorkerResult(Failed(job.id, why, time.perf_counter() - started), inputs)
+        return outputs.WorkerResult(Failed(job.id, why, time.perf_counter() - started), inputs)
     except Exception as error:  # a failed asset never stops the others
         failed = Failed(job.id, describe_error(error, str(job.path)), time.perf_counter() - started)
-        disk = error.strerror if isinstance(error, OSError) and error.errno in DISK_ERRORS else None
-        return WorkerResult(failed, inputs, disk=disk)
+        disk = error.strerror if isinstance(error, OSError) and error.errno in outputs.DISK_ERRORS else None
+        return outputs.WorkerResult(failed, inputs, disk=disk)
 
 
-def inputs_of(task: ApplyTask, job: AssetJob, files: dict[str, str]) -> OutputInputs:
+def inputs_of(task: ApplyTask, job: AssetJob, files: dict[str, str]) -> provenance.OutputInputs:
     """The digests of all that decides the output of a job; files: those of the asset."""
     to, names = task.options.to, task.options.names
-    return OutputInputs(
+    return provenance.OutputInputs(
         asset=files,
         preparation=record_digest(job.preparation) if job.preparation else None,
-        labels=file_digest(job.labels) if job.labels else None,
-        program=program_digest(task.program),
-        templates=template_digests(task.templates),
+        labels=provenance.file_digest(job.labels) if job.labels else None,
+        program=provenance.program_digest(task.program),
+        templates=provenance.template_digests(task.templates),
         corrections=corrections_digest(job.corrections),
         settings=f"mass={task.options.mass}{f' to={to}' if to else ''}{f' names={names}' if names else ''}",
-        software=software_version(),
+        software=provenance.software_version(),
     )
 
 
-def _find_up_to_date(task: ApplyTask, job: AssetJob) -> WorkerResult | None:
+def _find_up_to_date(task: ApplyTask, job: AssetJob) -> outputs.WorkerResult | None:
     """The outcome `skipped`, where the output of an earlier run is whole and made from the same."""
-    stamp = read_stamp(task.out, job.id) if task.options.resume else None
+    stamp = provenance.read_stamp(task.out, job.id) if task.options.resume else None
     if not stamp or not stamp.inputs or inputs_of(task, job, stamp.inputs.asset) != stamp.inputs:
         return None
-    if not has_same_files(stamp.inputs.asset, job.path, job.base) or not stamp.is_whole(task.out):
+    if not provenance.has_same_files(stamp.inputs.asset, job.path, job.base) or not stamp.is_whole(task.out):
         return None
-    return WorkerResult(stamp.to_skipped(task.out))
+    return outputs.WorkerResult(stamp.to_skipped(task.out))
 
 
-def _run_program(task: ApplyTask, job: AssetJob, asset: Asset, inputs: OutputInputs, started: float) -> WorkerResult:
+def _run_program(
+    task: ApplyTask, job: AssetJob, asset: Asset, inputs: provenance.OutputInputs, started: float
+) -> outputs.WorkerResult:
     labels = read_labels(job.labels) if job.labels else LabelFile()
     followed = transfer_labels(labels, SymbolicMesh.of(asset))
     source = followed.mesh
     result = task.program.run(source, task.templates)
     mesh, flags = replay_corrections(job.corrections, source, result.mesh, task.program, task.templates)
-    draft = plan_draft(task, job, asset)
+    draft = outputs.plan_draft(task, job, asset)
     if not task.options.dry_run:
         known = labels.vocabulary or task.program.labels
-        draft = write_draft(draft, mesh, known, task.options)
+        draft = outputs.write_draft(draft, mesh, known, task.options)
     outcome = (Unchanged if _has_same_hulls(source, mesh) and not job.preparation else Edited)(
         asset=job.id,
         out=str(task.out / draft.main),
@@ -167,9 +150,9 @@ def _run_program(task: ApplyTask, job: AssetJob, asset: Asset, inputs: OutputInp
         flags=flags,
     )
     if task.options.dry_run:
-        return WorkerResult(outcome)
-    Stamp.of(outcome, inputs, draft).write(draft.root / DRAFT_STAMP)
-    return WorkerResult(replace(outcome, seconds=time.perf_counter() - started), draft=draft)
+        return outputs.WorkerResult(outcome)
+    provenance.Stamp.of(outcome, inputs, draft).write(draft.root / outputs.DRAFT_STAMP)
+    return outputs.WorkerResult(replace(outcome, seconds=time.perf_counter() - started), draft=draft)
 
 
 def _opaque_notes(asset: Asset) -> tuple[str, ...]:

@@ -5,17 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 
+from meshforge import language
 from meshforge.batch.provenance import text_digest
 from meshforge.geometry import digest
-from meshforge.language import (
-    Action,
-    Program,
-    Template,
-    apply_action,
-    from_canonical_frame,
-    show_label,
-    to_canonical_frame,
-)
 from meshforge.symbolic import SymbolicMesh, mask_of
 
 
@@ -24,12 +16,12 @@ class Correction:
     """One edit by hand. hulls: name and digest of each hull it is about; label: of what it makes, None keeps it."""
 
     hulls: tuple[tuple[str, str], ...]
-    action: Action
+    action: language.Action
     label: str | None = None
 
     def __str__(self) -> str:
         names = ", ".join(f"{name} ({known})" for name, known in self.hulls)
-        return f"{names} => {self.action}" + (f" as {show_label(self.label)}" if self.label else "")
+        return f"{names} => {self.action}" + (f" as {language.show_label(self.label)}" if self.label else "")
 
     def find_problem(self, mesh: SymbolicMesh) -> str | None:
         """Why this edit cannot be replayed on a mesh, None where it can."""
@@ -45,8 +37,8 @@ def replay_corrections(
     corrections: Iterable[Correction],
     source: SymbolicMesh,
     edited: SymbolicMesh,
-    program: Program,
-    templates: Mapping[str, Template],
+    program: language.Program,
+    templates: Mapping[str, language.Template],
 ) -> tuple[SymbolicMesh, tuple[str, ...]]:
     """The mesh that a program made of `source`, after edits by hand; and a sentence for each that was left out.
 
@@ -55,7 +47,7 @@ def replay_corrections(
     corrections = tuple(corrections)
     if not corrections:
         return edited, ()
-    staged, pose = to_canonical_frame(source, program.orient, program.contact)
+    staged, pose = language.to_canonical_frame(source, program.orient, program.contact)
     known = staged.index
     current = staged.with_hulls(
         staged.hulls[known[h.name]].with_label(h.annotation) if h.name in known else h.move(pose) for h in edited.hulls
@@ -67,9 +59,9 @@ def replay_corrections(
             flags.append(f"edit {number} by hand was left out: {lost}")
             continue
         mask = mask_of(current.index[name] for name, _ in correction.hulls)
-        applied = apply_action(current, mask, correction.action, templates, correction.label, used)
+        applied = language.apply_action(current, mask, correction.action, templates, correction.label, used)
         current, used = applied.mesh, applied.used
-    return _restore_program_hulls(from_canonical_frame(source, current, pose), edited), tuple(flags)
+    return _restore_program_hulls(language.from_canonical_frame(source, current, pose), edited), tuple(flags)
 
 
 def _restore_program_hulls(mesh: SymbolicMesh, edited: SymbolicMesh) -> SymbolicMesh:

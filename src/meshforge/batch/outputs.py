@@ -11,19 +11,10 @@ from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from pathlib import Path
 
+from meshforge.batch import provenance
 from meshforge.batch.discovery import STATE
 from meshforge.batch.jobs import ApplyOptions, ApplyTask, AssetJob
 from meshforge.batch.outcome import AssetOutcome, Failed
-from meshforge.batch.provenance import (
-    OutputDraft,
-    OutputInputs,
-    Stamp,
-    file_digest,
-    read_stamp_file,
-    read_stamps,
-    stamp_path,
-    text_digest,
-)
 from meshforge.common import AssetError, MeshForgeError
 from meshforge.formats import labels_beside, output_path_of, read, save
 from meshforge.symbolic import Asset, SymbolicMesh, write_labels
@@ -44,8 +35,8 @@ class WorkerResult:
     """
 
     outcome: AssetOutcome
-    inputs: OutputInputs | None = None
-    draft: OutputDraft | None = None
+    inputs: provenance.OutputInputs | None = None
+    draft: provenance.OutputDraft | None = None
     disk: str | None = None
 
 
@@ -54,20 +45,20 @@ def drafts_folder(out: Path) -> Path:
     return out / STATE / "drafts"
 
 
-def plan_draft(task: ApplyTask, job: AssetJob, asset: Asset) -> OutputDraft:
+def plan_draft(task: ApplyTask, job: AssetJob, asset: Asset) -> provenance.OutputDraft:
     """Where the output of an asset would be."""
     attempt = secrets.token_hex(8)  # two nodes may be at it, when one that was given up for dead lives on
-    folder = drafts_folder(task.out) / f"{text_digest(job.id)}-{attempt}" / DRAFT_FILES
+    folder = drafts_folder(task.out) / f"{provenance.text_digest(job.id)}-{attempt}" / DRAFT_FILES
     to = task.options.to
     if to is None:
-        return OutputDraft(folder, output_path_of(asset, job.base, folder).relative_to(folder).as_posix())
+        return provenance.OutputDraft(folder, output_path_of(asset, job.base, folder).relative_to(folder).as_posix())
     stem = job.id if job.path.is_dir() else job.id.removesuffix(job.path.suffix)
-    return OutputDraft(folder, f"{stem}{to}")
+    return provenance.OutputDraft(folder, f"{stem}{to}")
 
 
 def write_draft(
-    plan: OutputDraft, mesh: SymbolicMesh, vocabulary: tuple[str, ...], options: ApplyOptions
-) -> OutputDraft:
+    plan: provenance.OutputDraft, mesh: SymbolicMesh, vocabulary: tuple[str, ...], options: ApplyOptions
+) -> provenance.OutputDraft:
     """The output, with the labels of the edited mesh beside it, by the names that it reads back with.
 
     Raises AssetError where the format cannot hold the mesh, or what was written reads back as other hulls.
@@ -79,9 +70,9 @@ def write_draft(
     if written.labels:
         write_labels(labels_beside(main), written, vocabulary)
     files = sorted(path for path in plan.folder.rglob("*") if path.is_file())
-    digests = {path.relative_to(plan.folder).as_posix(): file_digest(path) for path in files}
+    digests = {path.relative_to(plan.folder).as_posix(): provenance.file_digest(path) for path in files}
     labels = tuple(written.hull_of(name).label for name in order)
-    return OutputDraft(plan.folder, plan.main, digests, saved.notes, labels)
+    return provenance.OutputDraft(plan.folder, plan.main, digests, saved.notes, labels)
 
 
 def _read_back(main: Path, mesh: SymbolicMesh) -> list[str]:
@@ -116,7 +107,7 @@ class OutputFolder:
         with self._io_errors_end_run():
             for draft in (out / STATE).rglob("*.tmp"):  # of a killed run; the caller holds the lock: nobody writes it
                 draft.unlink()
-            for stamp in read_stamps(out):
+            for stamp in provenance.read_stamps(out):
                 self._record(stamp.asset, stamp.outputs)
             if self._placing.exists():
                 self._finish_interrupted()
@@ -134,7 +125,7 @@ class OutputFolder:
             outcome = self._commit_draft(worked)
             if isinstance(outcome, Failed):
                 self._remove_outputs(asset, list(self._files.get(asset, {})))
-                Stamp.of_failure(outcome, worked.inputs).write(stamp_path(self._out, asset))
+                provenance.Stamp.of_failure(outcome, worked.inputs).write(provenance.stamp_path(self._out, asset))
         return outcome
 
     @contextmanager
@@ -186,12 +177,12 @@ class OutputFolder:
             if (
                 name not in self._writers
                 and target.exists()
-                and not (target.is_file() and file_digest(target) == digest)
+                and not (target.is_file() and provenance.file_digest(target) == digest)
             ):
                 return f"{target}: this is there, and no earlier run wrote it\n  Move it away, or choose another --out."
         return None
 
-    def _place_draft(self, asset: str, draft: OutputDraft) -> None:
+    def _place_draft(self, asset: str, draft: provenance.OutputDraft) -> None:
         """Put the files of a draft in place.
 
         First the draft becomes the one that is on its way, by one rename. Killed after that, the next run finds it,
@@ -203,7 +194,7 @@ class OutputFolder:
 
     def _finish_interrupted(self) -> None:
         """Put the files in place that a killed run had not."""
-        stamp = read_stamp_file(self._placing / DRAFT_STAMP)  # not there any more: everything was in place
+        stamp = provenance.read_stamp_file(self._placing / DRAFT_STAMP)  # not there any more: everything was in place
         if stamp and not self._find_obstacle(stamp.outputs):
             self._record(stamp.asset, {**self._files.get(stamp.asset, {}), **stamp.outputs})
             self._rename_into_place(stamp.asset, stamp.outputs, stamp.out)
@@ -221,7 +212,7 @@ class OutputFolder:
             if source.exists():
                 source.replace(target)
         self._remove_outputs(asset, [name for name in self._files[asset] if name not in files])
-        stamp = stamp_path(self._out, asset)
+        stamp = provenance.stamp_path(self._out, asset)
         stamp.parent.mkdir(parents=True, exist_ok=True)
         (self._placing / DRAFT_STAMP).replace(stamp)
         shutil.rmtree(self._placing)
@@ -232,7 +223,7 @@ class OutputFolder:
             digest = self._files[asset].pop(name)
             del self._writers[name][asset]
             path = self._out / name
-            if not self._writers[name] and path.is_file() and file_digest(path) == digest:
+            if not self._writers[name] and path.is_file() and provenance.file_digest(path) == digest:
                 path.unlink()
                 _remove_empty_folders(path.parent, self._out)
 

@@ -7,18 +7,9 @@ from typing import Any
 
 import numpy as np
 
+from meshforge import geometry
 from meshforge.checks.legality import check_legality
 from meshforge.checks.limits import Engine, Limit
-from meshforge.geometry import (
-    Enclosure,
-    HullBudget,
-    Polytope,
-    convex_hull,
-    distance,
-    enclose,
-    polygon_sizes,
-    principal_extents,
-)
 from meshforge.symbolic import Hull, SymbolicMesh
 
 TOLERANCE = 0.01
@@ -103,34 +94,34 @@ def fix(mesh: SymbolicMesh, engine: Engine, tolerance: float | None = None) -> F
 def _describe_fix(old: Hull, new: Hull, broken: list[Limit], error: float) -> HullFix:
     rules = tuple(limit.rule for limit in broken)
     vertices = len(old.vertices), len(new.vertices)
-    polygons = len(polygon_sizes(old.shape.tessellate())), len(polygon_sizes(new.shape.tessellate()))
+    polygons = len(geometry.polygon_sizes(old.shape.tessellate())), len(geometry.polygon_sizes(new.shape.tessellate()))
     return HullFix(old.name, new.name, rules, error, vertices, polygons)
 
 
 def _find_broken_limits(engine: Engine, hull: Hull) -> list[Limit]:
     """The limits that a hull keeps not to and that could be fixed; `volume` asks for more than a new shape."""
     shape = hull.shape
-    if not isinstance(shape, Polytope):
+    if not isinstance(shape, geometry.Polytope):
         return []
     fixable = (limit for limit in engine.limits if limit.rule in (*_COUNTS, "thin"))
     return [limit for limit in fixable if limit.is_broken(limit.measure(shape))]
 
 
-def _enclose_within_limits(hull: Hull, engine: Engine, broken: list[Limit]) -> Enclosure | None:
+def _enclose_within_limits(hull: Hull, engine: Engine, broken: list[Limit]) -> geometry.Enclosure | None:
     """A hull around another that keeps to the limits, all of them; None where there is none."""
-    made = Enclosure(hull.shape.tessellate(), 0.0)
+    made = geometry.Enclosure(hull.shape.tessellate(), 0.0)
     for limit in broken:
         if limit.rule == "thin":
             made = thicken(made.hull, limit.number)
     if any(limit.rule in _COUNTS for limit in broken):
         counts = {_COUNTS[limit.rule]: limit.number for limit in engine.limits if limit.rule in _COUNTS}
-        found = enclose(made.hull, HullBudget(**counts))
-        return Enclosure(found.hull, made.error + found.error) if found else None
+        found = geometry.enclose(made.hull, geometry.HullBudget(**counts))
+        return geometry.Enclosure(found.hull, made.error + found.error) if found else None
     return made
 
 
 def _find_objection(
-    made: Enclosure | None, hull: Hull, engine: Engine, allowed: float, hulls: list[Hull]
+    made: geometry.Enclosure | None, hull: Hull, engine: Engine, allowed: float, hulls: list[Hull]
 ) -> str | None:
     """Why a fixed hull must not take the place of another; None where it may."""
     if made is None:
@@ -140,13 +131,15 @@ def _find_objection(
     if any(limit.is_broken(limit.measure(made.hull)) for limit in _find_broken_limits(engine, Hull("", "", made.hull))):
         return "no hull that keeps to all limits was found"
     for other in hulls:
-        meets = other.body != hull.body and _is_near(made.hull, other) and distance(made.hull, other.shape) == 0.0
-        if meets and distance(hull.shape, other.shape) > 0.0:
+        meets = (
+            other.body != hull.body and _is_near(made.hull, other) and geometry.distance(made.hull, other.shape) == 0.0
+        )
+        if meets and geometry.distance(hull.shape, other.shape) > 0.0:
             return f"it would come to overlap {other.name} of body {other.body}"
     return None
 
 
-def _is_near(made: Polytope, other: Hull) -> bool:
+def _is_near(made: geometry.Polytope, other: Hull) -> bool:
     a, b = made.aabb, other.aabb
     return bool((a.min <= b.max).all() and (b.min <= a.max).all())
 
@@ -158,15 +151,15 @@ def _free_name(name: str, taken: set[str]) -> str:
     return found
 
 
-def thicken(hull: Polytope, thickness: float) -> Enclosure:
+def thicken(hull: geometry.Polytope, thickness: float) -> geometry.Enclosure:
     """The hull swept along its thinnest principal axis, to both sides alike, until it is `thickness` [m] thick.
 
     It holds the hull it was, and sticks out by the step to each side at most; one that is thick enough stays as it is.
     """
-    _, axes, extents = principal_extents(hull.vertices)
+    _, axes, extents = geometry.principal_extents(hull.vertices)
     lacking = thickness * (1 + _MARGIN) - float(extents[2])
     if lacking <= 0:
-        return Enclosure(hull, 0.0)
+        return geometry.Enclosure(hull, 0.0)
     step = axes[2] * (lacking / 2)
-    made = convex_hull(np.concatenate([hull.vertices - step, hull.vertices + step]), name="a thickened hull")
-    return Enclosure(made, lacking / 2)
+    made = geometry.convex_hull(np.concatenate([hull.vertices - step, hull.vertices + step]), name="a thickened hull")
+    return geometry.Enclosure(made, lacking / 2)

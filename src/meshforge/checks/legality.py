@@ -10,19 +10,8 @@ from typing import Literal
 
 import numpy as np
 
+from meshforge import geometry
 from meshforge.common import join_names, pluralize
-from meshforge.geometry import (
-    Polytope,
-    Shape,
-    digest,
-    is_closed,
-    is_convex,
-    is_outward,
-    measure_extents,
-    overlap_volume,
-    rises_above,
-    spans_volume,
-)
 from meshforge.symbolic import Hull, SymbolicMesh
 
 Severity = Literal["error", "warning"]
@@ -53,7 +42,7 @@ class HullRule:
     name: str
     problem: str
     remedy: str
-    is_broken: Callable[[Shape], bool]
+    is_broken: Callable[[geometry.Shape], bool]
 
 
 HULL_RULES = (
@@ -68,21 +57,28 @@ HULL_RULES = (
         "flat",
         "no thickness",
         "Give it a thickness, replace it by a box, or delete it.",
-        lambda shape: not spans_volume(shape.vertices),
+        lambda shape: not geometry.spans_volume(shape.vertices),
     ),
-    HullRule("closed", "not closed", _REHULL, lambda shape: isinstance(shape, Polytope) and not is_closed(shape.faces)),
+    HullRule(
+        "closed",
+        "not closed",
+        _REHULL,
+        lambda shape: isinstance(shape, geometry.Polytope) and not geometry.is_closed(shape.faces),
+    ),
     HullRule("volume", "no positive volume (inside out, or empty)", _REHULL, lambda shape: shape.volume <= 0),
     HullRule(
         "convex",
         "not convex",
         "Decompose it, or merge the hull by itself, which fills its hollows.",
-        lambda shape: isinstance(shape, Polytope) and not is_convex(shape.vertices, shape.faces, _CONVEXITY),
+        lambda shape: (
+            isinstance(shape, geometry.Polytope) and not geometry.is_convex(shape.vertices, shape.faces, _CONVEXITY)
+        ),
     ),
     HullRule(
         "outward",
         "faces that look inwards",
         _REHULL,
-        lambda shape: isinstance(shape, Polytope) and not is_outward(shape.vertices, shape.faces),
+        lambda shape: isinstance(shape, geometry.Polytope) and not geometry.is_outward(shape.vertices, shape.faces),
     ),
 )
 """In this order: of a hull that breaks several, only the first is reported, since the others follow from it."""
@@ -111,7 +107,7 @@ def check_legality(mesh: SymbolicMesh) -> tuple[frozenset[str], tuple[Finding, .
     )
 
 
-def _find_broken_rule(shape: Shape) -> HullRule | None:
+def _find_broken_rule(shape: geometry.Shape) -> HullRule | None:
     with np.errstate(all="ignore"):
         return next((rule for rule in HULL_RULES if rule.is_broken(shape)), None)
 
@@ -135,7 +131,7 @@ def _check_duplicates(hulls: list[Hull]) -> Iterator[Finding]:
     """One finding for each set of hulls that are the same in single precision, in whatever body."""
     alike: dict[str, list[str]] = {}
     for hull in hulls:
-        alike.setdefault(digest(hull.shape), []).append(hull.name)
+        alike.setdefault(geometry.digest(hull.shape), []).append(hull.name)
     for names in alike.values():
         if len(names) > 1:
             message = f"{join_names(names)}: the same hull {pluralize(len(names), 'time')}"
@@ -171,7 +167,7 @@ def find_oddities(mesh: SymbolicMesh, faulty: frozenset[str] = frozenset()) -> t
 
 
 def _find_thin(hulls: Sequence[Hull]) -> Iterator[Finding]:
-    sizes = {h.name: measure_extents(h.vertices) for h in hulls}
+    sizes = {h.name: geometry.measure_extents(h.vertices) for h in hulls}
     slivers = {name: e[2] / e[1] for name, e in sizes.items() if e[2] < SLIVER * e[1]}
     oblong = {name: e[0] / e[1] for name, e in sizes.items() if e[0] > OBLONG * e[1]}
     if slivers:
@@ -195,7 +191,7 @@ def _find_overlaps(mesh: SymbolicMesh) -> Iterator[Finding]:
         small, large = sorted((hulls[i], hulls[j]), key=lambda h: h.volume)
         if _is_within(small, large):
             inner.setdefault(small.name, large.name)
-        elif (share := overlap_volume(small.shape, large.shape) / small.volume) > OVERLAP:
+        elif (share := geometry.overlap_volume(small.shape, large.shape) / small.volume) > OVERLAP:
             overlaps.append((share, small.name, large.name))
     if inner:
         listed = join_names([f"{name} (in {other})" for name, other in inner.items()])
@@ -216,7 +212,7 @@ def _is_within(small: Hull, large: Hull) -> bool:
     a, b = small.aabb, large.aabb
     if (a.min < b.min - slack).any() or (a.max > b.max + slack).any():
         return False
-    return not rises_above(small.vertices, large.vertices, large.faces, slack)
+    return not geometry.rises_above(small.vertices, large.vertices, large.faces, slack)
 
 
 def _find_gaps(mesh: SymbolicMesh) -> Iterator[Finding]:

@@ -11,40 +11,11 @@ from typing import Annotated, Literal
 
 import typer
 
-from meshforge.batch import (
-    ApplyOptions,
-    AssetJob,
-    AssetOutcome,
-    Failed,
-    MeshReader,
-    ReportHeader,
-    RunFigures,
-    RunSummary,
-    expand,
-    load_templates,
-    make_jobs,
-    plan_run,
-    read_job,
-    status_of,
-    template_folders,
-    to_json_line,
-)
+from meshforge import batch
 from meshforge.batch import apply as run_program
 from meshforge.checks import ENGINES, CheckOptions
+from meshforge.cli import options
 from meshforge.cli.console import progress
-from meshforge.cli.options import (
-    NOTHING_TO_SHOW,
-    Backend,
-    DryRun,
-    Json,
-    LabelsPath,
-    Memory,
-    ReportPath,
-    Timeout,
-    Workers,
-    takes,
-    to_execution_options,
-)
 from meshforge.cli.report import NOTHING_WRITTEN, compare_outcomes, describe_failure, write_report_page
 from meshforge.cli.terminal import print_json, remark
 from meshforge.common import UsageError, pluralize
@@ -60,18 +31,18 @@ class ApplyArguments:
     out: Annotated[
         Path | None, typer.Option("-o", "--out", help="Folder for the edited assets; a project has its own, edited/.")
     ] = None
-    labels: LabelsPath = None
-    workers: Workers = None
-    backend: Backend = "local"
-    timeout: Timeout = None
-    memory: Memory = None
+    labels: options.LabelsPath = None
+    workers: options.Workers = None
+    backend: options.Backend = "local"
+    timeout: options.Timeout = None
+    memory: options.Memory = None
     mass: Annotated[
         Literal["keep", "recompute"], typer.Option("--mass", help="Masses that a format derives from geometry.")
     ] = "keep"
     link: Annotated[bool, typer.Option("--link", help="Hard-link files that are only copied.")] = False
-    dry_run: DryRun = False
+    dry_run: options.DryRun = False
     fresh: Annotated[bool, typer.Option("--fresh", help="Do again what an earlier run has done.")] = False
-    report: ReportPath = None
+    report: options.ReportPath = None
     check: Annotated[
         list[str] | None,
         typer.Option(
@@ -79,10 +50,10 @@ class ApplyArguments:
             help="fit, clearance, physics or an engine: checks for the report, of what it shows. May be repeated.",
         ),
     ] = None
-    json: Json = False
+    json: options.Json = False
 
 
-@takes(ApplyArguments)
+@options.takes(ApplyArguments)
 def apply(given: ApplyArguments) -> None:
     """Run a program on assets; each goes back into its own format below --out, labels beside it.
 
@@ -93,21 +64,21 @@ def apply(given: ApplyArguments) -> None:
     if measures and not given.report:
         raise UsageError("--check says nothing without --report", remedy="Give it too, or: meshforge check OUT")
     if given.report and given.dry_run:
-        raise UsageError(NOTHING_TO_SHOW, remedy="Leave out --report.")
+        raise UsageError(options.NOTHING_TO_SHOW, remedy="Leave out --report.")
     work = _work_of_project(given) if given.program.is_dir() else _work_of_program(given)
     if len(work.jobs) > 1:
-        remark(str(plan_run(work.jobs, work.out)))
-    summary, started = RunSummary(), perf_counter()
-    options = ApplyOptions(given.mass, given.link, given.dry_run, resume=not given.fresh)
-    bounds = to_execution_options(given.workers, given.timeout, given.memory, given.backend)
+        remark(str(batch.plan_run(work.jobs, work.out)))
+    summary, started = batch.RunSummary(), perf_counter()
+    run_options = batch.ApplyOptions(given.mass, given.link, given.dry_run, resume=not given.fresh)
+    bounds = options.to_execution_options(given.workers, given.timeout, given.memory, given.backend)
     with progress(len(work.jobs), "editing") as advance:
         execution = replace(bounds, progress=advance)
         for outcome in run_program(
-            work.program, work.jobs, work.out, templates=work.templates, options=options, execution=execution
+            work.program, work.jobs, work.out, templates=work.templates, options=run_options, execution=execution
         ):
             summary.add(outcome)
             if given.json:
-                print_json(to_json_line(outcome), compact=True)
+                print_json(batch.to_json_line(outcome), compact=True)
             else:
                 typer.echo(_describe_outcome(outcome))
     if not given.json:
@@ -132,10 +103,10 @@ class _ApplyWork:
     """What is to be run on what. readers: of assets before the run, by id; demonstrated: those that somebody edited."""
 
     program: Program
-    jobs: Sequence[AssetJob]
+    jobs: Sequence[batch.AssetJob]
     out: Path
     templates: Mapping[str, Template]
-    readers: Callable[[Iterable[str]], Sequence[MeshReader]]
+    readers: Callable[[Iterable[str]], Sequence[batch.MeshReader]]
     demonstrated: Collection[str] = ()
 
 
@@ -158,30 +129,30 @@ def _work_of_program(given: ApplyArguments) -> _ApplyWork:
         lacking = "assets" if not given.assets else "--out DIR"
         raise UsageError(f"{lacking} is missing", remedy="meshforge apply PROGRAM ASSETS... --out DIR")
     program = Program.read(given.program)
-    templates = load_templates(program, template_folders(given.program))
-    jobs = make_jobs(expand(given.assets), given.labels)
+    templates = batch.load_templates(program, batch.template_folders(given.program))
+    jobs = batch.make_jobs(batch.expand(given.assets), given.labels)
     by_id = {job.id: job for job in jobs}
     return _ApplyWork(
-        program, jobs, given.out, templates, lambda assets: [partial(read_job, by_id[asset]) for asset in assets]
+        program, jobs, given.out, templates, lambda assets: [partial(batch.read_job, by_id[asset]) for asset in assets]
     )
 
 
-def _describe_outcome(outcome: AssetOutcome) -> str:
+def _describe_outcome(outcome: batch.AssetOutcome) -> str:
     """What became of an asset: a line, and its notes below it."""
-    if isinstance(outcome, Failed):
+    if isinstance(outcome, batch.Failed):
         return describe_failure(outcome)
     notes = (*(f"rule {r.rule}: {r.note}" for r in outcome.rules if r.note), *outcome.notes, *outcome.flags)
-    line = f"{status_of(outcome):10} {outcome.asset}: {outcome.before} -> {pluralize(outcome.after, 'hull')}"
+    line = f"{batch.status_of(outcome):10} {outcome.asset}: {outcome.before} -> {pluralize(outcome.after, 'hull')}"
     return "\n".join([line, *(f"    note: {note}" for note in notes)])
 
 
 def _write_report(
-    path: Path, work: _ApplyWork, summary: RunSummary, seconds: float, measures: CheckOptions | None
+    path: Path, work: _ApplyWork, summary: batch.RunSummary, seconds: float, measures: CheckOptions | None
 ) -> None:
     readers = work.readers(outcome.asset for outcome in summary.outcomes_to_show)
     write_report_page(
         path,
-        ReportHeader(work.out.resolve().name, seconds=seconds, figures=RunFigures.of_run(summary)),
+        batch.ReportHeader(work.out.resolve().name, seconds=seconds, figures=batch.RunFigures.of_run(summary)),
         list(compare_outcomes(summary.outcomes_to_show, work.program, readers, work.demonstrated, measures)),
         work.program,
     )

@@ -10,31 +10,11 @@ from typing import Annotated, Any, Literal
 
 import typer
 
-from meshforge.batch import (
-    CheckJournal,
-    CheckOutcome,
-    CheckTask,
-    check_assets,
-    expand,
-    make_jobs,
-    open_journal,
-    plan_run,
-)
+from meshforge import batch
 from meshforge.checks import CheckOptions
+from meshforge.cli import options
 from meshforge.cli.check_report import CheckReport, describe_changes
 from meshforge.cli.console import progress
-from meshforge.cli.options import (
-    AssetFiles,
-    Backend,
-    Json,
-    LabelsPath,
-    Memory,
-    ReportPath,
-    Timeout,
-    Workers,
-    takes,
-    to_execution_options,
-)
 from meshforge.cli.terminal import print_json, remark
 from meshforge.common import UsageError, pluralize
 
@@ -46,7 +26,7 @@ _FEW = 5  # assets whose results one sees at a glance
 class CheckArguments:
     """What is typed after `meshforge check`."""
 
-    assets: AssetFiles
+    assets: options.AssetFiles
     engine: Annotated[EngineName | None, typer.Option("--engine", help="Also check the limits of this engine.")] = None
     fit: Annotated[
         bool, typer.Option("--fit", help="Measure how far hulls stick out of the visual mesh, and what lies bare.")
@@ -88,16 +68,16 @@ class CheckArguments:
             "has changed.",
         ),
     ] = None
-    report: ReportPath = None
-    labels: LabelsPath = None
-    workers: Workers = None
-    backend: Backend = "local"
-    timeout: Timeout = None
-    memory: Memory = None
-    json: Json = False
+    report: options.ReportPath = None
+    labels: options.LabelsPath = None
+    workers: options.Workers = None
+    backend: options.Backend = "local"
+    timeout: options.Timeout = None
+    memory: options.Memory = None
+    json: options.Json = False
 
 
-@takes(CheckArguments)
+@options.takes(CheckArguments)
 def check(given: CheckArguments) -> None:
     """Check that every hull is convex, closed and solid, and keeps to the limits of an engine.
 
@@ -106,19 +86,19 @@ def check(given: CheckArguments) -> None:
     """
     _refuse_stray_options(given)
     measures = CheckOptions(given.engine, given.fit, given.clearance, given.physics, given.cell)
-    task = CheckTask(measures, given.out, given.tolerance, given.overwrite, given.against, given.pictures)
-    jobs = make_jobs(expand(given.assets), given.labels)
+    task = batch.CheckTask(measures, given.out, given.tolerance, given.overwrite, given.against, given.pictures)
+    jobs = batch.make_jobs(batch.expand(given.assets), given.labels)
     if len(jobs) > _FEW:
-        remark(str(plan_run(jobs, given.out)))
+        remark(str(batch.plan_run(jobs, given.out)))
     # of one asset, starting a process would take longer than the work
     in_process = len(jobs) == 1 and not measures.is_costly and given.timeout is None and given.memory is None
     workers = 0 if in_process else given.workers
-    execution = to_execution_options(workers, given.timeout, given.memory, given.backend)
+    execution = options.to_execution_options(workers, given.timeout, given.memory, given.backend)
     failed, page, started = 0, CheckReport() if given.report else None, perf_counter()
-    journal_file = open_journal(given.journal) if given.journal else nullcontext()
+    journal_file = batch.open_journal(given.journal) if given.journal else nullcontext()
     with journal_file as journal, progress(len(jobs), "checking") as advance:
         known = journal.inputs if journal else {}
-        results = check_assets(jobs, task, replace(execution, progress=advance), known=known)
+        results = batch.check_assets(jobs, task, replace(execution, progress=advance), known=known)
         for job, outcome in zip(jobs, results, strict=True):
             row = _to_row(journal, job.id, outcome)
             failed += row["failed"]
@@ -147,13 +127,13 @@ def _refuse_stray_options(given: CheckArguments) -> None:
     _refuse({"--against": given.against}, given.clearance or given.physics, "--clearance or --physics")
 
 
-def _refuse(options: dict[str, object], is_allowed: bool, without: str) -> None:
-    for option, value in options.items():
+def _refuse(values: dict[str, object], is_allowed: bool, without: str) -> None:
+    for option, value in values.items():
         if value is not None and not is_allowed:
             raise UsageError(f"{option} says nothing without {without}", remedy="Give it too, or leave this one out.")
 
 
-def _to_row(journal: CheckJournal | None, asset: str, outcome: CheckOutcome | None) -> dict[str, Any]:
+def _to_row(journal: batch.CheckJournal | None, asset: str, outcome: batch.CheckOutcome | None) -> dict[str, Any]:
     """What is to be printed about an asset: out of the journal where nothing changed, else kept there from now on."""
     if outcome is None:
         assert journal is not None
@@ -169,7 +149,7 @@ def _to_row(journal: CheckJournal | None, asset: str, outcome: CheckOutcome | No
     return row
 
 
-def _describe_check(outcome: CheckOutcome) -> str:
+def _describe_check(outcome: batch.CheckOutcome) -> str:
     path, found = outcome.path, outcome.examination
     if found is None:
         return f"{path}: cannot be read\n  " + (outcome.error or "").replace("\n", "\n  ")
@@ -180,7 +160,7 @@ def _describe_check(outcome: CheckOutcome) -> str:
     return "\n  ".join([f"{path}:", *lines]) if lines else f"{path}: legal"
 
 
-def _describe_work(outcome: CheckOutcome) -> tuple[str, ...]:
+def _describe_work(outcome: batch.CheckOutcome) -> tuple[str, ...]:
     """What was fixed, measured and written, a sentence each."""
     measured = outcome.examination.descriptions if outcome.examination else ()
     return (*describe_changes(outcome), *measured, *(f"wrote {picture}" for picture in outcome.pictures))

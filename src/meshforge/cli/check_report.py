@@ -9,19 +9,7 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-from meshforge.batch import (
-    AssetJob,
-    CheckOutcome,
-    EarlierExamination,
-    MeshReader,
-    ReportAsset,
-    ReportHeader,
-    ReportStatus,
-    RunFigures,
-    TopItems,
-    read_again,
-    read_job,
-)
+from meshforge import batch
 from meshforge.checks import CheckOptions, Examination, Finding, Severity
 from meshforge.cli.report import write_report_page
 from meshforge.formats import load
@@ -33,11 +21,11 @@ _FROM_JOURNAL = "kept in the journal from an earlier run"
 class _ReportLine:
     """What there is to show of one asset; fixed: its file where anything was fixed."""
 
-    job: AssetJob
-    status: ReportStatus
+    job: batch.AssetJob
+    status: batch.ReportStatus
     error: str | None
     notes: tuple[str, ...]
-    checked: Examination | EarlierExamination | None
+    checked: Examination | batch.EarlierExamination | None
     fixed: Path | None
 
 
@@ -45,10 +33,10 @@ class CheckReport:
     """Takes what was found as it comes, keeps the assets that are to be shown, and writes the page."""
 
     def __init__(self) -> None:
-        self._counts: Counter[ReportStatus] = Counter()
-        self._lines: TopItems[_ReportLine] = TopItems()
+        self._counts: Counter[batch.ReportStatus] = Counter()
+        self._lines: batch.TopItems[_ReportLine] = batch.TopItems()
 
-    def add(self, job: AssetJob, examined: CheckOutcome | None, row: Mapping[str, Any]) -> None:
+    def add(self, job: batch.AssetJob, examined: batch.CheckOutcome | None, row: Mapping[str, Any]) -> None:
         """One asset more; row: as the journal keeps it, which is all there is where nothing was examined anew."""
         line = _line_of_examined(job, examined) if examined else _line_of_journal(job, row)
         self._counts[line.status] += 1
@@ -56,12 +44,12 @@ class CheckReport:
 
     def write(self, path: Path, title: str, measures: CheckOptions, seconds: float) -> None:
         """Write the page; of very many assets it shows some, those with errors first."""
-        figures = RunFigures(self._counts, {}, "those that failed or have errors")
-        header = ReportHeader(title, _describe_measures(measures), seconds, figures)
+        figures = batch.RunFigures(self._counts, {}, "those that failed or have errors")
+        header = batch.ReportHeader(title, _describe_measures(measures), seconds, figures)
         write_report_page(path, header, _to_report_assets(list(self._lines)))
 
 
-def _line_of_examined(job: AssetJob, examined: CheckOutcome) -> _ReportLine:
+def _line_of_examined(job: batch.AssetJob, examined: batch.CheckOutcome) -> _ReportLine:
     notes = (*describe_changes(examined), *(f"wrote {picture}" for picture in examined.pictures))
     if examined.examination is None:
         return _ReportLine(job, "failed", examined.error, notes, None, None)
@@ -70,22 +58,22 @@ def _line_of_examined(job: AssetJob, examined: CheckOutcome) -> _ReportLine:
     return _ReportLine(job, status, None, notes, examined.examination, fixed)
 
 
-def _line_of_journal(job: AssetJob, row: Mapping[str, Any]) -> _ReportLine:
+def _line_of_journal(job: batch.AssetJob, row: Mapping[str, Any]) -> _ReportLine:
     """What the journal has of an asset; its heat maps are not measured anew."""
     found = row["found"]
     findings = tuple(Finding(**{**finding, "hulls": tuple(finding["hulls"])}) for finding in found["findings"])
     fix = found.get("fixed")
-    kept = EarlierExamination(findings, tuple(row.get("told", ())))
+    kept = batch.EarlierExamination(findings, tuple(row.get("told", ())))
     fixed = Path(fix["out"]) if fix and fix["changes"] else None
     return _ReportLine(job, _status(finding.severity for finding in findings), None, (_FROM_JOURNAL,), kept, fixed)
 
 
-def _status(severities: Iterable[Severity]) -> ReportStatus:
+def _status(severities: Iterable[Severity]) -> batch.ReportStatus:
     found = set(severities)
     return "errors" if "error" in found else "warnings" if found else "clean"
 
 
-def describe_changes(examined: CheckOutcome) -> tuple[str, ...]:
+def describe_changes(examined: batch.CheckOutcome) -> tuple[str, ...]:
     """What was fixed, what was left, and where it was written, a sentence each."""
     fixed = examined.fix_result
     if fixed is None:
@@ -93,16 +81,18 @@ def describe_changes(examined: CheckOutcome) -> tuple[str, ...]:
     return (*(f"fixed: {change.description}" for change in fixed.changes), *fixed.left, f"wrote {examined.output}")
 
 
-def _to_report_assets(lines: Sequence[_ReportLine]) -> list[ReportAsset]:
+def _to_report_assets(lines: Sequence[_ReportLine]) -> list[batch.ReportAsset]:
     """The assets with their meshes, fixed ones before and after."""
-    before: list[MeshReader | None] = [None if line.error else partial(read_job, line.job) for line in lines]
-    after: list[MeshReader | None] = [partial(load, line.fixed) if line.fixed else None for line in lines]
-    meshes = read_again([*before, *after])
+    before: list[batch.MeshReader | None] = [
+        None if line.error else partial(batch.read_job, line.job) for line in lines
+    ]
+    after: list[batch.MeshReader | None] = [partial(load, line.fixed) if line.fixed else None for line in lines]
+    meshes = batch.read_again([*before, *after])
     shown = []
     for line, was, now in zip(lines, meshes[: len(lines)], meshes[len(lines) :], strict=True):
         gone = () if was or line.error else ("it cannot be read any more, so there is no picture",)
         shown.append(
-            ReportAsset(
+            batch.ReportAsset(
                 line.job.id,
                 was,
                 now or was,

@@ -9,19 +9,7 @@ from typing import Annotated, Any, Literal
 
 import typer
 
-from meshforge.cli.options import (
-    NOTHING_TO_SHOW,
-    Backend,
-    DryRun,
-    Json,
-    LabelsPath,
-    Memory,
-    ReportPath,
-    Timeout,
-    Workers,
-    takes,
-    to_execution_options,
-)
+from meshforge.cli import options
 from meshforge.cli.terminal import print_json, remark
 from meshforge.common import UsageError, pluralize
 from meshforge.formats import FORMATS, Loss, SaveResult, labels_beside, load, save
@@ -46,19 +34,19 @@ class ConvertArguments:
         Literal["unreal", "godot", "unity"] | None,
         typer.Option("--names", help="Call what collides as this engine knows it: glTF for all, OBJ for unreal."),
     ] = None
-    labels: LabelsPath = None
+    labels: options.LabelsPath = None
     link: Annotated[bool, typer.Option("--link", help="Hard-link files that are only copied.")] = False
     overwrite: Annotated[bool, typer.Option("--overwrite", help="Replace files that are there already.")] = False
-    dry_run: DryRun = False
-    report: ReportPath = None
-    workers: Workers = None
-    backend: Backend = "local"
-    timeout: Timeout = None
-    memory: Memory = None
-    json: Json = False
+    dry_run: options.DryRun = False
+    report: options.ReportPath = None
+    workers: options.Workers = None
+    backend: options.Backend = "local"
+    timeout: options.Timeout = None
+    memory: options.Memory = None
+    json: options.Json = False
 
 
-@takes(ConvertArguments)
+@options.takes(ConvertArguments)
 def convert(given: ConvertArguments) -> None:
     """Write an asset in another format, or unchanged in its own; says what the target cannot hold.
 
@@ -79,16 +67,16 @@ def convert(given: ConvertArguments) -> None:
         _convert_one(Path(sources[0]), Path(out), given)
         return
     if given.report and given.dry_run:
-        raise UsageError(NOTHING_TO_SHOW, remedy="Leave out --report.")
+        raise UsageError(options.NOTHING_TO_SHOW, remedy="Leave out --report.")
     if given.overwrite:
         raise UsageError("--overwrite is for one asset", remedy="Outputs of an earlier run are replaced as it is.")
     suffix = _parse_suffix(given.to)
     from meshforge.batch import ApplyOptions  # lazy: 250 modules that only --to needs
     from meshforge.cli.convert_many import convert_many  # lazy: 250 modules that only --to needs
 
-    options = ApplyOptions(link=given.link, dry_run=given.dry_run, to=suffix, names=given.names)
-    execution = to_execution_options(given.workers, given.timeout, given.memory, given.backend)
-    convert_many(sources, Path(out), given.labels, options, execution, given.report, json=given.json)
+    run_options = ApplyOptions(link=given.link, dry_run=given.dry_run, to=suffix, names=given.names)
+    execution = options.to_execution_options(given.workers, given.timeout, given.memory, given.backend)
+    convert_many(sources, Path(out), given.labels, run_options, execution, given.report, json=given.json)
 
 
 def _parse_suffix(to: str) -> str:

@@ -10,24 +10,7 @@ from time import perf_counter
 
 import typer
 
-from meshforge.batch import (
-    ApplyOptions,
-    AssetJob,
-    AssetOutcome,
-    ExecutionOptions,
-    Failed,
-    ReportHeader,
-    ReportOptions,
-    RunFigures,
-    RunSummary,
-    Skipped,
-    apply,
-    expand,
-    make_jobs,
-    plan_run,
-    read_job,
-    to_json_line,
-)
+from meshforge import batch
 from meshforge.cli.console import progress
 from meshforge.cli.report import NOTHING_WRITTEN, compare_outcomes, describe_failure, write_report_page
 from meshforge.cli.terminal import print_json, remark
@@ -39,21 +22,23 @@ def convert_many(
     sources: Sequence[str],
     out: Path,
     labels: Path | None,
-    options: ApplyOptions,
-    execution: ExecutionOptions,
+    options: batch.ApplyOptions,
+    execution: batch.ExecutionOptions,
     report: Path | None,
     *,
     json: bool,
 ) -> None:
     """Write all assets below a folder in another format, and leave with exit code 1 where some failed."""
-    jobs, summary, started = make_jobs(expand(sources), labels), RunSummary(), perf_counter()
+    jobs, summary, started = batch.make_jobs(batch.expand(sources), labels), batch.RunSummary(), perf_counter()
     if len(jobs) > 1:
-        remark(str(plan_run(jobs, out)))
+        remark(str(batch.plan_run(jobs, out)))
     with progress(len(jobs), "converting") as advance:
-        for outcome in apply(Program(), jobs, out, options=options, execution=replace(execution, progress=advance)):
+        for outcome in batch.apply(
+            Program(), jobs, out, options=options, execution=replace(execution, progress=advance)
+        ):
             summary.add(outcome)
             if json:
-                print_json(to_json_line(outcome), compact=True)
+                print_json(batch.to_json_line(outcome), compact=True)
             else:
                 typer.echo(_describe_outcome(outcome))
     if not json:
@@ -63,26 +48,28 @@ def convert_many(
     raise typer.Exit(int(summary.counts["failed"] > 0))
 
 
-def _describe_outcome(outcome: AssetOutcome) -> str:
-    if isinstance(outcome, Failed):
+def _describe_outcome(outcome: batch.AssetOutcome) -> str:
+    if isinstance(outcome, batch.Failed):
         return describe_failure(outcome)
-    word = "skipped" if isinstance(outcome, Skipped) else "written"
+    word = "skipped" if isinstance(outcome, batch.Skipped) else "written"
     line = f"{word:10} {outcome.out}: {pluralize(outcome.after, 'hull')}"
     return "\n".join([line, *(f"    note: {note}" for note in outcome.notes)])
 
 
-def _write_report(path: Path, title: str, jobs: Sequence[AssetJob], summary: RunSummary, seconds: float) -> None:
+def _write_report(
+    path: Path, title: str, jobs: Sequence[batch.AssetJob], summary: batch.RunSummary, seconds: float
+) -> None:
     by_id = {job.id: job for job in jobs}
-    readers = [partial(read_job, by_id[outcome.asset]) for outcome in summary.outcomes_to_show]
+    readers = [partial(batch.read_job, by_id[outcome.asset]) for outcome in summary.outcomes_to_show]
     shown = compare_outcomes(summary.outcomes_to_show, Program(), readers)
     write_report_page(
         path,
-        ReportHeader(
+        batch.ReportHeader(
             title,
             "Each asset as it was read, and as what was written of it reads.",
             seconds,
-            RunFigures.of_run(summary, {"unchanged": "written"}),
+            batch.RunFigures.of_run(summary, {"unchanged": "written"}),
         ),
         [replace(asset, status="written") if asset.status == "unchanged" else asset for asset in shown],
-        options=ReportOptions(changes=False),  # the target may have other names
+        options=batch.ReportOptions(changes=False),  # the target may have other names
     )

@@ -8,21 +8,10 @@ from typing import Annotated, Literal
 
 import typer
 
+from meshforge.cli import options
 from meshforge.cli.label_report import LabelPrinter, LabelReport
 from meshforge.cli.label_sources import SourceOptions, label_from_sources, preview
 from meshforge.cli.label_vlm import VlmOptions, forecast, label_with_vlm
-from meshforge.cli.options import (
-    NOTHING_TO_SHOW,
-    Backend,
-    Json,
-    Memory,
-    ReportPath,
-    Timeout,
-    Workers,
-    split_words,
-    takes,
-    to_execution_options,
-)
 from meshforge.common import UsageError
 from meshforge.project import Project
 
@@ -97,15 +86,15 @@ class LabelArguments:
         bool,
         typer.Option("--dry-run", help="Take nothing: show what would be taken, or what vlm would send and cost."),
     ] = False
-    report: ReportPath = None
-    workers: Workers = None
-    backend: Backend = "local"
-    timeout: Timeout = None
-    memory: Memory = None
-    json: Json = False
+    report: options.ReportPath = None
+    workers: options.Workers = None
+    backend: options.Backend = "local"
+    timeout: options.Timeout = None
+    memory: options.Memory = None
+    json: options.Json = False
 
 
-@takes(LabelArguments)
+@options.takes(LabelArguments)
 def label(given: LabelArguments) -> None:
     """Give labels to hulls; what a person labelled is never overwritten by a machine.
 
@@ -118,17 +107,17 @@ def label(given: LabelArguments) -> None:
     model = VlmOptions(given.model, given.base_url, given.mode, given.max_cost)
     if source != "vlm" and model.first_option:
         raise UsageError(f"{model.first_option} is for --with vlm", remedy="Leave it out.")
-    options = SourceOptions(source, given.labels, given.pattern or (), given.classes, given.align, given.points_up)
-    options.refuse_strays()
+    sources = SourceOptions(source, given.labels, given.pattern or (), given.classes, given.align, given.points_up)
+    sources.refuse_strays()
     if given.report and given.dry_run:
-        raise UsageError(NOTHING_TO_SHOW, remedy="Leave out --report.")
-    project, words = Project.open(given.project), split_words(given.vocabulary) if given.vocabulary else None
-    execution = to_execution_options(given.workers, given.timeout, given.memory, given.backend)
+        raise UsageError(options.NOTHING_TO_SHOW, remedy="Leave out --report.")
+    project, words = Project.open(given.project), options.split_words(given.vocabulary) if given.vocabulary else None
+    execution = options.to_execution_options(given.workers, given.timeout, given.memory, given.backend)
     if given.dry_run and source == "vlm":
         forecast(project, model, words, execution, json=given.json)
         return
     if given.dry_run:
-        preview(project, options, words, execution, json=given.json)
+        preview(project, sources, words, execution, json=given.json)
         return
     if words is not None:
         project.set_vocabulary(words)
@@ -137,5 +126,5 @@ def label(given: LabelArguments) -> None:
     if source == "vlm":
         label_with_vlm(project, model, execution, printer)
     else:
-        label_from_sources(project, options, execution, printer)
+        label_from_sources(project, sources, execution, printer)
     raise typer.Exit(int(printer.failed))

@@ -7,18 +7,7 @@ from typing import Annotated
 
 import typer
 
-from meshforge.cli.options import (
-    AssetFiles,
-    AssetTimeout,
-    EngineMethod,
-    EngineOptions,
-    Hollow,
-    Workers,
-    parse_engine_settings,
-    refuse_options,
-    split_words,
-    takes,
-)
+from meshforge.cli import options
 from meshforge.cli.prepare import decompose_assets
 from meshforge.common import pluralize
 from meshforge.project import Project
@@ -30,31 +19,31 @@ class NewArguments:
 
     context: typer.Context
     project: Annotated[str, typer.Argument(help="The folder to make.")]
-    assets: AssetFiles
+    assets: options.AssetFiles
     vocabulary: Annotated[str, typer.Option("--vocabulary", help="Labels that hulls can have: a,b,c.")] = ""
     orient: Annotated[
         str, typer.Option("--orient", help="How assets are turned first: '+Z: Is(leg) -> Is(panel)'.")
     ] = ""
     method: Annotated[
-        EngineMethod | None,
+        options.EngineMethod | None,
         typer.Option("--decompose", help="Make hulls of non-convex pieces, and of bodies without collision geometry."),
     ] = None
-    option: EngineOptions = None
-    hollow: Hollow = False
-    workers: Workers = None
-    timeout: AssetTimeout = 600.0
+    option: options.EngineOptions = None
+    hollow: options.Hollow = False
+    workers: options.Workers = None
+    timeout: options.AssetTimeout = 600.0
 
 
-@takes(NewArguments)
+@options.takes(NewArguments)
 def new(given: NewArguments) -> None:
     """Make a project folder; the assets stay where they are and are never written to.
 
     With --decompose, exit code 1 when some pieces could not be decomposed (each named); the project is there.
     """
     if given.method is None:
-        refuse_options(given.context, ("option", "hollow", "workers", "timeout"), "--decompose METHOD")
-    settings = parse_engine_settings(given.method, given.option) if given.method else None
-    vocabulary = split_words(given.vocabulary)
+        options.refuse_options(given.context, ("option", "hollow", "workers", "timeout"), "--decompose METHOD")
+    settings = options.parse_engine_settings(given.method, given.option) if given.method else None
+    vocabulary = options.split_words(given.vocabulary)
     project = Project.create(given.project, given.assets, vocabulary=vocabulary, orient=given.orient)
     assets = project.assets()
     typer.echo(f"{given.project}: a project of {pluralize(len(assets), 'asset')}")

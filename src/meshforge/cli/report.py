@@ -7,22 +7,7 @@ from dataclasses import replace
 from functools import partial
 from pathlib import Path
 
-from meshforge.batch import (
-    READ_TIMEOUT,
-    REPORT_DEFAULTS,
-    AssetOutcome,
-    ExecutionOptions,
-    Failed,
-    MeshReader,
-    ReportAsset,
-    ReportHeader,
-    ReportOptions,
-    WorkerFailure,
-    execute,
-    read_again,
-    status_of,
-    write_report,
-)
+from meshforge import batch
 from meshforge.checks import CheckOptions, Examination, examine_mesh
 from meshforge.cli.console import progress
 from meshforge.cli.terminal import remark
@@ -35,38 +20,38 @@ NOTHING_WRITTEN = " (nothing was written)"
 
 def write_report_page(
     path: Path,
-    header: ReportHeader,
-    assets: Sequence[ReportAsset],
+    header: batch.ReportHeader,
+    assets: Sequence[batch.ReportAsset],
     program: Program | None = None,
-    options: ReportOptions = REPORT_DEFAULTS,
+    options: batch.ReportOptions = batch.REPORT_DEFAULTS,
 ) -> None:
     """Write a report with a progress bar on stderr, and say where it is."""
     with progress(len(assets), "drawing") as advance:
-        write_report(path, header, assets, program=program, options=replace(options, progress=advance))
+        batch.write_report(path, header, assets, program=program, options=replace(options, progress=advance))
     remark(f"report: {path}")
 
 
 def compare_outcomes(
-    outcomes: Sequence[AssetOutcome],
+    outcomes: Sequence[batch.AssetOutcome],
     program: Program,
-    readers: Sequence[MeshReader],
+    readers: Sequence[batch.MeshReader],
     demonstrated: Collection[str] = (),
     measures: CheckOptions | None = None,
-) -> Iterator[ReportAsset]:
+) -> Iterator[batch.ReportAsset]:
     """Each asset before and after, standing upright where the program orients it; readers: of the assets before.
 
     measures: what is measured of it after; such assets are shown as they lie, for what they show was not turned.
     """
-    made = [None if isinstance(outcome, Failed) else partial(load, outcome.out) for outcome in outcomes]
-    meshes = read_again([*readers, *made])
+    made = [None if isinstance(outcome, batch.Failed) else partial(load, outcome.out) for outcome in outcomes]
+    meshes = batch.read_again([*readers, *made])
     pairs = list(zip(outcomes, meshes[: len(made)], meshes[len(made) :], strict=True))
     todo = [(after, measures, before) for _, before, after in pairs if before and after] if measures else []
-    found = execute(_examine, todo, ExecutionOptions(timeout=READ_TIMEOUT))
+    found = batch.execute(_examine, todo, batch.ExecutionOptions(timeout=batch.READ_TIMEOUT))
     for outcome, was, now in pairs:
         name, is_shown = outcome.asset, outcome.asset in demonstrated
-        if isinstance(outcome, Failed) or was is None or now is None:
-            error = outcome.error if isinstance(outcome, Failed) else "it cannot be read any more"
-            yield ReportAsset(name, was, status="failed", error=error, demonstrated=is_shown)
+        if isinstance(outcome, batch.Failed) or was is None or now is None:
+            error = outcome.error if isinstance(outcome, batch.Failed) else "it cannot be read any more"
+            yield batch.ReportAsset(name, was, status="failed", error=error, demonstrated=is_shown)
             continue
         checked, notes = None, outcome.notes
         if measures:
@@ -76,12 +61,12 @@ def compare_outcomes(
             was, pose = to_canonical_frame(was, program.orient, program.contact)
             now = replace(now, hulls=tuple(hull.move(pose) for hull in now.hulls))
         trace = tuple(RuleTrace(line.rule, line.selected, line.made, line.note) for line in outcome.rules)
-        yield ReportAsset(name, was, now, trace, status_of(outcome), None, is_shown, notes, checked)
+        yield batch.ReportAsset(name, was, now, trace, batch.status_of(outcome), None, is_shown, notes, checked)
 
 
-def _split_checks(found: Examination | WorkerFailure) -> tuple[Examination | None, tuple[str, ...]]:
+def _split_checks(found: Examination | batch.WorkerFailure) -> tuple[Examination | None, tuple[str, ...]]:
     """What was measured, or why it was not."""
-    if isinstance(found, WorkerFailure):
+    if isinstance(found, batch.WorkerFailure):
         return None, (f"the checks did not come to an end: {found.why}",)
     return found, ()
 
@@ -91,6 +76,6 @@ def _examine(work: tuple[SymbolicMesh, CheckOptions, SymbolicMesh | None]) -> Ex
     return examine_mesh(*work)
 
 
-def describe_failure(outcome: Failed) -> str:
+def describe_failure(outcome: batch.Failed) -> str:
     """That an asset failed, and why."""
     return f"failed     {outcome.asset}\n    " + outcome.error.replace("\n", "\n    ")

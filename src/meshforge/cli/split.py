@@ -9,15 +9,7 @@ from typing import Annotated
 
 import typer
 
-from meshforge.cli.options import (
-    EngineMethod,
-    EngineOptions,
-    Hollow,
-    Json,
-    parse_engine_settings,
-    refuse_options,
-    takes,
-)
+from meshforge.cli import options
 from meshforge.cli.prepare import print_results
 from meshforge.common import UsageError
 from meshforge.project import Project
@@ -38,14 +30,14 @@ class SplitArguments:
         str, typer.Option("--across", metavar="X,Y,Z", help="The direction across the plane; part #1 is on that side.")
     ] = ""
     method: Annotated[
-        EngineMethod | None, typer.Option("--decompose", help="Split it by decomposing what its body shows.")
+        options.EngineMethod | None, typer.Option("--decompose", help="Split it by decomposing what its body shows.")
     ] = None
-    option: EngineOptions = None
-    hollow: Hollow = False
-    json: Json = False
+    option: options.EngineOptions = None
+    hollow: options.Hollow = False
+    json: options.Json = False
 
 
-@takes(SplitArguments)
+@options.takes(SplitArguments)
 def split(given: SplitArguments) -> None:
     """Split a hull: along a plane, or by a decomposition of the visual mesh of its body.
 
@@ -57,10 +49,10 @@ def split(given: SplitArguments) -> None:
         raise UsageError("say how: --at X,Y,Z --across X,Y,Z, or --decompose METHOD")
     project = Project.open(given.project)
     if method is None:
-        refuse_options(given.context, ("option", "hollow"), "--decompose METHOD")
+        options.refuse_options(given.context, ("option", "hollow"), "--decompose METHOD")
         result = project.cut(given.asset, given.hull, _parse_vector(at, "--at"), _parse_direction(across, "--across"))
     else:
-        settings = parse_engine_settings(method, given.option)
+        settings = options.parse_engine_settings(method, given.option)
         result = project.split(given.asset, given.hull, settings, hollow=given.hollow)
     print_results([result], given.json)
 

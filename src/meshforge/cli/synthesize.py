@@ -12,15 +12,9 @@ from typing import Annotated, Literal
 
 import typer
 
+from meshforge.cli import synthesize_text
 from meshforge.cli.options import Json, takes
 from meshforge.cli.synthesize_session import LearningSession, check_all_asked, read_answers, run_script
-from meshforge.cli.synthesize_text import (
-    LearningContext,
-    format_answer_help,
-    format_choices,
-    format_remarks,
-    format_result,
-)
 from meshforge.cli.terminal import print_json, remark
 from meshforge.common import UsageError, join_names, pluralize
 from meshforge.language import Program
@@ -118,19 +112,20 @@ def _is_interactive() -> bool:
 def _print_outcome(outcome: LearningOutcome, session: LearningSession, folder: Path, asked: bool) -> None:
     """The result to stdout, remarks to stderr, with the open question unless a person was asked it."""
     about = _context_of(session, folder, outcome)
-    typer.echo(format_result(outcome, about))
+    typer.echo(synthesize_text.format_result(outcome, about))
     if outcome.followed:
         typer.echo("\n" + "\n".join(outcome.followed))
-    more = format_remarks(outcome, about)
+    more = synthesize_text.format_remarks(outcome, about)
     if more:
         remark(f"\n{more}")
     if outcome.question and not asked:
-        remark(f"\n{format_choices(outcome.question)}\n{format_answer_help(outcome.question, about.folder_word)}")
+        remark(f"\n{synthesize_text.format_choices(outcome.question)}")
+        remark(synthesize_text.format_answer_help(outcome.question, about.folder_word))
 
 
-def _context_of(session: LearningSession, folder: Path, outcome: LearningOutcome) -> LearningContext:
+def _context_of(session: LearningSession, folder: Path, outcome: LearningOutcome) -> synthesize_text.LearningContext:
     answers = session.project.answers()
-    return LearningContext(
+    return synthesize_text.LearningContext(
         folder,
         assets=len(session.project.assets()),
         in_use=len(session.ids_in_use),

@@ -13,18 +13,8 @@ from hashlib import blake2b
 import numpy as np
 
 from meshforge.common import GeometryError
+from meshforge.geometry import connectivity
 from meshforge.geometry.arrays import Bools, Floats, Ints
-from meshforge.geometry.connectivity import (
-    components_by_edges,
-    components_by_vertices,
-    distinct_faces,
-    find_closed_components,
-    find_closed_runs,
-    is_simple,
-    row_ids,
-    weld,
-    weld_nearly,
-)
 from meshforge.geometry.shape import Polytope, volume_and_centroid
 from meshforge.geometry.solidity import LEAST_FILL, SolidityVerdict, judge_solidity
 
@@ -122,8 +112,8 @@ class IndexComponents:
 
     @staticmethod
     def of(corners: Ints) -> IndexComponents:
-        component = components_by_vertices(corners)
-        return IndexComponents(component, np.isin(component, find_closed_components(corners, component)))
+        component = connectivity.components_by_vertices(corners)
+        return IndexComponents(component, np.isin(component, connectivity.find_closed_components(corners, component)))
 
 
 class PieceReader:
@@ -131,9 +121,11 @@ class PieceReader:
 
     def __init__(self, vertices: Floats, faces: Ints, group: Ints) -> None:
         self.vertices = vertices
-        self.placed = weld(vertices)[faces]  # corners by place
-        self.of_place = components_by_vertices(self.placed)  # the component of each face, by what holds it together
-        self.of_group = components_by_vertices(_number_by_group(self.placed, group))
+        self.placed = connectivity.weld(vertices)[faces]  # corners by place
+        self.of_place = connectivity.components_by_vertices(
+            self.placed
+        )  # the component of each face, by what holds it together
+        self.of_group = connectivity.components_by_vertices(_number_by_group(self.placed, group))
         self.in_groups = IndexComponents.of(_number_by_group(faces, group))
         self.across = IndexComponents.of(faces)
         self.points = np.zeros((int(self.placed.max()) + 1, 3))
@@ -146,10 +138,10 @@ class PieceReader:
     def _join_near(self, found: list[PieceFaces]) -> list[PieceFaces]:
         """The parts, those that are no hulls joined where welding places that nearly agree makes a hull of them."""
         faces = np.sort(np.concatenate([part.faces for part in found if part.verdict.shape is None]))
-        near = weld_nearly(self.points, self.placed[faces], _NEAR * self._extent())
+        near = connectivity.weld_nearly(self.points, self.placed[faces], _NEAR * self._extent())
         if near is None:
             return found
-        welded = _subdivide(faces, components_by_vertices(near[self.placed[faces]]))
+        welded = _subdivide(faces, connectivity.components_by_vertices(near[self.placed[faces]]))
         hulls = [part for part in (self._judge(faces, near) for faces in welded) if part.verdict.shape]
         used = np.concatenate([part.faces for part in hulls]) if hulls else faces[:0]
         return hulls + [part for part in found if not np.isin(part.faces[0], used)]
@@ -170,7 +162,7 @@ class PieceReader:
         closed = indexed.closed[faces]
         parts = _subdivide(faces[closed], indexed.component[faces[closed]])
         if not closed.all():
-            parts += _subdivide(faces[~closed], components_by_vertices(self.placed[faces[~closed]]))
+            parts += _subdivide(faces[~closed], connectivity.components_by_vertices(self.placed[faces[~closed]]))
         if len(parts) == 1:
             return self._split_surface(faces)
         return self._choose_better([p for part in parts for p in self._split_surface(part)], faces)
@@ -178,13 +170,13 @@ class PieceReader:
     def _split_surface(self, faces: Ints) -> list[PieceFaces]:
         """One surface: as whole, or by the solids that it was written as, or that meet in its edges and corners."""
         whole = self._judge(faces)
-        if whole.verdict.shape is not None and is_simple(self.placed[faces]):
+        if whole.verdict.shape is not None and connectivity.is_simple(self.placed[faces]):
             return [whole]
         return self._split_by_order(faces) or self._split_solids(faces, whole) or [whole]
 
     def _split_by_order(self, faces: Ints) -> list[PieceFaces]:
         """The hulls that some faces were written as, one after the other; none where they were not."""
-        runs = _subdivide(faces, find_closed_runs(self.placed[faces]))
+        runs = _subdivide(faces, connectivity.find_closed_runs(self.placed[faces]))
         if len(runs) < 2 or min(map(len, runs)) < 4:
             return []
         solids: list[PieceFaces] = []
@@ -199,15 +191,15 @@ class PieceReader:
         """The one hull that some faces are, or several that meet in edges and corners; none where they are not."""
         whole = whole or self._judge(faces)
         corners = self.placed[faces]
-        if whole.verdict.shape is not None and is_simple(corners):
+        if whole.verdict.shape is not None and connectivity.is_simple(corners):
             return [whole]
         proper = np.flatnonzero((corners != np.roll(corners, 1, axis=1)).all(axis=1))
         if len(proper) == 0:
             return []
         inward = volume_and_centroid(self.points, corners)[0] < 0
-        component = components_by_edges(self.points, corners[proper], inward)
+        component = connectivity.components_by_edges(self.points, corners[proper], inward)
         parts = self._add_slivers(_subdivide(faces[proper], component), np.setdiff1d(faces, faces[proper]))
-        closed = len(find_closed_components(corners[proper], component)) == len(parts) > 1
+        closed = len(connectivity.find_closed_components(corners[proper], component)) == len(parts) > 1
         solids = self._judge_all(parts) if closed else []
         return _join_backs(solids) or ([whole] if whole.verdict.shape else [])
 
@@ -230,7 +222,7 @@ class PieceReader:
 
     def _judge(self, faces: Ints, near: Ints | None = None) -> PieceFaces:
         corners = self.placed[faces] if near is None else near[self.placed[faces]]
-        proper = distinct_faces(corners, np.zeros(len(corners), dtype=np.int64))
+        proper = connectivity.distinct_faces(corners, np.zeros(len(corners), dtype=np.int64))
         if len(proper) < 2:
             return PieceFaces(faces, SolidityVerdict(None, "flat"))
         return PieceFaces(faces, judge_solidity(self.points, corners[proper]))
@@ -267,7 +259,7 @@ def _join_backs(parts: list[PieceFaces]) -> list[PieceFaces]:
 
 def _number_by_group(corners: Ints, group: Ints) -> Ints:
     """Numbers for corners (m, 3) that differ from group to group."""
-    return row_ids(np.repeat(group, 3), corners.ravel())[0].reshape(-1, 3)
+    return connectivity.row_ids(np.repeat(group, 3), corners.ravel())[0].reshape(-1, 3)
 
 
 def _split(component: Ints) -> list[Ints]:

@@ -10,18 +10,8 @@ from typing import Any
 
 import numpy as np
 
+from meshforge import geometry
 from meshforge.common import join_names
-from meshforge.geometry import (
-    FLATNESS,
-    Polytope,
-    Pose,
-    Shape,
-    convex_hull,
-    is_closed,
-    is_convex,
-    is_outward,
-    spans_volume,
-)
 from meshforge.language.actions.base import Action
 from meshforge.language.actions.edit import GroupEdit, HullGroup, NewShape, Template, check_templates
 from meshforge.language.orient import orient_mesh
@@ -100,7 +90,7 @@ def _make_group(mesh: SymbolicMesh, mask: int, templates: Mapping[str, Template]
 def _make_hull(made: NewShape, label: str | None, taken: set[str], reference: float) -> Hull:
     """The hull of a made shape, verified and named; its name is added to those taken."""
     heir = made.heir
-    shape = ensure_valid(made.shape, heir.name, FLATNESS * reference)
+    shape = ensure_valid(made.shape, heir.name, geometry.FLATNESS * reference)
     stem = heir.name if heir.parent is None else _NEW_SUFFIX.sub("", heir.name)
     count = 1
     while f"{stem}~{count}" in taken:
@@ -140,26 +130,30 @@ def _inheritance_note(made: NewShape, known: dict[str, dict[str, str]]) -> str |
     return f"{join_names(differing)} as {made.heir.name} has it; the hulls beside it have another"
 
 
-def ensure_valid(shape: Shape, name: str, thickness: float) -> Shape:
+def ensure_valid(shape: geometry.Shape, name: str, thickness: float) -> geometry.Shape:
     """The shape itself where it is sound, else the convex hull of its points, thickened to `thickness` [m].
 
     Raises GeometryError naming `name` where no sound shape can be made of it.
     """
-    return shape if is_valid(shape) else convex_hull(shape.vertices, name=name, thicken=thickness)
+    return shape if is_valid(shape) else geometry.convex_hull(shape.vertices, name=name, thicken=thickness)
 
 
-def is_valid(shape: Shape) -> bool:
+def is_valid(shape: geometry.Shape) -> bool:
     """Whether a shape is finite, closed, convex, and spans a volume."""
     with np.errstate(all="ignore"):
         vertices, volume = shape.vertices, shape.volume
     if not np.isfinite(vertices).all() or not (np.isfinite(volume) and volume > 0):
         return False
-    return spans_volume(vertices) and (not isinstance(shape, Polytope) or _is_valid_polytope(shape))
+    return geometry.spans_volume(vertices) and (not isinstance(shape, geometry.Polytope) or _is_valid_polytope(shape))
 
 
-def _is_valid_polytope(shape: Polytope) -> bool:
+def _is_valid_polytope(shape: geometry.Polytope) -> bool:
     vertices, faces = shape.vertices, shape.faces
-    return is_closed(faces) and is_outward(vertices, faces) and is_convex(vertices, faces, _CONVEXITY)
+    return (
+        geometry.is_closed(faces)
+        and geometry.is_outward(vertices, faces)
+        and geometry.is_convex(vertices, faces, _CONVEXITY)
+    )
 
 
 @dataclass(frozen=True, slots=True)
@@ -188,7 +182,7 @@ class RuleTrace:
 
 def to_canonical_frame(
     mesh: SymbolicMesh, orient: Orient | None, contact: float | None = None
-) -> tuple[SymbolicMesh, Pose]:
+) -> tuple[SymbolicMesh, geometry.Pose]:
     """The mesh as the first rule sees it: oriented, with L fixed; and the pose oriented_T_incoming.
 
     contact: the program's epsilon, None keeps the mesh's.
@@ -200,7 +194,7 @@ def to_canonical_frame(
     return staged, pose
 
 
-def from_canonical_frame(incoming: SymbolicMesh, staged: SymbolicMesh, pose: Pose) -> SymbolicMesh:
+def from_canonical_frame(incoming: SymbolicMesh, staged: SymbolicMesh, pose: geometry.Pose) -> SymbolicMesh:
     """An edited mesh back in the frame it came in; pose: oriented_T_incoming. The inverse of `to_canonical_frame`."""
     back = pose.inverse()
     turned = not np.array_equal(pose.rotation, np.eye(3))
@@ -224,7 +218,7 @@ def apply_rule(
     return selected, apply_action(mesh, mask, rule.action, templates, rule.label, used)
 
 
-def _restore_hull(incoming: SymbolicMesh, hull: Hull, back: Pose | None) -> Hull:
+def _restore_hull(incoming: SymbolicMesh, hull: Hull, back: geometry.Pose | None) -> Hull:
     """A hull in the incoming frame: the original where it was kept, relabelled where the program did so."""
     if hull.name in incoming.index:
         original = incoming.hull_of(hull.name)

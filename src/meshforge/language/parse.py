@@ -10,33 +10,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, cast
 
 from meshforge.common import ProgramError
-from meshforge.language.actions.base import (
-    Action,
-    ActionArgument,
-    ArgumentType,
-    FileArgument,
-    TokenKind,
-    join_alternatives,
-)
+from meshforge.language import syntax
+from meshforge.language.actions import base
 from meshforge.language.actions.basic import ACTIONS
 from meshforge.language.print import CommentLines, Comments, Rule
-from meshforge.language.syntax import (
-    OPERATORS,
-    All,
-    Attach,
-    BaseExtractor,
-    Diff,
-    Direction,
-    Extractor,
-    Geo,
-    Intersect,
-    Is,
-    LandmarkPair,
-    Orient,
-    Union,
-    check_direction,
-    check_threshold,
-)
 from meshforge.language.text import (
     Node,
     ProgramText,
@@ -52,24 +29,33 @@ from meshforge.language.text import (
 if TYPE_CHECKING:  # lark is loaded where a program is parsed
     from lark import Lark, Token
 
-_SET_OPERATORS: dict[str, type[Union | Intersect | Diff]] = {"union": Union, "intersect": Intersect, "diff": Diff}
-_TOKEN_KINDS: dict[str, TokenKind] = {"NAME": "word", "STRING": "text", "NUMBER": "number", "DIRECTION": "direction"}
+_SET_OPERATORS: dict[str, type[syntax.Union | syntax.Intersect | syntax.Diff]] = {
+    "union": syntax.Union,
+    "intersect": syntax.Intersect,
+    "diff": syntax.Diff,
+}
+_TOKEN_KINDS: dict[str, base.TokenKind] = {
+    "NAME": "word",
+    "STRING": "text",
+    "NUMBER": "number",
+    "DIRECTION": "direction",
+}
 _TEXT_OR_COMMENT = re.compile(r'"(?:[^"\\\n]|\\.)*"|#(?P<comment>[^\n]*)')
 
 
-def parse_extractor(text: str, name: str = "extractor") -> Extractor:
+def parse_extractor(text: str, name: str = "extractor") -> syntax.Extractor:
     """The extractor in a text; any label is known. Raises ProgramError at `name:line:column`."""
     source = ProgramText(text.strip(), name)
     return build_extractor(TreeReader(source), _only_child(parse_tree(source, "only_extractor")))
 
 
-def parse_action(text: str, name: str = "action") -> Action:
+def parse_action(text: str, name: str = "action") -> base.Action:
     """The action in a text. Raises ProgramError at `name:line:column`."""
     source = ProgramText(text.strip(), name)
     return build_action(TreeReader(source), _only_child(parse_tree(source, "only_action")))
 
 
-def parse_orient(text: str, name: str = "orient") -> Orient:
+def parse_orient(text: str, name: str = "orient") -> syntax.Orient:
     """The orientation directive in a text, `orient ...` as in a program. Raises ProgramError at `name:line:column`."""
     source = ProgramText(text.strip(), name)
     return build_orient(TreeReader(source), _only_child(parse_tree(source, "only_orient")))
@@ -149,14 +135,14 @@ def build_rule(text: TreeReader, tree: Node, comments: Comments) -> Rule:
     return text.locate_errors(label[0] if label else tree, lambda: Rule(*parts, comments))
 
 
-def build_extractor(text: TreeReader, tree: Node) -> Extractor:
+def build_extractor(text: TreeReader, tree: Node) -> syntax.Extractor:
     """The extractor of a node of the grammar's `extractor`."""
     match tree.data:
         case "attach":
             selected, anchor = subtrees_of(tree)
-            return Attach(_build_base(text, selected), _build_base(text, anchor))
+            return syntax.Attach(_build_base(text, selected), _build_base(text, anchor))
         case "geo":
-            return Geo(_build_base(text, subtrees_of(tree)[0]), _build_direction(text, tokens_of(tree)[0]))
+            return syntax.Geo(_build_base(text, subtrees_of(tree)[0]), _build_direction(text, tokens_of(tree)[0]))
         case "union" | "intersect" | "diff":
             kind = _SET_OPERATORS[tree.data]
             left, right = subtrees_of(tree)
@@ -165,31 +151,33 @@ def build_extractor(text: TreeReader, tree: Node) -> Extractor:
             return _build_base(text, tree)
 
 
-def build_orient(text: TreeReader, tree: Node) -> Orient:
+def build_orient(text: TreeReader, tree: Node) -> syntax.Orient:
     """The directive of an `orient` node; an error is about the pair that is one too many or turns back."""
     nodes = subtrees_of(tree)
     pairs = tuple(_build_pair(text, node) for node in nodes)
     wrong = nodes[min(2, len(nodes) - 1)]
-    return text.locate_errors(wrong, lambda: Orient(pairs, snap=len(tokens_of(tree)) > 0))
+    return text.locate_errors(wrong, lambda: syntax.Orient(pairs, snap=len(tokens_of(tree)) > 0))
 
 
-def _build_pair(text: TreeReader, tree: Node) -> LandmarkPair:
+def _build_pair(text: TreeReader, tree: Node) -> syntax.LandmarkPair:
     start, end = subtrees_of(tree)
-    return LandmarkPair(_build_direction(text, tokens_of(tree)[0]), _build_base(text, start), _build_base(text, end))
+    return syntax.LandmarkPair(
+        _build_direction(text, tokens_of(tree)[0]), _build_base(text, start), _build_base(text, end)
+    )
 
 
-def _build_base(text: TreeReader, tree: Node) -> BaseExtractor:
-    return All() if tree.data == "all" else Is(text.read_label(subtrees_of(tree)[0]))
+def _build_base(text: TreeReader, tree: Node) -> syntax.BaseExtractor:
+    return syntax.All() if tree.data == "all" else syntax.Is(text.read_label(subtrees_of(tree)[0]))
 
 
-def _build_direction(text: TreeReader, token: Token) -> Direction:
+def _build_direction(text: TreeReader, token: Token) -> syntax.Direction:
     try:
-        check_direction(token)
+        syntax.check_direction(token)
     except ProgramError as error:
         like = likely_word(token[1:], ["+X", "+Y", "+Z"])
         hint = f"Did you mean {token[0]}{like[1]}? " if like else ""
         raise text.error_at(token, f"unknown direction `{token}`", f"{hint}{error.remedy}") from None
-    return cast(Direction, str(token))
+    return cast(syntax.Direction, str(token))
 
 
 def collect_headers(text: TreeReader, statements: list[Node]) -> dict[str, Node]:
@@ -219,11 +207,11 @@ def build_threshold(text: TreeReader, tree: Node | None) -> float | None:
     if tree is None:
         return None
     (token,) = tokens_of(tree)
-    text.locate_errors(token, lambda: check_threshold(tree.data, float(token)))
+    text.locate_errors(token, lambda: syntax.check_threshold(tree.data, float(token)))
     return float(token)
 
 
-def build_action(text: TreeReader, tree: Node) -> Action:
+def build_action(text: TreeReader, tree: Node) -> base.Action:
     """The action of an `action` node. Raises ProgramError at its name or at the argument that does not fit."""
     (name,) = tokens_of(tree)[:1]
     parts = [part for part in tree.children[1:] if part is not None]
@@ -240,16 +228,16 @@ def build_action(text: TreeReader, tree: Node) -> Action:
 
 
 def _unknown_action(text: TreeReader, name: Token) -> ProgramError:
-    known = f"Actions are {join_alternatives(ACTIONS)}."
-    if name in OPERATORS:
+    known = f"Actions are {base.join_alternatives(ACTIONS)}."
+    if name in syntax.OPERATORS:
         return text.error_at(name, f"{name} selects hulls, it is no action", known)
     like = likely_word(name, ACTIONS)
     return text.error_at(name, f"unknown action {quote_code(name)}", f"Did you mean {like}? {known}" if like else known)
 
 
-def _build_argument(text: TreeReader, kind: type[Action], argument: ArgumentType, given: Node | Token) -> Any:
+def _build_argument(text: TreeReader, kind: type[base.Action], argument: base.ArgumentType, given: Node | Token) -> Any:
     """The value of an argument, read as its kind says."""
-    if isinstance(argument, ActionArgument) and not isinstance(given, str):
+    if isinstance(argument, base.ActionArgument) and not isinstance(given, str):
         return build_action(text, given)
     token = _bare_token(given)
     if token is not None:
@@ -267,12 +255,14 @@ def _bare_token(given: Node | Token) -> Token | None:
     return tokens_of(given)[0] if subtrees_of(given) == [] and len(tokens_of(given)) == 1 else None
 
 
-def _misfit_error(text: TreeReader, kind: type[Action], argument: ArgumentType, given: Node | Token) -> ProgramError:
+def _misfit_error(
+    text: TreeReader, kind: type[base.Action], argument: base.ArgumentType, given: Node | Token
+) -> ProgramError:
     thing = text.source.piece_at(start_of(given))
     remedy = f"Write {kind.usage()}."
     like = likely_word(thing.strip('"'), argument.choices)
     if like:
         remedy = f"Did you mean {like}? {remedy}"
-    elif isinstance(argument, FileArgument) and "\\" in thing:
+    elif isinstance(argument, base.FileArgument) and "\\" in thing:
         remedy = "Write / between the folders of a path."
     return text.error_at(given, f"{kind.__name__} takes {argument.wants} here, not {quote_code(thing)}", remedy)

@@ -8,25 +8,12 @@ from dataclasses import dataclass, field
 from typing import assert_never
 
 from meshforge.common import ProgramError
+from meshforge.language import syntax
 from meshforge.language.actions.base import Action
 from meshforge.language.actions.basic import ACTIONS
-from meshforge.language.syntax import (
-    OPERATORS,
-    All,
-    Attach,
-    Diff,
-    Extractor,
-    Geo,
-    Intersect,
-    Is,
-    LandmarkPair,
-    Orient,
-    Union,
-    check_label,
-)
 
 WORD = re.compile(r"[^\W\d]\w*")
-RESERVED = frozenset(OPERATORS) | frozenset(ACTIONS)
+RESERVED = frozenset(syntax.OPERATORS) | frozenset(ACTIONS)
 
 CommentLines = tuple[str | None, ...]
 """Comment lines without their `#`; None is an empty line."""
@@ -47,7 +34,7 @@ class Rule:
     Comments do not count when rules are compared.
     """
 
-    extractor: Extractor
+    extractor: syntax.Extractor
     action: Action
     label: str | None = None
     comments: Comments = field(default=Comments(), compare=False)
@@ -55,7 +42,7 @@ class Rule:
     def __post_init__(self) -> None:
         if self.label is None:
             return
-        check_label(self.label)
+        syntax.check_label(self.label)
         if not self.action.makes_hulls:
             raise ProgramError(f"{self.action} makes no hull that could take the label {self.label!r}")
 
@@ -63,25 +50,30 @@ class Rule:
         return show(self)
 
 
-SyntaxNode = Extractor | Action | LandmarkPair | Orient | Rule
+SyntaxNode = syntax.Extractor | Action | syntax.LandmarkPair | syntax.Orient | Rule
 
 
 def show(node: SyntaxNode) -> str:
     """A node as program text."""
     match node:
-        case All():
+        case syntax.All():
             return "All"
-        case Is(label):
+        case syntax.Is(label):
             return f"Is({show_label(label)})"
-        case Geo(base, direction):
+        case syntax.Geo(base, direction):
             return f"Geo({show(base)}, {direction})"
-        case Attach(left, right) | Union(left, right) | Intersect(left, right) | Diff(left, right):
+        case (
+            syntax.Attach(left, right)
+            | syntax.Union(left, right)
+            | syntax.Intersect(left, right)
+            | syntax.Diff(left, right)
+        ):
             return f"{type(node).__name__}({show(left)}, {show(right)})"
         case Action():
             return str(node)
-        case LandmarkPair(axis, start, end):
+        case syntax.LandmarkPair(axis, start, end):
             return f"{axis}: {show(start)} -> {show(end)}"
-        case Orient(pairs, snap):
+        case syntax.Orient(pairs, snap):
             return f"orient {'snap ' if snap else ''}{', '.join(map(show, pairs))}"
         case Rule():
             return show_rule(node, 0)

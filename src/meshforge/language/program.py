@@ -8,6 +8,7 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from meshforge.common import MeshForgeError, ProgramError
+from meshforge.language import syntax
 from meshforge.language.actions.base import show_number
 from meshforge.language.actions.edit import Template, check_templates
 from meshforge.language.apply import RuleTrace, apply_rule, from_canonical_frame, to_canonical_frame
@@ -21,16 +22,6 @@ from meshforge.language.parse import (
     parse_tree,
 )
 from meshforge.language.print import CommentLines, Comments, Rule, show, show_label, show_rule
-from meshforge.language.syntax import (
-    Extractor,
-    Orient,
-    check_declared,
-    check_label,
-    check_threshold,
-    labels_of,
-    rename_in_extractor,
-    rename_in_orient,
-)
 from meshforge.language.text import Node, ProgramText, TreeReader, subtrees_of
 from meshforge.symbolic import SymbolicMesh
 
@@ -65,7 +56,7 @@ class Program:
     """
 
     labels: tuple[str, ...] = ()
-    orient: Orient | None = None
+    orient: syntax.Orient | None = None
     rules: tuple[Rule, ...] = ()
     contact: float | None = None
     extremity: float | None = None
@@ -75,21 +66,21 @@ class Program:
         object.__setattr__(self, "labels", tuple(self.labels) or self.labels_in_use)
         object.__setattr__(self, "rules", tuple(self.rules))
         for label in self.labels:
-            check_label(label)
+            syntax.check_label(label)
             if self.labels.count(label) > 1:
                 raise ProgramError(f"the label {label!r} is declared twice")
         for label in self.labels_in_use:
-            check_declared(label, self.labels)
-        check_threshold("contact", self.contact)
-        check_threshold("extremity", self.extremity)
+            syntax.check_declared(label, self.labels)
+        syntax.check_threshold("contact", self.contact)
+        syntax.check_threshold("extremity", self.extremity)
 
     @property
     def labels_asked(self) -> tuple[str, ...]:
         """The labels that landmarks and extractors ask for, each once, in order of mention."""
         pairs = self.orient.pairs if self.orient else ()
-        asked: list[Extractor] = [end for pair in pairs for end in (pair.start, pair.end)]
+        asked: list[syntax.Extractor] = [end for pair in pairs for end in (pair.start, pair.end)]
         asked += [rule.extractor for rule in self.rules]
-        return tuple(dict.fromkeys(label for extractor in asked for label in labels_of(extractor)))
+        return tuple(dict.fromkeys(label for extractor in asked for label in syntax.labels_of(extractor)))
 
     @property
     def labels_in_use(self) -> tuple[str, ...]:
@@ -162,13 +153,13 @@ def rename_in_program(program: Program, old: str, new: str) -> Program:
     rules = (
         replace(
             rule,
-            extractor=rename_in_extractor(rule.extractor, old, new),
+            extractor=syntax.rename_in_extractor(rule.extractor, old, new),
             label=new if rule.label == old else rule.label,
         )
         for rule in program.rules
     )
     labels = dict.fromkeys(new if label == old else label for label in program.labels)
-    orient = rename_in_orient(program.orient, old, new) if program.orient else None
+    orient = syntax.rename_in_orient(program.orient, old, new) if program.orient else None
     return replace(program, labels=tuple(labels), orient=orient, rules=tuple(rules))
 
 

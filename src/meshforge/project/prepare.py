@@ -7,22 +7,7 @@ from contextlib import AbstractContextManager
 from dataclasses import dataclass
 from pathlib import Path
 
-from meshforge.batch import (
-    DecompositionResult,
-    ExecutionOptions,
-    Preparation,
-    Replacement,
-    WorkerFailure,
-    apply_preparation,
-    decompose_asset,
-    read_preparation,
-    record_digest,
-    remove_preparation,
-    replay_preparation,
-    run_isolated,
-    split_hull,
-    write_preparation,
-)
+from meshforge import batch
 from meshforge.common import AssetError, MeshForgeError, ProjectError, describe_error, join_names
 from meshforge.formats import read
 from meshforge.geometry import DecomposeSettings, Shape, cache_folder
@@ -41,7 +26,7 @@ class PreparationResult:
     """
 
     asset: str
-    made: tuple[Replacement, ...] = ()
+    made: tuple[batch.Replacement, ...] = ()
     notes: tuple[str, ...] = ()
     problems: tuple[str, ...] = ()
     undone: tuple[str, ...] = ()
@@ -53,12 +38,12 @@ class PreparationResult:
 
 
 def change_preparation(
-    store: Store, asset: str, make: Callable[[Asset, Preparation], Preparation]
+    store: Store, asset: str, make: Callable[[Asset, batch.Preparation], batch.Preparation]
 ) -> PreparationResult:
     """Do one thing more to an asset. make: its preparation with that, of the asset as it was read and that before."""
     folder = store.layout.preparation(asset)
-    seen = record_digest(folder)
-    before = read_preparation(folder) or Preparation()
+    seen = batch.record_digest(folder)
+    before = batch.read_preparation(folder) or batch.Preparation()
     after = make(read(store.path(asset)), before)
     notes = exchange_preparation(store, asset, after, seen)
     added = after.steps[len(before.steps) :]
@@ -68,8 +53,8 @@ def change_preparation(
 def split(store: Store, asset: str, hull: str, settings: DecomposeSettings, hollow: bool) -> PreparationResult:
     """Split a hull by a decomposition of what its body shows."""
 
-    def make(source: Asset, before: Preparation) -> Preparation:
-        return split_hull(source, before, hull, settings, hollow=hollow, cache=cache_folder())
+    def make(source: Asset, before: batch.Preparation) -> batch.Preparation:
+        return batch.split_hull(source, before, hull, settings, hollow=hollow, cache=cache_folder())
 
     return change_preparation(store, asset, make)
 
@@ -82,28 +67,28 @@ def unprepare(store: Store, asset: str, everything: bool) -> PreparationResult:
     if asset not in store.layout.ids_with_preparation():
         store.path(asset)
     folder = store.layout.preparation(asset)
-    seen = record_digest(folder)
+    seen = batch.record_digest(folder)
     if seen is None:
         raise ProjectError("nothing was done to it that could be taken back", where=asset)
-    before = _read_or_empty(folder) if everything else read_preparation(folder) or Preparation()
+    before = _read_or_empty(folder) if everything else batch.read_preparation(folder) or batch.Preparation()
     left = 0 if everything else len(before.steps) - 1
     notes = exchange_preparation(store, asset, before.with_only(before.steps[:left]), seen)
     undone = tuple(map(str, before.steps[left:])) or ("what was kept, which was damaged",)
     return PreparationResult(asset, undone=undone, notes=tuple(notes))
 
 
-def _read_or_empty(folder: Path) -> Preparation:
+def _read_or_empty(folder: Path) -> batch.Preparation:
     """The preparation in a folder, an empty one where there is none or a damaged one."""
     try:
-        return read_preparation(folder) or Preparation()
+        return batch.read_preparation(folder) or batch.Preparation()
     except AssetError:
-        return Preparation()
+        return batch.Preparation()
 
 
-def exchange_preparation(store: Store, asset: str, after: Preparation, seen: str | None) -> list[str]:
+def exchange_preparation(store: Store, asset: str, after: batch.Preparation, seen: str | None) -> list[str]:
     """Write a preparation in the place of the one of a known digest. Raises ProjectError where that is another now."""
     with store.lock():
-        if record_digest(store.layout.preparation(asset)) != seen:
+        if batch.record_digest(store.layout.preparation(asset)) != seen:
             raise ProjectError("someone else has prepared it meanwhile", where=asset, remedy="Try again.")
         return _exchange(store, asset, after)
 
@@ -115,11 +100,11 @@ def _hulls_before(source: Asset, folder: Path) -> dict[str, Shape]:
     """
     before = _read_or_empty(folder)
     made = {name: before.hulls[known] for name, known in before.hull_digests.items()}
-    there = made | {geom.name: geom.shape for geom in replay_preparation(source, before).asset.geoms}
+    there = made | {geom.name: geom.shape for geom in batch.replay_preparation(source, before).asset.geoms}
     return {name: shape for name, shape in there.items() if name not in before.hulls_replaced}
 
 
-def _exchange(store: Store, asset: str, after: Preparation) -> list[str]:
+def _exchange(store: Store, asset: str, after: batch.Preparation) -> list[str]:
     """Write a preparation, under the lock that the caller holds, and let labels follow; notes on what that means.
 
     Labels of the new hulls are written before these, and labels of the old hulls go after them: killed in between,
@@ -131,16 +116,16 @@ def _exchange(store: Store, asset: str, after: Preparation) -> list[str]:
     except MeshForgeError as error:
         if after.steps:
             raise
-        remove_preparation(folder)
+        batch.remove_preparation(folder)
         return [f"its labels stay as they are: {error.problem}"] if store.layout.labels(asset).exists() else []
-    mesh = SymbolicMesh.of(apply_preparation(source, after))
+    mesh = SymbolicMesh.of(batch.apply_preparation(source, after))
     follow = label_new_hulls(store, asset, _hulls_before(source, folder), mesh)
     if follow:
         follow.write(keep_old=True)
     if after.steps:
-        write_preparation(folder, after)
+        batch.write_preparation(folder, after)
     else:
-        remove_preparation(folder)
+        batch.remove_preparation(folder)
     if follow:
         follow.write(keep_old=False)
     gone = sorted({name for _, name in find_unknown_hulls(store.steps(asset), mesh.index)})
@@ -177,14 +162,14 @@ def decompose(
     store: Store,
     assets: Sequence[str],
     options: DecomposeOptions,
-    execution: ExecutionOptions,
+    execution: batch.ExecutionOptions,
     write_block: Callable[[str], AbstractContextManager[object]],
 ) -> Iterator[PreparationResult]:
     """Decompose what assets have no hulls for, in worker processes; each is kept as soon as it is done."""
     work = [_DecomposeWork(store.path(asset), store.layout.preparation(asset), options) for asset in assets]
-    results = run_isolated(_decompose_one, work, execution)
+    results = batch.run_isolated(_decompose_one, work, execution)
     for asset, result in zip(assets, results, strict=True):
-        if isinstance(result, WorkerFailure):
+        if isinstance(result, batch.WorkerFailure):
             yield PreparationResult(asset, problems=(result.why,))
         elif isinstance(result, str):
             yield PreparationResult(asset, problems=(result,))
@@ -194,14 +179,14 @@ def decompose(
             yield kept
 
 
-def _decompose_one(work: _DecomposeWork) -> tuple[DecompositionResult, str | None] | str:
+def _decompose_one(work: _DecomposeWork) -> tuple[batch.DecompositionResult, str | None] | str:
     """What a worker makes of an asset and the digest of the preparation it saw, or why it failed."""
     try:
-        seen = record_digest(work.folder)
-        before = read_preparation(work.folder) or Preparation()
+        seen = batch.record_digest(work.folder)
+        before = batch.read_preparation(work.folder) or batch.Preparation()
         asset = read(work.path)
         options, cache = work.options, cache_folder()
-        done = decompose_asset(
+        done = batch.decompose_asset(
             asset, before, options.settings, only=options.only, again=options.again, hollow=options.hollow, cache=cache
         )
         return done, seen
@@ -209,7 +194,7 @@ def _decompose_one(work: _DecomposeWork) -> tuple[DecompositionResult, str | Non
         return describe_error(error, str(work.path))
 
 
-def _write_result(store: Store, asset: str, result: DecompositionResult, seen: str | None) -> PreparationResult:
+def _write_result(store: Store, asset: str, result: batch.DecompositionResult, seen: str | None) -> PreparationResult:
     problems = [f"{lost.what}: {lost.why}" for lost in result.failed]
     notes = [f"given up, since {lost.what} {lost.why}" for lost in result.dropped]
     notes += [result.missed] if result.missed else []

@@ -7,6 +7,7 @@ from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass
 from pathlib import Path
 
+from meshforge import synthesis
 from meshforge.batch import (
     APPLY_DEFAULTS,
     EXECUTION_DEFAULTS,
@@ -45,15 +46,6 @@ from meshforge.project.run import build_work, correct, mesh_before_rule
 from meshforge.project.status import AssetStatus, Status
 from meshforge.store import Verdict, add_assets, create_folder, find_assets
 from meshforge.symbolic import SymbolicMesh
-from meshforge.synthesis import (
-    Answer,
-    LabelCorrection,
-    LearningOutcome,
-    Options,
-    Question,
-    Repair,
-    Step,
-)
 
 
 @dataclass(frozen=True)
@@ -144,7 +136,7 @@ class Project(LabelStore):
 
     # Demonstrations
 
-    def demonstrate(self, asset: str, steps: Iterable[Step]) -> None:
+    def demonstrate(self, asset: str, steps: Iterable[synthesis.Step]) -> None:
         """Set the steps that are demonstrated on an asset; no steps take the demonstration away."""
         demonstrate(self, asset, tuple(steps))
 
@@ -170,12 +162,12 @@ class Project(LabelStore):
         self,
         *,
         accept: bool = True,
-        options: Options | None = None,
-        confirm: Callable[[Repair], bool] | None = None,
+        options: synthesis.Options | None = None,
+        confirm: Callable[[synthesis.Repair], bool] | None = None,
         stop: Callable[[], bool] | None = None,
-        answers: Sequence[Answer] = (),
+        answers: Sequence[synthesis.Answer] = (),
         meshes: Mapping[str, SymbolicMesh] | None = None,
-    ) -> LearningOutcome:
+    ) -> synthesis.LearningOutcome:
         """Learn the program from the demonstrations and from what a person said since.
 
         accept: what is found becomes the project's program, and what `confirm` says about repairs is kept at once.
@@ -193,22 +185,22 @@ class Project(LabelStore):
 
     # What a person said while it was learned
 
-    def answer(self, question: Question, choice: int | None) -> str:
+    def answer(self, question: synthesis.Question, choice: int | None) -> str:
         """Answer a question by a choice, counted from 0, or by None for neither; give the answer's id `RULE:ASSET`."""
         return self.add_answer(answer_by_choice(question, choice))
 
-    def add_answer(self, answer: Answer) -> str:
+    def add_answer(self, answer: synthesis.Answer) -> str:
         """The same for any selection, whether it was asked for or not. Raises ProjectError: no such asset or rule."""
         return add_answer(self, answer)
 
-    def confirm(self, right: LabelCorrection) -> str:
+    def confirm(self, right: synthesis.LabelCorrection) -> str:
         """Repair a label, as a `Repair` proposes it or not; give the repair's id `ASSET#HULL=LABEL`.
 
         Raises ProjectError where the asset, the hull or the label is not there, or the hull has another label by now.
         """
         return confirm_repair(self, right)
 
-    def reject(self, wrong: LabelCorrection) -> str:
+    def reject(self, wrong: synthesis.LabelCorrection) -> str:
         """Refuse a repair, so that it is not proposed again; give its id."""
         return reject_repair(self, wrong)
 

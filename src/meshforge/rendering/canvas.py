@@ -13,17 +13,7 @@ import numpy as np
 
 from meshforge.common import UsageError, write_atomically
 from meshforge.geometry import Ints
-from meshforge.rendering.annotation import (
-    FAINT,
-    INK,
-    draw_heading,
-    draw_legend,
-    draw_marks,
-    font,
-    legend_height,
-    shorten,
-    text_scale,
-)
+from meshforge.rendering import annotation
 from meshforge.rendering.camera import Floats32
 from meshforge.rendering.colors import HullColors, LegendEntry, rgb
 
@@ -54,12 +44,12 @@ class Canvas:
         self.size = size
         self.image: Image = _make_background(size, background)
         self._draw = ImageDraw.Draw(self.image)
-        top = draw_heading(self._draw, size, title, caption)
-        foot = legend_height(coloring, size)
+        top = annotation.draw_heading(self._draw, size, title, caption)
+        foot = annotation.legend_height(coloring, size)
         if top + foot > size[1] - 8:  # a picture too small for words
             coloring, top, foot = HullColors(coloring.colors), min(top, size[1] // 2), 0
         self.room = (0, top, size[0], size[1] - foot)
-        draw_legend(self._draw, size, coloring)
+        annotation.draw_legend(self._draw, size, coloring)
 
     def paste_drawing(self, pixels: Floats32, at: tuple[int, int]) -> None:
         """Lays a premultiplied drawing (h, w, 4) over the paper, its corner at (left, top)."""
@@ -78,18 +68,30 @@ class Canvas:
     def write_marks(self, items: Ints, marks: Mapping[int, str], at: tuple[int, int]) -> None:
         """Writes texts on items seen at (left, top)."""
         if marks:
-            draw_marks(self._draw, items, marks, at, self.size)
+            annotation.draw_marks(self._draw, items, marks, at, self.size)
 
     def write_message(self, text: str, box: tuple[int, int, int, int]) -> None:
         """Writes a text into the middle of a box."""
         left, top, right, bottom = box
-        size = round(20 * text_scale(self.size))
-        self._draw.text(((left + right) / 2, (top + bottom) / 2), text, fill=FAINT, font=font(size), anchor="mm")
+        size = round(20 * annotation.text_scale(self.size))
+        self._draw.text(
+            ((left + right) / 2, (top + bottom) / 2),
+            text,
+            fill=annotation.FAINT,
+            font=annotation.font(size),
+            anchor="mm",
+        )
 
     def write_view_name(self, text: str, at: tuple[int, int]) -> None:
         """Writes the name of a view into the corner at (left, top)."""
-        u = text_scale(self.size)
-        self._draw.text((at[0] + 16 * u, at[1] + 8 * u), text, fill=FAINT, font=font(round(13 * u)), anchor="lt")
+        u = annotation.text_scale(self.size)
+        self._draw.text(
+            (at[0] + 16 * u, at[1] + 8 * u),
+            text,
+            fill=annotation.FAINT,
+            font=annotation.font(round(13 * u)),
+            anchor="lt",
+        )
 
 
 def _make_background(size: tuple[int, int], background: str | None) -> Any:
@@ -129,25 +131,25 @@ def make_contact_sheet(
     rows = -(-len(images) // columns)
     size = gap + columns * (cell[0] + gap), gap + rows * (cell[1] + words + gap)
     legend = HullColors(np.zeros((0, 3)), tuple(LegendEntry(color, name) for name, color in colors.items()))
-    size = size[0], size[1] + legend_height(legend, size)
+    size = size[0], size[1] + annotation.legend_height(legend, size)
     paper = Image.new("RGB", size, _PAPER)
     draw = ImageDraw.Draw(paper)
-    draw_legend(draw, size, legend)
+    annotation.draw_legend(draw, size, legend)
     for k, image in enumerate(images):
         x, y = gap + k % columns * (cell[0] + gap), gap + k // columns * (cell[1] + words + gap)
         at = x + (cell[0] - image.width) // 2, y + (cell[1] - image.height) // 2
         paper.paste(image, at, image if image.mode == "RGBA" else None)
         draw.rectangle((x - 1, y - 1, x + cell[0], y + cell[1]), outline=_FRAME)
         if titles:
-            small = round(15 * text_scale(cell))
-            text = shorten(titles[k], small, cell[0])
-            draw.text((x + cell[0] // 2, y + cell[1] + words // 2), text, INK, font(small), "mm")
+            small = round(15 * annotation.text_scale(cell))
+            text = annotation.shorten(titles[k], small, cell[0])
+            draw.text((x + cell[0] // 2, y + cell[1] + words // 2), text, annotation.INK, annotation.font(small), "mm")
     return paper
 
 
 def _cell_spacing(cell: tuple[int, int], titled: bool) -> tuple[int, int]:
     """The gap between cells, and the height of a title [px]."""
-    u = text_scale(cell)
+    u = annotation.text_scale(cell)
     return max(4, round(10 * u)), round(28 * u) if titled else 0
 
 

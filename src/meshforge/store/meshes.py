@@ -13,36 +13,11 @@ from typing import Literal
 
 from pydantic import BaseModel, ConfigDict, ValidationError
 
-from meshforge.batch import (
-    AssetSet,
-    ExecutionOptions,
-    Preparation,
-    WorkerFailure,
-    apply_preparation,
-    asset_digests,
-    execute,
-    find_sources,
-    read_preparation,
-    read_prepared,
-    record_digest,
-    software_version,
-    source_files,
-    text_digest,
-)
+from meshforge import batch, symbolic
 from meshforge.common import MeshForgeError, describe_error, relative_name, write_atomically
 from meshforge.formats import read
 from meshforge.geometry import digest
 from meshforge.store.layout import Layout
-from meshforge.symbolic import (
-    Label,
-    LabelFile,
-    Mentions,
-    SymbolicMesh,
-    format_labels,
-    match_labels,
-    read_labels,
-    transfer_labels,
-)
 
 _OFTEN = 20.0  # seconds of reading after which what was read is kept, so that a kill does not lose more
 _SHARE = 20  # and as many times as long as keeping it took
@@ -62,7 +37,7 @@ class AssetFacts(BaseModel):
 
     hulls: dict[str, str] = {}
     bodies: tuple[str, ...] = ()
-    mentions: tuple[Mentions, ...] = ()
+    mentions: tuple[symbolic.Mentions, ...] = ()
     sources: int = 0
     preparation: str | None = None
     prepared: tuple[str, ...] = ()
@@ -81,11 +56,11 @@ class _SurveyFile(BaseModel):
 
 
 def survey(
-    found: AssetSet,
+    found: batch.AssetSet,
     layout: Layout,
     only: Collection[str] | None = None,
     *,
-    execution: ExecutionOptions | None = None,
+    execution: batch.ExecutionOptions | None = None,
     progress: Callable[[], None] | None = None,
 ) -> dict[str, AssetFacts]:
     """The facts of all assets, or of some, by id; see `iterate_survey`."""
@@ -93,11 +68,11 @@ def survey(
 
 
 def iterate_survey(
-    found: AssetSet,
+    found: batch.AssetSet,
     layout: Layout,
     only: Collection[str] | None = None,
     *,
-    execution: ExecutionOptions | None = None,
+    execution: batch.ExecutionOptions | None = None,
     progress: Callable[[], None] | None = None,
 ) -> Generator[tuple[str, AssetFacts], None, None]:
     """The ids of all assets in order, or of some, with their facts, as soon as these are known.
@@ -110,13 +85,16 @@ def iterate_survey(
     work = {key: _AssetPaths(path, found.base, layout.preparation(key)) for key, path in wanted.items()}
     fresh = {key for key, own in work.items() if key in known.facts and _is_current(known.facts[key], own)}
     todo = tuple(own for key, own in work.items() if key not in fresh)
-    results = execute(_read_facts, todo, replace(execution or ExecutionOptions(), progress=progress))
+    results = batch.execute(_read_facts, todo, replace(execution or batch.ExecutionOptions(), progress=progress))
     try:
         for key, own in work.items():
             if key not in fresh:
                 result = next(results)
                 known.add(
-                    key, AssetFacts(error=f"{own.path}: {result.why}") if isinstance(result, WorkerFailure) else result
+                    key,
+                    AssetFacts(error=f"{own.path}: {result.why}")
+                    if isinstance(result, batch.WorkerFailure)
+                    else result,
                 )
             yield key, known.facts[key]
     finally:  # also when the caller stops early
@@ -147,14 +125,16 @@ class _FactsMemory:
             return
         began = monotonic()
         every = {key: self.facts[key] for key in self._ids if key in self.facts and not self.facts[key].error}
-        write_atomically(self._file, _SurveyFile(form=3, software=software_version(), assets=every).model_dump_json())
+        write_atomically(
+            self._file, _SurveyFile(form=3, software=batch.software_version(), assets=every).model_dump_json()
+        )
         self._has_news, self._kept_at = False, monotonic()
         self._pause = max(_OFTEN, (self._kept_at - began) * _SHARE)
 
 
 def geometry_digest(hulls: Mapping[str, str]) -> str:
     """One digest of all hulls of an asset; hulls: the digest of each by its name, in order."""
-    return text_digest("\n".join(f"{name} {known}" for name, known in hulls.items()))
+    return batch.text_digest("\n".join(f"{name} {known}" for name, known in hulls.items()))
 
 
 def _read_memory(memory: Path) -> dict[str, AssetFacts]:
@@ -163,7 +143,7 @@ def _read_memory(memory: Path) -> dict[str, AssetFacts]:
         kept = _SurveyFile.model_validate_json(memory.read_bytes())
     except (OSError, ValidationError):
         return {}
-    return kept.assets if kept.software == software_version() else {}
+    return kept.assets if kept.software == batch.software_version() else {}
 
 
 @dataclass(frozen=True, slots=True)
@@ -179,11 +159,11 @@ def _is_current(facts: AssetFacts, work: _AssetPaths) -> bool:
     """Whether every file still has the time and size it had, and the preparation is what it was."""
     base = work.base
     try:
-        main = {relative_name(file, base) for file in source_files(work.path)}
+        main = {relative_name(file, base) for file in batch.source_files(work.path)}
         same = main <= facts.times.keys() and all(
             _time_and_size(base / name) == time for name, time in facts.times.items()
         )
-        return same and record_digest(work.preparation) == facts.preparation
+        return same and batch.record_digest(work.preparation) == facts.preparation
     except OSError:
         return False
 
@@ -192,19 +172,19 @@ def _read_facts(work: _AssetPaths) -> AssetFacts:
     path, base = work.path, work.base
     try:
         source = read(path)
-        times = {relative_name(file, base): _time_and_size(file) for file in (*source_files(path), *source.files)}
-        preparation = read_preparation(work.preparation) or Preparation()
-        asset = apply_preparation(source, preparation)
+        times = {relative_name(file, base): _time_and_size(file) for file in (*batch.source_files(path), *source.files)}
+        preparation = batch.read_preparation(work.preparation) or batch.Preparation()
+        asset = batch.apply_preparation(source, preparation)
         entries = [entry for step in preparation.steps for entry in step.replaced]
         return AssetFacts(
             hulls={geom.name: digest(geom.shape) for geom in asset.geoms},
             bodies=tuple(geom.body for geom in asset.geoms),
             mentions=tuple(geom.mentions for geom in asset.geoms),
-            sources=sum(not source.is_hopeless for source in find_sources(asset)),
-            preparation=record_digest(work.preparation),
+            sources=sum(not source.is_hopeless for source in batch.find_sources(asset)),
+            preparation=batch.record_digest(work.preparation),
             prepared=tuple(map(str, preparation.steps)),
             replaced={entry.what: tuple(entry.made) for entry in entries if entry.kind == "hull"},
-            files=asset_digests(path, source.files, base),
+            files=batch.asset_digests(path, source.files, base),
             times=times,
         )
     except Exception as error:  # one asset never hides the others
@@ -225,19 +205,19 @@ class AssetFiles:
     labels: Path
     contact: float | None
 
-    def read_mesh(self) -> SymbolicMesh:
+    def read_mesh(self) -> symbolic.SymbolicMesh:
         """The asset as it is prepared, with its labels. Raises AssetError where it cannot be read."""
-        source = read_prepared(self.path, self.preparation)
-        labelled = transfer_labels(read_labels_file(self.labels), SymbolicMesh.of(source)).mesh
+        source = batch.read_prepared(self.path, self.preparation)
+        labelled = symbolic.transfer_labels(read_labels_file(self.labels), symbolic.SymbolicMesh.of(source)).mesh
         return labelled if self.contact is None else replace(labelled, epsilon=self.contact)
 
 
-def read_labels_file(path: Path) -> LabelFile:
+def read_labels_file(path: Path) -> symbolic.LabelFile:
     """The labels of an asset as they are kept; empty where there are none."""
-    return read_labels(path) if path.exists() else LabelFile()
+    return symbolic.read_labels(path) if path.exists() else symbolic.LabelFile()
 
 
-def read_meshes(ids: Iterable[str], files: Iterable[AssetFiles]) -> Iterator[tuple[str, SymbolicMesh]]:
+def read_meshes(ids: Iterable[str], files: Iterable[AssetFiles]) -> Iterator[tuple[str, symbolic.SymbolicMesh]]:
     """Assets with their ids, one after the other; those that cannot be read are left out."""
     for asset, own in zip(ids, files, strict=True):
         try:
@@ -246,7 +226,7 @@ def read_meshes(ids: Iterable[str], files: Iterable[AssetFiles]) -> Iterator[tup
             continue
 
 
-def hull_digests(mesh: SymbolicMesh) -> dict[str, str]:
+def hull_digests(mesh: symbolic.SymbolicMesh) -> dict[str, str]:
     """The digests of all hulls of a mesh by name, in order."""
     return {hull.name: digest(hull.shape) for hull in mesh.hulls}
 
@@ -254,14 +234,14 @@ def hull_digests(mesh: SymbolicMesh) -> dict[str, str]:
 def write_labels(
     path: Path,
     hulls: Mapping[str, str],
-    labels: Mapping[str, Label],
+    labels: Mapping[str, symbolic.Label],
     vocabulary: Sequence[str],
     away: Collection[str] = (),
 ) -> None:
     """Write a labels file; labels of hulls that are gone stay in it, except for those of `away`."""
     present = {name: labels[name] for name in hulls if name in labels}
-    text = format_labels(LabelFile(tuple(vocabulary), present, hulls))
-    if gone := [name for name in match_labels(read_labels_file(path), hulls).gone if name not in away]:
+    text = symbolic.format_labels(symbolic.LabelFile(tuple(vocabulary), present, hulls))
+    if gone := [name for name in symbolic.match_labels(read_labels_file(path), hulls).gone if name not in away]:
         old, new = json.loads(path.read_text(encoding="utf-8")), json.loads(text)
         new["hulls"] |= {name: old["hulls"][name] for name in gone}
         new["vocabulary"] = list(dict.fromkeys([*new["vocabulary"], *old.get("vocabulary", [])]))

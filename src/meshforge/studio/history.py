@@ -13,18 +13,9 @@ from typing import Literal
 from meshforge.batch import STATE
 from meshforge.common import MeshForgeError, relative_name
 from meshforge.project import Project
+from meshforge.studio import history_store
 from meshforge.studio.edits.base import Edit
 from meshforge.studio.errors import ConflictError
-from meshforge.studio.history_store import (
-    BlobStore,
-    EntryFiles,
-    FileState,
-    HistoryEntry,
-    PendingEntry,
-    Snapshots,
-    count_group,
-    diff_states,
-)
 from meshforge.studio.wire.family import HistoryView
 
 
@@ -35,9 +26,9 @@ class History:
     def __init__(self, project: Project, derived: Callable[[Project], frozenset[str]] = lambda _: frozenset()) -> None:
         folder = project.folder / STATE / "studio" / "history"
         self._mutex = RLock()
-        self._files = EntryFiles(folder)
+        self._files = history_store.EntryFiles(folder)
         self._derived = derived
-        self._snapshots = Snapshots(project.folder, BlobStore(folder / "blobs"))
+        self._snapshots = history_store.Snapshots(project.folder, history_store.BlobStore(folder / "blobs"))
         with project.lock():
             self._recover(project)
             wanted = {digest for entry in self._files.entries for digest in entry.digests}
@@ -56,7 +47,7 @@ class History:
             )
 
     @property
-    def entries(self) -> tuple[HistoryEntry, ...]:
+    def entries(self) -> tuple[history_store.HistoryEntry, ...]:
         """The edits that were made and not undone, the first one first."""
         with self._mutex:
             return tuple(self._files.entries[: self._files.position])
@@ -66,12 +57,12 @@ class History:
         return self._snapshots.blobs.path_of(digest)
 
     @property
-    def last_entry(self) -> HistoryEntry:
+    def last_entry(self) -> history_store.HistoryEntry:
         """The edit that was made last."""
         with self._mutex:
             return self._files.entries[self._files.position - 1]
 
-    def do(self, project: Project, edit: Edit, by: str | None = None) -> HistoryEntry | None:
+    def do(self, project: Project, edit: Edit, by: str | None = None) -> history_store.HistoryEntry | None:
         """Make an edit; it is on disk with its entry when this returns. None where it changed nothing."""
         with self._mutex, project.lock():
             with self.record(project, edit, by) as at:
@@ -88,9 +79,13 @@ class History:
             before = self._snapshots.take(paths)
             now, data = datetime.now(UTC).isoformat(timespec="seconds"), edit.model_dump(mode="json")
             title = edit.describe(project)
-            entry = HistoryEntry(title=title, edit=data, before=before, after={}, at=now, by=by, group=group)
+            entry = history_store.HistoryEntry(
+                title=title, edit=data, before=before, after={}, at=now, by=by, group=group
+            )
             names = tuple(relative_name(path, project.folder) for path in paths)
-            self._files.begin(PendingEntry(what="do", number=self._files.position + 1, entry=entry, touches=names))
+            self._files.begin(
+                history_store.PendingEntry(what="do", number=self._files.position + 1, entry=entry, touches=names)
+            )
             try:
                 yield self._files.position
             except BaseException:
@@ -98,30 +93,30 @@ class History:
                 raise
             self._finish(project)
 
-    def undo(self, project: Project) -> tuple[HistoryEntry, ...]:
+    def undo(self, project: Project) -> tuple[history_store.HistoryEntry, ...]:
         """Put back what files held before the last edit, or before all edits of its group.
 
         Raises ConflictError, nothing changed, where something else changed a file since.
         """
         return self._move(project, "undo")
 
-    def redo(self, project: Project) -> tuple[HistoryEntry, ...]:
+    def redo(self, project: Project) -> tuple[history_store.HistoryEntry, ...]:
         """Put back what files held after the last edit that was undone, or after all of its group. Raises as `undo`."""
         return self._move(project, "redo")
 
-    def _move(self, project: Project, what: Literal["undo", "redo"]) -> tuple[HistoryEntry, ...]:
+    def _move(self, project: Project, what: Literal["undo", "redo"]) -> tuple[history_store.HistoryEntry, ...]:
         with self._mutex, project.lock():
             self._recover(project)
             entries, way = self._files.entries, -1 if what == "undo" else 1
             first = self._files.position + min(way, 0)
             if not 0 <= first < len(entries):
                 return ()
-            places = range(first, first + way * count_group(entries, first, way), way)
+            places = range(first, first + way * history_store.count_group(entries, first, way), way)
             for k in places:
-                self._shift(project, PendingEntry(what=what, number=k + 1, entry=entries[k]))
+                self._shift(project, history_store.PendingEntry(what=what, number=k + 1, entry=entries[k]))
             return tuple(entries[k] for k in places)
 
-    def _shift(self, project: Project, pending: PendingEntry) -> None:
+    def _shift(self, project: Project, pending: history_store.PendingEntry) -> None:
         entry, undo = pending.entry, pending.what == "undo"
         wanted, other = (entry.before, entry.after) if undo else (entry.after, entry.before)
         now = self._snapshots.read_state(wanted)
@@ -156,15 +151,15 @@ class History:
         if pending is None:
             return
         after = self._snapshots.take(project.folder / name for name in pending.touches)
-        changed = diff_states(pending.entry.before, after)
+        changed = history_store.diff_states(pending.entry.before, after)
         if changed[0]:
             entry = pending.entry.model_copy(update={"before": changed[0], "after": changed[1]})
             self._files.put(pending.number, entry)
             self._files.set_position(pending.number)
         self._files.end()
 
-    def _roll_back(self, before: FileState, paths: Sequence[Path]) -> None:
+    def _roll_back(self, before: history_store.FileState, paths: Sequence[Path]) -> None:
         now = self._snapshots.take(paths)
-        wanted, _ = diff_states(before, now)
+        wanted, _ = history_store.diff_states(before, now)
         self._snapshots.restore(wanted, {name: now.get(name) for name in wanted})
         self._files.end()

@@ -11,22 +11,12 @@ from typing import TypedDict, assert_never
 from meshforge.common import MeshForgeError
 from meshforge.language import Program, Rule, Template
 from meshforge.symbolic import SymbolicMesh
+from meshforge.synthesis import outcome
 from meshforge.synthesis.asset_selection import choose_question, select_sample, suggest_demonstration
 from meshforge.synthesis.demonstration import Demonstration, Example, RuleSpec, name_demonstrations
 from meshforge.synthesis.diagnosis import find_obstacles, follow_rule, give_advice
 from meshforge.synthesis.options import OutOfTime, TimeBudget
 from meshforge.synthesis.orientation.suggest import OrientationSuggestion, suggest_orientation
-from meshforge.synthesis.outcome import (
-    Ambiguous,
-    Found,
-    LearningOutcome,
-    Nearest,
-    NeedsRepair,
-    NoProgram,
-    Reading,
-    TimedOut,
-    reading_id,
-)
 from meshforge.synthesis.paper.search import HitWithCorrections, PaperSearch
 from meshforge.synthesis.questions import Answer, LabelCorrection, Question, Repair
 from meshforge.synthesis.readings.rank import RankedReadings, enumerate_consistent
@@ -49,7 +39,7 @@ class RuleOutcome:
 
 class _OutcomeFields(TypedDict):
     rules: tuple[Rule, ...]
-    readings: tuple[Reading, ...]
+    readings: tuple[outcome.Reading, ...]
     tried: tuple[SearchEffort, ...]
     seconds: Mapping[str, float]
     stale: tuple[Answer, ...]
@@ -70,7 +60,7 @@ class LearningRun:
         meshes = {replay.name: replay.mesh for replay in [*self._replays.shown, *self._replays.others]}
         self._repairs = RepairCollector(task, meshes, budget)
 
-    def run(self) -> LearningOutcome:
+    def run(self) -> outcome.LearningOutcome:
         """What comes of it."""
         for spec in self._task.rules:
             failed = self._learn(spec)
@@ -78,7 +68,7 @@ class LearningRun:
                 return failed
         return self._propose_repairs() if self._repairs.repairs else self._finish()
 
-    def _learn(self, spec: RuleSpec) -> LearningOutcome | None:
+    def _learn(self, spec: RuleSpec) -> outcome.LearningOutcome | None:
         """Learn one rule and run it on all meshes; what stands in the way, if anything does."""
         while True:
             examples, rest = self._replays.examples(spec)
@@ -96,7 +86,7 @@ class LearningRun:
                     return self._fail(spec, found, examples)
                 case Unfinished():
                     nearest = _to_nearest(spec.number, found.nearest) if found.nearest else None
-                    return TimedOut(nearest=nearest, **self._common_fields())
+                    return outcome.TimedOut(nearest=nearest, **self._common_fields())
                 case tuple():
                     self._replays.correct(found)
                 case _:
@@ -162,27 +152,27 @@ class LearningRun:
             self._question = choose_question(spec.number, ranked, names, self._repairs.trust, declined)
         self._replays.advance(spec.number, rule, last=spec.number == len(self._task.rules))
 
-    def _finish(self) -> LearningOutcome:
+    def _finish(self) -> outcome.LearningOutcome:
         task, program = self._task, self._program()
         verify(program, task.demos, task.templates)
         known = [(learned.readings, learned.names) for learned in self._learned]
         hint, sample = suggest_demonstration(known), select_sample(known, self._repairs.trust)
         if self._question:
-            return Ambiguous(
+            return outcome.Ambiguous(
                 program=program, question=self._question, hint=hint, sample=sample, **self._common_fields()
             )
         settled = bool(self._replays.others) and all(learned.readings.settled for learned in self._learned)
-        return Found(program=program, settled=settled, hint=hint, sample=sample, **self._common_fields())
+        return outcome.Found(program=program, settled=settled, hint=hint, sample=sample, **self._common_fields())
 
-    def _propose_repairs(self) -> LearningOutcome:
-        return NeedsRepair(repairs=self._repairs.repairs, proposed=self._program(), **self._common_fields())
+    def _propose_repairs(self) -> outcome.LearningOutcome:
+        return outcome.NeedsRepair(repairs=self._repairs.repairs, proposed=self._program(), **self._common_fields())
 
-    def _fail(self, spec: RuleSpec, miss: Miss, examples: Sequence[Example]) -> LearningOutcome:
+    def _fail(self, spec: RuleSpec, miss: Miss, examples: Sequence[Example]) -> outcome.LearningOutcome:
         nearest, repairs = _to_nearest(spec.number, miss.nearest), self._repairs.repairs
         if repairs:
-            return NeedsRepair(repairs=repairs, nearest=nearest, **self._common_fields())
+            return outcome.NeedsRepair(repairs=repairs, nearest=nearest, **self._common_fields())
         answered = self._replays.assets_with_answers(spec.number)
-        return NoProgram(
+        return outcome.NoProgram(
             why=miss.why,
             nearest=nearest,
             advice=give_advice(miss.nearest, examples, answered),
@@ -229,14 +219,14 @@ class LearningRun:
         }
 
 
-def _list_readings(rule: int, ranked: RankedReadings, names: Sequence[str]) -> Iterator[Reading]:
+def _list_readings(rule: int, ranked: RankedReadings, names: Sequence[str]) -> Iterator[outcome.Reading]:
     for place, (term, belief) in enumerate(zip(ranked.terms, ranked.beliefs, strict=True)):
         differs = tuple(names[k] for k in ranked.differences(place))
-        yield Reading(reading_id(rule, place), rule, term.extractor, belief, differs)
+        yield outcome.Reading(outcome.reading_id(rule, place), rule, term.extractor, belief, differs)
 
 
-def _to_nearest(rule: int, miss: NearestExtractor) -> Nearest:
-    return Nearest(rule, miss.extractor, miss.asset, miss.extra, miss.missing)
+def _to_nearest(rule: int, miss: NearestExtractor) -> outcome.Nearest:
+    return outcome.Nearest(rule, miss.extractor, miss.asset, miss.extra, miss.missing)
 
 
 def verify(program: Program, demos: Sequence[Demonstration], templates: Mapping[str, Template]) -> None:

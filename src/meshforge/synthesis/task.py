@@ -9,19 +9,8 @@ from dataclasses import dataclass, replace
 from typing import TypeVar
 from weakref import WeakKeyDictionary
 
+from meshforge import language
 from meshforge.common import DemonstrationError, MeshForgeError, nearest_name
-from meshforge.language import (
-    EXTREMITY,
-    ActionResult,
-    Each,
-    Orient,
-    Program,
-    Rule,
-    Template,
-    apply_action,
-    select_mask,
-    to_canonical_frame,
-)
 from meshforge.symbolic import Label, SymbolicMesh, mask_of, split_by_contact
 from meshforge.synthesis.demonstration import Demonstration, Example, RuleSpec, name_demonstrations
 from meshforge.synthesis.options import Options
@@ -42,8 +31,8 @@ class LearningTask:
     rules: tuple[RuleSpec, ...]
     demos: tuple[Demonstration, ...]
     batch: Batch
-    frame: Program
-    templates: Mapping[str, Template]
+    frame: language.Program
+    templates: Mapping[str, language.Template]
     answers: tuple[Answer, ...]
     rejected: frozenset[LabelCorrection]
     options: Options
@@ -82,8 +71,8 @@ class ReplaySet:
         self,
         demos: Sequence[Demonstration],
         batch: Batch,
-        frame: Program,
-        templates: Mapping[str, Template],
+        frame: language.Program,
+        templates: Mapping[str, language.Template],
         answers: Sequence[Answer],
     ) -> None:
         self._frame, self._templates, self._answers = frame, templates, answers
@@ -146,14 +135,14 @@ class ReplaySet:
             if answer.asset in by_name and names <= by_name[answer.asset].index.keys()
         ]
 
-    def advance(self, number: int, rule: Rule, last: bool) -> None:
+    def advance(self, number: int, rule: language.Rule, last: bool) -> None:
         """Run a rule on all meshes; the last one only on those that are demonstrated."""
         delta = self._frame.extremity
         self.shown = [advance(replay, number, rule, self._templates, delta) for replay in self.shown]
         if not last:
             self.others = [done for replay in self.others if (done := self._advance(replay, number, rule))]
 
-    def _advance(self, replay: Replay, number: int, rule: Rule) -> Replay | None:
+    def _advance(self, replay: Replay, number: int, rule: language.Rule) -> Replay | None:
         try:
             return advance(replay, number, rule, self._templates, self._frame.extremity)
         except MeshForgeError:
@@ -195,11 +184,14 @@ class Replay:
     used: frozenset[str] = frozenset()
 
 
-def begin_replay(name: str, demo: Demonstration, orient: Orient | None, contact: float | None) -> Replay:
+def begin_replay(name: str, demo: Demonstration, orient: language.Orient | None, contact: float | None) -> Replay:
     """A demonstration before its first rule. Raises ProgramError where the orientation fails on its mesh."""
     try:
         mesh = memoize(
-            demo.mesh, (orient, contact), SymbolicMesh, lambda: to_canonical_frame(demo.mesh, orient, contact)[0]
+            demo.mesh,
+            (orient, contact),
+            SymbolicMesh,
+            lambda: language.to_canonical_frame(demo.mesh, orient, contact)[0],
         )
     except MeshForgeError as error:
         raise error.at(name) from None
@@ -215,18 +207,22 @@ def example_of(replay: Replay, rule: RuleSpec) -> Example | None:
     if step is None:
         return None
     selection = _mask_of_step(replay, rule.number)
-    if rule.each_in and step.shown and not isinstance(step.action, Each):
+    if rule.each_in and step.shown and not isinstance(step.action, language.Each):
         _check_single(replay, rule, selection)
     return Example(replay.name, replay.mesh, selection)
 
 
 def advance(
-    replay: Replay, number: int, rule: Rule, templates: Mapping[str, Template], extremity: float | None = None
+    replay: Replay,
+    number: int,
+    rule: language.Rule,
+    templates: Mapping[str, language.Template],
+    extremity: float | None = None,
 ) -> Replay:
     """The replay after one more rule: on the hulls that were shown, or where nothing was shown on those it selects."""
     is_given = replay.demo.step(number) is not None
-    delta = EXTREMITY if extremity is None else extremity
-    mask = _mask_of_step(replay, number) if is_given else select_mask(rule.extractor, replay.mesh, delta)
+    delta = language.EXTREMITY if extremity is None else extremity
+    mask = _mask_of_step(replay, number) if is_given else language.select_mask(rule.extractor, replay.mesh, delta)
     try:
         applied = _apply(replay, mask, rule, templates)
     except MeshForgeError as error:
@@ -234,15 +230,17 @@ def advance(
     return replace(replay, mesh=applied.mesh, used=applied.used)
 
 
-def _apply(replay: Replay, mask: int, rule: Rule, templates: Mapping[str, Template]) -> ActionResult:
-    def applied() -> ActionResult:
-        return apply_action(replay.mesh, mask, rule.action, templates, rule.label, replay.used)
+def _apply(
+    replay: Replay, mask: int, rule: language.Rule, templates: Mapping[str, language.Template]
+) -> language.ActionResult:
+    def applied() -> language.ActionResult:
+        return language.apply_action(replay.mesh, mask, rule.action, templates, rule.label, replay.used)
 
     wanted = rule.action.templates
     if not mask or any(name not in templates for name in wanted):  # nothing to do, or it fails
         return applied()
     made_of = tuple(templates[name].digest for name in wanted)
-    return memoize(replay.mesh, (mask, rule.action, rule.label, replay.used, made_of), ActionResult, applied)
+    return memoize(replay.mesh, (mask, rule.action, rule.label, replay.used, made_of), language.ActionResult, applied)
 
 
 def _mask_of_step(replay: Replay, number: int) -> int:

@@ -62,7 +62,7 @@ def test_what_the_journal_kept_is_on_the_page_too(run: Run) -> None:
 
 
 def test_an_asset_that_is_gone_by_then_is_told_without_a_picture(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("meshforge.cli.check_report.read_again", lambda readers: [None for _ in readers])
+    monkeypatch.setattr("meshforge.batch.read_again", lambda readers: [None for _ in readers])
     assert run("check", "mixed/good.obj", "--report", "r.html").code == 0
     page = opened("r.html")
     assert kinds(page) == ["clean"] and page.xpath("//img") == []

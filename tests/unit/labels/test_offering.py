@@ -61,5 +61,5 @@ def test_assets_are_not_read_again(tmp_path: Path, monkeypatch: pytest.MonkeyPat
         raise AssertionError("an asset was read")
 
     monkeypatch.setattr("meshforge.store.meshes.read", read)
-    monkeypatch.setattr("meshforge.store.meshes.read_prepared", read)
+    monkeypatch.setattr("meshforge.batch.read_prepared", read)
     assert made.label_offers() == before

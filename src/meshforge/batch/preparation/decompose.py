@@ -11,18 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from meshforge.batch.preparation.record import (
-    DecompositionSource,
-    PieceProblem,
-    Preparation,
-    PreparationStep,
-    Replacement,
-    find_sources,
-    free_names,
-    hull_digest,
-    replay_preparation,
-    surface_digest,
-)
+from meshforge.batch.preparation import record
 from meshforge.common import MeshForgeError, join_names, pluralize
 from meshforge.geometry import (
     DecomposeSettings,
@@ -51,16 +40,16 @@ class DecompositionResult:
     missed: where none of the names that it was limited to is there, a sentence on that.
     """
 
-    preparation: Preparation
-    made: tuple[Replacement, ...] = ()
-    failed: tuple[PieceProblem, ...] = ()
-    dropped: tuple[PieceProblem, ...] = ()
+    preparation: record.Preparation
+    made: tuple[record.Replacement, ...] = ()
+    failed: tuple[record.PieceProblem, ...] = ()
+    dropped: tuple[record.PieceProblem, ...] = ()
     missed: str | None = None
 
 
 def decompose_asset(
     asset: Asset,
-    before: Preparation,
+    before: record.Preparation,
     settings: DecomposeSettings,
     *,
     only: Sequence[str] = (),
@@ -75,13 +64,13 @@ def decompose_asset(
     hollow: planar holes are not closed first, so that shells of one sheet are not filled.
     One piece that fails does not keep the others from being done.
     """
-    fit = replay_preparation(asset, _drop_decompositions(before, only) if again else before)
+    fit = record.replay_preparation(asset, _drop_decompositions(before, only) if again else before)
     kept = fit.preparation
     taken = {*(g.name for g in asset.geoms), *(o.name for o in asset.opaque), *kept.hull_digests}
-    made: list[Replacement] = []
+    made: list[record.Replacement] = []
     hulls: list[Polytope] = []
-    failed: list[PieceProblem] = []
-    bare = find_sources(fit.asset)
+    failed: list[record.PieceProblem] = []
+    bare = record.find_sources(fit.asset)
     missed = _describe_no_match(only, [*(source.what for source in bare), *kept.source_names])
     for source in bare:
         if not _is_chosen(source.what, only):
@@ -91,7 +80,9 @@ def decompose_asset(
         except MeshForgeError as error:
             own_name = None if error.where == source.what else error.where  # the name of the piece comes with Lost
             failed.append(
-                PieceProblem(source.what, MeshForgeError(error.problem, where=own_name, remedy=error.remedy).message)
+                record.PieceProblem(
+                    source.what, MeshForgeError(error.problem, where=own_name, remedy=error.remedy).message
+                )
             )
             continue
         made.append(entry)
@@ -99,29 +90,31 @@ def decompose_asset(
         taken |= entry.made.keys()
     if made:
         kept = kept.with_step(
-            PreparationStep("decompose", settings_to_json(settings, hollow), software_versions(settings), tuple(made)),
+            record.PreparationStep(
+                "decompose", settings_to_json(settings, hollow), software_versions(settings), tuple(made)
+            ),
             hulls,
         )
     return DecompositionResult(kept, tuple(made), tuple(failed), fit.lost, missed)
 
 
 def _decompose_source(
-    source: DecompositionSource, settings: DecomposeSettings, taken: set[str], hollow: bool, cache: Path | None
-) -> tuple[Replacement, list[Polytope]]:
+    source: record.DecompositionSource, settings: DecomposeSettings, taken: set[str], hollow: bool, cache: Path | None
+) -> tuple[record.Replacement, list[Polytope]]:
     notes: list[str] = []
     hulls = decompose_surface(source.surface, settings, source.what, hollow=hollow, cache=cache, note=notes.append)
-    names = free_names(source.base, len(hulls), taken)
-    made = dict(zip(names, map(hull_digest, hulls), strict=True))
+    names = record.free_names(source.base, len(hulls), taken)
+    made = dict(zip(names, map(record.hull_digest, hulls), strict=True))
     remarks = "; ".join([describe_fit(source.surface, hulls, solid=source.kind == "opaque" and not hollow), *notes])
-    return Replacement(source.what, source.kind, surface_digest(source.surface), made, remarks), hulls
+    return record.Replacement(source.what, source.kind, record.surface_digest(source.surface), made, remarks), hulls
 
 
-def _drop_decompositions(before: Preparation, only: Sequence[str]) -> Preparation:
+def _drop_decompositions(before: record.Preparation, only: Sequence[str]) -> record.Preparation:
     """What is prepared, without the decompositions that are to be done again."""
     kept = []
     for step in before.steps:
         stay = tuple(r for r in step.replaced if step.do != "decompose" or not _is_chosen(r.what, only))
-        kept += [PreparationStep(step.do, step.settings, step.software, stay)] if stay else []
+        kept += [record.PreparationStep(step.do, step.settings, step.software, stay)] if stay else []
     return before.with_only(kept)
 
 

@@ -7,16 +7,8 @@ from pathlib import Path
 
 import numpy as np
 
+from meshforge.batch.preparation import record
 from meshforge.batch.preparation.decompose import decompose_surface, settings_to_json, software_versions
-from meshforge.batch.preparation.record import (
-    Preparation,
-    PreparationStep,
-    Replacement,
-    apply_preparation,
-    free_names,
-    hull_digest,
-    merge_visuals,
-)
 from meshforge.common import GeometryError, nearest_name, pluralize
 from meshforge.geometry import DecomposeSettings, Floats, Polytope, cut, digest, partition
 from meshforge.symbolic import Asset, Geom, Surface
@@ -24,7 +16,7 @@ from meshforge.symbolic import Asset, Geom, Surface
 Vector = Sequence[float]
 
 
-def cut_hull(asset: Asset, before: Preparation, name: str, at: Vector, across: Vector) -> Preparation:
+def cut_hull(asset: Asset, before: record.Preparation, name: str, at: Vector, across: Vector) -> record.Preparation:
     """Cut a hull along the plane through `at` (3,) [m] across the direction `across` (3,).
 
     asset: as it was read; before: what is prepared already. `NAME#0` is behind the plane, `NAME#1` where it looks.
@@ -43,19 +35,19 @@ def cut_hull(asset: Asset, before: Preparation, name: str, at: Vector, across: V
     remarks = [] if geom.shape.kind in ("polytope", "box") else [f"the {geom.shape.kind} became a polytope"]
     settings = {"at": [*map(float, at)], "across": [*map(float, across)]}
     return _add_step(
-        asset, before, geom, PreparationStep("cut", settings, software_versions(), ()), (below, above), remarks
+        asset, before, geom, record.PreparationStep("cut", settings, software_versions(), ()), (below, above), remarks
     )
 
 
 def split_hull(
     asset: Asset,
-    before: Preparation,
+    before: record.Preparation,
     name: str,
     settings: DecomposeSettings,
     *,
     hollow: bool = False,
     cache: Path | None = None,
-) -> Preparation:
+) -> record.Preparation:
     """Split a hull by a decomposition of what its body shows, or else of the opaque piece that the hull was made of.
 
     Of each convex piece, what lies in the hull becomes a part; parts below a thousandth of it are dropped.
@@ -77,12 +69,12 @@ def split_hull(
         )
     remarks = [f"{parting.lost:.0%} of its volume is in no part"]
     remarks += [f"{pluralize(parting.dropped, 'crumb')} dropped"] if parting.dropped else []
-    step = PreparationStep("split", settings_to_json(settings, hollow), software_versions(settings), ())
+    step = record.PreparationStep("split", settings_to_json(settings, hollow), software_versions(settings), ())
     return _add_step(asset, before, geom, step, parting.parts, [*remarks, *notes])
 
 
-def _find_hull(asset: Asset, before: Preparation, name: str) -> Geom:
-    geoms = {geom.name: geom for geom in apply_preparation(asset, before).geoms}
+def _find_hull(asset: Asset, before: record.Preparation, name: str) -> Geom:
+    geoms = {geom.name: geom for geom in record.apply_preparation(asset, before).geoms}
     if name not in geoms:
         like = nearest_name(name, geoms)
         raise GeometryError(
@@ -93,7 +85,7 @@ def _find_hull(asset: Asset, before: Preparation, name: str) -> Geom:
 
 def _find_divider(asset: Asset, geom: Geom) -> Surface:
     """What a hull is split by. Raises GeometryError where there is nothing."""
-    seen = merge_visuals(asset, geom.body)
+    seen = record.merge_visuals(asset, geom.body)
     piece = next((p for p in asset.opaque if p.name == geom.parent), None)
     found = seen or (piece.surface if piece else None)
     if found is None:
@@ -107,18 +99,18 @@ def _find_divider(asset: Asset, geom: Geom) -> Surface:
 
 def _add_step(
     asset: Asset,
-    before: Preparation,
+    before: record.Preparation,
     geom: Geom,
-    step: PreparationStep,
+    step: record.PreparationStep,
     parts: Sequence[Polytope],
     notes: Sequence[str],
-) -> Preparation:
+) -> record.Preparation:
     taken = {*(g.name for g in asset.geoms), *(o.name for o in asset.opaque), *before.hull_digests}
-    names = free_names(geom.name, len(parts), taken)
-    made = dict(zip(names, map(hull_digest, parts), strict=True))
+    names = record.free_names(geom.name, len(parts), taken)
+    made = dict(zip(names, map(record.hull_digest, parts), strict=True))
     description = "; ".join([pluralize(len(parts), "hull"), *notes])
-    entry = Replacement(geom.name, "hull", digest(geom.shape), made, description)
-    return before.with_step(PreparationStep(step.do, step.settings, step.software, (entry,)), parts)
+    entry = record.Replacement(geom.name, "hull", digest(geom.shape), made, description)
+    return before.with_step(record.PreparationStep(step.do, step.settings, step.software, (entry,)), parts)
 
 
 def _format_point(point: Floats) -> str:

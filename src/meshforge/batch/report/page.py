@@ -11,21 +11,7 @@ from importlib.resources import files
 from pathlib import Path
 from typing import Any, NamedTuple, get_args
 
-from meshforge.batch.report.contents import (
-    CHECK_PICTURE_SIZE,
-    ORDINARY,
-    PICTURE_SIZE,
-    REMARKABLE,
-    AssetPictures,
-    CheckStatus,
-    PictureOptions,
-    ReportAsset,
-    ReportStatus,
-    RunFigures,
-    draw_asset,
-    format_change,
-    format_duration,
-)
+from meshforge.batch.report import contents
 from meshforge.checks import Finding
 from meshforge.common import join_names, pluralize, write_atomically
 from meshforge.language import ACTIONS, OPERATORS, Program, Rule, explain, show, show_label
@@ -33,7 +19,7 @@ from meshforge.rendering import DIFFERENCE_COLORS, SELECTED, UNLABELLED, UNSURE,
 
 MOST_PICTURED = 120
 """Assets with pictures by default: about 60 kB each in the page."""
-STATUSES: tuple[ReportStatus, ...] = (
+STATUSES: tuple[contents.ReportStatus, ...] = (
     "edited",
     "unchanged",
     "written",
@@ -48,9 +34,9 @@ STATUSES: tuple[ReportStatus, ...] = (
 )
 """In the order of the page."""
 _SETTINGS = {
-    "picture_size": PICTURE_SIZE,
-    "check_size": CHECK_PICTURE_SIZE,
-    "ordinary": ORDINARY,
+    "picture_size": contents.PICTURE_SIZE,
+    "check_size": contents.CHECK_PICTURE_SIZE,
+    "ordinary": contents.ORDINARY,
     "names_shown": 60,  # of hulls in one cell of the table; the rest is counted
     "notes_shown": 6,  # at once
     "findings_shown": 40,  # of one asset, errors first
@@ -74,7 +60,7 @@ class ReportHeader:
     title: str
     about: str | None = None
     seconds: float | None = None
-    figures: RunFigures | None = None
+    figures: contents.RunFigures | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -98,7 +84,7 @@ REPORT_DEFAULTS = ReportOptions()
 def write_report(
     path: Path,
     header: ReportHeader,
-    assets: Sequence[ReportAsset],
+    assets: Sequence[contents.ReportAsset],
     *,
     program: Program | None = None,
     options: ReportOptions = REPORT_DEFAULTS,
@@ -113,14 +99,17 @@ def write_report(
     known = tuple(options.vocabulary) or (program.labels if program else ())
     labels = (*known, *sorted({hull.label for mesh in meshes for hull in mesh.hulls if hull.label} - set(known)))
     labelled = bool(options.vocabulary) or any(hull.label for mesh in meshes for hull in mesh.hulls)
-    colors, pictures = label_colors(labels), PictureOptions(labels, labelled, options.changes)
-    cards, chosen = list[tuple[ReportAsset, AssetPictures | None]](), _choose_pictured(assets, options.pictured)
+    colors, pictures = label_colors(labels), contents.PictureOptions(labels, labelled, options.changes)
+    cards, chosen = (
+        list[tuple[contents.ReportAsset, contents.AssetPictures | None]](),
+        _choose_pictured(assets, options.pictured),
+    )
     for k, asset in enumerate(assets):
-        cards.append((asset, draw_asset(asset, pictures) if k in chosen else None))
+        cards.append((asset, contents.draw_asset(asset, pictures) if k in chosen else None))
         if options.progress:
             options.progress()
     drawn = [shown for _, shown in cards if shown]
-    figures = header.figures or RunFigures.of_assets(assets)
+    figures = header.figures or contents.RunFigures.of_assets(assets)
     page = _load_template().render(
         **_SETTINGS,
         header=header,
@@ -151,24 +140,24 @@ def _load_template() -> Any:
         script=(own / "page.js").read_text("utf-8"),
         pluralize=pluralize,
         join_names=join_names,
-        format_change=format_change,
-        format_duration=format_duration,
+        format_change=contents.format_change,
+        format_duration=contents.format_duration,
         describe_findings=_describe_findings,
     )
     return template
 
 
-def _choose_pictured(assets: Sequence[ReportAsset], count: int) -> frozenset[int]:
+def _choose_pictured(assets: Sequence[contents.ReportAsset], count: int) -> frozenset[int]:
     order = sorted(range(len(assets)), key=lambda k: not (assets[k].demonstrated or assets[k].is_broken))
     return frozenset(order[:count])
 
 
-def _describe_selection(shown: int, figures: RunFigures) -> str | None:
+def _describe_selection(shown: int, figures: contents.RunFigures) -> str | None:
     """How many of very many assets are on the page, None where all are."""
     if shown >= figures.total:
         return None
     some = f"{shown:,} of {figures.total:,} assets are shown"
-    odd = any(n and word in REMARKABLE for word, n in figures.counts.items())
+    odd = any(n and word in contents.REMARKABLE for word, n in figures.counts.items())
     return f"{some}, {figures.first} first." if odd else f"{some}."
 
 
@@ -177,12 +166,12 @@ def _describe_findings(found: Sequence[Finding]) -> str:
     return f"{pluralize(errors, 'error')}, {pluralize(len(found) - errors, 'warning')}" if found else "all is well"
 
 
-def _kinds(assets: Sequence[ReportAsset]) -> list[str]:
+def _kinds(assets: Sequence[contents.ReportAsset]) -> list[str]:
     """The kinds of assets that there are, in the order of their buttons."""
     kinds: list[str] = [status for status in STATUSES if any(asset.status == status for asset in assets)]
     if any(asset.demonstrated for asset in assets):
         kinds.append("demonstrated")
-    if any(asset.findings and asset.status not in get_args(CheckStatus) for asset in assets):
+    if any(asset.findings and asset.status not in get_args(contents.CheckStatus) for asset in assets):
         kinds.append("doubtful")
     return kinds
 
@@ -198,7 +187,7 @@ class _LegendRow(NamedTuple):
         return _LegendRow(color, name, f"{before:,}" if before == after else f"{before:,} → {after:,}")
 
 
-def _label_legend(assets: Sequence[ReportAsset], colors: Mapping[str, str], blamed: bool) -> list[_LegendRow]:
+def _label_legend(assets: Sequence[contents.ReportAsset], colors: Mapping[str, str], blamed: bool) -> list[_LegendRow]:
     """Each label with its colour, and its hulls before and after; empty where there is no mesh.
 
     colors: empty where each hull has its own; blamed: whether hulls stand out for findings.
@@ -220,7 +209,7 @@ def _label_legend(assets: Sequence[ReportAsset], colors: Mapping[str, str], blam
     return entries
 
 
-def _change_legend(assets: Sequence[ReportAsset]) -> list[_LegendRow]:
+def _change_legend(assets: Sequence[contents.ReportAsset]) -> list[_LegendRow]:
     """What the colours of the pictures of changes mean, and how many hulls are of each kind."""
     pairs = [(asset.before, asset.after) for asset in assets if asset.before and asset.after]
     removed = sum(hull.name not in after.index for before, after in pairs for hull in before.hulls)
@@ -253,7 +242,7 @@ class _RuleRow(NamedTuple):
     made: str | None
 
 
-def _rule_row(number: int, rule: Rule, assets: Sequence[ReportAsset]) -> _RuleRow:
+def _rule_row(number: int, rule: Rule, assets: Sequence[contents.ReportAsset]) -> _RuleRow:
     above = [line.strip() for line in rule.comments.above if line]
     comment = " ".join([*above, *([rule.comments.beside.strip()] if rule.comments.beside else [])])
     traces = [line for asset in assets for line in asset.trace if line.rule == number]

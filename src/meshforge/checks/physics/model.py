@@ -6,13 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from meshforge.checks.physics.mechanism import (
-    WELDED_JOINTS,
-    ContactAttributes,
-    ContactRules,
-    JointTree,
-    find_inertial_problem,
-)
+from meshforge.checks.physics import mechanism
 from meshforge.geometry import Box, Capsule, Cylinder, Ellipsoid, Pose, Shape, Sphere
 from meshforge.symbolic import Hull, Inertial, Joint, SymbolicMesh
 
@@ -27,7 +21,7 @@ _LEAST = 1e-3  # [kg], of a moving body that has neither hulls nor mass
 _UPRIGHT = Pose([[1, 0, 0], [0, 0, -1], [0, 1, 0]], [0, 0, 0])  # z-up_T_y-up
 
 
-def compile_model(mesh: SymbolicMesh, tree: JointTree, *, everything: bool = False) -> Any:
+def compile_model(mesh: SymbolicMesh, tree: mechanism.JointTree, *, everything: bool = False) -> Any:
     """MuJoCo's model of a mesh that stands on a plane; geoms are numbered as the hulls, after the plane's.
 
     everything: whether all touches, which else bodies do not that a joint holds together, and what the file keeps
@@ -48,11 +42,11 @@ def compile_model(mesh: SymbolicMesh, tree: JointTree, *, everything: bool = Fal
         if root in tops:
             _add_body(spec, spec.worldbody, root, Pose.identity(), mesh, tree, shown)
     if not everything:
-        _filter_contacts(spec, ContactRules(mesh))
+        _filter_contacts(spec, mechanism.ContactRules(mesh))
     return spec.compile()
 
 
-def _filter_contacts(spec: Any, touching: ContactRules) -> None:
+def _filter_contacts(spec: Any, touching: mechanism.ContactRules) -> None:
     """Let touch what the file lets touch, as it rubs there; the plane meets all, and is of no weight in how."""
     plane = spec.geom(FLOOR)
     plane.contype, plane.conaffinity = 0, _FLOOR_BIT
@@ -67,7 +61,7 @@ def _filter_contacts(spec: Any, touching: ContactRules) -> None:
         spec.add_pair(geomname1=f"hull {first}", geomname2=f"hull {second}")
 
 
-def _set_contact(geom: Any, contact: ContactAttributes) -> None:
+def _set_contact(geom: Any, contact: mechanism.ContactAttributes) -> None:
     geom.contype, geom.conaffinity = contact.contype | _FLOOR_BIT, contact.conaffinity & ~_FLOOR_BIT
     geom.condim, geom.priority, geom.friction = contact.condim, contact.priority, contact.friction
 
@@ -80,7 +74,9 @@ def _pose_on_floor(mesh: SymbolicMesh) -> Pose:
     return Pose(turn.rotation, [0.0, 0.0, -lowest])
 
 
-def _add_body(spec: Any, parent: Any, name: str, above: Pose, mesh: SymbolicMesh, tree: JointTree, shown: Pose) -> None:
+def _add_body(
+    spec: Any, parent: Any, name: str, above: Pose, mesh: SymbolicMesh, tree: mechanism.JointTree, shown: Pose
+) -> None:
     """Add a body and all below it; above: the pose world_T_parent."""
     pose = shown @ tree.bodies[name]
     local = above.inverse() @ pose
@@ -88,7 +84,7 @@ def _add_body(spec: Any, parent: Any, name: str, above: Pose, mesh: SymbolicMesh
     if name not in tree.above:
         body.add_freejoint()
     for joint in tree.joints.get(name, ()):
-        if joint.kind not in WELDED_JOINTS:
+        if joint.kind not in mechanism.WELDED_JOINTS:
             _add_joint(body, joint, pose.inverse() @ shown, _estimate_load(joint, mesh, tree))
     hulls = [(k, hull) for k, hull in enumerate(mesh.hulls) if hull.body == name]
     given = next((i for i in mesh.asset.mechanism.inertials if i.body == name), None) if mesh.asset else None
@@ -101,7 +97,7 @@ def _add_body(spec: Any, parent: Any, name: str, above: Pose, mesh: SymbolicMesh
 
 def _set_mass(body: Any, given: Inertial | None, local: Pose, has_hulls: bool, moves: bool) -> None:
     """Give a body its mass; without one that can be, its hulls have the density of water."""
-    if given is not None and find_inertial_problem(given) is None:
+    if given is not None and mechanism.find_inertial_problem(given) is None:
         turned = local.rotation @ given.inertia @ local.rotation.T
         body.explicitinertial = True
         body.mass = given.mass
@@ -132,14 +128,14 @@ def _add_joint(body: Any, joint: Joint, local: Pose, reach: tuple[float, float])
         added.range = [limit * factor for limit in joint.limits]
 
 
-def _estimate_load(joint: Joint, mesh: SymbolicMesh, tree: JointTree) -> tuple[float, float]:
+def _estimate_load(joint: Joint, mesh: SymbolicMesh, tree: mechanism.JointTree) -> tuple[float, float]:
     """What hangs on a joint: about how heavy [kg] that is, and how far [m] it reaches from the anchor."""
     names = [joint.child]
     for body in names:
         names += tree.children_of(body)
     hulls = [hull for hull in mesh.hulls if hull.body in names]
     inertials = [i for i in mesh.asset.mechanism.inertials if i.body in names] if mesh.asset else []
-    known = {i.body: i.mass for i in inertials if find_inertial_problem(i) is None}
+    known = {i.body: i.mass for i in inertials if mechanism.find_inertial_problem(i) is None}
     mass = sum(known.get(body, DENSITY * sum(h.volume for h in hulls if h.body == body)) for body in names)
     ends = np.concatenate([np.zeros((0, 3)), *(h.aabb.corners for h in hulls), *(i.centre[None] for i in inertials)])
     length = float(np.linalg.norm(ends - joint.anchor, axis=1).max(initial=0.01))

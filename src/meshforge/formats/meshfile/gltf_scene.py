@@ -11,17 +11,9 @@ from typing import Any
 
 import numpy as np
 
+from meshforge.formats.meshfile import gltf_meshes
 from meshforge.formats.meshfile.gltf_buffers import Buffers
 from meshforge.formats.meshfile.gltf_document import Container, Json, entries, entry, numbers, parse_json, report_damage
-from meshforge.formats.meshfile.gltf_meshes import (
-    GltfMesh,
-    GltfPrimitive,
-    is_instanced,
-    read_instances,
-    read_mesh,
-    repeat_mesh,
-    rotations_of,
-)
 from meshforge.formats.meshfile.surface import RawSurface, check_surfaces
 from meshforge.geometry import Floats
 
@@ -74,7 +66,7 @@ class GltfScene:
     def __init__(self, tree: Json, binary: bytes | None, path: Path) -> None:
         self.tree, self.path = tree, path
         self.buffers = Buffers(tree, binary, path)
-        self._meshes: dict[int, GltfMesh] = {}
+        self._meshes: dict[int, gltf_meshes.GltfMesh] = {}
 
     @staticmethod
     def of(data: bytes, path: Path) -> GltfScene:
@@ -109,24 +101,24 @@ class GltfScene:
             waiting += [(child, index, world) for child in reversed(entries(node, "children"))]
         return found
 
-    def mesh(self, index: Any) -> GltfMesh:
+    def mesh(self, index: Any) -> gltf_meshes.GltfMesh:
         """The triangles of a mesh, in its own space."""
         if index not in self._meshes:
-            self._meshes[index] = read_mesh(entry(self.tree, "meshes", index), self.buffers)
+            self._meshes[index] = gltf_meshes.read_mesh(entry(self.tree, "meshes", index), self.buffers)
         return self._meshes[index]
 
     def instances(self, placement: Placement) -> Floats:
         """The places (k, 4, 4) of the instances of a node, in its space."""
-        return read_instances(placement.node, self.buffers)
+        return gltf_meshes.read_instances(placement.node, self.buffers)
 
-    def place_mesh(self, placement: Placement) -> tuple[GltfMesh, Floats, Floats]:
+    def place_mesh(self, placement: Placement) -> tuple[gltf_meshes.GltfMesh, Floats, Floats]:
         """The triangles of the mesh of a node, and the map x -> linear @ x + offset that puts them in the root frame.
 
         A skinned mesh is put in place by its joints, as the file has them; of an instanced one it is all instances.
         """
         mesh = self.mesh(placement.node["mesh"])
-        if is_instanced(placement.node):
-            return repeat_mesh(mesh, self.instances(placement)), placement.linear, placement.offset
+        if gltf_meshes.is_instanced(placement.node):
+            return gltf_meshes.repeat_mesh(mesh, self.instances(placement)), placement.linear, placement.offset
         if "skin" in placement.node:
             return pose_skin(self, placement.node, mesh), np.eye(3), np.zeros(3)
         return mesh, placement.linear, placement.offset
@@ -140,7 +132,7 @@ def matrix_of(node: Json) -> Floats:
     if "matrix" in node:
         return numbers(node, "matrix", 16, ()).reshape(4, 4).T
     quaternion = numbers(node, "rotation", 4, (0.0, 0.0, 0.0, 1.0))
-    matrix[:3, :3] = rotations_of(quaternion) * numbers(node, "scale", 3, (1.0, 1.0, 1.0))
+    matrix[:3, :3] = gltf_meshes.rotations_of(quaternion) * numbers(node, "scale", 3, (1.0, 1.0, 1.0))
     matrix[:3, 3] = numbers(node, "translation", 3, (0.0, 0.0, 0.0))
     return matrix
 
@@ -153,7 +145,7 @@ def _ancestors_of(found: dict[int, Placement], index: int | None) -> set[int]:
     return above
 
 
-def pose_skin(scene: GltfScene, node: Json, mesh: GltfMesh) -> GltfMesh:
+def pose_skin(scene: GltfScene, node: Json, mesh: gltf_meshes.GltfMesh) -> gltf_meshes.GltfMesh:
     """The triangles of a node's skinned mesh in the root frame. Raises ValueError: its skin is damaged."""
     bones = _bone_transforms(scene, entry(scene.tree, "skins", node["skin"]))
     parts = entries(entry(scene.tree, "meshes", node["mesh"]), "primitives")
@@ -174,7 +166,7 @@ def _bone_transforms(scene: GltfScene, skin: Json) -> Floats:
     return np.asarray(worlds @ inverse[: len(joints)])
 
 
-def _move_points(scene: GltfScene, patch: GltfPrimitive, attributes: Json, bones: Floats) -> Floats:
+def _move_points(scene: GltfScene, patch: gltf_meshes.GltfPrimitive, attributes: Json, bones: Floats) -> Floats:
     """The points (n, 3) of a primitive, each moved by its joints."""
     total = np.zeros((len(patch.points), 4, 4))
     for number in range(8):
@@ -190,7 +182,7 @@ def _move_points(scene: GltfScene, patch: GltfPrimitive, attributes: Json, bones
     return np.asarray(moved[:, :3] / weight[:, None])
 
 
-def _attribute_values(scene: GltfScene, patch: GltfPrimitive, attributes: Json, name: str) -> Floats:
+def _attribute_values(scene: GltfScene, patch: gltf_meshes.GltfPrimitive, attributes: Json, name: str) -> Floats:
     if patch.decoded is not None and name in patch.decoded.attributes:
         return patch.decoded.attributes[name].astype(np.float64)
     return scene.buffers.accessor(attributes[name]).astype(np.float64)

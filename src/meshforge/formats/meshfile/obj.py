@@ -11,15 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from meshforge.common import AssetError
-from meshforge.formats.meshfile.surface import (
-    RawSurface,
-    Soup,
-    check_surfaces,
-    cut_fans,
-    is_number,
-    remedy_for,
-    text_of,
-)
+from meshforge.formats.meshfile import surface
 from meshforge.geometry import Floats, Ints
 
 ObjGroup = tuple[str, str]
@@ -49,25 +41,27 @@ class ObjText:
     face_group: Ints
     groups: tuple[ObjGroup, ...]
 
-    def soup(self, where: str) -> Soup:
+    def soup(self, where: str) -> surface.Soup:
         """All triangles in file order. Raises AssetError: there is none, or a coordinate is not finite."""
-        check_surfaces([RawSurface(None, self.vertices, self.faces)], where)
+        surface.check_surfaces([surface.RawSurface(None, self.vertices, self.faces)], where)
         named = tuple(group_names(self.groups))
         within = tuple(g if o and g and o == name != g else "" for (o, g), name in zip(self.groups, named, strict=True))
         mentions = ("group", self.face_group, within), ("material", *self._materials())
-        return Soup(self.vertices, self.faces, self.face_group, named, mentions)
+        return surface.Soup(self.vertices, self.faces, self.face_group, named, mentions)
 
     def _materials(self) -> tuple[Ints, tuple[str, ...]]:
         """The material (m,) of each triangle, and the names of all; the first has none."""
         marks = [k for k, statement in enumerate(self.statements) if statement.lstrip()[:6] == b"usemtl"]
-        names = [text_of(self.statements[k].strip()[6:].strip()) for k in marks]
+        names = [surface.text_of(self.statements[k].strip()[6:].strip()) for k in marks]
         return np.searchsorted(np.array(marks, dtype=np.int64), self.face_at), ("", *names)
 
-    def surfaces(self, where: str) -> list[RawSurface]:
+    def surfaces(self, where: str) -> list[surface.RawSurface]:
         """A surface for each group that has faces; they share the vertices of the file. Raises AssetError."""
         names = group_names(self.groups)
-        parts = [RawSurface(names[k], self.vertices, self.faces[self.face_group == k]) for k in range(len(names))]
-        return check_surfaces(parts, where)
+        parts = [
+            surface.RawSurface(names[k], self.vertices, self.faces[self.face_group == k]) for k in range(len(names))
+        ]
+        return surface.check_surfaces(parts, where)
 
 
 def statements_of(data: bytes) -> list[bytes]:
@@ -152,9 +146,11 @@ def _parse_vertices(statements: list[bytes], at: Ints, where: str) -> Floats:
             raise ValueError
         return np.array([[float(x) for x in row] for row in rows], dtype=np.float64).reshape(len(rows), 3)
     except ValueError:
-        k = next(int(k) for k, row in zip(at, rows, strict=True) if len(row) < 3 or not all(map(is_number, row)))
+        k = next(
+            int(k) for k, row in zip(at, rows, strict=True) if len(row) < 3 or not all(map(surface.is_number, row))
+        )
         problem = f"a vertex needs three numbers, here is {_quote(statements[k])}"
-        raise _error_at(problem, statements, k, where, remedy_for(arguments(statements[k]))) from None
+        raise _error_at(problem, statements, k, where, surface.remedy_for(arguments(statements[k]))) from None
 
 
 def _parse_faces(statements: list[bytes], words: list[bytes], vertex_at: Ints, where: str) -> tuple[Ints, Ints]:
@@ -180,7 +176,7 @@ def _parse_faces(statements: list[bytes], words: list[bytes], vertex_at: Ints, w
                 problem = f"a face names vertex {corner}, {there}"
                 raise _error_at(problem, statements, k, where)
         polygons.append(indices)
-    at, triangles = cut_fans(polygons)
+    at, triangles = surface.cut_fans(polygons)
     return rows[at], triangles
 
 
@@ -199,12 +195,12 @@ def _parse_groups(statements: list[bytes], words: list[bytes], at: Ints) -> tupl
 
 def group_name_of(statement: bytes) -> str:
     """The name that an `o` or `g` statement gives: all after the keyword, spaces within included."""
-    return text_of(statement.strip()[1:].strip())
+    return surface.text_of(statement.strip()[1:].strip())
 
 
 def _quote(statement: bytes) -> str:
     """A statement as messages show it, of a long one the beginning."""
-    text = text_of(statement.strip())
+    text = surface.text_of(statement.strip())
     return repr(text if len(text) <= _SHOWN else f"{text[:_SHOWN]}...")
 
 

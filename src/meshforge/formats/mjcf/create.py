@@ -12,21 +12,8 @@ from meshforge.common import join_names, pluralize
 from meshforge.formats.base import Loss, Output
 from meshforge.formats.kinematic_tree import BodyTree, claim_name
 from meshforge.formats.mesh_output import VisualFiles
+from meshforge.formats.mjcf import elements
 from meshforge.formats.mjcf.document import geom_names
-from meshforge.formats.mjcf.elements import (
-    LEAST_MASS,
-    LIGHT_MASS,
-    MeshAssets,
-    MjcfShape,
-    geom_attributes,
-    inertial_tag,
-    joint_tag,
-    light_tag,
-    mesh_geom_attributes,
-    pose_attributes,
-    split_joint,
-    tag,
-)
 from meshforge.formats.mjcf.references import is_shown_whole
 from meshforge.formats.visuals import Rgba, unreadable_visuals, visuals_of
 from meshforge.formats.xml import format_numbers
@@ -39,7 +26,7 @@ WORLD = "world"
 _REPAIRED = "moments of inertia that no rigid body has are replaced by their mean"
 _DENSITY = 1000.0  # [kg/m^3], at which MuJoCo computes masses
 _COMPUTED = f"MuJoCo computes the masses that the file does not say, at {_DENSITY:g} kg/m^3"
-_LIGHT = f"moving bodies without a mass to speak of get {LIGHT_MASS:g} kg"
+_LIGHT = f"moving bodies without a mass to speak of get {elements.LIGHT_MASS:g} kg"
 _DEFAULTS = [
     b"  <default>",
     b'    <default class="collision">',
@@ -77,7 +64,10 @@ class _Creator:
 
     def build_output(self) -> Output:
         body = list(self._body_lines())
-        head = [tag("mujoco", {"model": self.stem}, closed=False), b"  " + tag("compiler", {"angle": "radian"})]
+        head = [
+            elements.tag("mujoco", {"model": self.stem}, closed=False),
+            b"  " + elements.tag("compiler", {"angle": "radian"}),
+        ]
         defaults = _DEFAULTS if self.made.shown or self.asset.opaque else []
         meshes, files = self.made.meshes, self.made.files
         main = b"\n".join([*head, *defaults, *meshes.lines(), *body, b"</mujoco>", b""])
@@ -104,7 +94,9 @@ class _Creator:
             body, depth = entry
             lead, place = b"  " * depth, self._place_of(body)
             pose = self.poses[place].inverse() @ self.poses[body] if place else self.poses[body]  # place_T_body
-            yield lead + tag("body", {"name": self.bodies[body], **pose_attributes(pose)}, closed=False)
+            yield lead + elements.tag(
+                "body", {"name": self.bodies[body], **elements.pose_attributes(pose)}, closed=False
+            )
             yield from self._element_lines(body, lead + b"  ")
             waiting.append(lead + b"</body>")
             waiting += [(child, depth + 1) for child in reversed(below.get(body, []))]
@@ -123,7 +115,7 @@ class _Creator:
         top = not self._place_of(body)
         joints = [part for joint in self.tree.joints[body] for part in self._split_joint(joint, top)]
         own = [geom for geom in self.asset.geoms if geom.body == body]
-        yield from (lead + joint_tag(joint, self.poses[body]) for joint in joints)
+        yield from (lead + elements.joint_tag(joint, self.poses[body]) for joint in joints)
         lines = [*self._mass_lines(body, bool(joints), sum(geom.shape.volume for geom in own))]
         lines += [self.made.make_hull(geom) for geom in own]
         pieces = [piece for piece in self.asset.opaque if piece.body == body]
@@ -133,7 +125,7 @@ class _Creator:
         yield from (lead + text for text in lines)
 
     def _split_joint(self, joint: Joint, top: bool) -> Sequence[Joint]:
-        parts = split_joint(joint, top, self.joint_names)
+        parts = elements.split_joint(joint, top, self.joint_names)
         if len(parts) > 1:
             names = join_names([part.name for part in parts])
             self.notes.setdefault(f"{names} together move as {joint.kind} {joint.name or joint.child}", [])
@@ -145,16 +137,16 @@ class _Creator:
         if self.bodies[body] == WORLD:
             if inertial is not None:
                 self.lost.append(Loss(FeatureKind.MASSES, (body,), "the world of MuJoCo has none"))
-        elif inertial is not None and (inertial.mass >= LEAST_MASS or not moves):
-            text, changed = inertial_tag(inertial, self.poses[body])
+        elif inertial is not None and (inertial.mass >= elements.LEAST_MASS or not moves):
+            text, changed = elements.inertial_tag(inertial, self.poses[body])
             if changed:
                 self.notes.setdefault(_REPAIRED, []).append(body)
             yield text
-        elif inertial is None and volume * _DENSITY >= (LIGHT_MASS if moves else 0) and volume > 0:
+        elif inertial is None and volume * _DENSITY >= (elements.LIGHT_MASS if moves else 0) and volume > 0:
             self.notes.setdefault(_COMPUTED, []).append(body)
         elif moves:
             self.notes.setdefault(_LIGHT, []).append(body)
-            yield light_tag()
+            yield elements.light_tag()
 
     def _collect_notes(self) -> tuple[str, ...]:
         notes = [f"{text} ({join_names(bodies, 3)})" if bodies else text for text, bodies in self.notes.items()]
@@ -175,7 +167,7 @@ class NewGeomMaker:
     def __init__(self, asset: Asset, stem: str, tree: BodyTree, names: dict[str, str]) -> None:
         self.tree, self.poses, self.names = tree, asset.body_poses, names
         self.shown = visuals_of(asset)
-        self.meshes = MeshAssets(stem)
+        self.meshes = elements.MeshAssets(stem)
         self.files = VisualFiles(self.meshes.files, is_shown_whole)
         self.files.gather(self.shown)
         self.lost: list[Loss] = []
@@ -186,12 +178,12 @@ class NewGeomMaker:
         class_ = {"class": "collision"} if self.shown else {}
         body_t_root = self.poses[geom.body].inverse()
         shape = geom.shape.move(body_t_root)
-        if isinstance(shape, MjcfShape):
-            return tag("geom", {**named, **class_, **geom_attributes(shape)})
+        if isinstance(shape, elements.MjcfShape):
+            return elements.tag("geom", {**named, **class_, **elements.geom_attributes(shape)})
         middle = shape.aabb.center
         place = Pose.of_translation(middle if np.linalg.norm(middle) > _FAR * shape.aabb.diagonal else np.zeros(3))
         mesh = self.meshes.add_hull(geom.name, shape.move(place.inverse()).tessellate())
-        return tag("geom", {**named, **class_, **mesh_geom_attributes(mesh, place)})
+        return elements.tag("geom", {**named, **class_, **elements.mesh_geom_attributes(mesh, place)})
 
     def _name_attribute(self, piece: str) -> dict[str, str]:
         return {"name": self.names[piece]} if self.names[piece] else {}
@@ -201,14 +193,14 @@ class NewGeomMaker:
         for own, visual in self.shown:
             if own != body or (seen := self.files.add_visual(body, visual, self.poses[body])) is None:
                 continue
-            if isinstance(seen.what, MjcfShape):
-                yield _visual_tag(geom_attributes(seen.what), seen.rgba)
+            if isinstance(seen.what, elements.MjcfShape):
+                yield _visual_tag(elements.geom_attributes(seen.what), seen.rgba)
                 continue
             file = seen.what
             if not isinstance(file, str):
                 file = self.meshes.files.add(f"{body}-visual", "", file.vertices, file.faces)
             mesh = self.meshes.add_visual(file, seen.scale)
-            yield _visual_tag(mesh_geom_attributes(mesh, seen.pose), seen.rgba)
+            yield _visual_tag(elements.mesh_geom_attributes(mesh, seen.pose), seen.rgba)
 
     def make_plane(self, piece: Opaque, plane: Pose) -> Iterator[bytes]:
         """An endless plane."""
@@ -216,8 +208,8 @@ class NewGeomMaker:
             why = "MuJoCo has planes on bodies that do not move only"
             self.lost.append(Loss(FeatureKind.PLANES, (piece.name,), why))
             return
-        place = pose_attributes(self.poses[piece.body].inverse() @ plane)
-        yield tag("geom", {**self._name_attribute(piece.name), "type": "plane", "size": "0 0 1", **place})
+        place = elements.pose_attributes(self.poses[piece.body].inverse() @ plane)
+        yield elements.tag("geom", {**self._name_attribute(piece.name), "type": "plane", "size": "0 0 1", **place})
 
     def make_surface(self, piece: Opaque, surface: Surface) -> Iterator[bytes]:
         """A non-convex surface to look at, where its body shows nothing else."""
@@ -228,7 +220,7 @@ class NewGeomMaker:
         seen = self.files.add_visual(piece.name, surface, self.poses[piece.body])
         assert seen is not None and isinstance(seen.what, str)  # a surface becomes a file, which can be read
         self.lost.append(Loss(FeatureKind.OPAQUE, (piece.name,), why, "written as a surface that does not collide"))
-        yield _visual_tag(mesh_geom_attributes(self.meshes.add_visual(seen.what, seen.scale), seen.pose), None)
+        yield _visual_tag(elements.mesh_geom_attributes(self.meshes.add_visual(seen.what, seen.scale), seen.pose), None)
 
     def losses(self) -> tuple[Loss, ...]:
         """What is lost, visuals without a file that can be read included."""
@@ -237,7 +229,7 @@ class NewGeomMaker:
 
 def _visual_tag(attributes: dict[str, str], rgba: Rgba | None) -> bytes:
     color = {"rgba": format_numbers(rgba)} if rgba else {}
-    return tag("geom", {"class": "visual", **attributes, **color})
+    return elements.tag("geom", {"class": "visual", **attributes, **color})
 
 
 def name_bodies(tree: BodyTree) -> dict[str, str]:

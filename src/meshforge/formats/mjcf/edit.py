@@ -8,18 +8,11 @@ from pathlib import Path
 
 from meshforge.common import AssetError, join_names
 from meshforge.formats.base import Mass, Output
+from meshforge.formats.mjcf import elements
 from meshforge.formats.mjcf.document import MjcfDocument, MjcfNode, MjcfTree, read_tree
 from meshforge.formats.mjcf.edit_check import find_changed_masses, find_differences
 from meshforge.formats.mjcf.edit_geoms import ElementContext, HullGeomMaker, HullMeshes
 from meshforge.formats.mjcf.edit_plan import MjcfPlan, NewGeom, OldGeom, is_edited
-from meshforge.formats.mjcf.elements import (
-    has_inertial,
-    inertial_tag_of_model,
-    insert_inertial,
-    is_inertial_ignored,
-    mass_error,
-    stop_ignoring_inertials,
-)
 from meshforge.formats.mjcf.model import MjcfModel
 from meshforge.formats.mjcf.reduce import read_model, read_partial_model, read_unscaled_model, read_whole_model
 from meshforge.formats.mjcf.references import list_copies, output_places
@@ -52,7 +45,7 @@ def write_mjcf(asset: Asset, document: MjcfDocument, name: str, mass: Mass) -> O
     edit = MjcfEdit(plan, meshes, authored, is_whole)
     if mass == "keep":
         edit.keep_masses()
-        if edit.weighs and is_inertial_ignored(tree):
+        if edit.weighs and elements.is_inertial_ignored(tree):
             bodies = join_names([authored.body_names[k] for k in edit.weighs], 3)
             notes.append(f"inertiafromgeom is 'auto' now, so that <inertial> keeps the masses of {bodies}")
     names = _check(edit, before, mass)
@@ -180,14 +173,14 @@ class MjcfEdit:
             found = [names.index(body) for body in self.plan.bodies_to_change]
             found = [body for body in found if self.authored.model.body_mass[body] > 0]
         nodes = {body: self.plan.body_node(self.authored.body_names[body]) for body in found}
-        return [body for body in found if body not in self.weighs and not has_inertial(nodes[body], self.tree)]
+        return [body for body in found if body not in self.weighs and not elements.has_inertial(nodes[body], self.tree)]
 
     def _mass_splices(self) -> Iterator[tuple[int, Splice]]:
-        if self.weighs and is_inertial_ignored(self.tree):
-            yield from stop_ignoring_inertials(self.tree)
+        if self.weighs and elements.is_inertial_ignored(self.tree):
+            yield from elements.stop_ignoring_inertials(self.tree)
         for node, text in self._inertial_texts().values():
             if node.element.children:
-                yield from insert_inertial(self.tree, node, text)
+                yield from elements.insert_inertial(self.tree, node, text)
 
     def _inertial_texts(self) -> dict[str, tuple[MjcfNode, bytes]]:
         """The elements of the bodies that say their masses, and what they say; copies of a body have one mass."""
@@ -196,10 +189,10 @@ class MjcfEdit:
             name = self.authored.body_names[body]
             node = self.plan.body_node(name)
             if node is None:
-                raise mass_error(name, "it has no element of its own", self.tree)
+                raise elements.mass_error(name, "it has no element of its own", self.tree)
             if body in self.authored.unweighed:
-                raise mass_error(name, "a visual mesh that weighs could not be read", self.tree)
-            found.setdefault(id(node), (name, node, inertial_tag_of_model(self.authored, body)))
+                raise elements.mass_error(name, "a visual mesh that weighs could not be read", self.tree)
+            found.setdefault(id(node), (name, node, elements.inertial_tag_of_model(self.authored, body)))
         return {name: (node, text) for name, node, text in found.values()}
 
     def _asset_splices(self) -> Iterator[tuple[int, Splice]]:

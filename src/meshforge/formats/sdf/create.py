@@ -7,32 +7,12 @@ from pathlib import Path
 import numpy as np
 
 from meshforge.common import join_names, pluralize
+from meshforge.formats import kinematic_tree
 from meshforge.formats.base import Loss, Output
-from meshforge.formats.kinematic_tree import (
-    LIGHT_INERTIAL,
-    JointRules,
-    KinematicChain,
-    LinkJoint,
-    build_chain,
-    claim_name,
-    drop_rounding,
-)
 from meshforge.formats.mesh_output import HullFiles, VisualFiles
+from meshforge.formats.sdf import elements
 from meshforge.formats.sdf.document import CONFIG
 from meshforge.formats.sdf.edit import SdfElementMaker
-from meshforge.formats.sdf.elements import (
-    STEP,
-    SdfShape,
-    build_collision,
-    inertial_lines,
-    joint_lines,
-    leaf,
-    mesh_lines,
-    nest,
-    nest_with_name,
-    pose_leaf,
-    visual_lines,
-)
 from meshforge.formats.sdf.frames import WORLD
 from meshforge.formats.slots import Slot, assign_names, name_attribute_of
 from meshforge.formats.visuals import unreadable_visuals, visuals_of
@@ -44,8 +24,8 @@ VISUAL_SUFFIXES = (".obj", ".stl", ".dae", ".glb", ".gltf")
 """The mesh files that Gazebo reads."""
 
 _VERSION = (1, 8)
-_RULES = JointRules(("fixed", "revolute", "prismatic", "ball", "floating"), world=True)
-_LEAD = 3 * STEP
+_RULES = kinematic_tree.JointRules(("fixed", "revolute", "prismatic", "ball", "floating"), world=True)
+_LEAD = 3 * elements.STEP
 _MAIN = "model.sdf"
 
 
@@ -72,7 +52,7 @@ class _Creator:
         self.visuals.gather(visuals)
         used = {g.body for g in asset.geoms} | {o.body for o in asset.opaque} | {body for body, _ in visuals}
         bare = {body.name for body in asset.bodies} - used - set(self.inertials)
-        self.chain: KinematicChain = build_chain(asset, bare, _RULES)
+        self.chain: kinematic_tree.KinematicChain = kinematic_tree.build_chain(asset, bare, _RULES)
         self.links = self._link_names(bare)
         self.slots = self._build_slots()
         self.visual_lines = {link: self._build_visuals(link) for link in self.links}
@@ -82,13 +62,15 @@ class _Creator:
         names = {was: others.pop(name, name) for was, name in self.renamed.items()} | others
         inside = [line for link in self.links for line in self._link_lines(link)]
         if WORLD in self.links:  # what is part of the world does not fall
-            fixed = LinkJoint("world_fixed", None, WORLD, self.links[WORLD], Pose.identity(), np.zeros(3))
-            inside += joint_lines(fixed, WORLD, self.links[WORLD])
+            fixed = kinematic_tree.LinkJoint(
+                "world_fixed", None, WORLD, self.links[WORLD], Pose.identity(), np.zeros(3)
+            )
+            inside += elements.joint_lines(fixed, WORLD, self.links[WORLD])
         for joint in self.chain.joints:
             inside += self._joint_lines(joint)
-        model = nest_with_name("model", self.model, *inside)
+        model = elements.nest_with_name("model", self.model, *inside)
         head = [b'<?xml version="1.0"?>', b'<sdf version="%s">' % ".".join(map(str, _VERSION)).encode()]
-        main = b"\n".join([*head, *(STEP + line for line in model), b"</sdf>", b""])
+        main = b"\n".join([*head, *(elements.STEP + line for line in model), b"</sdf>", b""])
         lost = (*self.chain.lost, *self.lost, *unreadable_visuals(self.visuals.refused))
         made = dict(self.maker.files.made)
         if self.name == _MAIN:
@@ -100,7 +82,7 @@ class _Creator:
         taken = set(self.chain.frames)
         names = {link: link for link in self.chain.frames if link != WORLD}
         if WORLD in self.chain.frames and WORLD not in bare:
-            names = {WORLD: claim_name(f"{WORLD}_link", taken), **names}
+            names = {WORLD: kinematic_tree.claim_name(f"{WORLD}_link", taken), **names}
         return {link: _legal_name(name, taken) for link, name in names.items()} or {WORLD: f"{WORLD}_link"}
 
     def _build_slots(self) -> dict[str, list[Slot]]:
@@ -129,16 +111,16 @@ class _Creator:
         surface, link_t_root = piece.surface, root_t_link.inverse()
         if piece.plane is not None:
             plane = link_t_root @ piece.plane
-            kind = nest("plane", leaf("normal", "0 0 1"), leaf("size", "100 100"))
-            return [Slot(piece.body, (piece.name,), text=build_collision(plane, kind, _LEAD, b"\n"))]
+            kind = elements.nest("plane", elements.leaf("normal", "0 0 1"), elements.leaf("size", "100 100"))
+            return [Slot(piece.body, (piece.name,), text=elements.build_collision(plane, kind, _LEAD, b"\n"))]
         if surface is None:
             return []
         if not len(surface.faces):
             self.lost.append(Loss(FeatureKind.OPAQUE, (piece.name,), "it has no triangle"))
             return []
         vertices = link_t_root.apply(np.asarray(surface.vertices))
-        kind = mesh_lines(self.maker.files.add(piece.name, "", vertices, surface.faces))
-        return [Slot(piece.body, (piece.name,), text=build_collision(Pose.identity(), kind, _LEAD, b"\n"))]
+        kind = elements.mesh_lines(self.maker.files.add(piece.name, "", vertices, surface.faces))
+        return [Slot(piece.body, (piece.name,), text=elements.build_collision(Pose.identity(), kind, _LEAD, b"\n"))]
 
     def _build_visuals(self, link: str) -> list[bytes]:
         lines: list[bytes] = []
@@ -147,40 +129,44 @@ class _Creator:
             if self.chain.of_body[body] == link:
                 placed = self.visuals.add_visual(body, visual, self.chain.frames[link])
                 if placed is not None:
-                    lines += visual_lines(f"visual{count}", placed, self._add_mesh(body, placed.what))
+                    lines += elements.visual_lines(f"visual{count}", placed, self._add_mesh(body, placed.what))
                     count += 1
         return lines
 
     def _add_mesh(self, body: str, shape: Shape | str) -> str | None:
         """The file of a visual shape that SDF lacks."""
-        if isinstance(shape, str | SdfShape):
+        if isinstance(shape, str | elements.SdfShape):
             return None
         return self.maker.files.add(f"{body}-visual", "", shape.vertices, shape.faces)
 
     def _link_lines(self, link: str) -> list[bytes]:
         body = next((body for body, own in self.chain.of_body.items() if own == link), None)
-        inertial = self.inertials.get(body) if body else LIGHT_INERTIAL if link in self.chain.light else None
+        inertial = (
+            self.inertials.get(body) if body else kinematic_tree.LIGHT_INERTIAL if link in self.chain.light else None
+        )
         frame = self.chain.frames[link]
-        pose = Pose(frame.rotation, drop_rounding(frame.translation))
-        inside = [pose_leaf(pose)]
-        inside += inertial_lines(inertial, frame if body else Pose.identity()) if inertial else []
+        pose = Pose(frame.rotation, kinematic_tree.drop_rounding(frame.translation))
+        inside = [elements.pose_leaf(pose)]
+        inside += elements.inertial_lines(inertial, frame if body else Pose.identity()) if inertial else []
         inside += self.visual_lines[link]
         inside += [line.removeprefix(_LEAD) for slot in self.slots[link] for line in slot.to_bytes(b"").split(b"\n")]
-        return nest_with_name("link", self.links[link], *inside)
+        return elements.nest_with_name("link", self.links[link], *inside)
 
-    def _joint_lines(self, made: LinkJoint) -> list[bytes]:
+    def _joint_lines(self, made: kinematic_tree.LinkJoint) -> list[bytes]:
         """The lines of a joint; none for one that leaves its link free."""
         if made.joint is not None and made.joint.kind == "floating":
             name = made.joint.name
             why = "a link without a joint moves freely in SDF"
             self.lost.append(Loss(FeatureKind.JOINTS, (name,) * bool(name), why, None, not name))
             return []
-        return joint_lines(made, self.links.get(made.parent, WORLD), self.links[made.child])
+        return elements.joint_lines(made, self.links.get(made.parent, WORLD), self.links[made.child])
 
     def _config_text(self) -> bytes:
         """The `model.config` that makes the folder a Gazebo model."""
         version = ".".join(map(str, _VERSION)).encode()
-        lines = nest("model", leaf("name", self.model), b'<sdf version="%s">%s</sdf>' % (version, escape(self.name)))
+        lines = elements.nest(
+            "model", elements.leaf("name", self.model), b'<sdf version="%s">%s</sdf>' % (version, escape(self.name))
+        )
         return b"\n".join([b'<?xml version="1.0"?>', *lines, b""])
 
     def _collect_notes(self) -> tuple[str, ...]:
@@ -204,4 +190,4 @@ def _legal_name(name: str, taken: set[str]) -> str:
     allowed = name.replace("::", "__")
     if allowed.startswith("__") and allowed.endswith("__"):
         allowed = f"link{allowed}"
-    return name if allowed == name else claim_name(allowed, taken)
+    return name if allowed == name else kinematic_tree.claim_name(allowed, taken)

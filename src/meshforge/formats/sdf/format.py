@@ -8,16 +8,7 @@ from pathlib import Path
 from typing import ClassVar, Literal
 
 from meshforge.common import AssetError
-from meshforge.formats.base import (
-    BODY_FEATURES,
-    SCENE_FEATURES,
-    Format,
-    Mass,
-    Output,
-    ReadOptions,
-    feature_of,
-    feature_of_tags,
-)
+from meshforge.formats import base
 from meshforge.formats.sdf.create import VISUAL_SUFFIXES, create_sdf
 from meshforge.formats.sdf.document import SdfDocument, is_main_file, parse_root
 from meshforge.formats.sdf.edit import write_sdf
@@ -38,7 +29,7 @@ _MAPS = ("albedo_map", "normal_map", "roughness_map", "metalness_map", "emissive
 _SETTINGS = ("physics", "scene", "gravity", "magnetic_field", "atmosphere", "wind", "spherical_coordinates", "gui")
 
 
-class SdfFormat(Format):
+class SdfFormat(base.Format):
     """The Simulation Description Format, of Gazebo."""
 
     name: ClassVar[str] = "sdf"
@@ -46,11 +37,11 @@ class SdfFormat(Format):
     is_description: ClassVar[bool] = True
     title: ClassVar[str] = "SDF"
     up: ClassVar[Literal["y", "z"] | None] = "z"
-    holds = BODY_FEATURES | {
+    holds = base.BODY_FEATURES | {
         *(FeatureKind.CAPSULES, FeatureKind.ELLIPSOIDS, FeatureKind.OPAQUE, FeatureKind.PLANES),
         *(FeatureKind.JOINTS, FeatureKind.BALL_JOINTS, FeatureKind.FIXED_JOINTS, FeatureKind.SPEEDS),
     }
-    could = SCENE_FEATURES | {
+    could = base.SCENE_FEATURES | {
         *(FeatureKind.MIMICS, FeatureKind.DYNAMICS, FeatureKind.SENSORS, FeatureKind.SITES, FeatureKind.COMMENTS)
     }
     shown_files = VISUAL_SUFFIXES
@@ -58,15 +49,15 @@ class SdfFormat(Format):
     def is_main(self, path: Path) -> bool:
         return is_main_file(path)
 
-    def read(self, path: Path, options: ReadOptions) -> Asset:
+    def read(self, path: Path, options: base.ReadOptions) -> Asset:
         return read_sdf(path, options)
 
-    def write(self, asset: Asset, name: str, mass: Mass = "keep") -> Output:
+    def write(self, asset: Asset, name: str, mass: base.Mass = "keep") -> base.Output:
         if not isinstance(asset.document, SdfDocument):
             raise AssetError("this asset was not read from an SDF", where=str(asset.path))
         return write_sdf(asset, asset.document, name, mass)
 
-    def create(self, asset: Asset, name: str) -> Output:
+    def create(self, asset: Asset, name: str) -> base.Output:
         return create_sdf(asset, name)
 
     def features(self, asset: Asset) -> Iterable[Feature]:
@@ -89,8 +80,8 @@ def features_of(document: SdfDocument) -> Iterator[Feature]:
     yield Feature(FeatureKind.TEXTURES, tuple(maps))
     static = ["static" for e in every if e.tag == "static" and is_true(e.text)]
     settings = [e.tag for e in every if e.tag in _SETTINGS and e.children]
-    yield feature_of_tags(FeatureKind.SETTINGS, [*static, *settings])
-    yield feature_of_tags(FeatureKind.OTHERS, (e.tag for e in every if e.tag in _OTHERS))
+    yield base.feature_of_tags(FeatureKind.SETTINGS, [*static, *settings])
+    yield base.feature_of_tags(FeatureKind.OTHERS, (e.tag for e in every if e.tag in _OTHERS))
     yield Feature(FeatureKind.COMMENTS, unnamed=sum(source.text.data.count(b"<!--") for source in document.sources))
 
 
@@ -102,4 +93,4 @@ def _has_springs(axis: Element) -> bool:
 
 
 def _feature_of(what: FeatureKind, elements: Iterable[Element]) -> Feature:
-    return feature_of(what, (element.attributes.get("name", "") for element in elements))
+    return base.feature_of(what, (element.attributes.get("name", "") for element in elements))

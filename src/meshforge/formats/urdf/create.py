@@ -12,15 +12,8 @@ from meshforge.formats.collision_pieces import is_flat
 from meshforge.formats.kinematic_tree import LIGHT_INERTIAL, JointRules, KinematicChain, build_chain
 from meshforge.formats.mesh_output import HullFiles, VisualFiles
 from meshforge.formats.slots import Slot, assign_names
+from meshforge.formats.urdf import elements
 from meshforge.formats.urdf.edit import UrdfElementMaker
-from meshforge.formats.urdf.elements import (
-    UNLIMITED_TRAVEL,
-    build_collision,
-    inertial_lines,
-    joint_lines,
-    mesh_tag,
-    visual_lines,
-)
 from meshforge.formats.visuals import unreadable_visuals, visuals_of
 from meshforge.formats.xml import escape
 from meshforge.geometry import Box, Cylinder, Pose, Shape, Sphere
@@ -61,7 +54,7 @@ class _Creator:
         names = assign_names([slot for own in self.slots.values() for slot in own])
         head = [b'<?xml version="1.0"?>', b'<robot name="%s">' % escape(self.stem)]
         links = [line for link in self.chain.frames for line in self._link_lines(link)]
-        joints = [line for joint in self.chain.joints for line in joint_lines(joint)]
+        joints = [line for joint in self.chain.joints for line in elements.joint_lines(joint)]
         main = b"\n".join([*head, *links, *joints, b"</robot>", b""])
         lost = (*self.chain.lost, *self.lost, *unreadable_visuals(self.visuals.refused))
         return Output(main, dict(self.maker.files.made), self.visuals.copies, self._collect_notes(), names, lost)
@@ -85,8 +78,8 @@ class _Creator:
             self.lost.append(Loss(FeatureKind.OPAQUE, (piece.name,), "engines refuse a mesh that is flat"))
             return []
         vertices = root_t_link.inverse().apply(np.asarray(surface.vertices))
-        tag = mesh_tag(self.maker.files.add(piece.name, "", vertices, surface.faces))
-        return [Slot(piece.body, (piece.name,), text=build_collision(Pose.identity(), tag, _LEAD, b"\n"))]
+        tag = elements.mesh_tag(self.maker.files.add(piece.name, "", vertices, surface.faces))
+        return [Slot(piece.body, (piece.name,), text=elements.build_collision(Pose.identity(), tag, _LEAD, b"\n"))]
 
     def _build_visuals(self, link: str) -> list[bytes]:
         lines = []
@@ -94,7 +87,7 @@ class _Creator:
             if self.chain.of_body[body] == link:
                 placed = self.visuals.add_visual(body, visual, self.chain.frames[link])
                 if placed is not None:
-                    lines += visual_lines(placed, self._add_mesh(body, placed.what))
+                    lines += elements.visual_lines(placed, self._add_mesh(body, placed.what))
         return lines
 
     def _add_mesh(self, body: str, shape: Shape | str) -> str | None:
@@ -107,7 +100,7 @@ class _Creator:
         body = next((body for body, own in self.chain.of_body.items() if own == link), None)
         inertial = self.inertials.get(body) if body else LIGHT_INERTIAL if link in self.chain.light else None
         frame = self.chain.frames[link] if body else Pose.identity()
-        inside = inertial_lines(inertial, frame) if inertial else []
+        inside = elements.inertial_lines(inertial, frame) if inertial else []
         inside += [*self.visual_lines[link], *(_LEAD + slot.to_bytes(b"") for slot in self.slots[link])]
         if not inside:
             return [b'  <link name="%s"/>' % escape(link)]
@@ -124,7 +117,7 @@ class _Creator:
         unlimited = join_names([made.name for made in sliding if made.joint and not made.joint.limits], 3)
         if unlimited:
             notes.append(
-                f"prismatic joints without limits ({unlimited}) are limited to {UNLIMITED_TRAVEL:g} m each way"
+                f"prismatic joints without limits ({unlimited}) are limited to {elements.UNLIMITED_TRAVEL:g} m each way"
             )
         if self.chain.light:
             light = join_names(self.chain.light, 3)

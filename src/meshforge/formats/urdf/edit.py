@@ -11,15 +11,8 @@ from meshforge.formats.mesh_output import HullFiles
 from meshforge.formats.mesh_reader import split_into_pieces
 from meshforge.formats.references import Resolver, add_copy, note_absolute, placement
 from meshforge.formats.slots import ElementPlan, Slot, assign_names
+from meshforge.formats.urdf import elements
 from meshforge.formats.urdf.document import UrdfDocument, collisions, geometry_of, parse_robot, references
-from meshforge.formats.urdf.elements import (
-    build_collision,
-    mesh_tag,
-    native_tag,
-    replace_geometry,
-    replace_mesh,
-    replace_mesh_file,
-)
 from meshforge.formats.xml import Element, Splice, XmlText, apply_splices, newline_of
 from meshforge.geometry import Box, Cylinder, Piece, Polytope, Pose, Shape, Sphere
 from meshforge.symbolic import Asset, Geom
@@ -89,15 +82,15 @@ class UrdfElementMaker:
         """
         shape = geom.shape.move(root_t_link.inverse())
         if isinstance(shape, Box | Cylinder | Sphere):
-            pose, tag = shape.pose, native_tag(shape)
-            edits = replace_geometry(self.data, template, pose, tag) if template else ()
+            pose, tag = shape.pose, elements.native_tag(shape)
+            edits = elements.replace_geometry(self.data, template, pose, tag) if template else ()
         else:
             pose, reference = Pose.identity(), self._add_mesh(geom, shape, template)
-            tag = mesh_tag(reference)
-            edits = replace_mesh(self.data, template, pose, reference) if template else ()
+            tag = elements.mesh_tag(reference)
+            edits = elements.replace_mesh(self.data, template, pose, reference) if template else ()
         if template:
             return Slot(geom.body, (geom.name,), None, template, edits, copy=True)
-        return Slot(geom.body, (geom.name,), text=build_collision(pose, tag, lead, self.line_end))
+        return Slot(geom.body, (geom.name,), text=elements.build_collision(pose, tag, lead, self.line_end))
 
     def extract_piece(self, element: Element, name: str, k: int) -> tuple[Splice, ...]:
         mesh, resolver = geometry_of(element), self.files.resolver
@@ -109,7 +102,7 @@ class UrdfElementMaker:
         made = self.files.add(name, self.files.folder_of(reference), piece.vertices, piece.faces)
         if piece.shape is None and is_flat(piece.vertices):
             self.notes.append(f"flat piece {name!r} stays, now in a file of its own, which MuJoCo refuses")
-        return replace_mesh_file(self.data, element, made)
+        return elements.replace_mesh_file(self.data, element, made)
 
     def _add_mesh(self, geom: Geom, shape: Shape, template: Element | None) -> str:
         """The reference to the mesh file of a hull, which is made."""

@@ -11,32 +11,12 @@ from pathlib import Path
 import numpy as np
 
 from meshforge.common import AssetError, MeshForgeError, join_names, plain_path, pluralize
+from meshforge.formats import collision_pieces
 from meshforge.formats.base import ReadOptions
-from meshforge.formats.collision_pieces import (
-    CollisionMeshes,
-    CollisionPiece,
-    MeshUse,
-    ShapeNames,
-    collect_mentions,
-    geoms_of,
-    opaque_of,
-    place_pieces,
-    refuse_missing,
-    stem_of,
-    turn_z_to,
-)
 from meshforge.formats.mesh_reader import read_content
 from meshforge.formats.references import Resolver, find_companions
 from meshforge.formats.slots import name_elements
-from meshforge.formats.urdf.document import (
-    UrdfDocument,
-    collisions,
-    geometry_of,
-    parse_robot,
-    read_floats,
-    read_origin,
-    references,
-)
+from meshforge.formats.urdf import document
 from meshforge.formats.urdf.mechanism import UrdfLinks, read_links, read_mechanism
 from meshforge.formats.visuals import Rgba, Visual, VisualSurfaces
 from meshforge.formats.xml import Element, XmlText, format_numbers
@@ -47,31 +27,33 @@ _LEAST_SCALE = 1e-12  # a factor that is taken for zero
 _UP = (0.0, 0.0, 1.0)
 
 
-def read_primitive(kind: Element, pose: Pose, where: str) -> CollisionPiece:
+def read_primitive(kind: Element, pose: Pose, where: str) -> collision_pieces.CollisionPiece:
     """The shape of an element that is no mesh; pose: root_T_geometry.
 
     Raises AssetError with `where:line` for a missing or unreadable attribute.
     """
     match kind.tag:
         case "box":
-            extent = read_floats(kind, "size", 3, where)
+            extent = document.read_floats(kind, "size", 3, where)
             shape: Shape = Box(pose, extent / 2)
         case "sphere":
-            extent = read_floats(kind, "radius", 1, where)
+            extent = document.read_floats(kind, "radius", 1, where)
             shape = Sphere(pose, float(extent[0]))
         case "cylinder" | "capsule":
-            extent = np.concatenate([read_floats(kind, name, 1, where) for name in ("radius", "length")])
+            extent = np.concatenate([document.read_floats(kind, name, 1, where) for name in ("radius", "length")])
             make = Cylinder if kind.tag == "cylinder" else Capsule
             shape = make(pose, float(extent[0]), float(extent[1]) / 2)
         case "plane":
-            return CollisionPiece(
-                None, "a plane has no end", plane=pose @ turn_z_to(read_floats(kind, "normal", 3, where, _UP))
+            return collision_pieces.CollisionPiece(
+                None,
+                "a plane has no end",
+                plane=pose @ collision_pieces.turn_z_to(document.read_floats(kind, "normal", 3, where, _UP)),
             )
         case _:
-            return CollisionPiece(None, f"<{kind.tag}> is no geometry that is known")
+            return collision_pieces.CollisionPiece(None, f"<{kind.tag}> is no geometry that is known")
     if extent.min() <= 0 or shape.volume == 0:
-        return CollisionPiece(None, f"a {kind.tag} without volume: {format_numbers(extent)} m")
-    return CollisionPiece(shape)
+        return collision_pieces.CollisionPiece(None, f"a {kind.tag} without volume: {format_numbers(extent)} m")
+    return collision_pieces.CollisionPiece(shape)
 
 
 def read_mesh_scale(mesh: Element, where: str, label: str) -> Floats:
@@ -80,7 +62,7 @@ def read_mesh_scale(mesh: Element, where: str, label: str) -> Floats:
     Raises AssetError naming `label`: a factor is zero.
     """
     single = len(mesh.attributes.get("scale", "").replace(",", " ").split()) == 1
-    scale = read_floats(mesh, "scale", 1 if single else 3, where, (1.0, 1.0, 1.0))
+    scale = document.read_floats(mesh, "scale", 1 if single else 3, where, (1.0, 1.0, 1.0))
     if np.abs(scale).min() < _LEAST_SCALE:
         raise AssetError(
             f"collision {label!r} is scaled to nothing: scale={mesh.attributes['scale']!r}",
@@ -92,21 +74,21 @@ def read_mesh_scale(mesh: Element, where: str, label: str) -> Floats:
 
 def read_parts(
     found: Sequence[tuple[str, Element]],
-    uses: Sequence[MeshUse | None],
+    uses: Sequence[collision_pieces.MeshUse | None],
     links: UrdfLinks,
-    meshes: CollisionMeshes,
+    meshes: collision_pieces.CollisionMeshes,
     where: str,
-) -> list[list[CollisionPiece]]:
+) -> list[list[collision_pieces.CollisionPiece]]:
     """The pieces of each collision element, in the root frame; none where it has no geometry."""
-    parts: list[list[CollisionPiece]] = []
+    parts: list[list[collision_pieces.CollisionPiece]] = []
     for (link, collision), use in zip(found, uses, strict=True):
-        kind = geometry_of(collision)
-        pose = links.poses[link] @ read_origin(collision, where)
+        kind = document.geometry_of(collision)
+        pose = links.poses[link] @ document.read_origin(collision, where)
         if kind is None:
             parts.append([])
         elif use is not None:
             linear = pose.rotation * read_mesh_scale(kind, where, use.label)
-            parts.append(place_pieces(meshes.pieces(use), linear, pose.translation))
+            parts.append(collision_pieces.place_pieces(meshes.pieces(use), linear, pose.translation))
         else:
             parts.append([read_primitive(kind, pose, where)])
     return parts
@@ -123,13 +105,13 @@ def read_urdf(path: Path, options: ReadOptions) -> Asset:
     """
     where = str(path)
     source = read_content(path)
-    robot = parse_robot(XmlText.of(source).data, where)
+    robot = document.parse_robot(XmlText.of(source).data, where)
     links = read_links(robot, where)
     resolver = Resolver(plain_path(path).parent, tuple(map(plain_path, options.package_roots)))
-    meshes = CollisionMeshes()
-    found = list(collisions(robot))
+    meshes = collision_pieces.CollisionMeshes()
+    found = list(document.collisions(robot))
     uses = _mesh_uses(found, resolver, where)
-    refuse_missing(use for use in uses if use)
+    collision_pieces.refuse_missing(use for use in uses if use)
     parts = read_parts(found, uses, links, meshes, where)
     authored = name_elements(found, [len(own) for own in parts])
     mentions = _collect_mentions(found, links, [meshes.groups(use) for use in uses], parts)
@@ -138,9 +120,9 @@ def read_urdf(path: Path, options: ReadOptions) -> Asset:
         path=path,
         format="urdf",
         bodies=tuple(Body(name, pose) for name, pose in links.poses.items()),
-        geoms=geoms_of(authored, parts, mentions),
-        document=UrdfDocument(source, authored, resolver, meshes.digests()),
-        opaque=opaque_of(authored, parts, mentions),
+        geoms=collision_pieces.geoms_of(authored, parts, mentions),
+        document=document.UrdfDocument(source, authored, resolver, meshes.digests()),
+        opaque=collision_pieces.opaque_of(authored, parts, mentions),
         visuals=read_visuals(robot, links.elements, links.poses, resolver, where),
         files=files,
         missing=missing,
@@ -149,15 +131,15 @@ def read_urdf(path: Path, options: ReadOptions) -> Asset:
     )
 
 
-def _mesh_uses(found: LinkCollisions, resolver: Resolver, where: str) -> list[MeshUse | None]:
+def _mesh_uses(found: LinkCollisions, resolver: Resolver, where: str) -> list[collision_pieces.MeshUse | None]:
     """The mesh file of each collision element, None where it has another geometry or none."""
-    uses: list[MeshUse | None] = []
+    uses: list[collision_pieces.MeshUse | None] = []
     for element, (_, collision) in zip(name_elements(found, [1] * len(found)), found, strict=True):
-        kind = geometry_of(collision)
+        kind = document.geometry_of(collision)
         is_mesh = kind is not None and kind.tag == "mesh"
         reference = kind.attributes.get("filename", "").strip() if kind else ""
         place = f"{where}:{kind.line}" if kind else where
-        uses.append(MeshUse(element.names[0], reference, place, resolver) if is_mesh else None)
+        uses.append(collision_pieces.MeshUse(element.names[0], reference, place, resolver) if is_mesh else None)
     return uses
 
 
@@ -165,7 +147,7 @@ def _collect_mentions(
     found: LinkCollisions,
     links: UrdfLinks,
     groups: Sequence[Sequence[str | None]],
-    parts: Sequence[Sequence[CollisionPiece]],
+    parts: Sequence[Sequence[collision_pieces.CollisionPiece]],
 ) -> list[list[Mentions]]:
     """What else is said of each piece of each collision element."""
     mentions = []
@@ -179,7 +161,7 @@ def _find_files(robot: Element, resolver: Resolver) -> tuple[tuple[Path, ...], t
     """The referenced files that are there, with their companions, and the references that lead nowhere."""
     files: dict[Path, None] = {}
     missing = []
-    for reference in references(robot):
+    for reference in document.references(robot):
         path = resolver.find(reference)
         if path is None:
             missing.append(reference)
@@ -218,18 +200,18 @@ def _read_color(material: Element | None, named: Mapping[str, Rgba], where: str)
     if color is None:
         return named.get(material.attributes.get("name", ""))
     try:
-        red, green, blue, alpha = read_floats(color, "rgba", 4, where).tolist()
+        red, green, blue, alpha = document.read_floats(color, "rgba", 4, where).tolist()
     except MeshForgeError:
         return None
     return red, green, blue, alpha
 
 
 def _read_visual(link: str, element: Element, pose: Pose, resolver: Resolver, where: str) -> Iterator[Visual]:
-    kind = geometry_of(element)
+    kind = document.geometry_of(element)
     if kind is None:
         return
     try:
-        at = pose @ read_origin(element, where)
+        at = pose @ document.read_origin(element, where)
         if kind.tag != "mesh":
             shape = read_primitive(kind, at, where).shape
             if shape is not None:
@@ -244,12 +226,12 @@ def mentions_of_element(link: Element, collision: Element) -> Mentions:
     """What is said of a `<collision>` of a link."""
     own = _names_of(collision)
     shown = [named for visual in link.each("visual") if (named := _names_of(visual))]
-    return collect_mentions(own, shown) if own else ()
+    return collision_pieces.collect_mentions(own, shown) if own else ()
 
 
-def _names_of(element: Element) -> ShapeNames | None:
+def _names_of(element: Element) -> collision_pieces.ShapeNames | None:
     """The names of a collision or visual element; of a collision without its own, which its hulls have."""
-    kind = geometry_of(element)
+    kind = document.geometry_of(element)
     if kind is None:
         return None
     material = element.first("material")
@@ -258,7 +240,9 @@ def _names_of(element: Element) -> ShapeNames | None:
     place = tuple(sorted(origin.attributes.items())) if origin else ()
     shape = reference or (kind.tag, tuple(sorted(kind.attributes.items())), place)
     name = "" if element.tag == "collision" else element.attributes.get("name", "")
-    return ShapeNames(shape, name, stem_of(reference), material.attributes.get("name", "") if material else "")
+    return collision_pieces.ShapeNames(
+        shape, name, collision_pieces.stem_of(reference), material.attributes.get("name", "") if material else ""
+    )
 
 
 def collect_notes(robot: Element, links: UrdfLinks, found: LinkCollisions) -> Iterator[str]:

@@ -11,14 +11,8 @@ from typing import Any
 import numpy as np
 
 from meshforge.common import AssetError
+from meshforge.formats import collision_pieces
 from meshforge.formats.base import Mass, Output, note_renames
-from meshforge.formats.collision_pieces import (
-    CollisionPiece,
-    change_error,
-    names_to_keep,
-    new_hulls,
-    refuse_changed_files,
-)
 from meshforge.formats.usd.colliders import StageBodies, physics_material
 from meshforge.formats.usd.document import UsdDocument, export_layer, is_crate, is_crate_wanted, pack_usdz, unpack_usdz
 from meshforge.formats.usd.edit_stage import UsdEdit
@@ -43,7 +37,7 @@ def write_usd(asset: Asset, document: UsdDocument, name: str, mass: Mass) -> Out
     """
     suffix = PurePosixPath(name).suffix.lower()
     known = {piece for element in document.authored for piece in element.names}
-    edited = not known <= names_to_keep(asset) or bool(new_hulls(asset, known))
+    edited = not known <= collision_pieces.names_to_keep(asset) or bool(collision_pieces.new_hulls(asset, known))
     copies, far = _list_copies(asset)
     if not edited and suffix == asset.path.suffix.lower():
         return Output(document.source, copies=copies, notes=tuple(far))
@@ -153,9 +147,9 @@ def _find_absolute_references(asset: Asset) -> frozenset[Path]:
 
 def _refuse_changed(asset: Asset, document: UsdDocument) -> None:
     """Raise AssetError where the root layer, or one beside it, is not what it was when the asset was read."""
-    refuse_changed_files(document.digests, str(asset.path))
+    collision_pieces.refuse_changed_files(document.digests, str(asset.path))
     if not asset.path.is_file() or asset.path.read_bytes() != document.source:
-        raise change_error(asset.path.name, str(asset.path))
+        raise collision_pieces.change_error(asset.path.name, str(asset.path))
 
 
 def keep_masses(edit: UsdEdit, sources: Sequence[PrimCollision]) -> list[str]:
@@ -203,7 +197,7 @@ def _has_full_mass(scene: UsdStage, prim: Any) -> bool:
     return mass > 0 and centre_of(scene, prim) is not None and moments_of(scene, prim) is not None
 
 
-def _solids_of(parts: Sequence[CollisionPiece]) -> list[Shape] | None:
+def _solids_of(parts: Sequence[collision_pieces.CollisionPiece]) -> list[Shape] | None:
     """The solids of a prim's pieces, of closed non-convex ones too; None where one has no volume that is known."""
     found: list[Shape] = []
     for part in parts:

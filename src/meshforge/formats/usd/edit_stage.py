@@ -11,15 +11,7 @@ import numpy as np
 
 from meshforge.common import AssetError, pluralize
 from meshforge.formats.collision_pieces import CollisionPiece, names_to_keep, new_hulls
-from meshforge.formats.usd.colliders import (
-    COLLISION,
-    MESH_COLLISION,
-    StageBodies,
-    inherit_contact,
-    instances_around,
-    is_drawn,
-    is_seen,
-)
+from meshforge.formats.usd import colliders
 from meshforge.formats.usd.document import BODY, PrimRecord, UsdDocument
 from meshforge.formats.usd.prims import PrimSpace, add_mesh, add_native, free_prim_name, mark_collider
 from meshforge.formats.usd.read import PrimCollision
@@ -39,7 +31,7 @@ class UsdEdit:
     """
 
     scene: UsdStage
-    bodies: StageBodies
+    bodies: colliders.StageBodies
     document: UsdDocument
     layer: Any
     names: dict[str, str] = field(default_factory=dict)
@@ -110,9 +102,9 @@ class UsdEdit:
     def _finish(self, spec: Any, name: str, body: str, parent: PrimCollision | None, approximation: str | None) -> None:
         """Mark a new prim as collision, with what it inherits, and see what it will be called."""
         if self.document.physics:
-            mark_collider(spec, approximation, drawn=parent is not None and is_drawn(parent.prim))
+            mark_collider(spec, approximation, drawn=parent is not None and colliders.is_drawn(parent.prim))
             if parent is not None:
-                inherit_contact(spec, parent.prim)
+                colliders.inherit_contact(spec, parent.prim)
                 self._join_groups(parent.path, spec.path)
         read = self.bodies.hull_name(str(spec.path), body)
         if read != name:
@@ -184,7 +176,7 @@ def remove_collision(scene: UsdStage, layer: Any, prim: Any, physics: bool) -> s
     from pxr import Sdf  # lazy: an optional package, and 0.3 s
 
     make_instances_editable(layer, prim)
-    if physics and (is_seen(scene, prim) or has_other_content(prim)):
+    if physics and (colliders.is_seen(scene, prim) or has_other_content(prim)):
         _remove_schemas(layer, prim)
         return "stripped"
     _refuse_referenced(scene, prim)
@@ -202,7 +194,7 @@ def make_instances_editable(layer: Any, prim: Any) -> None:
     """Make the instances around a prim their own, so that it can be edited alone."""
     from pxr import Sdf  # lazy: an optional package, and 0.3 s
 
-    for instance in instances_around(prim):
+    for instance in colliders.instances_around(prim):
         Sdf.CreatePrimInLayer(layer, instance.GetPath()).SetInfo("instanceable", False)
 
 
@@ -219,7 +211,11 @@ def _remove_schemas(layer: Any, prim: Any) -> None:
     from pxr import Sdf  # lazy: an optional package, and 0.3 s
 
     applied = prim.GetPrimTypeInfo().GetAppliedAPISchemas()
-    gone = [n for n in applied if n in (COLLISION, MESH_COLLISION) or (n.startswith("Physx") and "Collision" in n)]
+    gone = [
+        n
+        for n in applied
+        if n in (colliders.COLLISION, colliders.MESH_COLLISION) or (n.startswith("Physx") and "Collision" in n)
+    ]
     path = prim.GetPath()
     spec = Sdf.CreatePrimInLayer(layer, path)
     old = spec.GetInfo("apiSchemas") if spec.HasInfo("apiSchemas") else Sdf.TokenListOp()

@@ -10,25 +10,9 @@ from typing import Any
 import numpy as np
 
 from meshforge.common import AssetError, GeometryError, MeshForgeError, file_digest, is_file, join_names, pluralize
-from meshforge.formats.collision_pieces import (
-    CollisionElement,
-    CollisionPiece,
-    drop_repeats,
-    name_pieces,
-    opaque_of,
-    place_surface,
-)
+from meshforge.formats import collision_pieces
 from meshforge.formats.mesh_reader import read_content
-from meshforge.formats.usd.colliders import (
-    COLLISION,
-    TRIGGER,
-    StageBodies,
-    contact_attributes,
-    has_physics,
-    has_schema,
-    is_collider,
-    is_seen,
-)
+from meshforge.formats.usd import colliders
 from meshforge.formats.usd.document import PrimRecord, UsdDocument
 from meshforge.formats.usd.guard import refuse_harmful_layers
 from meshforge.formats.usd.mechanism import read_mechanism
@@ -47,7 +31,7 @@ class PrimCollision:
 
     prim: Any
     body: str
-    parts: Sequence[CollisionPiece]
+    parts: Sequence[collision_pieces.CollisionPiece]
     fixed: str = ""
 
     @property
@@ -72,16 +56,16 @@ def read_usd(path: Path) -> Asset:
 
 
 def _build_asset(scene: UsdStage, source: bytes) -> Asset:
-    physics = has_physics(scene)
-    bodies = StageBodies(scene, physics)
+    physics = colliders.has_physics(scene)
+    bodies = colliders.StageBodies(scene, physics)
     notes: list[str] = []
     sources = list(read_collisions(scene, bodies, physics, notes))
     authored = record_prims(sources, bodies)
     visuals = StageSurfaces.of(scene, bodies) if physics else ()
     mentions = [mentions_of_prim(source.prim) for source in sources]
     geoms = tuple(_build_geoms(authored, sources, mentions))
-    opaque = opaque_of(
-        [CollisionElement(element.body, element.names) for element in authored],
+    opaque = collision_pieces.opaque_of(
+        [collision_pieces.CollisionElement(element.body, element.names) for element in authored],
         [source.parts for source in sources],
         [[own] * len(source.parts) for own, source in zip(mentions, sources, strict=True)],
     )
@@ -100,7 +84,9 @@ def _build_asset(scene: UsdStage, source: bytes) -> Asset:
     )
 
 
-def read_collisions(scene: UsdStage, bodies: StageBodies, physics: bool, notes: list[str]) -> Iterator[PrimCollision]:
+def read_collisions(
+    scene: UsdStage, bodies: colliders.StageBodies, physics: bool, notes: list[str]
+) -> Iterator[PrimCollision]:
     """All prims with collision, in the order of the stage."""
     from pxr import UsdGeom  # lazy: an optional package, and 0.3 s
 
@@ -108,16 +94,18 @@ def read_collisions(scene: UsdStage, bodies: StageBodies, physics: bool, notes: 
         if prim.IsA(UsdGeom.PointInstancer):
             if part := read_instances(scene, prim, physics, notes):
                 yield PrimCollision(prim, bodies.of(prim), [part], "is made many times by a point instancer")
-        elif (is_collider if physics else is_seen)(scene, prim) and (parts := read_parts(scene, prim, notes)):
+        elif (colliders.is_collider if physics else colliders.is_seen)(scene, prim) and (
+            parts := read_parts(scene, prim, notes)
+        ):
             yield PrimCollision(prim, bodies.of(prim), parts)
 
 
-def record_prims(sources: Sequence[PrimCollision], bodies: StageBodies) -> tuple[PrimRecord, ...]:
+def record_prims(sources: Sequence[PrimCollision], bodies: colliders.StageBodies) -> tuple[PrimRecord, ...]:
     """The sources with the names of their pieces."""
     bases = [(bodies.hull_name(source.path, source.body), len(source.parts)) for source in sources]
     return tuple(
         PrimRecord(source.path, source.body, names, source.fixed)
-        for source, names in zip(sources, name_pieces(bases), strict=True)
+        for source, names in zip(sources, collision_pieces.name_pieces(bases), strict=True)
     )
 
 
@@ -125,7 +113,7 @@ def _build_geoms(
     authored: Sequence[PrimRecord], sources: Sequence[PrimCollision], mentions: Sequence[Mentions]
 ) -> Iterator[Geom]:
     for element, source, own in zip(authored, sources, mentions, strict=True):
-        contact = contact_attributes(source.prim)
+        contact = colliders.contact_attributes(source.prim)
         for name, part in zip(element.names, source.parts, strict=True):
             if part.shape is not None:
                 yield Geom(name, element.body, part.shape, contact=contact, mentions=own)
@@ -175,7 +163,7 @@ def mentions_of_prim(prim: Any) -> Mentions:
     material, _ = UsdShade.MaterialBindingAPI(prim).ComputeBoundMaterial()
     if material:
         found.append(("material", material.GetPrim().GetName()))
-    return drop_repeats(found)
+    return collision_pieces.drop_repeats(found)
 
 
 def _labels_of(prim: Any) -> Iterator[str]:
@@ -194,11 +182,15 @@ def collect_notes(scene: UsdStage, physics: bool) -> Iterator[str]:
     if not physics:
         yield "no prim is marked as collision: all that is seen is taken for it, so that edits change what is seen"
     prims = list(scene.prims())
-    solid = [prim for prim in prims if has_schema(prim, COLLISION) and not has_schema(prim, TRIGGER)]
-    off = [prim.GetName() for prim in solid if not is_collider(scene, prim)]
+    solid = [
+        prim
+        for prim in prims
+        if colliders.has_schema(prim, colliders.COLLISION) and not colliders.has_schema(prim, colliders.TRIGGER)
+    ]
+    off = [prim.GetName() for prim in solid if not colliders.is_collider(scene, prim)]
     if off:
         yield f"{pluralize(len(off), 'collider')} switched off are left as they are ({join_names(off, 3)})"
-    triggers = sum(has_schema(prim, TRIGGER) for prim in prims)
+    triggers = sum(colliders.has_schema(prim, colliders.TRIGGER) for prim in prims)
     if triggers:
         yield f"{pluralize(triggers, 'trigger')} detect bodies without colliding: they are left as they are"
     if chosen := [prim.GetName() for prim in prims if prim.HasVariantSets()]:
@@ -214,10 +206,11 @@ class StageSurfaces(LazySurfaces):
         self._path, self._bodies = path, bodies
 
     @staticmethod
-    def of(scene: UsdStage, bodies: StageBodies) -> StageSurfaces:
+    def of(scene: UsdStage, bodies: colliders.StageBodies) -> StageSurfaces:
         """The surfaces of an open stage."""
         return StageSurfaces(
-            scene.path, {str(prim.GetPath()): bodies.of(prim) for prim in scene.prims() if is_seen(scene, prim)}
+            scene.path,
+            {str(prim.GetPath()): bodies.of(prim) for prim in scene.prims() if colliders.is_seen(scene, prim)},
         )
 
     def _make(self) -> list[Surface]:
@@ -244,7 +237,7 @@ def _read_surfaces(scene: UsdStage, path: str, body: str) -> Iterator[Surface]:
     except GeometryError:
         return
     if len(mesh.faces):
-        yield replace(place_surface(mesh.vertices, mesh.faces, linear, offset, body), rgba=rgba)
+        yield replace(collision_pieces.place_surface(mesh.vertices, mesh.faces, linear, offset, body), rgba=rgba)
 
 
 def _read_color(scene: UsdStage, prim: Any) -> Rgba | None:

@@ -16,31 +16,23 @@ from typing import Any
 
 from meshforge.common import GeometryError, pluralize, write_atomically
 from meshforge.geometry.convex import FLATNESS, convex_hull, principal_extents
-from meshforge.geometry.decomposition.engines import (
-    CoacdSettings,
-    DecomposeSettings,
-    EngineControl,
-    EnginePiece,
-    pack_pieces,
-    run_engine,
-    unpack_pieces,
-)
+from meshforge.geometry.decomposition import engines
 from meshforge.geometry.decomposition.triangles import TriangleMesh, cap_holes, clean_triangles
 from meshforge.geometry.shape import Polytope
 
 _CHECKSUM_SIZE = 16  # bytes
-UNCONTROLLED = EngineControl()
+UNCONTROLLED = engines.EngineControl()
 
 
 def decompose(
     vertices: Any,
     faces: Any,
-    settings: DecomposeSettings | None = None,
+    settings: engines.DecomposeSettings | None = None,
     *,
     close: bool = False,
     cache: Path | None = None,
     note: Callable[[str], None] = lambda _: None,
-    control: EngineControl = UNCONTROLLED,
+    control: engines.EngineControl = UNCONTROLLED,
 ) -> list[Polytope]:
     """Convex hulls that together approximate a mesh, in the engine's order, the same for the same input.
 
@@ -50,14 +42,14 @@ def decompose(
     Raises GeometryError: a mesh that cannot be decomposed, an engine that crashed or took too long;
     DecompositionCancelledError: `control` stopped it.
     """
-    settings = settings or CoacdSettings()
+    settings = settings or engines.CoacdSettings()
     mesh = clean_triangles(vertices, faces)
     if close:
         mesh, holes = cap_holes(mesh)
         if holes:
             note(f"{pluralize(holes, 'planar hole')} closed, so that it counts as solid")
     _check_openness(mesh, settings, note)
-    pieces = _run_cached(mesh, settings, cache, note, lambda: run_engine(mesh, settings, control))
+    pieces = _run_cached(mesh, settings, cache, note, lambda: engines.run_engine(mesh, settings, control))
     hulls = _make_hulls(pieces, mesh.diagonal, note)
     if not hulls:
         raise GeometryError(f"{settings.engine} made no hull", remedy="Try a finer resolution, or the other engine.")
@@ -66,11 +58,11 @@ def decompose(
 
 def _run_cached(
     mesh: TriangleMesh,
-    settings: DecomposeSettings,
+    settings: engines.DecomposeSettings,
     cache: Path | None,
     note: Callable[[str], None],
-    make: Callable[[], list[EnginePiece]],
-) -> list[EnginePiece]:
+    make: Callable[[], list[engines.EnginePiece]],
+) -> list[engines.EnginePiece]:
     if cache is None:
         return make()
     key = cache_key(mesh, settings)
@@ -84,17 +76,17 @@ def _run_cached(
     return pieces
 
 
-def _check_openness(mesh: TriangleMesh, settings: DecomposeSettings, note: Callable[[str], None]) -> None:
+def _check_openness(mesh: TriangleMesh, settings: engines.DecomposeSettings, note: Callable[[str], None]) -> None:
     if not mesh.open_edges:
         return
     problem = f"the mesh is open ({mesh.open_edges} edges of one triangle only)"
-    if isinstance(settings, CoacdSettings) and settings.preprocess_mode == "off":
+    if isinstance(settings, engines.CoacdSettings) and settings.preprocess_mode == "off":
         problem = f"{problem}, and CoACD returns nonsense for open meshes without preprocessing"
         raise GeometryError(problem, remedy='Set preprocess_mode to "auto", or close the mesh.')
     note(f"{problem}: the engine closes it by voxels, so its hulls may be thicker than the surface, or fill it")
 
 
-def _make_hulls(pieces: list[EnginePiece], diagonal: float, note: Callable[[str], None]) -> list[Polytope]:
+def _make_hulls(pieces: list[engines.EnginePiece], diagonal: float, note: Callable[[str], None]) -> list[Polytope]:
     """The convex hull of each piece: sheets get a thickness, needles and crumbs without an area are dropped."""
     thickness = FLATNESS * diagonal
     hulls, dropped = [], 0
@@ -116,7 +108,7 @@ def cache_folder(environment: Mapping[str, str] = os.environ) -> Path:
     return (Path(base) if base else Path.home() / ".cache") / "meshforge"
 
 
-def cache_key(mesh: TriangleMesh, settings: DecomposeSettings) -> str:
+def cache_key(mesh: TriangleMesh, settings: engines.DecomposeSettings) -> str:
     """A digest of geometry, settings, engine and its version."""
     wheel = version(settings.package)
     header = json.dumps([settings.engine, wheel, settings.as_dict(), mesh.vertices.shape], sort_keys=True)
@@ -124,19 +116,19 @@ def cache_key(mesh: TriangleMesh, settings: DecomposeSettings) -> str:
     return hashlib.blake2b(content, digest_size=20).hexdigest()
 
 
-def read_entry(folder: Path, key: str) -> list[EnginePiece] | None:
+def read_entry(folder: Path, key: str) -> list[engines.EnginePiece] | None:
     """The pieces kept under a key; None where there is no entry, or one that is damaged."""
     try:
         content = (folder / "decompositions" / f"{key}.npz").read_bytes()
         packed, checksum = content[:-_CHECKSUM_SIZE], content[-_CHECKSUM_SIZE:]
-        return unpack_pieces(packed) if checksum == _checksum(packed) else None
+        return engines.unpack_pieces(packed) if checksum == _checksum(packed) else None
     except (OSError, ValueError, KeyError, EOFError, zipfile.BadZipFile):
         return None
 
 
-def write_entry(folder: Path, key: str, pieces: list[EnginePiece]) -> None:
+def write_entry(folder: Path, key: str, pieces: list[engines.EnginePiece]) -> None:
     """Keep pieces under a key. Raises OSError where the folder cannot be written."""
-    content = pack_pieces(pieces)
+    content = engines.pack_pieces(pieces)
     write_atomically(folder / "decompositions" / f"{key}.npz", content + _checksum(content))
 
 

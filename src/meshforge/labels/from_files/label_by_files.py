@@ -8,23 +8,9 @@ from pathlib import Path
 
 from meshforge.batch import ExecutionOptions
 from meshforge.common import AssetError, ProjectError
+from meshforge.labels import merge
+from meshforge.labels.from_files import read
 from meshforge.labels.from_files.points import class_names_in_file
-from meshforge.labels.from_files.read import (
-    LabelFileContent,
-    LabelFileOptions,
-    find_label_files,
-    kind_of,
-    read_label_files,
-    read_link_names,
-)
-from meshforge.labels.merge import (
-    LabelOutcome,
-    LabelWriter,
-    OutcomeCallback,
-    can_replace_any,
-    is_protected,
-    merge_labels,
-)
 from meshforge.labels.names.label_by_names import name_patterns
 from meshforge.labels.propose import LabelEvidence, Proposals, group_evidence
 from meshforge.store import Store
@@ -32,31 +18,35 @@ from meshforge.symbolic import Label, match_labels, read_labels
 
 
 def label_from_files(
-    store: Store, source: Path | None, options: LabelFileOptions, execution: ExecutionOptions, report: OutcomeCallback
-) -> tuple[LabelOutcome, ...]:
+    store: Store,
+    source: Path | None,
+    options: read.LabelFileOptions,
+    execution: ExecutionOptions,
+    report: merge.OutcomeCallback,
+) -> tuple[merge.LabelOutcome, ...]:
     """Take the labels that files give; see `LabelStore.label_from_files`."""
     files = _require_files(store, source)
     if not store.vocabulary:
         store.set_vocabulary(_read_vocabulary(files, options))
     patterns = name_patterns(store.folder, store.settings, store.vocabulary, options.meanings)
-    writer, reports = LabelWriter(store), list[LabelOutcome]()
-    for asset, content in read_label_files(store, files, options, writer.vocabulary, patterns, execution):
+    writer, reports = merge.LabelWriter(store), list[merge.LabelOutcome]()
+    for asset, content in read.read_label_files(store, files, options, writer.vocabulary, patterns, execution):
         reports.append(_write_asset(writer, asset, content))
         report(reports[-1])
     return tuple(reports)
 
 
-def _write_asset(writer: LabelWriter, asset: str, content: LabelFileContent) -> LabelOutcome:
+def _write_asset(writer: merge.LabelWriter, asset: str, content: read.LabelFileContent) -> merge.LabelOutcome:
     if content.error:
-        return LabelOutcome(asset, problems=(content.error,))
-    report = writer.try_write(asset, content.hulls, content.given.labels, can_replace_any)
+        return merge.LabelOutcome(asset, problems=(content.error,))
+    report = writer.try_write(asset, content.hulls, content.given.labels, merge.can_replace_any)
     return replace(report, problems=(*report.problems, *content.given.problems))
 
 
 def propose_from_files(
     store: Store,
     source: Path | None,
-    options: LabelFileOptions,
+    options: read.LabelFileOptions,
     vocabulary: Sequence[str] | None,
     execution: ExecutionOptions,
 ) -> Proposals:
@@ -65,13 +55,13 @@ def propose_from_files(
     words = (store.vocabulary if vocabulary is None else tuple(vocabulary)) or _read_vocabulary(files, options)
     patterns = name_patterns(store.folder, store.settings, words, options.meanings)
     found, problems, labelled = list[LabelEvidence](), list[str](), 0
-    for asset, content in read_label_files(store, files, options, words, patterns, execution):
+    for asset, content in read.read_label_files(store, files, options, words, patterns, execution):
         try:
             current = match_labels(store.labels(asset), content.hulls).labels
         except AssetError as error:
             problems.append(f"{asset}: {error.message}")
             continue
-        _, report = merge_labels(asset, content.hulls, current, content.given.labels, words)
+        _, report = merge.merge_labels(asset, content.hulls, current, content.given.labels, words)
         left_out = (content.error,) if content.error else (*report.problems, *content.given.problems)
         problems += [f"{asset}: {problem}" for problem in left_out]
         rows = list(_evidence_of_asset(asset, content, current, files[asset], words))
@@ -81,20 +71,20 @@ def propose_from_files(
 
 
 def _evidence_of_asset(
-    asset: str, content: LabelFileContent, current: Mapping[str, Label], file: Path, words: Sequence[str]
+    asset: str, content: read.LabelFileContent, current: Mapping[str, Label], file: Path, words: Sequence[str]
 ) -> Iterator[LabelEvidence]:
     """What becomes of the hulls whose label would change, or that have none."""
     for hull in content.hulls:
         label, now = content.given.labels.get(hull), current.get(hull)
-        if label and label.name in words and label != now and not is_protected(now, label):
-            yield LabelEvidence(asset, label, kind_of(file), content.given.names.get(hull) or file.name)
+        if label and label.name in words and label != now and not merge.is_protected(now, label):
+            yield LabelEvidence(asset, label, read.kind_of(file), content.given.names.get(hull) or file.name)
         elif now is None:
             yield LabelEvidence(asset, None, "nothing said", hull)
 
 
 def _require_files(store: Store, source: Path | None) -> dict[str, Path]:
     """The file of each asset that has one. Raises ProjectError where no asset has one."""
-    files = find_label_files(store.found, source)
+    files = read.find_label_files(store.found, source)
     if not files:
         raise ProjectError(
             "there is no labels file for any asset",
@@ -104,16 +94,16 @@ def _require_files(store: Store, source: Path | None) -> dict[str, Path]:
     return files
 
 
-def _read_vocabulary(files: Mapping[str, Path], options: LabelFileOptions) -> tuple[str, ...]:
+def _read_vocabulary(files: Mapping[str, Path], options: read.LabelFileOptions) -> tuple[str, ...]:
     return tuple(dict.fromkeys(word for file in files.values() for word in _read_words(file, options)))
 
 
-def _read_words(file: Path, options: LabelFileOptions) -> Iterable[str]:
+def _read_words(file: Path, options: read.LabelFileOptions) -> Iterable[str]:
     """The labels that a file speaks of, in its order."""
-    match kind_of(file):
+    match read.kind_of(file):
         case "labels file":
             labels_file = read_labels(file)
             return (*labels_file.vocabulary, *(label.name for label in labels_file.labels.values()))
         case "points":
             return class_names_in_file(file, options.reading.classes)
-    return read_link_names(file)
+    return read.read_link_names(file)

@@ -14,15 +14,7 @@ import numpy as np
 from meshforge.common import AssetError, GeometryError, join_names, nearest_name, pluralize
 from meshforge.formats import Segmentation, attach_own_mesh, read_class_names, read_segmentation
 from meshforge.geometry import Aabb, Floats
-from meshforge.labels.from_files.segments import (
-    HullVotes,
-    PointAlignment,
-    PointSamples,
-    align_points,
-    samples_of_faces,
-    samples_of_points,
-    vote_by_points,
-)
+from meshforge.labels.from_files import segments
 from meshforge.labels.names.label_by_names import NamePattern, find_pattern
 from meshforge.labels.names.words import match_label
 from meshforge.symbolic import Label, SymbolicMesh
@@ -123,7 +115,7 @@ class PointsOptions:
     those of the vocabulary; none where files say them. placing: how points come into the frame of an asset."""
 
     classes: tuple[str, ...] = ()
-    placing: PointAlignment = field(default_factory=PointAlignment)
+    placing: segments.PointAlignment = field(default_factory=segments.PointAlignment)
 
 
 def label_by_points(
@@ -142,7 +134,7 @@ def label_by_points(
     kinds, places = np.unique(found.classes, return_inverse=True)
     own = np.array([codes.get(int(k), -1) for k in kinds])[places.reshape(-1)]
     samples = _sample(replace(found, classes=own), mesh, path, how.placing)
-    said = vote_by_points([hull.shape for hull in mesh.hulls], samples)
+    said = segments.vote_by_points([hull.shape for hull in mesh.hulls], samples)
     _refuse_points_outside(said, path, how.placing)
     return _to_file_labels(
         mesh, said, {code: (names[k], meanings[k]) for k, code in reversed(codes.items())}, vocabulary
@@ -156,7 +148,9 @@ def _merge_codes(names: Mapping[int, str], meanings: Mapping[int, ClassMeaning |
     return {k: firsts.setdefault(key[k], k) for k in names}
 
 
-def _sample(found: Segmentation, mesh: SymbolicMesh, path: Path, placing: PointAlignment) -> PointSamples:
+def _sample(
+    found: Segmentation, mesh: SymbolicMesh, path: Path, placing: segments.PointAlignment
+) -> segments.PointSamples:
     """Points with classes in the frame of the asset."""
     assert found.vertices is not None  # those of the asset's own mesh were found
     try:
@@ -164,22 +158,22 @@ def _sample(found: Segmentation, mesh: SymbolicMesh, path: Path, placing: PointA
     except GeometryError as error:
         raise AssetError(error.problem, where=str(path), remedy=error.remedy) from error
     if len(found.faces):
-        return samples_of_faces(vertices, found.faces, found.classes, each=found.of_faces)
-    return samples_of_points(vertices, found.classes)
+        return segments.samples_of_faces(vertices, found.faces, found.classes, each=found.of_faces)
+    return segments.samples_of_points(vertices, found.classes)
 
 
-def _align(points: Floats, mesh: SymbolicMesh, placing: PointAlignment) -> Floats:
+def _align(points: Floats, mesh: SymbolicMesh, placing: segments.PointAlignment) -> Floats:
     """The points where the hulls are, or else where is what the asset shows, of which hulls may be only a part."""
     box, up = mesh.aabb, mesh.asset.up if mesh.asset else None
     if box is None:
         return points
     try:
-        return align_points(points, [box], placing, up)
+        return segments.align_points(points, [box], placing, up)
     except GeometryError:
         shown = _visual_box(mesh)
         if shown is None:
             raise
-        return align_points(points, [box, shown], placing, up)
+        return segments.align_points(points, [box, shown], placing, up)
 
 
 def _visual_box(mesh: SymbolicMesh) -> Aabb | None:
@@ -190,7 +184,7 @@ def _visual_box(mesh: SymbolicMesh) -> Aabb | None:
     return box if box and box.diagonal > 0 else None
 
 
-def _refuse_points_outside(said: HullVotes, path: Path, placing: PointAlignment) -> None:
+def _refuse_points_outside(said: segments.HullVotes, path: Path, placing: segments.PointAlignment) -> None:
     """Raise AssetError where most points are in no hull, unless they are to be taken as they are."""
     if placing.align != "off" and said.of_hulls and said.held < _HELD:
         raise AssetError(
@@ -201,7 +195,10 @@ def _refuse_points_outside(said: HullVotes, path: Path, placing: PointAlignment)
 
 
 def _to_file_labels(
-    mesh: SymbolicMesh, said: HullVotes, known: Mapping[int, tuple[str, ClassMeaning | None]], vocabulary: Sequence[str]
+    mesh: SymbolicMesh,
+    said: segments.HullVotes,
+    known: Mapping[int, tuple[str, ClassMeaning | None]],
+    vocabulary: Sequence[str],
 ) -> FileLabels:
     labels, names, odd = dict[str, Label](), dict[str, str](), Counter[str]()
     for hull, vote in zip(mesh.hulls, said.of_hulls, strict=True):

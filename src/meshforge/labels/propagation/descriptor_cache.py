@@ -17,16 +17,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from meshforge.batch import (
-    ExecutionOptions,
-    WorkerFailure,
-    execute,
-    has_same_files,
-    read_prepared,
-    record_digest,
-    software_version,
-    text_digest,
-)
+from meshforge import batch
 from meshforge.common import AssetError, describe_error, replace_atomically
 from meshforge.geometry import Floats, Ints
 from meshforge.labels.propagation.describe import MeshDescriber
@@ -80,7 +71,7 @@ class _Work:
 class DescriptorCache:
     """The descriptions of some assets of a project, as far as they are known."""
 
-    def __init__(self, store: Store, facts: Mapping[str, AssetFacts], execution: ExecutionOptions) -> None:
+    def __init__(self, store: Store, facts: Mapping[str, AssetFacts], execution: batch.ExecutionOptions) -> None:
         contact = store.settings.thresholds.contact or EPSILON
         layout, base = store.layout, store.found.base
         self._execution = execution
@@ -103,9 +94,9 @@ class DescriptorCache:
         """Describe some assets; yield those that cannot be described, with why. done: called for each."""
         work = [self._work[asset] for asset in assets]
         for asset, result in zip(
-            assets, execute(_describe, work, replace(self._execution, progress=done)), strict=True
+            assets, batch.execute(_describe, work, replace(self._execution, progress=done)), strict=True
         ):
-            if isinstance(result, WorkerFailure):
+            if isinstance(result, batch.WorkerFailure):
                 yield asset, f"{self._work[asset].path}: {result.why}"
             elif result:
                 yield asset, result
@@ -127,13 +118,18 @@ class DescriptorCache:
         """The rows of assets on some of their other sides, or why there are none; done: called for each asset."""
         work = [replace(self._work[asset], sides=sides) for asset, sides in wanted]
         for (asset, _), result in zip(
-            wanted, execute(_describe_sides, work, replace(self._execution, progress=done)), strict=True
+            wanted, batch.execute(_describe_sides, work, replace(self._execution, progress=done)), strict=True
         ):
-            yield asset, f"{self._work[asset].path}: {result.why}" if isinstance(result, WorkerFailure) else result
+            yield (
+                asset,
+                f"{self._work[asset].path}: {result.why}" if isinstance(result, batch.WorkerFailure) else result,
+            )
 
 
 def _digest_key(facts: AssetFacts, contact: float) -> str:
-    return text_digest(json.dumps([software_version(), contact, facts.preparation, facts.files], sort_keys=True))
+    return batch.text_digest(
+        json.dumps([batch.software_version(), contact, facts.preparation, facts.files], sort_keys=True)
+    )
 
 
 def _read_kept(work: _Work, what: str, *names: str) -> list[NDArray[Any]] | None:
@@ -170,7 +166,9 @@ def _describe_sides(work: _Work) -> list[Floats] | str:
 
 def _read_mesh(work: _Work) -> SymbolicMesh:
     """The mesh of an asset. Raises AssetError where its files changed since the survey."""
-    mesh = SymbolicMesh.of(read_prepared(work.path, work.preparation))
-    if record_digest(work.preparation) != work.prepared or not has_same_files(work.files, work.path, work.base):
+    mesh = SymbolicMesh.of(batch.read_prepared(work.path, work.preparation))
+    if batch.record_digest(work.preparation) != work.prepared or not batch.has_same_files(
+        work.files, work.path, work.base
+    ):
         raise AssetError("it was changed meanwhile", where=str(work.path), remedy=_REMEDY)
     return replace(mesh, epsilon=work.contact)

@@ -12,15 +12,8 @@ from meshforge.common import AssetError, MeshForgeError, ProjectError
 from meshforge.geometry import Floats
 from meshforge.label_model import FamilyTable, reference_label
 from meshforge.labels.merge import LabelOutcome, LabelWriter, OutcomeCallback, can_replace_less_certain
+from meshforge.labels.propagation import propagate
 from meshforge.labels.propagation.descriptor_cache import DescriptorCache
-from meshforge.labels.propagation.propagate import (
-    FamilyPosterior,
-    build_family,
-    compute_posterior,
-    correct_upright,
-    find_doubtful_sides,
-    metric_weights,
-)
 from meshforge.labels.propose import LabelEvidence, Proposals, group_evidence
 from meshforge.store import AssetFacts, Store, survey
 from meshforge.symbolic import Label, LabelFile, match_labels
@@ -44,7 +37,7 @@ class FamilyComparison:
     """What labels say about all hulls. assets: those that were described, in order; lost: why others were not."""
 
     assets: tuple[str, ...]
-    found: FamilyPosterior
+    found: propagate.FamilyPosterior
     lost: dict[str, str]
 
     @property
@@ -79,13 +72,15 @@ def compare_family(
     described = {asset: own for asset, own in seen.items() if own}
     lost |= {asset: f"{asset}: how it is described was not kept" for asset in missing if asset not in described | lost}
     assets = tuple(described)
-    family = build_family([*described.values()]).with_labels([label for asset in assets for label in known[asset]])
+    family = propagate.build_family([*described.values()]).with_labels(
+        [label for asset in assets for label in known[asset]]
+    )
     del seen, described
     doubtful = list(_find_doubtful(family, assets, cache, execution.stop))
     with stage(len(doubtful), "looking at other sides") as advance:
         places = {asset: place for place, asset in enumerate(assets)}
         sides = _collect_sides(cache.describe_sides(doubtful, advance), places, lost)
-        family = correct_upright(family, sides, metric_weights())
+        family = propagate.correct_upright(family, sides, propagate.metric_weights())
     return FamilyComparison(assets, _compute_isolated(family, execution.stop), lost)
 
 
@@ -94,7 +89,9 @@ def _find_doubtful(
 ) -> Iterator[tuple[str, tuple[int, ...]]]:
     """The assets that may lie on another side, and on which."""
 
-    for place, sides in find_doubtful_sides(family, lambda place: cache.read_sides(assets[place]), metric_weights()):
+    for place, sides in propagate.find_doubtful_sides(
+        family, lambda place: cache.read_sides(assets[place]), propagate.metric_weights()
+    ):
         raise_if_stopped(stop)
         if sides:
             yield assets[place], sides
@@ -111,10 +108,10 @@ def _collect_sides(
             yield places[asset], rows
 
 
-def _compute_isolated(family: FamilyTable, stop: Callable[[], bool] | None) -> FamilyPosterior:
+def _compute_isolated(family: FamilyTable, stop: Callable[[], bool] | None) -> propagate.FamilyPosterior:
     """What labels say, in a process of its own where that may have to be stopped in the midst."""
 
-    (found,) = run_isolated(compute_posterior, [family], ExecutionOptions(1 if stop else 0, None, stop=stop))
+    (found,) = run_isolated(propagate.compute_posterior, [family], ExecutionOptions(1 if stop else 0, None, stop=stop))
     if isinstance(found, WorkerFailure):
         raise MeshForgeError(f"the labels could not be propagated: {found.why}")
     return found

@@ -22,15 +22,7 @@ from meshforge.geometry import (
     tight_capsule,
     tight_cylinder,
 )
-from meshforge.language.actions.base import (
-    DIRECTION,
-    PRIMITIVES,
-    Action,
-    FileArgument,
-    FlagArgument,
-    PrimitiveOrFileArgument,
-    WordArgument,
-)
+from meshforge.language.actions import base
 from meshforge.language.actions.edit import GroupEdit, HullGroup
 from meshforge.language.syntax import Direction
 
@@ -44,25 +36,25 @@ _TIGHT_FITS = {"box": tight_box, "cylinder": tight_cylinder, "capsule": tight_ca
 
 
 @dataclass(frozen=True, slots=True)
-class Replace(Action):
+class Replace(base.Action):
     """Replaces the selected hulls of each body by a primitive or a template that fills their bounding box."""
 
     by_body: ClassVar[bool] = True
-    geometry: str = field(metadata={"argument": PrimitiveOrFileArgument()})
+    geometry: str = field(metadata={"argument": base.PrimitiveOrFileArgument()})
     fit: Literal["tight", "longest"] | None = field(
-        default=None, metadata={"argument": WordArgument(("tight", "longest"))}
+        default=None, metadata={"argument": base.WordArgument(("tight", "longest"))}
     )
 
     def conflict(self) -> str | None:
         if self.fit == "tight" and self.geometry not in ("box", "cylinder", "capsule"):
             return f"tight is for box, cylinder and capsule, not {self.geometry}"
-        if self.fit == "longest" and self.geometry in PRIMITIVES:
+        if self.fit == "longest" and self.geometry in base.PRIMITIVES:
             return f"longest is for template files, not {self.geometry}"
         return None
 
     @property
     def templates(self) -> tuple[str, ...]:
-        return () if self.geometry in PRIMITIVES else (self.geometry,)
+        return () if self.geometry in base.PRIMITIVES else (self.geometry,)
 
     def edit(self, group: HullGroup) -> GroupEdit:
         if self.templates:
@@ -105,13 +97,13 @@ def _quarter_turn(start: int, end: int) -> Floats:
 
 
 @dataclass(frozen=True, slots=True)
-class Add(Action):
+class Add(base.Action):
     """Puts a template against the side of the selected hulls' bounding box, as large as fits it or at its own size."""
 
     by_body: ClassVar[bool] = True
-    direction: Direction = field(metadata={"argument": DIRECTION})
-    template: str = field(metadata={"argument": FileArgument()})
-    keep: bool = field(default=False, metadata={"argument": FlagArgument("keep")})
+    direction: Direction = field(metadata={"argument": base.DIRECTION})
+    template: str = field(metadata={"argument": base.FileArgument()})
+    keep: bool = field(default=False, metadata={"argument": base.FlagArgument("keep")})
 
     @property
     def templates(self) -> tuple[str, ...]:

@@ -8,16 +8,7 @@ from collections import Counter
 from collections.abc import Iterable
 from pathlib import Path
 
-from meshforge.batch import (
-    OWN_FOLDERS,
-    STATE,
-    AssetOutcome,
-    ExecutionOptions,
-    Failed,
-    file_digest,
-    read_stamp,
-    status_of,
-)
+from meshforge import batch
 from meshforge.common import (
     ProjectError,
     UsageError,
@@ -34,7 +25,7 @@ from meshforge.studio.wire.jobs import ApplyJob, ExportJob, Job, JobLine
 
 EXPORT_MARK = ".meshforge-export"
 """The file that an export leaves in its folder: the names of all that was exported, one a line."""
-_RESERVED = (*OWN_FOLDERS, STATE)
+_RESERVED = (*batch.OWN_FOLDERS, batch.STATE)
 
 
 def start_apply(session: Session, request: ApplyJob) -> Job:
@@ -48,10 +39,10 @@ def start_apply(session: Session, request: ApplyJob) -> Job:
     def work(progress: JobProgress) -> str:
         counts: Counter[str] = Counter()
         outcomes = project.apply(
-            assets, execution=ExecutionOptions(stop=progress.is_stopped, progress=progress.advance)
+            assets, execution=batch.ExecutionOptions(stop=progress.is_stopped, progress=progress.advance)
         )
         for outcome in outcomes:
-            counts[status_of(outcome)] += 1
+            counts[batch.status_of(outcome)] += 1
             progress.add_line(_apply_line(outcome))
             session.note_output(outcome.asset)
         text = ", ".join(f"{number} {word}" for word, number in counts.items())
@@ -61,11 +52,11 @@ def start_apply(session: Session, request: ApplyJob) -> Job:
     return session.jobs.start("apply", title, len(assets), work, str(project.layout.edited))
 
 
-def _apply_line(outcome: AssetOutcome) -> JobLine:
-    if isinstance(outcome, Failed):
+def _apply_line(outcome: batch.AssetOutcome) -> JobLine:
+    if isinstance(outcome, batch.Failed):
         return JobLine(asset=outcome.asset, status="failed", text=outcome.error)
     parts = [f"{outcome.before} → {pluralize(outcome.after, 'hull')}", *outcome.notes, *outcome.flags]
-    return JobLine(asset=outcome.asset, status=status_of(outcome), text="; ".join(parts))
+    return JobLine(asset=outcome.asset, status=batch.status_of(outcome), text="; ".join(parts))
 
 
 def start_check(session: Session) -> Job:
@@ -122,7 +113,7 @@ def start_export(session: Session, request: ExportJob) -> Job:
 
 def _export_asset(edited: Path, folder: Path, asset: str, known: dict[str, None], kept: dict[str, None]) -> JobLine:
     """Copy all files of one output, the main one last, so that it never names what is not there."""
-    stamp = read_stamp(edited, asset)
+    stamp = batch.read_stamp(edited, asset)
     if stamp is None or stamp.status not in ("edited", "unchanged"):
         return JobLine(asset=asset, status="skipped", text="it has no output")
     if not stamp.is_whole(edited):
@@ -140,7 +131,7 @@ def _export_asset(edited: Path, folder: Path, asset: str, known: dict[str, None]
 
 
 def _copy_file(source: Path, target: Path) -> None:
-    if target.is_file() and file_digest(target) == file_digest(source):
+    if target.is_file() and batch.file_digest(target) == batch.file_digest(source):
         return
     with replace_atomically(target) as draft:
         shutil.copyfile(source, draft)

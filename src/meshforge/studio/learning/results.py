@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from weakref import WeakKeyDictionary
 
+from meshforge import synthesis
 from meshforge.batch import template_digests
 from meshforge.common import MeshForgeError
 from meshforge.language import EXTREMITY, Extractor, Program, Template, apply_rule, explain, select_mask, show
@@ -15,22 +16,14 @@ from meshforge.store import repair_id
 from meshforge.studio.queries.programs import rule_views
 from meshforge.studio.wire import program as wire
 from meshforge.symbolic import SymbolicMesh, bits_of
-from meshforge.synthesis import (
-    Demonstration,
-    LearningOutcome,
-    NoProgram,
-    Question,
-    Reading,
-    Repair,
-    begin_replay,
-    memoize,
-)
 
 
-def build_lesson_view(number: int, outcome: LearningOutcome, looked_at: int, seconds: float) -> wire.LessonView:
+def build_lesson_view(
+    number: int, outcome: synthesis.LearningOutcome, looked_at: int, seconds: float
+) -> wire.LessonView:
     """The outcome of a learning run. number: of the run; looked_at: how many assets it looked at; seconds: its time."""
     counts = Counter(reading.rule for reading in outcome.readings)
-    failure = outcome if isinstance(outcome, NoProgram) else None
+    failure = outcome if isinstance(outcome, synthesis.NoProgram) else None
     suggested = failure.suggested if failure else None
     return wire.LessonView(
         number=number,
@@ -54,7 +47,7 @@ def build_lesson_view(number: int, outcome: LearningOutcome, looked_at: int, sec
     )
 
 
-def _view_reading(reading: Reading) -> wire.ReadingView:
+def _view_reading(reading: synthesis.Reading) -> wire.ReadingView:
     return wire.ReadingView(
         id=reading.id,
         rule=reading.rule,
@@ -66,7 +59,7 @@ def _view_reading(reading: Reading) -> wire.ReadingView:
     )
 
 
-def _view_repair(repair: Repair) -> wire.RepairView:
+def _view_repair(repair: synthesis.Repair) -> wire.RepairView:
     wrong = repair.correction
     return wire.RepairView(
         id=repair_id(wrong),
@@ -80,7 +73,7 @@ def _view_repair(repair: Repair) -> wire.RepairView:
     )
 
 
-def _view_question(question: Question, outcome: LearningOutcome) -> wire.QuestionView:
+def _view_question(question: synthesis.Question, outcome: synthesis.LearningOutcome) -> wire.QuestionView:
     readings = {reading.id: reading for reading in outcome.readings}
     return wire.QuestionView(
         id=question.id,
@@ -100,7 +93,7 @@ def _view_question(question: Question, outcome: LearningOutcome) -> wire.Questio
     )
 
 
-def _view_nearest(outcome: LearningOutcome) -> wire.NearestView | None:
+def _view_nearest(outcome: synthesis.LearningOutcome) -> wire.NearestView | None:
     near = outcome.nearest
     if near is None:
         return None
@@ -140,7 +133,7 @@ class HullOrigins:
 
 def measure_reach(plan: ProgramWithTemplates, asset: str, mesh: SymbolicMesh) -> wire.Reach:
     """What a program does on an asset; cached with the mesh."""
-    return memoize(mesh, ("reach", asset, plan.key), wire.Reach, lambda: _measure_reach(plan, asset, mesh))
+    return synthesis.memoize(mesh, ("reach", asset, plan.key), wire.Reach, lambda: _measure_reach(plan, asset, mesh))
 
 
 def _measure_reach(plan: ProgramWithTemplates, asset: str, mesh: SymbolicMesh) -> wire.Reach:
@@ -185,7 +178,7 @@ class RuleSelector:
 def _run_rules(plan: ProgramWithTemplates, mesh: SymbolicMesh) -> _RuleMesh:
     program, origins, used = plan.program, HullOrigins(mesh), frozenset[str]()
     try:
-        current = begin_replay("", Demonstration(mesh, ()), program.orient, program.contact).mesh
+        current = synthesis.begin_replay("", synthesis.Demonstration(mesh, ()), program.orient, program.contact).mesh
         for rule in program.rules:
             _, applied = apply_rule(current, rule, plan.templates, program.extremity, used)
             origins.add(applied.made, applied.sources)

@@ -8,21 +8,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from meshforge import language
 from meshforge.common import MeshForgeError
-from meshforge.language import (
-    All,
-    BaseExtractor,
-    Extractor,
-    Geo,
-    Is,
-    Orient,
-    Program,
-    Rule,
-    Template,
-    orient_mesh,
-    select_mask,
-    size_of,
-)
 from meshforge.symbolic import NEAR_MISS, SymbolicMesh
 from meshforge.synthesis.demonstration import Demonstration, Example, RuleSpec, name_demonstrations
 from meshforge.synthesis.options import Layers, Options, OutOfTime, TimeBudget
@@ -49,8 +36,8 @@ class OrientationSearch:
         self,
         demos: Sequence[Demonstration],
         rules: Sequence[RuleSpec],
-        frame: Program,
-        templates: Mapping[str, Template],
+        frame: language.Program,
+        templates: Mapping[str, language.Template],
         options: Options,
         budget: TimeBudget,
         sizes: Sequence[int] | None,
@@ -62,19 +49,19 @@ class OrientationSearch:
         self._turners = [
             (name, demo, MeshTurner(demo.mesh, frame.contact)) for name, demo in name_demonstrations(demos)
         ]
-        self._by_orient: dict[Orient, FrameAttempt | None] = {}
+        self._by_orient: dict[language.Orient, FrameAttempt | None] = {}
         self._by_turns: dict[tuple[bytes, ...], FrameAttempt] = {}
-        self._extractors: dict[frozenset[Signature], Extractor] = {}
+        self._extractors: dict[frozenset[Signature], language.Extractor] = {}
         self._none_up_to: dict[frozenset[Signature], int] = {}
 
-    def attempt(self, orient: Orient) -> FrameAttempt | None:
+    def attempt(self, orient: language.Orient) -> FrameAttempt | None:
         """Learning in the frame of a directive, as far as it came; None where it fails on a demonstrated mesh."""
         if orient not in self._by_orient:
             self._budget.check()
             self._by_orient[orient] = self._begin(orient)
         return self._by_orient[orient]
 
-    def _begin(self, orient: Orient) -> FrameAttempt | None:
+    def _begin(self, orient: language.Orient) -> FrameAttempt | None:
         """Directives that turn every mesh alike share one attempt."""
         try:
             turned = [(name, demo, *turning.turn(orient)) for name, demo, turning in self._turners]
@@ -93,14 +80,14 @@ class OrientationSearch:
             self.floors[rule.number - 1] = 2
         return found
 
-    def find_smallest(self, rule: RuleInFrame, most: int) -> Extractor | None:
+    def find_smallest(self, rule: RuleInFrame, most: int) -> language.Extractor | None:
         """The extractor that learning finds, if it has at most that many nodes. Raises OutOfTime."""
         if rule.base or rule.strays or most < rule.least:
             return rule.base
         if rule.signatures not in self._extractors and self._none_up_to.get(rule.signatures, 0) < most:
             self._search(rule, most)
         found = self._extractors.get(rule.signatures)
-        return found if found and size_of(found) <= most else None
+        return found if found and language.size_of(found) <= most else None
 
     def _search(self, rule: RuleInFrame, most: int) -> None:
         options = replace(self._options, max_size=most)
@@ -112,9 +99,9 @@ class OrientationSearch:
         else:
             self._none_up_to[rule.signatures] = most
 
-    def advance(self, replays: Sequence[Replay], rule: RuleSpec, extractor: Extractor) -> list[Replay]:
+    def advance(self, replays: Sequence[Replay], rule: RuleSpec, extractor: language.Extractor) -> list[Replay]:
         """The replays after one more rule. Raises MeshForgeError where its action cannot be done."""
-        done = Rule(extractor, rule.action, rule.label)
+        done = language.Rule(extractor, rule.action, rule.label)
         return [advanced(replay, rule.number, done, self._templates, self._frame.extremity) for replay in replays]
 
 
@@ -161,10 +148,10 @@ class FrameAttempt:
             return False
         return extractor is not None
 
-    def _apply(self, extractor: Extractor) -> None:
+    def _apply(self, extractor: language.Extractor) -> None:
         rule, self._next = self._search.rules[len(self.sizes)], None
         self._replays = self._search.advance(self._replays, rule, extractor)
-        self.sizes.append(size_of(extractor))
+        self.sizes.append(language.size_of(extractor))
 
     def _stop(self) -> None:
         self._over, self._next, self._replays = True, None, []  # there may be hundreds of attempts
@@ -181,7 +168,7 @@ class RuleInFrame:
     """
 
     examples: tuple[Example, ...]
-    base: BaseExtractor | None
+    base: language.BaseExtractor | None
     signatures: frozenset[Signature] = frozenset()
     strays: int = 0
     least: int = 1
@@ -191,15 +178,15 @@ def analyze_rule(
     examples: Sequence[Example], vocabulary: Sequence[str], layers: Layers, extremity: float
 ) -> RuleInFrame:
     """A rule as it is met on some examples."""
-    bases: list[BaseExtractor] = [*map(Is, vocabulary), All()]
+    bases: list[language.BaseExtractor] = [*map(language.Is, vocabulary), language.All()]
     for base in bases:
-        if all(select_mask(base, example.mesh) == example.selection for example in examples):
+        if all(language.select_mask(base, example.mesh) == example.selection for example in examples):
             return RuleInFrame(tuple(examples), base)
     chosen = enumerate_leaves(vocabulary, layers)
     table = HullTable([example.mesh for example in examples]).table(chosen, extremity)
     shown = [bool(e.selection >> index & 1) for e in examples for index in range(len(e.mesh.hulls))]
     fits = (table == np.array(shown)).all(axis=1)
-    least = 2 if any(isinstance(chosen[row], Geo) for row in np.flatnonzero(fits)) else 3
+    least = 2 if any(isinstance(chosen[row], language.Geo) for row in np.flatnonzero(fits)) else 3
     columns = [column.tobytes() for column in np.packbits(table.T, axis=1)]
     seen = Counter(zip(columns, shown, strict=True))
     return RuleInFrame(tuple(examples), None, frozenset(seen), _count_strays(seen), least)
@@ -220,12 +207,12 @@ class MeshTurner:
         self._mesh = replace(mesh, epsilon=epsilon)
         self._wide = replace(mesh, epsilon=epsilon * _MAX_STRETCH, scale=None)
 
-    def turn(self, orient: Orient | None) -> tuple[SymbolicMesh, bytes]:
+    def turn(self, orient: language.Orient | None) -> tuple[SymbolicMesh, bytes]:
         """The mesh in the frame of a directive, and a key that turns have in common when they are the same.
 
         Raises ProgramError where the orientation fails.
         """
-        oriented, pose = orient_mesh(self._mesh, orient)
+        oriented, pose = language.orient_mesh(self._mesh, orient)
         staged = replace(oriented, scale=oriented.diagonal)
         reach = staged.contact_distance * NEAR_MISS
         staged.set_known_graph({pair: gap for pair, gap in self._wide.graph.items() if gap <= reach})

@@ -10,29 +10,13 @@ from dataclasses import dataclass
 from functools import cache
 from typing import assert_never
 
-from meshforge.language import (
-    DIRECTIONS,
-    EXTREMITY,
-    All,
-    Attach,
-    BaseExtractor,
-    Diff,
-    Direction,
-    Extractor,
-    Geo,
-    Intersect,
-    Is,
-    Union,
-    attach_mask,
-    geo_mask,
-    size_of,
-)
+from meshforge import language
 from meshforge.synthesis.demonstration import Example, LabelChange
 from meshforge.synthesis.options import Layers
 from meshforge.synthesis.search.smallest import NearestExtractor
 from meshforge.synthesis.search.terms import SetOperator
 
-OPERATORS: tuple[SetOperator, ...] = (Union, Intersect, Diff)
+OPERATORS: tuple[SetOperator, ...] = (language.Union, language.Intersect, language.Diff)
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,15 +33,15 @@ class BaseHole:
 class OpenAttach:
     """An `Attach` with a hole in one place or both."""
 
-    selected: BaseExtractor | BaseHole
-    anchor: BaseExtractor | BaseHole
+    selected: language.BaseExtractor | BaseHole
+    anchor: language.BaseExtractor | BaseHole
 
 
 @dataclass(frozen=True, slots=True)
 class OpenGeo:
     """A `Geo` whose base is a hole."""
 
-    direction: Direction
+    direction: language.Direction
 
 
 @dataclass(frozen=True, slots=True)
@@ -70,7 +54,7 @@ class OpenOperator:
 
 
 Open = Hole | OpenAttach | OpenGeo | OpenOperator
-Partial = Open | Extractor
+Partial = Open | language.Extractor
 
 
 class HoleGrammar:
@@ -80,9 +64,9 @@ class HoleGrammar:
     """
 
     def __init__(self, vocabulary: Sequence[str], layers: Layers) -> None:
-        self.bases: tuple[BaseExtractor, ...] = (*map(Is, vocabulary), All())
+        self.bases: tuple[language.BaseExtractor, ...] = (*map(language.Is, vocabulary), language.All())
         contact = [OpenAttach(BaseHole(), BaseHole())] if "T" in layers else []
-        position = map(OpenGeo, DIRECTIONS) if "G" in layers else []
+        position = map(OpenGeo, language.DIRECTIONS) if "G" in layers else []
         operators = [OpenOperator(operator, Hole(), Hole()) for operator in OPERATORS]
         self.extractors: tuple[Partial, ...] = (*self.bases, *contact, *position, *operators)
 
@@ -92,7 +76,7 @@ class HoleGrammar:
             case Hole():
                 yield from self.extractors
             case OpenGeo(direction):
-                yield from (Geo(base, direction) for base in self.bases)
+                yield from (language.Geo(base, direction) for base in self.bases)
             case OpenAttach(BaseHole(), anchor):
                 yield from (make_attach(base, anchor) for base in self.bases)
             case OpenAttach(selected, _):
@@ -106,11 +90,13 @@ class HoleGrammar:
                 assert_never(partial)
 
 
-def make_attach(selected: BaseExtractor | BaseHole, anchor: BaseExtractor | BaseHole) -> Attach | OpenAttach:
+def make_attach(
+    selected: language.BaseExtractor | BaseHole, anchor: language.BaseExtractor | BaseHole
+) -> language.Attach | OpenAttach:
     """`Attach` of two bases, either of which may be a hole."""
     if isinstance(selected, BaseHole) or isinstance(anchor, BaseHole):
         return OpenAttach(selected, anchor)
-    return Attach(selected, anchor)
+    return language.Attach(selected, anchor)
 
 
 def make_operator(operator: SetOperator, left: Partial, right: Partial) -> Partial:
@@ -132,7 +118,7 @@ def count_nodes(partial: Partial) -> int:
         case OpenOperator(_, left, right):
             return 1 + count_nodes(left) + count_nodes(right)
         case _:
-            return size_of(partial)
+            return language.size_of(partial)
 
 
 class Worklist:
@@ -168,7 +154,7 @@ Bounds = tuple[int, int]
 class ExampleMasks:
     """An example with its hulls by label; what is in contact or farthest is looked up once for the same bit sets."""
 
-    def __init__(self, example: Example, extremity: float = EXTREMITY) -> None:
+    def __init__(self, example: Example, extremity: float = language.EXTREMITY) -> None:
         self.example, mesh = example, example.mesh
         self.name, self.target = example.name, example.selection
         self.everything = (1 << len(mesh.hulls)) - 1
@@ -176,36 +162,36 @@ class ExampleMasks:
 
         @cache
         def attach(selected: int, anchor: int) -> int:
-            return attach_mask(mesh, selected, anchor)
+            return language.attach_mask(mesh, selected, anchor)
 
         @cache
-        def geo(base: int, direction: Direction) -> int:
-            return geo_mask(mesh, base, direction, extremity)
+        def geo(base: int, direction: language.Direction) -> int:
+            return language.geo_mask(mesh, base, direction, extremity)
 
         self.attach, self.geo = attach, geo
 
-    def select(self, extractor: Extractor, labels: LabelMasks | None = None) -> int:
+    def select(self, extractor: language.Extractor, labels: LabelMasks | None = None) -> int:
         """What an extractor selects, as a bit set; labels: those to go by, without them the mesh's own."""
         labels = self.labels if labels is None else labels
         match extractor:
-            case All():
+            case language.All():
                 return self.everything
-            case Is(label):
+            case language.Is(label):
                 return labels.get(label, 0)
-            case Attach(selected, anchor):
+            case language.Attach(selected, anchor):
                 return self.attach(self.select(selected, labels), self.select(anchor, labels))
-            case Geo(base, direction):
+            case language.Geo(base, direction):
                 return self.geo(self.select(base, labels), direction)
-            case Union(left, right):
+            case language.Union(left, right):
                 return self.select(left, labels) | self.select(right, labels)
-            case Intersect(left, right):
+            case language.Intersect(left, right):
                 return self.select(left, labels) & self.select(right, labels)
-            case Diff(left, right):
+            case language.Diff(left, right):
                 return self.select(left, labels) & ~self.select(right, labels)
             case _:
                 assert_never(extractor)
 
-    def differences(self, extractor: Extractor) -> int:
+    def differences(self, extractor: language.Extractor) -> int:
         """The hulls that an extractor selects though they were not shown, or the other way round, as a bit set."""
         return self.select(extractor) ^ self.target
 
@@ -252,16 +238,16 @@ def bounds(partial: Partial, demo: ExampleMasks) -> Bounds:
             return selection, selection
 
 
-def _base_bounds(base: BaseExtractor | BaseHole, demo: ExampleMasks) -> Bounds:
+def _base_bounds(base: language.BaseExtractor | BaseHole, demo: ExampleMasks) -> Bounds:
     return (0, demo.everything) if isinstance(base, BaseHole) else bounds(base, demo)
 
 
 def _combine_bounds(operator: SetOperator, left: Bounds, right: Bounds) -> Bounds:
-    if operator is Union:
+    if operator is language.Union:
         return left[0] | right[0], left[1] | right[1]
-    if operator is Intersect:
+    if operator is language.Intersect:
         return left[0] & right[0], left[1] & right[1]
-    assert operator is Diff
+    assert operator is language.Diff
     return left[0] & ~right[1], left[1] & ~right[0]
 
 
@@ -270,9 +256,9 @@ class NearestTracker:
 
     def __init__(self, demos: Sequence[ExampleMasks]) -> None:
         self._demos = demos
-        self._best: tuple[int, Extractor] | None = None
+        self._best: tuple[int, language.Extractor] | None = None
 
-    def offer(self, extractor: Extractor) -> int:
+    def offer(self, extractor: language.Extractor) -> int:
         """In how many hulls an extractor differs from what was shown: 0 is a match."""
         count = sum(demo.differences(extractor).bit_count() for demo in self._demos)
         if self._best is None or count < self._best[0]:

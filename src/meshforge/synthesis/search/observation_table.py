@@ -11,21 +11,7 @@ from math import dist
 import numpy as np
 import numpy.typing as npt
 
-from meshforge.language import (
-    DIRECTIONS,
-    EXTREMITY,
-    SLACK,
-    All,
-    Attach,
-    BaseExtractor,
-    Diff,
-    Extractor,
-    Geo,
-    Intersect,
-    Is,
-    Union,
-    reference_length,
-)
+from meshforge import language
 from meshforge.symbolic import SymbolicMesh, mask_of
 from meshforge.synthesis.options import Layers
 from meshforge.synthesis.search.terms import Leaf, Term, combine, enumerate_leaves, leaf_key
@@ -46,7 +32,7 @@ class ObservationTable:
         meshes: Sequence[SymbolicMesh],
         vocabulary: Sequence[str],
         layers: Layers = "S+T+G",
-        extremity: float = EXTREMITY,
+        extremity: float = language.EXTREMITY,
         group: bool = True,
     ) -> None:
         self.meshes = tuple(meshes)
@@ -75,11 +61,11 @@ class ObservationTable:
         rows = zip(selections, self.groups, strict=False)
         return mask_of(group for mask, groups in rows for hull, group in enumerate(groups) if mask >> hull & 1)
 
-    def term(self, extractor: Extractor) -> Term:
+    def term(self, extractor: language.Extractor) -> Term:
         """An extractor over the leaves as a term, operands in the order that terms have."""
         return self._groups.term(extractor)
 
-    def bits(self, extractor: Extractor) -> int:
+    def bits(self, extractor: language.Extractor) -> int:
         """The groups that an extractor over the leaves selects."""
         return self.term(extractor).bits
 
@@ -128,16 +114,16 @@ class HullGroups:
             for leaf, row in zip(chosen, packed, strict=True)
         ]
 
-    def term(self, extractor: Extractor) -> Term:
+    def term(self, extractor: language.Extractor) -> Term:
         """An extractor over the leaves as a term, operands in the order that terms have."""
         match extractor:
-            case Union(left, right) | Intersect(left, right) | Diff(left, right):
+            case language.Union(left, right) | language.Intersect(left, right) | language.Diff(left, right):
                 return combine(type(extractor), self.term(left), self.term(right))
             case leaf:
                 return self._leaves[leaf]
 
     @cached_property
-    def _leaves(self) -> dict[Extractor, Term]:
+    def _leaves(self) -> dict[language.Extractor, Term]:
         return {term.extractor: term for term in self.terms}
 
 
@@ -158,39 +144,39 @@ class HullTable:
         self._low = np.concatenate([none, *(mesh.corners[0] for mesh in meshes)])
         self._high = np.concatenate([none, *(mesh.corners[1] for mesh in meshes)])
         self._labels = labels if labels is not None else [hull.label for mesh in meshes for hull in mesh.hulls]
-        self._slack = np.array([SLACK * reference_length(mesh) for mesh in meshes])
+        self._slack = np.array([language.SLACK * language.reference_length(mesh) for mesh in meshes])
         contacts = {id(mesh): np.array(list(mesh.contacts), dtype=np.int64).reshape(-1, 2) for mesh in meshes}
         pairs = [contacts[id(mesh)] + start for mesh, start in zip(meshes, self.starts, strict=False)]
         self._contacts = np.concatenate([np.zeros((0, 2), dtype=np.int64), *pairs])
 
     def table(self, leaves: Sequence[Leaf], extremity: float) -> Bools:
         """Whether each leaf selects each hull: (leaves, hulls)."""
-        bases = self._base_masks([leaf for leaf in leaves if isinstance(leaf, All | Is)])
-        touching: dict[BaseExtractor, Bools] = {}
-        extreme: dict[BaseExtractor, Bools] = {}
+        bases = self._base_masks([leaf for leaf in leaves if isinstance(leaf, language.All | language.Is)])
+        touching: dict[language.BaseExtractor, Bools] = {}
+        extreme: dict[language.BaseExtractor, Bools] = {}
         table = np.zeros((len(leaves), len(self._labels)), dtype=np.bool_)
         for row, leaf in enumerate(leaves):
             match leaf:
-                case All() | Is():
+                case language.All() | language.Is():
                     table[row] = bases[leaf]
-                case Attach(selected, anchor):
+                case language.Attach(selected, anchor):
                     if anchor not in touching:
                         touching[anchor] = self._contact_mask(bases[anchor])
                     table[row] = bases[selected] & touching[anchor]
-                case Geo(base, direction):
+                case language.Geo(base, direction):
                     if base not in extreme:
                         extreme[base] = self._extreme_masks(bases[base], extremity)
-                    table[row] = extreme[base][DIRECTIONS.index(direction)]
+                    table[row] = extreme[base][language.DIRECTIONS.index(direction)]
         return table
 
-    def _base_masks(self, asked: Sequence[BaseExtractor]) -> dict[BaseExtractor, Bools]:
+    def _base_masks(self, asked: Sequence[language.BaseExtractor]) -> dict[language.BaseExtractor, Bools]:
         places: dict[str | None, list[int]] = {}
         for place, label in enumerate(self._labels):
             places.setdefault(label, []).append(place)
-        found: dict[BaseExtractor, Bools] = {}
+        found: dict[language.BaseExtractor, Bools] = {}
         for base in asked:
-            found[base] = np.full(len(self._labels), isinstance(base, All))
-            if isinstance(base, Is):
+            found[base] = np.full(len(self._labels), isinstance(base, language.All))
+            if isinstance(base, language.Is):
                 found[base][places.get(base.label, [])] = True
         return found
 
@@ -203,7 +189,7 @@ class HullTable:
 
     def _extreme_masks(self, base: Bools, extremity: float) -> Bools:
         """For each direction, the hulls of a base that reach farthest along it on their mesh: (6, hulls)."""
-        found = np.zeros((len(DIRECTIONS), len(base)), dtype=np.bool_)
+        found = np.zeros((len(language.DIRECTIONS), len(base)), dtype=np.bool_)
         chosen = np.flatnonzero(base)
         if not len(chosen):
             return found
@@ -214,7 +200,7 @@ class HullTable:
         lowest, highest = np.minimum.reduceat(low, firsts), np.maximum.reduceat(high, firsts)
         diagonals = np.array([dist(a, b) for a, b in zip(lowest.tolist(), highest.tolist(), strict=True)])
         slack = self._slack[owner[firsts]]
-        for row, direction in enumerate(DIRECTIONS):
+        for row, direction in enumerate(language.DIRECTIONS):
             axis = "XYZ".index(direction[1])
             reach, most = (high, highest) if direction[0] == "+" else (-low, -lowest)
             nearest = most[:, axis] - extremity * diagonals - slack
