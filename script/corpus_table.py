@@ -21,10 +21,10 @@ _SECONDS = 300.0  # for one file
 _HEAD = """\
 # What MeshForge makes of real files
 
-Every file of the corpus that MeshForge can be given, and every folder of several mesh files, was opened by
-`script/corpus`; `script/corpus --check` tells what reads otherwise now. The whole table is [corpus.tsv](corpus.tsv):
-path, format, hulls, bodies, opaque pieces with the reasons, notes, and the message where a file is refused.
-Collada files are read as parts of other assets, so they stand as `part .dae`.
+`script/corpus` opened every file of the corpus that MeshForge can read, and every folder of several mesh files;
+`script/corpus --check` lists the files that it reads differently now. The whole table is [corpus.tsv](corpus.tsv):
+path, format, hulls, bodies, non-convex pieces (column `opaque`) with the reasons, notes, and the message if a file is
+refused. Collada files are read as parts of other assets, so their rows say `part .dae`.
 """
 
 
@@ -55,12 +55,12 @@ def parsed(text: str) -> dict[str, str]:
 
 
 def page(found: Sequence[Row]) -> str:
-    """The page: a summary by format, the files that are refused, what is noted, and the files that are all opaque."""
+    """The page: a summary by format, the files that are refused, what is noted, and the files without a hull."""
     refused = [one for one in found if one.message]
     closed = [one for one in found if one.opaque and not one.hulls]
     parts = [_HEAD, f"{pluralize(len(found), 'row')}: {_totals(found)}.\n", _summary(found)]
     parts += [_listed("Refused", refused, "message"), _noted(found)]
-    parts += [_listed("Without a hull, all of it opaque", closed, "reasons")]
+    parts += [_listed("Without a hull, all pieces non-convex", closed, "reasons")]
     return "\n".join(parts)
 
 
@@ -83,13 +83,13 @@ def _cell(text: str) -> str:
 def _totals(found: Sequence[Row]) -> str:
     hulls, opaque = sum(one.hulls for one in found), sum(one.opaque for one in found)
     refused = sum(bool(one.message) for one in found)
-    return f"{pluralize(hulls, 'hull')}, {pluralize(opaque, 'opaque piece')}, {refused} refused"
+    return f"{pluralize(hulls, 'hull')}, {pluralize(opaque, 'non-convex piece')}, {refused} refused"
 
 
 def _summary(found: Sequence[Row]) -> str:
     kinds = Counter(_kind(one) for one in found)
     lines = [
-        "| format | files | with hulls | hulls | bodies | opaque pieces | refused |",
+        "| format | files | with hulls | hulls | bodies | non-convex pieces | refused |",
         "|---|---|---|---|---|---|---|",
     ]
     for kind in sorted(kinds):
@@ -108,7 +108,7 @@ def _kind(one: Row) -> str:
 
 
 def _listed(title: str, found: Sequence[Row], field: str) -> str:
-    lines = [f"## {title} ({len(found)})\n", "| file | hulls | opaque | |", "|---|---|---|---|"]
+    lines = [f"## {title} ({len(found)})\n", "| file | hulls | non-convex | |", "|---|---|---|---|"]
     lines += [f"| {one.path} | {one.hulls} | {one.opaque} | {_cell(str(getattr(one, field)))} |" for one in found]
     return "\n".join(lines) + "\n"
 

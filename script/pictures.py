@@ -66,7 +66,7 @@ def _numbered(path: Path) -> None:
 
 
 def _labels(path: Path) -> None:
-    """The contact sheet of all tables after the labels of two were carried over."""
+    """The contact sheet of all tables after the labels of two were propagated."""
     with tempfile.TemporaryDirectory() as scratch:
         program = Program.read(TABLES / "tables.mf")
         project = Project.create(Path(scratch) / "p", sorted(TABLES.glob("*.obj")), vocabulary=program.labels)

@@ -48,7 +48,7 @@ def _unlabelled(folder: Path) -> Project:
 
 
 def _page(browser: Browser, address: str, theme: Literal["light", "dark"]) -> Page:
-    """An open page, when all thumbnails are drawn and the lesson is over."""
+    """An open page, when all thumbnails are drawn and learning is over."""
     width, height = SIZE
     context = browser.new_context(viewport={"width": width, "height": height}, color_scheme=theme)
     page = context.new_page()
@@ -59,10 +59,10 @@ def _page(browser: Browser, address: str, theme: Literal["light", "dark"]) -> Pa
 
 
 def _labelling(page: Page, path: Path) -> None:
-    """What carrying over the labels of one table gave, at the first hull that is unsure."""
+    """What propagation of the labels of one table gave, at the first hull that is unsure."""
     page.keyboard.press("Alt+1")
     page.keyboard.press("p")
-    page.get_by_text("carried over").first.wait_for()
+    page.get_by_text("Labels propagated").first.wait_for()
     page.wait_for_timeout(5000)
     page.keyboard.press("n")
     page.wait_for_timeout(3000)

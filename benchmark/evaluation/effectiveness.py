@@ -243,7 +243,7 @@ def _notes(true: Groups) -> Iterator[str]:
     )
     yield (
         "*Propagated labels*: a person labels one mesh, or three, as advised, and looks through the labels of each "
-        "that is demonstrated; those of all others are carried over. *Labels given*: by hand, a session; the meshes "
+        "that is demonstrated; those of all others are propagated. *Labels given*: by hand, a session; the meshes "
         "labelled before are not judged. F1 and FPR are against true labels throughout."
     )
     yield (

@@ -86,7 +86,7 @@ def measure(tell: Tell, quick: bool) -> Result:
     ]
     if not quick:
         tables += [_lying(tell), _left_out(tell)]
-    return Result("propagation", "Labels carried from a few meshes to all others", tuple(tables), goals, _NOTES)
+    return Result("propagation", "Labels propagated from a few meshes to all others", tuple(tables), goals, _NOTES)
 
 
 _COLUMNS = ("", "meshes labelled", "as advised", "other assets only", "at random")

@@ -79,9 +79,9 @@ def _notes(rows: Sequence[Row]) -> Iterator[str]:
         "with beliefs. *Repair on*: wrong labels are looked for too."
     )
     yield (
-        f"Who takes longer than {LIMIT:.0f} s, the budget of a lesson, is stopped, and counts as having taken so long; "
-        "what the paper's strategy does not finish without repair is not tried with it. With repair it asks about "
-        "labels, and the answer is no."
+        f"Who takes longer than {LIMIT:.0f} s, the budget of one learning run, is stopped, and counts as "
+        "having taken so long; what the paper's strategy does not finish without repair is not tried with "
+        "it. With repair it asks about labels, and the answer is no."
     )
     yield (
         "Problem by problem the ratio to the paper's strategy grows with what is to be found: of one node it takes "

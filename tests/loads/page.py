@@ -11,22 +11,22 @@ from tests.loads.rows import Cell, Row
 _HEAD = f"""\
 # Loaded by others
 
-`script/loads` writes the bundled tables, and samples with joints, turned and mirrored bodies, frames, opaque pieces and
-native shapes, in every format; edits each of these files by one program, and writes it again; then loads all in other
-programs, and compares what these find with what MeshForge says. The program deletes, scales, puts native shapes in
-place of hulls, and adds one:
+`script/loads` writes the bundled tables, and samples with joints, turned and mirrored bodies, frames, non-convex
+pieces and native shapes, in every format. It edits each of these files by one program and writes it again. Then it
+loads all of them in other programs, and compares the shapes that these find with those of MeshForge. The program
+deletes, scales, replaces hulls by native shapes, and adds one:
 
 ```
 {str(EDIT).strip()}
 ```
 
-A cell says how many files agree, and how many collision shapes they have: as many shapes, and each reaches as far in 26
-directions of the world (the axes, the diagonals of their planes, those of the octants) as that of MeshForge, within
-{TOLERANCE:g} of the largest coordinate. So place, size, turn and handedness agree. Where a reader is less exact than
-that, it is said below.
+A cell says how many files agree, and how many collision shapes they have. A file agrees if it has as many shapes, and
+each reaches as far as that of MeshForge in 26 directions of the world (the axes, the diagonals of their planes, those
+of the octants), within {TOLERANCE:g} of the largest coordinate. So place, size, turn and handedness agree. Readers
+that are less exact are named below.
 
 ```sh
-python3 -m venv drake && drake/bin/pip install drake   # several readers want other packages than MeshForge
+python3 -m venv drake && drake/bin/pip install drake   # several readers need other packages than MeshForge
 script/loads --python drake=drake/bin/python --page docs/loads.md
 ```
 
@@ -55,18 +55,18 @@ def _cell(cell: Cell | None) -> str:
 
 
 def _notes(rows: Sequence[Row], refused: Sequence[Refused]) -> Iterator[str]:
-    yield "An empty cell is a format that the reader does not load. What there is to say:"
+    yield "An empty cell is a format that the reader does not load. Notes:"
     yield ""
-    yield "- MeshForge itself: what it reads back is what was to be written."
+    yield "- MeshForge itself: it reads back what it should have written."
     for row in rows:
         said = [row.reader.about, *(f"Not {suffix}: {why}." for suffix, why in row.reader.absent.items())]
         limits = {f"{suffix} {asset}": row.reader.limits[suffix, asset] for suffix, asset in sorted(row.limits)}
         said += [f"Left out, {name}: {why}." for name, why in limits.items()]
         if any(said):
             yield f"- {row.reader.title}: {' '.join(filter(None, said))}"
-    yield "- .glb, .gltf: where a scene has visuals, only `KHR_physics_rigid_bodies` tells its colliders, which no"
-    yield "  reader here knows: such samples are left out. Round shapes are shown by polytopes, up to 6% of their width"
-    yield "  inside."
+    yield "- .glb, .gltf: where a scene has visuals, only `KHR_physics_rigid_bodies` marks its colliders, which no"
+    yield "  reader here supports: such samples are left out. Polytopes stand for round shapes, up to 6% of"
+    yield "  their width inside."
     for one in refused:
         yield f"- {one.suffix} {one.asset} is not written: {one.why}."
     wrong = [told for row in rows for told in row.differences]

@@ -58,6 +58,6 @@ READER = Reader(
     _shapes,
     rounds=0.06,
     besides=_USD,
-    about="It turns glTF, which is y-up, to z-up; here it is turned back. Of USD it reads what is seen, too.",
+    about="It turns glTF, which is y-up, to z-up; here it is turned back. From USD it reads visual meshes, too.",
     limits={(usd, "legs"): "it scales a sphere unevenly, where USD's own physics has a ball" for usd in _USD},
 )

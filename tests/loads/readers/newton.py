@@ -63,5 +63,5 @@ READER = Reader(
     "newton",
     dict.fromkeys((".urdf", ".xml", ".usda", ".usdc", ".usdz"), "shape"),
     _shapes,
-    about="It leaves the unit of a stage to its caller, and is asked not to approximate meshes on its own.",
+    about="It leaves the unit of a stage to its caller; an option keeps it from approximating meshes.",
 )

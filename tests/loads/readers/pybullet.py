@@ -68,11 +68,11 @@ READER = Reader(
     _shapes,
     share=2e-4,
     rounds=0.01,
-    about="Cylinders are polytopes of 64 corners in it. It computes hulls in whole numbers, which moves corners by up "
+    about="It turns cylinders into polytopes of 64 corners. It computes hulls in integers, which moves corners by up "
     "to 2e-4 of a hull's width.",
     absent={".xml": "its reader of MJCF lets visual geoms collide and has no ellipsoids"},
     limits={
-        (".sdf", "primitives"): "it has no capsules and no ellipsoids in an SDF",
-        (".sdf", "model"): "it knows no frames in an SDF",
+        (".sdf", "primitives"): "it does not support capsules and ellipsoids in an SDF",
+        (".sdf", "model"): "it does not support frames in an SDF",
     },
 )

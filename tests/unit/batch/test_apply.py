@@ -284,6 +284,7 @@ def test_labels_follow_hulls_that_were_renamed(tmp_path: Path, out: Path) -> Non
     assert edited.notes == ("labels followed renamed hulls: crumb to litter",)
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="this system has no named pipes")
 def test_an_asset_that_takes_for_ever_fails_and_the_others_are_done(assets: Path, out: Path) -> None:
     first, *others = make_jobs(expand([assets]))

@@ -37,6 +37,7 @@ def filled(mebibytes: int) -> int | str:
         return "no room"
 
 
+@pytest.mark.slow
 @only_linux
 def test_a_monster_has_no_room_and_the_others_have() -> None:
     assert list(run_isolated(filled, [10, 900, 20], ExecutionOptions(1, None, 500 * MIB))) == [10, "no room", 20]

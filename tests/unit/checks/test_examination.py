@@ -57,6 +57,7 @@ def test_an_asset_that_shows_nothing_says_so() -> None:
     assert list(draw_examination(cup(WHOLE, shown=()), found)) == []
 
 
+@pytest.mark.slow
 def test_the_command_line_measures_an_edit_against_what_was_before(run: Run) -> None:
     told = run(
         "check", "after", "--fit", "--clearance", "--physics", "--against", "before", "--pictures", "out", "--json"

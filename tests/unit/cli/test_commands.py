@@ -210,6 +210,7 @@ def test_convert_leaves_labels_that_are_there_alone(run: Run) -> None:
     assert Path("other.labels.json").read_text() == '{"hulls": {}}'
 
 
+@pytest.mark.slow
 def test_convert_of_many_mirrors_their_tree_and_goes_on_where_it_was(run: Run) -> None:
     write_tables(Path("many"), 3)
     Path("many/table1/model.obj").write_text("v 1 2\n")
@@ -290,6 +291,7 @@ def test_check_tells_legal_from_illegal(run: Run) -> None:
     assert {"far", "again"} <= {name for finding in told.json["findings"] for name in finding["hulls"]}
 
 
+@pytest.mark.slow
 def test_a_check_that_was_killed_goes_on_where_it_was(run: Run) -> None:
     write_tables(Path("tables"), 3)
     words = ("check", "tables", "--engine", "unreal", "--journal", "j.jsonl", "--workers", "1")
@@ -333,6 +335,7 @@ def test_apply_runs_a_program_on_files_and_names_the_one_that_fails(run: Run) ->
     assert not Path("out/bad.obj").exists()
 
 
+@pytest.mark.slow
 def test_apply_writes_a_report_with_checks_failures_first(run: Run) -> None:
     Path("bad.obj").write_text("v 1 2\n")
     Path("p.mf").write_text("labels leg, panel\n\nIs(leg) => Merge\n")
@@ -389,6 +392,7 @@ def test_wrong_usage_is_one_message_and_exit_code_two(run: Run, words: tuple[str
     assert problem in told.err
 
 
+@pytest.mark.slow
 def test_the_loop_of_a_project_from_the_command_line(run: Run) -> None:
     assert run("new", "rows", "row.obj", "--vocabulary", "leg,panel").code == 0
     taken, summary = map(json.loads, run("label", "rows", "--with", "file", "--json").out.splitlines())

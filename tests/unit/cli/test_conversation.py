@@ -122,6 +122,7 @@ def test_having_enough_amid_the_labels_keeps_what_was_said(tmp_path: Path) -> No
     assert project.answers().ids == ("1:rack2.obj",)
 
 
+@pytest.mark.slow
 def test_an_answer_that_leaves_no_program_can_be_taken_back(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     project = ambiguous(tmp_path)
     learn, failed = LearningSession.learn, Project.open(project.folder).synthesize

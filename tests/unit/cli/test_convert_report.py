@@ -25,6 +25,7 @@ def run(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], tmp
     return runner(monkeypatch, capsys)
 
 
+@pytest.mark.slow
 def test_what_failed_comes_first_and_losses_are_told(run: Run) -> None:
     told = run("convert", "in/*", "out", "--to", "obj", "--report", "r.html", "--json")
     assert told.code == 1 and "report: r.html" in told.err

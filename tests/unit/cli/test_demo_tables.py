@@ -8,6 +8,7 @@ from meshforge.cli.demo import STUDIO_MARK, create_tables, open_tables
 from meshforge.common import UsageError
 
 
+@pytest.mark.slow
 def test_the_tables_of_the_studio_are_labelled_and_nothing_is_shown_yet(tmp_path: Path) -> None:
     project = open_tables(tmp_path / "demo")
     assert len(project.assets()) == 14

@@ -25,6 +25,7 @@ def run(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], tmp
     return runner(monkeypatch, capsys)
 
 
+@pytest.mark.slow
 def test_propagate_says_where_to_begin_then_labels_the_rest_and_says_what_to_look_at(run: Run, tmp_path: Path) -> None:
     first = run("label", "p", "--with", "propagate")
     assert first.code == 2
@@ -40,6 +41,7 @@ def test_propagate_says_where_to_begin_then_labels_the_rest_and_says_what_to_loo
     assert told.out.splitlines()[-1].startswith("If some are wrong, label or correct this one next: t")
 
 
+@pytest.mark.slow
 def test_propagate_reports_as_json_a_line_an_asset(run: Run, tmp_path: Path) -> None:
     Project.open(tmp_path / "p").set_labels("t0.obj", dict.fromkeys(NAMES, "leg"))
     told = run("label", "p", "--with", "propagate", "--json").out.splitlines()
@@ -51,6 +53,7 @@ def test_propagate_reports_as_json_a_line_an_asset(run: Run, tmp_path: Path) -> 
     assert closing["sheets"] == [str(tmp_path / "p/pictures/labels-001.png")]
 
 
+@pytest.mark.slow
 def test_the_summary_counts_by_source_and_confidence_and_names_the_picture(run: Run, tmp_path: Path) -> None:
     project = Project.open(tmp_path / "p")
     project.set_labels("t0.obj", {"top": "top"})
@@ -66,12 +69,14 @@ def test_the_summary_counts_by_source_and_confidence_and_names_the_picture(run: 
         assert picture.width > 2 * 320
 
 
+@pytest.mark.slow
 def test_sheets_of_all_assets_go_where_one_wants_them(run: Run, tmp_path: Path) -> None:
     run("label", "p", "--with", "names", "--sheets", "sheets")
     assert [path.name for path in (tmp_path / "sheets").iterdir()] == ["labels-001.png"]
     assert not (tmp_path / "p/pictures").exists()
 
 
+@pytest.mark.slow
 def test_names_label_what_is_called_like_a_label(run: Run, tmp_path: Path) -> None:
     told = run("label", "p", "--with", "names")
     assert told.code == 0
@@ -87,6 +92,7 @@ def test_a_folder_of_labels_files_is_for_files_only(run: Run, source: str) -> No
     assert f"--labels names labels files, which --with {source} does not read" in told.err
 
 
+@pytest.mark.slow
 def test_propagate_shows_what_it_would_carry_over(run: Run, tmp_path: Path) -> None:
     project = Project.open(tmp_path / "p")
     project.set_labels("t0.obj", {name: {"misc": "crumb"}.get(label_of(name), label_of(name)) for name in NAMES})
@@ -103,6 +109,7 @@ def test_propagate_shows_what_it_would_carry_over(run: Run, tmp_path: Path) -> N
     assert not project.labels("t1.obj").labels
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("source", ["file", "names", "propagate"])
 def test_a_broken_asset_is_named_and_the_others_are_labelled(run: Run, tmp_path: Path, source: str) -> None:
     project = Project.open(tmp_path / "p")
@@ -117,6 +124,7 @@ def test_a_broken_asset_is_named_and_the_others_are_labelled(run: Run, tmp_path:
     assert project.labels("t2.obj").labels and not project.labels("t1.obj").labels
 
 
+@pytest.mark.slow
 def test_a_damaged_labels_file_costs_its_asset(run: Run, tmp_path: Path) -> None:
     (tmp_path / "assets/t0.labels.json").write_text("{")
     (tmp_path / "assets/t1.labels.json").write_text('{"hulls": {"top": "top"}}')

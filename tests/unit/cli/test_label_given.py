@@ -61,6 +61,7 @@ frame    semantics      frame_side-1        2        2   0.70
     left out: 7120/mobility.urdf: 1 hull left out: 'furniture_body' is not in the vocabulary, and no pattern says what it means"""  # noqa: E501
 
 
+@pytest.mark.slow
 def test_names_are_shown_before_they_are_taken(run: Run, tmp_path: Path) -> None:
     before = tree(tmp_path / "p")
     shown = run("label", "p", "--with", "names", "--dry-run")
@@ -72,6 +73,7 @@ def test_names_are_shown_before_they_are_taken(run: Run, tmp_path: Path) -> None
     assert "7119/mobility.urdf: 5 labels taken, 1 hull without a label\n" in done.out
 
 
+@pytest.mark.slow
 def test_files_are_shown_before_they_are_taken(run: Run, tmp_path: Path) -> None:
     before = tree(tmp_path / "p")
     assert told(run("label", "p", "--dry-run").out) == FILES
@@ -85,6 +87,7 @@ def test_files_are_shown_before_they_are_taken(run: Run, tmp_path: Path) -> None
     )
 
 
+@pytest.mark.slow
 def test_json_says_the_same(run: Run) -> None:
     shown = json.loads(run("label", "p", "--with", "names", "--dry-run", "--json").out)
     assert shown["take"][0] == {
@@ -109,6 +112,7 @@ def test_another_vocabulary_is_tried_without_being_set(run: Run, tmp_path: Path)
     assert Project.open(tmp_path / "p").vocabulary == VOCABULARY
 
 
+@pytest.mark.slow
 def test_segmented_points_are_read_with_the_names_that_are_given(run: Run, tmp_path: Path) -> None:
     mesh = Project.open(tmp_path / "p").mesh("7119/mobility.urdf")
     points = np.concatenate([hull.vertices for hull in mesh.hulls])
@@ -146,6 +150,7 @@ def test_misuse_is_told_in_one_message(run: Run, tmp_path: Path, words: tuple[st
     assert tree(tmp_path / "p") == before
 
 
+@pytest.mark.slow
 def test_a_pattern_may_hold_an_equals_sign(run: Run) -> None:
     shown = run("label", "p", "--with", "names", "--dry-run", "--pattern", "/knob(?=-3)/=handle")
     assert "knob-3" in shown.out

@@ -36,6 +36,7 @@ def cards(page: Any) -> dict[str, list[str]]:
     return dict(zip(names(page), (texts(card, ".//p") for card in page.xpath("//article")), strict=True))
 
 
+@pytest.mark.slow
 def test_labels_of_files_with_problems_and_doubts_first(run: Run) -> None:
     told = run("label", "p", "--report", "r.html")
     assert told.code == 1 and "report: r.html" in told.err
@@ -60,6 +61,7 @@ def test_labels_of_files_with_problems_and_doubts_first(run: Run) -> None:
     assert "<i>" not in Path("r.html").read_text("utf-8")
 
 
+@pytest.mark.slow
 def test_carried_labels_are_shown_with_what_is_unsure(run: Run) -> None:
     run("label", "p")
     told = run("label", "p", "--with", "propagate", "--report", "r.html", "--json")
@@ -74,6 +76,7 @@ def test_carried_labels_are_shown_with_what_is_unsure(run: Run) -> None:
     assert ("hatched: an unsure label" in texts(page, "//ul[@class='legend']/li")) == bool(unsure)
 
 
+@pytest.mark.slow
 def test_labels_of_names_give_the_same_page(run: Run) -> None:
     assert run("label", "p", "--with", "names", "--report", "r.html").code == 1  # for the damaged file
     page = opened("r.html")
@@ -84,6 +87,7 @@ def test_labels_of_names_give_the_same_page(run: Run) -> None:
     ] * 3
 
 
+@pytest.mark.slow
 def test_of_very_many_assets_the_page_shows_some_and_says_so(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("meshforge.cli.label_report.MOST_PICTURED", 2)
     run("label", "p", "--report", "r.html")

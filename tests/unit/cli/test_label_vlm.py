@@ -51,6 +51,7 @@ def run(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> 
     return runner(monkeypatch, capsys)
 
 
+@pytest.mark.slow
 def test_it_says_what_was_labelled_what_was_not_and_what_it_cost(run: Run, server: Server, tmp_path: Path) -> None:
     told = run("label", "p", "--with", "vlm")
     assert told.code == 0
@@ -73,6 +74,7 @@ def test_it_says_what_was_labelled_what_was_not_and_what_it_cost(run: Run, serve
     assert "0 answers, 4 more from earlier; 0 tokens in, 0 out; $0.0000\n" in again.out
 
 
+@pytest.mark.slow
 def test_json_has_a_line_an_asset_and_one_for_the_bill(run: Run, server: Server) -> None:
     lines = run("label", "p", "--with", "vlm", "--json").lines
     assert lines[2]["open"] == {
@@ -83,6 +85,7 @@ def test_json_has_a_line_an_asset_and_one_for_the_bill(run: Run, server: Server)
     assert (lines[-1]["ended"], lines[-1]["unasked"], lines[-1]["blind"]) == (None, [], False)
 
 
+@pytest.mark.slow
 def test_the_report_tells_why_hulls_got_no_label(run: Run, server: Server) -> None:
     run("label", "p", "--with", "vlm", "--report", "r.html")
     page = opened("r.html")
@@ -95,6 +98,7 @@ def test_the_report_tells_why_hulls_got_no_label(run: Run, server: Server) -> No
     assert texts(page, "//header/p")[0].startswith("Labels by a vision-language model.")
 
 
+@pytest.mark.slow
 def test_a_dry_run_says_what_would_be_sent_and_sends_nothing(run: Run, server: Server, tmp_path: Path) -> None:
     before = sorted(tmp_path.rglob("*"))
     told = run("label", "p", "--with", "vlm", "--dry-run")
@@ -113,6 +117,7 @@ def test_a_dry_run_says_what_would_be_sent_and_sends_nothing(run: Run, server: S
     assert (found["mode"], found["questions"] > 3, found["key_is_set"]) == ("exact", True, True)
 
 
+@pytest.mark.slow
 def test_a_dry_run_says_that_the_key_or_the_prices_are_not_there(
     run: Run, server: Server, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -124,6 +129,7 @@ def test_a_dry_run_says_that_the_key_or_the_prices_are_not_there(
     assert "out: price not known\n" in told
 
 
+@pytest.mark.slow
 def test_the_limit_of_the_command_line_ends_it_with_what_is_left(run: Run, server: Server) -> None:
     told = run("label", "p", "--with", "vlm", "--max-cost", "0.0105")
     assert told.code == 1
@@ -133,6 +139,7 @@ def test_the_limit_of_the_command_line_ends_it_with_what_is_left(run: Run, serve
     assert "; run it again to go on\n" in told.err
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("words", "message"),
     [
@@ -159,6 +166,7 @@ def test_what_is_for_a_model_is_for_no_other_source(run: Run, server: Server, wo
     assert f"{words[0]} is for --with vlm" in told.err
 
 
+@pytest.mark.slow
 def test_a_model_that_may_not_see_is_told(run: Run, server: Server) -> None:
     server._probed = lambda asked: "Green."  # type: ignore[method-assign]
     told = run("label", "p", "--with", "vlm")

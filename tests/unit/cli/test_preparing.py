@@ -33,6 +33,7 @@ def project(run: Run) -> str:
     return "p"
 
 
+@pytest.mark.slow
 def test_new_with_decompose_makes_hulls_and_says_what_it_made(run: Run) -> None:
     told = run("new", "p", "in/stand.urdf", "in/row.obj", *VOXELS)
     assert told.code == 0
@@ -50,6 +51,7 @@ def test_new_with_decompose_exits_with_1_where_a_piece_fails_and_the_project_is_
     assert Path("p/meshforge.toml").is_file()
 
 
+@pytest.mark.slow
 def test_a_piece_without_area_is_told_once_and_not_advised_to_be_prepared(run: Run) -> None:
     Path("in/line.obj").write_text("o l\nv 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n")
     told = run("new", "p", "in/line.obj", *VOXELS)
@@ -70,6 +72,7 @@ def test_an_unknown_option_of_the_engine_makes_no_project(run: Run) -> None:
     assert not Path("p").exists()
 
 
+@pytest.mark.slow
 def test_status_and_info_lead_to_what_can_be_prepared(run: Run, project: str) -> None:
     assert "2 without hulls (meshforge prepare)" in run("status", project).out
     run("prepare", project, "stand.urdf", *VOXELS, "--only", "frame/*")
@@ -126,6 +129,7 @@ def test_all_is_taken_back_at_once(run: Run, project: str) -> None:
     assert run("prepare", project, "--remove").out == ""
 
 
+@pytest.mark.slow
 def test_names_that_no_piece_or_body_has_are_told(run: Run, project: str) -> None:
     told = run("prepare", project, *VOXELS, "--only", "nothing*")
     assert told.code == 0
@@ -154,6 +158,7 @@ def test_what_cannot_be_taken_back_is_named_and_the_rest_is(run: Run, project: s
     assert not Path("p/prepared/stand.urdf").exists()
 
 
+@pytest.mark.slow
 def test_what_is_kept_for_an_asset_that_is_gone_can_be_taken_away(run: Run) -> None:
     run("new", "p", "in/stand.*", "in/row.*", "--vocabulary", "a,b")
     run("split", "p", "row.obj", "geom0#1", "--at", "2,0,0", "--across", "1,0,0")
@@ -166,6 +171,7 @@ def test_what_is_kept_for_an_asset_that_is_gone_can_be_taken_away(run: Run) -> N
     assert "not there" not in run("status", "p").out
 
 
+@pytest.mark.slow
 def test_a_damaged_record_is_taken_back_and_a_folder_in_its_place_is_told(run: Run, project: str) -> None:
     record = Path("p/prepared/row.obj/preparation.json")
     record.parent.mkdir(parents=True)

@@ -303,6 +303,7 @@ def test_what_cannot_serve_is_refused_before_anything_is_read(tmp_path: Path) ->
 # Offers
 
 
+@pytest.mark.slow
 def test_points_and_semantics_are_offered_until_something_was_taken(tmp_path: Path) -> None:
     project, offers = partnet(tmp_path), OfferCache()
     assert offers.of(project).files == (ASSET,)

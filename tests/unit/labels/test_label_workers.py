@@ -34,6 +34,7 @@ def begun(folder: Path, count: int = 4) -> Project:
     return project
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("way", WAYS)
 def test_labels_are_the_same_whatever_the_number_of_workers(tmp_path: Path, way: str) -> None:
     project, found = begun(tmp_path), []
@@ -46,6 +47,7 @@ def test_labels_are_the_same_whatever_the_number_of_workers(tmp_path: Path, way:
     assert found[0] == found[1] == found[2]
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(sys.platform != "linux", reason="only Linux bounds the memory of a process")
 def test_an_asset_without_room_is_told_and_the_others_are_labelled(tmp_path: Path) -> None:
     project = begun(tmp_path, 3)
@@ -59,6 +61,7 @@ def test_an_asset_without_room_is_told_and_the_others_are_labelled(tmp_path: Pat
         assert all(reports[asset].taken and not reports[asset].problems for asset in others)
 
 
+@pytest.mark.slow
 def test_each_asset_is_told_in_order_when_its_labels_are_there(tmp_path: Path) -> None:
     project, told = begun(tmp_path), list[str]()
 

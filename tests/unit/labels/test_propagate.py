@@ -75,6 +75,7 @@ def names_of(found: FamilyPosterior, mesh: int) -> list[str | None]:
     return [label.name if label else None for label in found.labels(mesh)]
 
 
+@pytest.mark.slow
 def test_a_sure_label_is_right_more_often_than_an_unsure_one() -> None:
     found = [outcome(name, 2) for name in ("cup", "door", "table")]
     right, sure = (np.concatenate([row[k] for row in found]) for k in (0, 1))

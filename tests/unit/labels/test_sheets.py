@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import numpy as np
+import pytest
 from PIL import Image
 
 from meshforge.labels import SourceTally
@@ -17,6 +18,7 @@ from tests.unit.labels.test_propagating import family
 NAMES = tuple(table_boxes())
 
 
+@pytest.mark.slow
 def test_sheets_hold_all_assets_that_can_be_drawn_and_replace_older_ones(tmp_path: Path) -> None:
     project = family(tmp_path, 2)
     (tmp_path / "assets/t1.obj").write_text("nothing of use")

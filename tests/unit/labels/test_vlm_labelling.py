@@ -44,6 +44,7 @@ def charged(server: Server) -> float:
     return (server.usage["input"] + 4 * server.usage["output"]) / 1e6
 
 
+@pytest.mark.slow
 def test_a_model_labels_a_family_and_a_second_run_asks_nothing(tmp_path: Path) -> None:
     project = family(tmp_path, 4)
     with serving(right) as server:
@@ -60,6 +61,7 @@ def test_a_model_labels_a_family_and_a_second_run_asks_nothing(tmp_path: Path) -
         assert project.labels("t001.obj").labels == before
 
 
+@pytest.mark.slow
 def test_drawn_in_worker_processes_it_asks_the_same_and_labels_the_same(tmp_path: Path) -> None:
     asked = []
     for name, spread in (("here", IN_PROCESS), ("workers", ExecutionOptions(workers=2))):
@@ -76,6 +78,7 @@ def test_drawn_in_worker_processes_it_asks_the_same_and_labels_the_same(tmp_path
     assert asked[0] == asked[1]
 
 
+@pytest.mark.slow
 def test_an_asset_that_takes_too_long_to_draw_costs_itself(tmp_path: Path) -> None:
     project = family(tmp_path, 3)
     with serving(right) as server:
@@ -288,6 +291,7 @@ ACTS = st.lists(
 )
 
 
+@pytest.mark.slow
 @examples(15, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(acts=ACTS, seed=st.integers(0, 1000))
 def test_no_label_of_a_person_or_a_file_is_ever_changed(

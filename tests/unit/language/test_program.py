@@ -115,6 +115,7 @@ def test_a_program_that_cannot_be_read_is_named(tmp_path: Path) -> None:
         Program.read(str(tmp_path / "bytes.mf"))
 
 
+@pytest.mark.slow
 def test_the_language_is_imported_without_the_parser_library() -> None:
     code = "import sys, meshforge.language; sys.exit('lark' in sys.modules)"
     assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0

@@ -5,6 +5,8 @@ from __future__ import annotations
 import json
 from pathlib import Path
 
+import pytest
+
 from meshforge.batch import IN_PROCESS
 from meshforge.language import Delete, Program
 from meshforge.project import Project
@@ -24,6 +26,7 @@ def applied(folder: Path) -> Project:
     return project
 
 
+@pytest.mark.slow
 def test_what_was_accepted_by_itself_settles_what_was_open(tmp_path: Path) -> None:
     project = applied(tmp_path)
     project.review(SHELVED, "accepted")
@@ -37,6 +40,7 @@ def test_what_was_accepted_by_itself_settles_what_was_open(tmp_path: Path) -> No
     assert isinstance(project.synthesize(), Ambiguous)
 
 
+@pytest.mark.slow
 def test_who_accepts_many_at_once_or_flags_says_nothing_of_each(tmp_path: Path) -> None:
     project = applied(tmp_path)
     project.review([SHELVED, ALSO], "accepted")
@@ -71,6 +75,7 @@ def test_a_demonstration_counts_more_than_an_accepted_result(tmp_path: Path) -> 
     assert "Geo(Is(board), +Z) => Delete" in str(outcome.program)
 
 
+@pytest.mark.slow
 def test_where_no_program_keeps_what_was_accepted_it_is_overruled_and_named(tmp_path: Path) -> None:
     project = applied(tmp_path)
     project.review(SHELVED, "accepted")

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import pytest
+
 from meshforge.batch import IN_PROCESS
 from meshforge.language import Delete, Merge, Program
 from meshforge.project import FamilyMeshes, Project
@@ -32,6 +34,7 @@ def test_a_question_stays_open_until_it_is_answered(tmp_path: Path) -> None:
     assert (status.outdated, status.question) == (False, None)
 
 
+@pytest.mark.slow
 def test_nobody_is_asked_who_applied_the_program_as_it_is(tmp_path: Path) -> None:
     project = ambiguous(tmp_path)
     project.synthesize()

@@ -56,6 +56,7 @@ def label_all(project: Project, asset: str) -> None:
     project.set_labels(asset, {name: kind[name.partition("#")[0]] for name in names(project, asset)})
 
 
+@pytest.mark.slow
 def test_what_has_no_hulls_gets_some_in_every_asset(tmp_path: Path) -> None:
     project = fresh(tmp_path)
     before = tree(tmp_path / "assets")
@@ -75,6 +76,7 @@ def test_doing_it_twice_does_nothing_new(tmp_path: Path) -> None:
     assert tree(project.folder / "prepared") == before
 
 
+@pytest.mark.slow
 def test_the_files_do_not_depend_on_the_workers(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     found = []
     for workers in (0, 2):
@@ -85,6 +87,7 @@ def test_the_files_do_not_depend_on_the_workers(tmp_path: Path, monkeypatch: pyt
     assert len(found[0]) == 4 and found[0] == found[1]
 
 
+@pytest.mark.slow
 def test_one_asset_that_fails_is_told_and_the_others_are_done(tmp_path: Path) -> None:
     project = fresh(tmp_path)
     (tmp_path / "assets" / HIGH).write_text("<robot")
@@ -93,6 +96,7 @@ def test_one_asset_that_fails_is_told_and_the_others_are_done(tmp_path: Path) ->
     assert len(low.made) == 2
 
 
+@pytest.mark.slow
 def test_an_asset_that_takes_too_long_is_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("MESHFORGE_CACHE", str(tmp_path / "cache"))
     (done,) = fresh(tmp_path).decompose([HIGH], execution=ExecutionOptions(workers=1, timeout=0.05))

@@ -152,6 +152,7 @@ def test_a_damaged_file_stops_it_before_anything_is_written(tmp_path: Path, dama
     assert tree(project.folder) == before
 
 
+@pytest.mark.slow
 @needs_fork
 def test_a_killed_renaming_leaves_a_readable_project_and_is_completed_by_another(tmp_path: Path) -> None:
     project, before = saying(tmp_path), tmp_path / "before"

@@ -28,6 +28,7 @@ def test_a_picture_has_the_size_asked_for(size: tuple[int, int]) -> None:
     assert render(table(), size=size).size == size
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("color_by", COLOR_BY)
 def test_several_views_share_the_size(color_by: str) -> None:
     image = render(table(), views=VIEWS, size=(480, 300), color_by=color_by, title="table")  # type: ignore[arg-type]
@@ -176,6 +177,7 @@ def test_two_faces_in_one_plane_never_speckle() -> None:
         assert set(np.unique(items)) == {-1, 1}
 
 
+@pytest.mark.slow
 def test_up_can_be_y() -> None:
     mesh = table()
     turn = Pose(np.array([[1.0, 0, 0], [0, 0, 1.0], [0, -1.0, 0]]), np.zeros(3))  # Z up to Y up

@@ -74,6 +74,7 @@ PLACES = st.tuples(*[st.integers(-2, 2)] * 3)
 LENGTHS = st.tuples(*[st.sampled_from([0.02, 0.3, 1.0, 1.0, 3.0])] * 3)
 
 
+@pytest.mark.slow
 @examples(30)
 @given(st.lists(st.tuples(PLACES, LENGTHS), min_size=1, max_size=9), st.data())
 def test_each_wanted_hull_is_seen_and_numbered(parts: list[tuple[Any, Any]], data: st.DataObject) -> None:
@@ -162,6 +163,7 @@ def test_a_picture_of_a_cube_from_before_it_shows_as_many_pixels_as_it_has_room_
     assert shot.visible_pixels["h1"] == 0
 
 
+@pytest.mark.slow
 def test_pixels_in_the_picture_have_the_colour_of_the_hull_they_are_counted_for() -> None:
     mesh = mesh_of(box((0, 0, 0), (1, 1, 1)), box((1.5, 0, 0), (1, 1, 1)))
     for shot in draw_labeling_pictures(mesh):
@@ -172,6 +174,7 @@ def test_pixels_in_the_picture_have_the_colour_of_the_hull_they_are_counted_for(
             assert alike == pytest.approx(shot.visible_pixels[name], rel=0.12), "but for lines and words"
 
 
+@pytest.mark.slow
 def test_what_can_be_seen_in_place_is_neither_moved_nor_taken_out() -> None:
     for mesh in (table(), scattered(8), mesh_of(box((0, 0, 0), (1, 2, 3)))):
         taken = draw_labeling_pictures(mesh)
@@ -258,6 +261,7 @@ def test_without_a_visual_mesh_the_plain_picture_shows_the_hulls_in_one_material
     assert drawn == pytest.approx(sum(shot.visible_pixels.values()), rel=0.1), "outlines are drawn around what is seen"
 
 
+@pytest.mark.slow
 def test_collision_geometry_that_is_no_hull_is_drawn_faintly_and_is_in_the_plain_picture() -> None:
     shape = box((0, 0, 0), (1, 1, 1))
     beside = Opaque("beside", "body", "it is open", surface_of(box((1.5, 0, 0), (1, 1, 1))))

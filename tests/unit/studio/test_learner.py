@@ -55,6 +55,7 @@ def go_on() -> bool:
     return False
 
 
+@pytest.mark.slow
 def test_the_bundled_program_is_learned_and_kept(project: Project, learner: Learner) -> None:
     lesson = learner.learn(7, take=False).result()
     assert (lesson.number, lesson.status, lesson.error) == (7, "found", None)
@@ -67,6 +68,7 @@ def test_the_bundled_program_is_learned_and_kept(project: Project, learner: Lear
     assert str(kept) == lesson.program
 
 
+@pytest.mark.slow
 def test_reach_is_what_the_program_selects_on_every_asset(project: Project, learner: Learner) -> None:
     rows = learner.reach(BUNDLED).result()
     assert [row.asset for row in rows] == list(project.assets())
@@ -96,6 +98,7 @@ def test_a_hull_made_of_made_hulls_has_all_their_origins() -> None:
     assert origins.of(["a~2"]) == (0, 1, 2)
 
 
+@pytest.mark.slow
 def test_an_asset_on_which_the_program_fails_says_why(fresh: tuple[Project, Learner]) -> None:
     project, learner = fresh
     mesh = project.mesh(OTHER)
@@ -141,6 +144,7 @@ def test_a_wrong_extractor_is_one_clear_error(learner: Learner) -> None:
         learner.generalise("Is(", 1, None).result()
 
 
+@pytest.mark.slow
 def test_a_changed_label_and_a_new_demonstration_are_noticed(fresh: tuple[Project, Learner]) -> None:
     project, learner = fresh
     learner.learn(1, take=False).result()
@@ -154,6 +158,7 @@ def test_a_changed_label_and_a_new_demonstration_are_noticed(fresh: tuple[Projec
     assert rules_of(learner.learn(3, take=False).result().program) == rules_of(BUNDLED)[:1]
 
 
+@pytest.mark.slow
 def test_a_program_written_by_hand_stays_until_the_learned_one_is_taken(fresh: tuple[Project, Learner]) -> None:
     project, learner = fresh
     project.accept(Program.parse("Is(leg) => Delete\n"))
@@ -164,6 +169,7 @@ def test_a_program_written_by_hand_stays_until_the_learned_one_is_taken(fresh: t
     assert project.layout.program.read_text() == lesson.program
 
 
+@pytest.mark.slow
 def test_a_lesson_that_cannot_be_has_its_message(tmp_path: Path) -> None:
     project = demo_project(tmp_path, demonstrated=False)
     learner = Learner(project.folder)
@@ -179,6 +185,7 @@ def test_a_lesson_that_cannot_be_has_its_message(tmp_path: Path) -> None:
         learner.close()
 
 
+@pytest.mark.slow
 def test_an_interrupted_lesson_comes_to_its_end_and_the_next_one_is_whole(fresh: tuple[Project, Learner]) -> None:
     _, learner = fresh
     lesson = learner.learn(1, take=False)
@@ -187,6 +194,7 @@ def test_an_interrupted_lesson_comes_to_its_end_and_the_next_one_is_whole(fresh:
     assert learner.learn(2, take=False).result().status == "found"
 
 
+@pytest.mark.slow
 def test_of_many_calls_only_the_last_is_done(fresh: tuple[Project, Learner]) -> None:
     _, learner = fresh
     lessons = [learner.learn(number, take=False) for number in range(20)]
@@ -215,6 +223,7 @@ def test_the_death_of_the_process_is_one_message_and_the_next_call_has_a_new_one
         workers.close()
 
 
+@pytest.mark.slow
 def test_a_learner_goes_on_after_the_death_of_its_process(fresh: tuple[Project, Learner]) -> None:
     _, learner = fresh
     died: Future[int] = learner._queue.put("generalise", os._exit, 3)
@@ -278,6 +287,7 @@ def test_after_many_lessons_the_shelf_hands_out_the_same_assets_anew(tmp_path: P
     assert dict(after.graph) == known
 
 
+@pytest.mark.slow
 def test_a_question_tells_what_each_choice_reads(fresh: tuple[Project, Learner]) -> None:
     project, learner = fresh
     project.demonstrate("table_03.obj", [])
@@ -293,6 +303,7 @@ def test_a_question_tells_what_each_choice_reads(fresh: tuple[Project, Learner])
     assert {choice.reading for choice in asked.choices} <= {reading.id for reading in lesson.readings}
 
 
+@pytest.mark.slow
 def test_a_rule_that_no_extractor_fits_says_what_came_nearest(fresh: tuple[Project, Learner]) -> None:
     project, learner = fresh
     project.demonstrate("table_08.obj", [])

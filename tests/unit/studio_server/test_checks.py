@@ -81,6 +81,7 @@ def test_limits_of_every_engine_are_told_with_its_name(project: Project, checks:
         assert {f.text for f in limits.findings if f.engine in (None, engine)} == wanted
 
 
+@pytest.mark.slow
 def test_an_asset_that_shows_nothing_says_so_and_is_measured_otherwise(project: Project, checks: OutputChecks) -> None:
     fit = checks.check_part(project, BARE, "fit").result(60)
     assert fit.figures == () and not fit.pictured and "nothing is shown" in fit.notes[0]
@@ -95,6 +96,7 @@ def test_an_asset_that_shows_nothing_says_so_and_is_measured_otherwise(project: 
         checks.read_picture(BARE, key_of(project, BARE), "fit-out")
 
 
+@pytest.mark.slow
 def test_all_results_are_checked_once_and_known_after_a_restart(project: Project, checks: OutputChecks) -> None:
     over: list[None] = []
     first = dict(checks.check_all(project, (CUP, BARE), lambda: over.append(None), lambda: False))

@@ -225,6 +225,7 @@ def test_a_mesh_without_hulls_asks_nothing() -> None:
         assert not server.asked
 
 
+@pytest.mark.slow
 def test_the_answers_come_out_the_same_however_many_are_under_way(tmp_path: Path) -> None:
     shown = [table(legs) for legs in (2, 3, 9)]
 

@@ -35,6 +35,7 @@ def ask_all(one: Client, count: int, **how: int) -> int:
         return sum(pool.map(ask, range(count)))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("most", [0.0, 3.0, 5.0, 8.0])
 @pytest.mark.parametrize("concurrency", [1, 6])
 def test_no_more_is_spent_than_may_be(tmp_path: Path, most: float, concurrency: int) -> None:
