@@ -34,7 +34,7 @@ PAGES = (
         "speed",
         "# Speed\n\nWritten by `script/bench` from the JSON files beside it. Medians; contestants take turns.\n",
         ("contact", "load", "save", "apply", "geometry", "start"),
-        ("numpy", "scipy", "coal", "manifold3d", "trimesh", "python-fcl", "pybullet", "mujoco", "lxml"),
+        ("numpy", "scipy", "coal", "manifold3d", "trimesh", "python-fcl", "pybullet", "mujoco"),
     ),
     Page(
         "learning",

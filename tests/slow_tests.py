@@ -23,7 +23,7 @@ from hypothesis import is_hypothesis_test, settings
 
 from tests.corpus_path import ABSENT
 
-LIMIT = 4.0
+LIMIT = 2.0
 WARNING = 1.0
 """Seconds of CPU time; a test that takes more than the lower one today may be over the upper one elsewhere."""
 SLOW_FOLDERS = ("tests/e2e/", "tests/loop/", "tests/unit/benchmark/")

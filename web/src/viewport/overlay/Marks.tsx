@@ -3,7 +3,7 @@
 import { useRef } from "react";
 import type { Gap } from "../drawing/contactGraph";
 import { useFrame, useStage } from "../stage/context";
-import { useRegion } from "../stage/drawnRegion";
+import { useRegion } from "../stage/regionStore";
 import { setTool, useWorkspace } from "../../store/workspace";
 import { Button } from "../../ui/Button";
 import css from "./overlay.module.css";

@@ -5,7 +5,7 @@ import * as labels from "../../store/labels";
 import { useScenes } from "../../store/scenes";
 import { initialWorkspace, select, useWorkspace } from "../../store/workspace";
 import { box, boxScene, stageOf, stubBrowser } from "../stage/boxes.test-help";
-import { useRegion } from "../stage/drawnRegion";
+import { useRegion } from "../stage/regionStore";
 import type { Stage } from "../stage/stage";
 import { createPointerTool } from "./tools";
 

@@ -4,7 +4,7 @@ import { Vector3 } from "three";
 import type { AssetDrawing } from "../drawing/assetDrawing";
 import { drawHullIds } from "../drawing/hullIds";
 import { boxRegion, isInside, placesInside, type Region, type Spot } from "../geometry/region";
-import { clearRegion, setRegion, useRegion } from "../stage/drawnRegion";
+import { clearRegion, setRegion, useRegion } from "../stage/regionStore";
 import type { Pane } from "../stage/panes";
 import { hullAt, pieceAt, rayAt } from "../stage/picking";
 import type { Stage } from "../stage/stage";

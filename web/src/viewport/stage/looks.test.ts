@@ -7,7 +7,7 @@ import { hullLooks } from "../drawing/hullLooks";
 import { ROLE } from "../drawing/hullShader";
 import { readThemeColors } from "../drawing/themeColors";
 import { box, boxScene, stageOf, stubBrowser } from "./boxes.test-help";
-import { useRegion } from "./drawnRegion";
+import { useRegion } from "./regionStore";
 import { appearances, graphOf, showsPreview } from "./looks";
 
 const boxes = [box("a", [0, 0, 0]), box("b", [2, 0, 0]), box("c", [4, 0, 0])];

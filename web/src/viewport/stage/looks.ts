@@ -11,7 +11,7 @@ import { usePreview } from "../../store/preview";
 import { useProject } from "../../store/project";
 import type { Scene } from "../../store/scenes";
 import { type Tool, useWorkspace } from "../../store/workspace";
-import { useRegion } from "./drawnRegion";
+import { useRegion } from "./regionStore";
 
 /** The looks of what is shown, and of the asset as it is in its file beside it. */
 export function appearances(scene: Scene, ink: ThemeColors): { shown: Appearance; before: Appearance } {

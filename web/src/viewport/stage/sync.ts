@@ -12,7 +12,7 @@ import { reportError } from "../../store/toasts";
 import { useWorkspace, type WorkspaceState } from "../../store/workspace";
 import { appearances, graphOf, showsPreview } from "./looks";
 import { settingsOf } from "./panes";
-import { useRegion } from "./drawnRegion";
+import { useRegion } from "./regionStore";
 import type { Stage } from "./stage";
 
 /** Follows until the returned function is called. */
