@@ -1,17 +1,5 @@
 """What every package needs and what knows nothing of meshes: errors, atomic files, words for messages."""
 
-from meshforge.common.errors import (
-    AssetError,
-    DemonstrationError,
-    GeometryError,
-    MeshForgeError,
-    ProgramError,
-    ProjectError,
-    StoppedError,
-    UsageError,
-    describe_error,
-    first_validation_error,
-)
 from meshforge.common.files import (
     FileStates,
     expand_glob,
@@ -25,7 +13,21 @@ from meshforge.common.files import (
     replace_atomically,
     write_atomically,
 )
-from meshforge.common.text import join_names, nearest_name, pluralize
+from meshforge.common.messages import (
+    AssetError,
+    DemonstrationError,
+    GeometryError,
+    MeshForgeError,
+    ProgramError,
+    ProjectError,
+    StoppedError,
+    UsageError,
+    describe_error,
+    first_validation_error,
+    join_names,
+    nearest_name,
+    pluralize,
+)
 
 __all__ = [
     "AssetError",
