@@ -11,7 +11,6 @@ from meshforge.batch import AssetSet, Correction, Preparation, hold_lock, load_n
 from meshforge.common import write_atomically
 from meshforge.language import Orient, Program, Template
 from meshforge.store.feedback import AnswersFile, Review, read_answers, read_reviews, write_answers, write_reviews
-from meshforge.store.folder import path_of
 from meshforge.store.layout import Layout, read_json, write_json
 from meshforge.store.meshes import AssetFiles, read_labels_file, read_meshes, write_labels
 from meshforge.store.program import (
@@ -30,6 +29,7 @@ from meshforge.store.settings import (
     orientation,
     orientation_text,
     parse_orientation,
+    path_of,
     read_settings,
 )
 from meshforge.symbolic import Label, LabelFile, SymbolicMesh
