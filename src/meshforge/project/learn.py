@@ -14,7 +14,7 @@ from meshforge.language import Program
 from meshforge.project import lesson
 from meshforge.project.run import find_accepted_results, pick_evenly
 from meshforge.store import AnswerLine, AnswersFile, ProgramRecord, Settings, Store
-from meshforge.symbolic import SymbolicMesh, transfer_labels
+from meshforge.symbolic import SymbolicMesh
 
 MOST_ASSETS = 400
 """Of more assets so many are looked at while a program is learned, besides those of which something was said: they are
@@ -36,17 +36,12 @@ class FamilyMeshes:
         """The assets to learn from that can be read, by id, with the labels they have now."""
         if not self._kept:
             rows = self._store.meshes_by_id(select_assets(self._store))
-            self._kept = {asset: (self._labels(asset), mesh) for asset, mesh in rows}
+            self._kept = {asset: (self._store.label_bytes(asset), mesh) for asset, mesh in rows}
         for asset, (before, mesh) in self._kept.items():
-            now = self._labels(asset)
+            now = self._store.label_bytes(asset)
             if now != before:
-                bare = mesh.with_labels(dict.fromkeys(mesh.index))
-                self._kept[asset] = now, transfer_labels(self._store.labels(asset), bare).mesh
+                self._kept[asset] = now, self._store.relabel(asset, mesh)
         return {asset: mesh for asset, (_, mesh) in self._kept.items()}
-
-    def _labels(self, asset: str) -> bytes:
-        path = self._store.layout.labels(asset)
-        return path.read_bytes() if path.exists() else b""
 
 
 def select_assets(store: Store) -> tuple[str, ...]:

@@ -15,7 +15,7 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError
 from tomlkit.items import InlineTable
 
 from meshforge.batch import SETTINGS, AssetSet, expand
-from meshforge.common import MeshForgeError, ProjectError, UsageError, nearest_name, plain_path, write_atomically
+from meshforge.common import MeshForgeError, ProjectError, UsageError, plain_path, write_atomically
 from meshforge.formats import SUFFIXES, is_asset
 from meshforge.language import Orient, Program, show
 from meshforge.store.layout import invalid_file
@@ -250,16 +250,6 @@ def find_assets(folder: Path) -> AssetSet:
                 remedy="Make another project for it, or move it there.",
             )
     return found
-
-
-def path_of(folder: Path, found: AssetSet, asset: str) -> Path:
-    """The file of an asset. Raises ProjectError, naming the nearest id, where there is no such asset."""
-    ids = found.ids
-    if asset not in ids:
-        like = nearest_name(asset, ids)
-        remedy = f"Did you mean {like!r}?" if like else f"See them with: meshforge status {folder}"
-        raise ProjectError(f"there is no asset {asset!r}", where=str(folder), remedy=remedy)
-    return ids[asset]
 
 
 def add_assets(folder: Path, found: AssetSet, paths: Iterable[str | Path]) -> None:
