@@ -3,7 +3,7 @@
 from meshforge.project.learn import FamilyMeshes, ProgramState, select_assets, suggest_first_demonstration
 from meshforge.project.prepare import PreparationResult
 from meshforge.project.project import Project
-from meshforge.project.run import output_digest
+from meshforge.project.run import make_correction, output_digest, run_with_corrections
 from meshforge.project.status import AssetStatus, Status
 
 __all__ = [
@@ -13,7 +13,9 @@ __all__ = [
     "ProgramState",
     "Project",
     "Status",
+    "make_correction",
     "output_digest",
+    "run_with_corrections",
     "select_assets",
     "suggest_first_demonstration",
 ]

@@ -8,12 +8,13 @@ to it. Who accepts many at once says nothing of each.
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Mapping, Sequence
+from dataclasses import dataclass
 from typing import TypeVar
 
 from meshforge import batch
 from meshforge.common import ProjectError, nearest_name
 from meshforge.geometry import digest
-from meshforge.language import Action, Program, Template
+from meshforge.language import Action, Program, RunResult, Template
 from meshforge.store import Review, RuleSelection, Store, Verdict, action_text_without_each
 from meshforge.symbolic import SymbolicMesh
 from meshforge.synthesis import Demonstration, advance, begin_replay
@@ -85,27 +86,46 @@ def correct(store: Store, asset: str, select: Iterable[str], action: Action, lab
 
     Raises ProjectError for a hull that is not there then.
     """
-    names = sorted(set(select))
     with store.lock():
-        before = store.corrections(asset)
-        mesh = _mesh_after_program(store, asset, before, action)
-        for name in names:
-            if name not in mesh.index:
-                like = nearest_name(name, mesh.index)
-                remedy = f"Did you mean {like!r}?" if like else None
-                raise ProjectError(f"after the program there is no hull {name!r}", where=asset, remedy=remedy)
-        added = batch.Correction(tuple((name, digest(mesh.hull_of(name).shape)) for name in names), action, label)
-        store.write_corrections(asset, (*before, added))
+        store.templates(action.templates)  # raises ProgramError
+        before = run_with_corrections(store, asset, store.mesh(asset), store.program())
+        added = make_correction(before.mesh, asset, sorted(set(select)), action, label)
+        store.write_corrections(asset, (*before.corrections, added))
 
 
-def _mesh_after_program(store: Store, asset: str, before: Sequence[batch.Correction], action: Action) -> SymbolicMesh:
-    """The asset after the program and the edits by hand so far."""
-    program = store.program() or Program(orient=store.orientation)
-    names = [*program.templates, *(name for c in before for name in c.action.templates), *action.templates]
+@dataclass(frozen=True, eq=False, slots=True)
+class RunWithCorrections:
+    """An asset after the program and the edits by hand; flags: a sentence for each of these that was left out."""
+
+    program: Program
+    templates: Mapping[str, Template]
+    run: RunResult
+    corrections: tuple[batch.Correction, ...]
+    mesh: SymbolicMesh
+    flags: tuple[str, ...]
+
+
+def run_with_corrections(store: Store, asset: str, mesh: SymbolicMesh, program: Program | None) -> RunWithCorrections:
+    """An asset after a program and its corrections; None changes nothing. Raises MeshForgeError where it cannot run."""
+    plan = program or Program(orient=store.orientation)
+    corrections = store.corrections(asset)
+    names = [*plan.templates, *(name for one in corrections for name in one.action.templates)]
     templates = store.templates(dict.fromkeys(names))
-    source = store.mesh(asset)
-    edited, _ = batch.replay_corrections(before, source, program.run(source, templates).mesh, program, templates)
-    return edited
+    run = plan.run(mesh, templates)
+    after, flags = batch.replay_corrections(corrections, mesh, run.mesh, plan, templates)
+    return RunWithCorrections(plan, templates, run, corrections, after, flags)
+
+
+def make_correction(
+    mesh: SymbolicMesh, asset: str, select: Sequence[str], action: Action, label: str | None
+) -> batch.Correction:
+    """One more edit by hand, on hulls of the mesh. Raises ProjectError for a hull that is not there."""
+    for name in select:
+        if name not in mesh.index:
+            like = nearest_name(name, mesh.index)
+            remedy = f"Did you mean {like!r}?" if like else None
+            raise ProjectError(f"after the program there is no hull {name!r}", where=asset, remedy=remedy)
+    return batch.Correction(tuple((name, digest(mesh.hull_of(name).shape)) for name in select), action, label)
 
 
 Item = TypeVar("Item")
