@@ -11,7 +11,7 @@ from meshforge.language import Program
 from meshforge.project.learn import program_state_of, suggest_first_demonstration
 from meshforge.project.lesson import find_unknown_hulls
 from meshforge.project.run import build_jobs, build_task, output_digest
-from meshforge.project.status import AssetStatus, Status, advise
+from meshforge.project.status import Adviser, AssetStatus, Status
 from meshforge.store import AssetFacts, Review, Store, geometry_digest, survey
 from meshforge.symbolic import LabelFile, match_labels
 
@@ -43,7 +43,7 @@ def compute_status(
     known = {asset.id: asset for asset in (*others, *assets)}
     every = [known[asset] for asset in ids if asset in known]
     first = partial(suggest_first_demonstration, store) if only is None else lambda assets: None
-    advised = advise(store.folder, ids, every, settings.vocabulary, rules, state, problem, first)
+    adviser = Adviser(store.folder, ids, every, settings.vocabulary, rules, state, problem, first)
     return Status(
         settings.name,
         assets,
@@ -52,7 +52,7 @@ def compute_status(
         state.outdated,
         problem,
         _find_lost_ids(store),
-        advised,
+        adviser.advise(),
         state.question,
     )
 
