@@ -87,10 +87,7 @@ class LabelArguments:
         typer.Option("--dry-run", help="Take nothing: show what would be taken, or what vlm would send and cost."),
     ] = False
     report: options.ReportPath = None
-    workers: options.Workers = None
-    backend: options.Backend = "local"
-    timeout: options.Timeout = None
-    memory: options.Memory = None
+    execution: options.ExecutionArguments = options.EXECUTION
     json: options.Json = False
 
 
@@ -112,7 +109,7 @@ def label(given: LabelArguments) -> None:
     if given.report and given.dry_run:
         raise UsageError(options.NOTHING_TO_SHOW, remedy="Leave out --report.")
     project, words = Project.open(given.project), options.split_words(given.vocabulary) if given.vocabulary else None
-    execution = options.to_execution_options(given.workers, given.timeout, given.memory, given.backend)
+    execution = given.execution.to_options()
     if given.dry_run and source == "vlm":
         forecast(project, model, words, execution, json=given.json)
         return
