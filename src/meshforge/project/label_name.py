@@ -99,15 +99,11 @@ def _rename_in_answers(answers: files.AnswersFile, where: Path, old: str, new: s
     """All answers with the label by its new name; of those that are the same then, one stays."""
     now = answers.model_copy(update={"answers": (), "confirmed": (), "rejected": ()})
     for line in answers.answers:
-        now = now.with_line(_rename_in_answer(line, where, old, new))
+        action = None if line.action is None else _rename_in_action(line.action, where, old, new)
+        now = now.with_line(line.model_copy(update={"action": action}))
     for repair in (*answers.rejected, *answers.confirmed):
         now = now.with_line(_rename_in_repair(repair, old, new))
     return now
-
-
-def _rename_in_answer(line: files.AnswerLine, where: Path, old: str, new: str) -> files.AnswerLine:
-    action = None if line.action is None else _rename_in_action(line.action, where, old, new)
-    return line.model_copy(update={"action": action})
 
 
 def _rename_in_repair(line: files.RepairLine, old: str, new: str) -> files.RepairLine:
