@@ -32,10 +32,7 @@ class ApplyArguments:
         Path | None, typer.Option("-o", "--out", help="Folder for the edited assets; a project has its own, edited/.")
     ] = None
     labels: options.LabelsPath = None
-    workers: options.Workers = None
-    backend: options.Backend = "local"
-    timeout: options.Timeout = None
-    memory: options.Memory = None
+    execution: options.ExecutionArguments = options.EXECUTION
     mass: Annotated[
         Literal["keep", "recompute"], typer.Option("--mass", help="Masses that a format derives from geometry.")
     ] = "keep"
@@ -70,9 +67,8 @@ def apply(given: ApplyArguments) -> None:
         remark(str(batch.plan_run(work.jobs, work.out)))
     summary, started = batch.RunSummary(), perf_counter()
     run_options = batch.ApplyOptions(given.mass, given.link, given.dry_run, resume=not given.fresh)
-    bounds = options.to_execution_options(given.workers, given.timeout, given.memory, given.backend)
     with progress(len(work.jobs), "editing") as advance:
-        execution = replace(bounds, progress=advance)
+        execution = replace(given.execution.to_options(), progress=advance)
         for outcome in run_program(
             work.program, work.jobs, work.out, templates=work.templates, options=run_options, execution=execution
         ):

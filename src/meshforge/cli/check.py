@@ -13,8 +13,8 @@ import typer
 from meshforge import batch
 from meshforge.checks import CheckOptions
 from meshforge.cli import options
-from meshforge.cli.check_report import CheckReport, describe_changes
 from meshforge.cli.console import progress
+from meshforge.cli.report import CheckReport, describe_changes
 from meshforge.cli.terminal import print_json, remark
 from meshforge.common import UsageError, pluralize
 
@@ -70,10 +70,7 @@ class CheckArguments:
     ] = None
     report: options.ReportPath = None
     labels: options.LabelsPath = None
-    workers: options.Workers = None
-    backend: options.Backend = "local"
-    timeout: options.Timeout = None
-    memory: options.Memory = None
+    execution: options.ExecutionArguments = options.EXECUTION
     json: options.Json = False
 
 
@@ -91,9 +88,9 @@ def check(given: CheckArguments) -> None:
     if len(jobs) > _FEW:
         remark(str(batch.plan_run(jobs, given.out)))
     # of one asset, starting a process would take longer than the work
-    in_process = len(jobs) == 1 and not measures.is_costly and given.timeout is None and given.memory is None
-    workers = 0 if in_process else given.workers
-    execution = options.to_execution_options(workers, given.timeout, given.memory, given.backend)
+    is_bounded = given.execution.timeout is not None or given.execution.memory is not None
+    in_process = len(jobs) == 1 and not measures.is_costly and not is_bounded
+    execution = (replace(given.execution, workers=0) if in_process else given.execution).to_options()
     failed, page, started = 0, CheckReport() if given.report else None, perf_counter()
     journal_file = batch.open_journal(given.journal) if given.journal else nullcontext()
     with journal_file as journal, progress(len(jobs), "checking") as advance:

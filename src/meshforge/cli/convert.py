@@ -39,10 +39,7 @@ class ConvertArguments:
     overwrite: Annotated[bool, typer.Option("--overwrite", help="Replace files that are there already.")] = False
     dry_run: options.DryRun = False
     report: options.ReportPath = None
-    workers: options.Workers = None
-    backend: options.Backend = "local"
-    timeout: options.Timeout = None
-    memory: options.Memory = None
+    execution: options.ExecutionArguments = options.EXECUTION
     json: options.Json = False
 
 
@@ -75,7 +72,7 @@ def convert(given: ConvertArguments) -> None:
     from meshforge.cli.convert_many import convert_many  # lazy: 250 modules that only --to needs
 
     run_options = ApplyOptions(link=given.link, dry_run=given.dry_run, to=suffix, names=given.names)
-    execution = options.to_execution_options(given.workers, given.timeout, given.memory, given.backend)
+    execution = given.execution.to_options()
     convert_many(sources, Path(out), given.labels, run_options, execution, given.report, json=given.json)
 
 

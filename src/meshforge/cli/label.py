@@ -11,7 +11,7 @@ import typer
 from meshforge.cli import options
 from meshforge.cli.label_report import LabelPrinter, LabelReport
 from meshforge.cli.label_sources import SourceOptions, label_from_sources, preview
-from meshforge.cli.label_vlm import VlmOptions, forecast, label_with_vlm
+from meshforge.cli.label_vlm import VLM, VlmOptions, forecast, label_with_vlm
 from meshforge.common import UsageError
 from meshforge.project import Project
 
@@ -42,15 +42,7 @@ class LabelArguments:
             "written into the project's `pictures`.",
         ),
     ] = None
-    model: Annotated[str | None, typer.Option("--model", help="The model that --with vlm asks.")] = None
-    base_url: Annotated[str | None, typer.Option("--base-url", help="Where it is, for example .../v1.")] = None
-    mode: Annotated[
-        Literal["cheap", "balanced", "exact"] | None,
-        typer.Option("--mode", help="How many pictures and questions --with vlm takes for a hull.", show_default=False),
-    ] = None
-    max_cost: Annotated[
-        float | None, typer.Option("--max-cost", min=0, help="Dollars that --with vlm may spend.", show_default=False)
-    ] = None
+    vlm: VlmOptions = VLM
     pattern: Annotated[
         list[str] | None,
         typer.Option(
@@ -87,10 +79,7 @@ class LabelArguments:
         typer.Option("--dry-run", help="Take nothing: show what would be taken, or what vlm would send and cost."),
     ] = False
     report: options.ReportPath = None
-    workers: options.Workers = None
-    backend: options.Backend = "local"
-    timeout: options.Timeout = None
-    memory: options.Memory = None
+    execution: options.ExecutionArguments = options.EXECUTION
     json: options.Json = False
 
 
@@ -104,17 +93,16 @@ def label(given: LabelArguments) -> None:
     source = given.source
     if given.labels and source != "file":
         raise UsageError(f"--labels names labels files, which --with {source} does not read", remedy="Leave one out.")
-    model = VlmOptions(given.model, given.base_url, given.mode, given.max_cost)
-    if source != "vlm" and model.first_option:
-        raise UsageError(f"{model.first_option} is for --with vlm", remedy="Leave it out.")
+    if source != "vlm" and given.vlm.first_option:
+        raise UsageError(f"{given.vlm.first_option} is for --with vlm", remedy="Leave it out.")
     sources = SourceOptions(source, given.labels, given.pattern or (), given.classes, given.align, given.points_up)
     sources.refuse_strays()
     if given.report and given.dry_run:
         raise UsageError(options.NOTHING_TO_SHOW, remedy="Leave out --report.")
     project, words = Project.open(given.project), options.split_words(given.vocabulary) if given.vocabulary else None
-    execution = options.to_execution_options(given.workers, given.timeout, given.memory, given.backend)
+    execution = given.execution.to_options()
     if given.dry_run and source == "vlm":
-        forecast(project, model, words, execution, json=given.json)
+        forecast(project, given.vlm, words, execution, json=given.json)
         return
     if given.dry_run:
         preview(project, sources, words, execution, json=given.json)
@@ -124,7 +112,7 @@ def label(given: LabelArguments) -> None:
     page = LabelReport(given.report, source) if given.report else None
     printer = LabelPrinter(given.sheets, page, json=given.json)
     if source == "vlm":
-        label_with_vlm(project, model, execution, printer)
+        label_with_vlm(project, given.vlm, execution, printer)
     else:
         label_from_sources(project, sources, execution, printer)
     raise typer.Exit(int(printer.failed))

@@ -7,6 +7,7 @@ from collections import defaultdict
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import asdict, dataclass
+from typing import Annotated, Literal
 
 import typer
 from pydantic import ValidationError
@@ -27,10 +28,15 @@ _MAX_NAMES = 8  # names in a row
 class VlmOptions:
     """What the command line says of the model; None where it leaves that to meshforge.toml."""
 
-    model: str | None = None
-    base_url: str | None = None
-    mode: str | None = None
-    max_cost: float | None = None
+    model: Annotated[str | None, typer.Option("--model", help="The model that --with vlm asks.")] = None
+    base_url: Annotated[str | None, typer.Option("--base-url", help="Where it is, for example .../v1.")] = None
+    mode: Annotated[
+        Literal["cheap", "balanced", "exact"] | None,
+        typer.Option("--mode", help="How many pictures and questions --with vlm takes for a hull.", show_default=False),
+    ] = None
+    max_cost: Annotated[
+        float | None, typer.Option("--max-cost", min=0, help="Dollars that --with vlm may spend.", show_default=False)
+    ] = None
 
     def settings(self, project: Project) -> VlmSettings:
         """The settings of the project with these in their place. Raises UsageError where they do not fit."""
@@ -45,6 +51,9 @@ class VlmOptions:
         """The first option that was given, as it is typed."""
         names = (name for name, value in asdict(self).items() if value is not None)
         return next((f"--{name.replace('_', '-')}" for name in names), None)
+
+
+VLM = VlmOptions()
 
 
 def forecast(

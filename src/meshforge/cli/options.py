@@ -4,7 +4,7 @@ options, the settings of a decomposition engine, the mesh of an asset."""
 from __future__ import annotations
 
 from collections.abc import Callable, Collection
-from dataclasses import MISSING, fields
+from dataclasses import MISSING, Field, dataclass, fields, is_dataclass
 from enum import StrEnum
 from functools import wraps
 from inspect import Parameter, Signature
@@ -89,42 +89,59 @@ Memory = Annotated[
 ]
 
 
+@dataclass(frozen=True, slots=True)
+class ExecutionArguments:
+    """How the work on many assets is done, for commands that say it alike; a timeout of None is the default one, of 0
+    none."""
+
+    workers: Workers = None
+    backend: Backend = "local"
+    timeout: Timeout = None
+    memory: Memory = None
+
+    def to_options(self) -> ExecutionOptions:
+        """The options of the workers."""
+        from meshforge import batch  # lazy: 200 modules that info, select and convert do not need
+
+        timeout = batch.TIMEOUT if self.timeout is None else self.timeout or None
+        return batch.ExecutionOptions(self.workers, timeout, self.memory, backend=self.backend)
+
+
+EXECUTION = ExecutionArguments()
+
+
 def takes(kind: type[Arguments]) -> Callable[[Callable[[Arguments], None]], Callable[..., None]]:
-    """A command of Typer's out of a function of one dataclass, whose fields are the command's parameters."""
+    """A command of Typer's out of a function of one dataclass, whose fields are the command's parameters.
+
+    A field that is a dataclass itself stands for its own fields, in its place.
+    """
     hints = get_type_hints(kind, include_extras=True)
+    groups = {name: hint for name, hint in hints.items() if isinstance(hint, type) and is_dataclass(hint)}
+    parameters: list[Parameter] = []
+    for field in fields(kind):  # type: ignore[arg-type]  # a dataclass
+        if group := groups.get(field.name):
+            own = get_type_hints(group, include_extras=True)
+            parameters += [_to_parameter(inner, own[inner.name]) for inner in fields(group)]
+        else:
+            parameters.append(_to_parameter(field, hints[field.name]))
 
     def decorate(function: Callable[[Arguments], None]) -> Callable[..., None]:
         @wraps(function)
         def command(**values: Any) -> None:
+            for name, group in groups.items():
+                values[name] = group(**{inner.name: values.pop(inner.name) for inner in fields(group)})
             function(kind(**values))
 
-        command.__annotations__ = hints
-        command.__signature__ = Signature(  # type: ignore[attr-defined]  # Typer reads it
-            [
-                Parameter(
-                    field.name,
-                    Parameter.KEYWORD_ONLY,
-                    default=Parameter.empty if field.default is MISSING else field.default,
-                    annotation=hints[field.name],
-                )
-                for field in fields(kind)  # type: ignore[arg-type]  # a dataclass
-            ]
-        )
+        command.__annotations__ = {parameter.name: parameter.annotation for parameter in parameters}
+        command.__signature__ = Signature(parameters)  # type: ignore[attr-defined]  # Typer reads it
         return command
 
     return decorate
 
 
-def to_execution_options(
-    workers: int | None = None,
-    timeout: float | None = None,
-    memory: int | None = None,
-    backend: Literal["local", "ray"] = "local",
-) -> ExecutionOptions:
-    """The options of the workers; a timeout of None is the default one, of 0 none."""
-    from meshforge.batch import TIMEOUT, ExecutionOptions  # lazy: 200 modules that info, select and convert do not need
-
-    return ExecutionOptions(workers, TIMEOUT if timeout is None else timeout or None, memory, backend=backend)
+def _to_parameter(field: Field[Any], hint: Any) -> Parameter:
+    default = Parameter.empty if field.default is MISSING else field.default
+    return Parameter(field.name, Parameter.KEYWORD_ONLY, default=default, annotation=hint)
 
 
 class EngineMethod(StrEnum):

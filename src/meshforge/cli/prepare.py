@@ -10,18 +10,8 @@ from typing import Annotated, Any
 import typer
 
 from meshforge.batch import ExecutionOptions
+from meshforge.cli import options
 from meshforge.cli.console import progress
-from meshforge.cli.options import (
-    AssetTimeout,
-    EngineMethod,
-    EngineOptions,
-    Hollow,
-    Json,
-    Workers,
-    parse_engine_settings,
-    refuse_options,
-    takes,
-)
 from meshforge.cli.terminal import print_json
 from meshforge.common import UsageError, describe_error, pluralize
 from meshforge.geometry import DecomposeSettings
@@ -36,22 +26,22 @@ class PrepareArguments:
     project: Annotated[Path, typer.Argument(help="A project folder.")]
     assets: Annotated[list[str] | None, typer.Argument(help="Ids of assets, as `status` lists them; all.")] = None
     method: Annotated[
-        EngineMethod | None, typer.Option("--decompose", help="Make hulls of what has none, by this engine.")
+        options.EngineMethod | None, typer.Option("--decompose", help="Make hulls of what has none, by this engine.")
     ] = None
-    option: EngineOptions = None
+    option: options.EngineOptions = None
     only: Annotated[
         list[str] | None, typer.Option("--only", help="Only pieces and bodies of this name or pattern; repeatable.")
     ] = None
     again: Annotated[bool, typer.Option("--again", help="Decompose anew what is decomposed already.")] = False
-    hollow: Hollow = False
+    hollow: options.Hollow = False
     undo: Annotated[bool, typer.Option("--undo", help="Take back the last thing that was done to each.")] = False
     remove: Annotated[bool, typer.Option("--remove", help="Take back all that was done to each.")] = False
-    workers: Workers = None
-    timeout: AssetTimeout = 600.0
-    json: Json = False
+    workers: options.Workers = None
+    timeout: options.AssetTimeout = 600.0
+    json: options.Json = False
 
 
-@takes(PrepareArguments)
+@options.takes(PrepareArguments)
 def prepare(given: PrepareArguments) -> None:
     """Decompose non-convex pieces, and what bodies without collision geometry show, into convex hulls.
 
@@ -66,10 +56,10 @@ def prepare(given: PrepareArguments) -> None:
     project = Project.open(given.project)
     if given.method is None:
         only_with_method = ("option", "only", "again", "hollow", "workers", "timeout")
-        refuse_options(given.context, only_with_method, "--decompose METHOD")
+        options.refuse_options(given.context, only_with_method, "--decompose METHOD")
         results = _undo_preparation(project, _select_assets(project, given.assets), everything=given.remove)
         raise typer.Exit(print_results(results, given.json))
-    settings = parse_engine_settings(given.method, given.option)
+    settings = options.parse_engine_settings(given.method, given.option)
     raise typer.Exit(
         decompose_assets(
             project,
@@ -93,13 +83,13 @@ def decompose_assets(
     workers: int | None,
     timeout: float,
     json: bool = False,
-    **options: Any,
+    **more: Any,
 ) -> int:
-    """Decompose assets of a project and print what became of each; the exit code. options: of `Project.decompose`."""
+    """Decompose assets of a project and print what became of each; the exit code. more: of `Project.decompose`."""
     ids = tuple(dict.fromkeys(assets))
     with progress(len(ids), "decomposing") as advance:
         execution = ExecutionOptions(workers=workers, timeout=timeout, progress=advance)
-        return print_results(project.decompose(ids, settings, execution=execution, **options), json)
+        return print_results(project.decompose(ids, settings, execution=execution, **more), json)
 
 
 def print_results(results: Iterable[PreparationResult], json: bool = False) -> int:

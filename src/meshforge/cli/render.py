@@ -128,11 +128,7 @@ def write_part_pictures(mesh: SymbolicMesh, out: Path, size: int) -> str:
         )
         return f"{out}: {pluralize(len(taken), 'picture')}, each with its plain one"
     for k, shot in enumerate(taken, 1):
-        stem = f"{k:02}-{_file_name(shot.name)}"
+        stem = "-".join([f"{k:02}", *shot.name.replace(",", " ").split()])
         write_png(out / f"{stem}.png", shot.marked)
         write_png(out / f"{stem}-plain.png", shot.plain)
     return f"{pluralize(len(taken), 'picture')} to {out}, each with its plain one"
-
-
-def _file_name(name: str) -> str:
-    return "-".join(name.replace(",", " ").split())

@@ -1,14 +1,18 @@
-"""The page that `--report` asks for, and assets before and after a run, as it shows them."""
+"""The page that `--report` asks for: assets before and after a run as it shows them; and what checks found of assets,
+where a hundred thousand need not be kept for that.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Sequence
-from dataclasses import replace
+from collections import Counter
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
+from typing import Any
 
 from meshforge import batch
-from meshforge.checks import CheckOptions, Examination, examine_mesh
+from meshforge.checks import CheckOptions, Examination, Finding, Severity, examine_mesh
 from meshforge.cli.console import progress
 from meshforge.cli.terminal import remark
 from meshforge.formats import load
@@ -79,3 +83,102 @@ def _examine(work: tuple[SymbolicMesh, CheckOptions, SymbolicMesh | None]) -> Ex
 def describe_failure(outcome: batch.Failed) -> str:
     """That an asset failed, and why."""
     return f"failed     {outcome.asset}\n    " + outcome.error.replace("\n", "\n    ")
+
+
+_FROM_JOURNAL = "kept in the journal from an earlier run"
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class _ReportLine:
+    """What there is to show of one asset; fixed: its file where anything was fixed."""
+
+    job: batch.AssetJob
+    status: batch.ReportStatus
+    error: str | None
+    notes: tuple[str, ...]
+    checked: Examination | batch.EarlierExamination | None
+    fixed: Path | None
+
+
+class CheckReport:
+    """Takes what was found as it comes, keeps the assets that are to be shown, and writes the page."""
+
+    def __init__(self) -> None:
+        self._counts: Counter[batch.ReportStatus] = Counter()
+        self._lines: batch.TopItems[_ReportLine] = batch.TopItems()
+
+    def add(self, job: batch.AssetJob, examined: batch.CheckOutcome | None, row: Mapping[str, Any]) -> None:
+        """One asset more; row: as the journal keeps it, which is all there is where nothing was examined anew."""
+        line = _line_of_examined(job, examined) if examined else _line_of_journal(job, row)
+        self._counts[line.status] += 1
+        self._lines.add(("failed", "errors", "warnings", "clean").index(line.status), line)
+
+    def write(self, path: Path, title: str, measures: CheckOptions, seconds: float) -> None:
+        """Write the page; of very many assets it shows some, those with errors first."""
+        figures = batch.RunFigures(self._counts, {}, "those that failed or have errors")
+        header = batch.ReportHeader(title, _describe_measures(measures), seconds, figures)
+        write_report_page(path, header, _to_report_assets(list(self._lines)))
+
+
+def _line_of_examined(job: batch.AssetJob, examined: batch.CheckOutcome) -> _ReportLine:
+    notes = (*describe_changes(examined), *(f"wrote {picture}" for picture in examined.pictures))
+    if examined.examination is None:
+        return _ReportLine(job, "failed", examined.error, notes, None, None)
+    status = _status(finding.severity for finding in examined.examination.findings)
+    fixed = examined.output if examined.fix_result and examined.fix_result.changes else None
+    return _ReportLine(job, status, None, notes, examined.examination, fixed)
+
+
+def _line_of_journal(job: batch.AssetJob, row: Mapping[str, Any]) -> _ReportLine:
+    """What the journal has of an asset; its heat maps are not measured anew."""
+    found = row["found"]
+    findings = tuple(Finding(**{**finding, "hulls": tuple(finding["hulls"])}) for finding in found["findings"])
+    fix = found.get("fixed")
+    kept = batch.EarlierExamination(findings, tuple(row.get("told", ())))
+    fixed = Path(fix["out"]) if fix and fix["changes"] else None
+    return _ReportLine(job, _status(finding.severity for finding in findings), None, (_FROM_JOURNAL,), kept, fixed)
+
+
+def _status(severities: Iterable[Severity]) -> batch.ReportStatus:
+    found = set(severities)
+    return "errors" if "error" in found else "warnings" if found else "clean"
+
+
+def describe_changes(examined: batch.CheckOutcome) -> tuple[str, ...]:
+    """What was fixed, what was left, and where it was written, a sentence each."""
+    fixed = examined.fix_result
+    if fixed is None:
+        return ()
+    return (*(f"fixed: {change.description}" for change in fixed.changes), *fixed.left, f"wrote {examined.output}")
+
+
+def _to_report_assets(lines: Sequence[_ReportLine]) -> list[batch.ReportAsset]:
+    """The assets with their meshes, fixed ones before and after."""
+    before: list[batch.MeshReader | None] = [
+        None if line.error else partial(batch.read_job, line.job) for line in lines
+    ]
+    after: list[batch.MeshReader | None] = [partial(load, line.fixed) if line.fixed else None for line in lines]
+    meshes = batch.read_again([*before, *after])
+    shown = []
+    for line, was, now in zip(lines, meshes[: len(lines)], meshes[len(lines) :], strict=True):
+        gone = () if was or line.error else ("it cannot be read any more, so there is no picture",)
+        shown.append(
+            batch.ReportAsset(
+                line.job.id,
+                was,
+                now or was,
+                status=line.status,
+                error=line.error,
+                notes=(*line.notes, *gone),
+                checked=line.checked,
+            )
+        )
+    return shown
+
+
+def _describe_measures(measures: CheckOptions) -> str:
+    """What was looked at."""
+    parts = ["legality"]
+    parts += [f"limits of {measures.engine}"] if measures.engine else []
+    parts += [name for name in ("fit", "clearance", "physics") if getattr(measures, name)]
+    return f"Checked: {', '.join(parts)}."

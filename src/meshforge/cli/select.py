@@ -10,7 +10,6 @@ import typer
 from meshforge.cli.options import AssetFile, InProject, Json, LabelsPath, open_asset
 from meshforge.cli.terminal import print_json, remark
 from meshforge.language import labels_of, parse_extractor
-from meshforge.symbolic import SymbolicMesh
 
 
 def select(
@@ -24,8 +23,10 @@ def select(
     """List the hulls that an extractor selects, in the frame the asset comes in."""
     mesh = open_asset(asset, labels, project)
     extractor = parse_extractor(expression)
+    here = sorted({hull.label for hull in mesh.hulls if hull.label})
     for label in labels_of(extractor):
-        _warn_of_label(label, mesh)
+        if label not in here:  # an asset need not have every label of its family, so this is no error
+            remark(f"no hull here is labelled {label!r}; labels here: {', '.join(here) or 'none'}")
     chosen = sorted(extractor.select(mesh))
     names = [mesh.hulls[k].name for k in chosen]
     if picture:
@@ -38,10 +39,3 @@ def select(
         for name in names:
             typer.echo(name)
         remark(f"{len(names)} of {len(mesh.hulls)} hulls")
-
-
-def _warn_of_label(label: str, mesh: SymbolicMesh) -> None:
-    """An asset need not have every label of its family, so one that is missing here is a remark, not an error."""
-    here = sorted({hull.label for hull in mesh.hulls if hull.label})
-    if label not in here:
-        remark(f"no hull here is labelled {label!r}; labels here: {', '.join(here) or 'none'}")

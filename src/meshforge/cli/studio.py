@@ -31,8 +31,8 @@ def studio(
 
 def open_studio(options: StudioOptions, *, port: int, browser: bool, page: Path | None = None) -> None:
     """Serve a studio, and say where."""
-    serve(options, _say, port=port, browser=browser, page=page or PAGE_FOLDER)
 
+    def announce(address: str) -> None:
+        print(f"Studio: {address}", flush=True)
 
-def _say(address: str) -> None:
-    print(f"Studio: {address}", flush=True)
+    serve(options, announce, port=port, browser=browser, page=page or PAGE_FOLDER)

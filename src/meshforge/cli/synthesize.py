@@ -18,7 +18,7 @@ from meshforge.cli.synthesize_session import LearningSession, check_all_asked, r
 from meshforge.cli.terminal import print_json, remark
 from meshforge.common import UsageError, join_names, pluralize
 from meshforge.language import Program
-from meshforge.project import Project
+from meshforge.project import Project, select_assets
 from meshforge.store import AnswersFile, RepairLine
 from meshforge.synthesis import LearningOutcome, Options, outcome_to_json
 
@@ -128,7 +128,7 @@ def _context_of(session: LearningSession, folder: Path, outcome: LearningOutcome
     return synthesize_text.LearningContext(
         folder,
         assets=len(session.project.assets()),
-        in_use=len(session.ids_in_use),
+        in_use=len(select_assets(session.project)),
         readable=len(session.meshes()),
         answers=len(answers.answers) + len(session.given) - len(outcome.stale),
         repairs=len(answers.confirmed),

@@ -16,7 +16,7 @@ from meshforge.cli.synthesize_text import describe_change
 from meshforge.cli.terminal import catch_interrupt, remark
 from meshforge.common import MeshForgeError, UsageError
 from meshforge.language import Program
-from meshforge.project import FamilyMeshes, Project, select_assets
+from meshforge.project import FamilyMeshes, Project
 from meshforge.rendering import Up, render, write_png
 from meshforge.symbolic import SymbolicMesh
 from meshforge.synthesis import Ambiguous, Answer, LearningOutcome, Options, Question, Repair
@@ -40,7 +40,7 @@ class LearningSession:
 
     def learn(self, confirm: Callable[[Repair], bool] | None = None) -> LearningOutcome:
         """What is learned from all that is known by now."""
-        meshes = self.family.meshes()
+        meshes = self.meshes()
         with catch_interrupt() as stop:
             outcome = self.project.synthesize(
                 accept=self.keep,
@@ -63,11 +63,6 @@ class LearningSession:
     @cached_property
     def family(self) -> FamilyMeshes:
         return FamilyMeshes(self.project)
-
-    @property
-    def ids_in_use(self) -> tuple[str, ...]:
-        """The ids of the assets to learn from."""
-        return select_assets(self.project)
 
     def meshes(self) -> dict[str, SymbolicMesh]:
         """The assets that can be read."""

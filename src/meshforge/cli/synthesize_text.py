@@ -9,22 +9,10 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import assert_never
 
+from meshforge import synthesis
 from meshforge.common import join_names, pluralize
 from meshforge.language import Program, explain, show
 from meshforge.store import orientation_text, toml_value
-from meshforge.synthesis import (
-    BELIEVABLE,
-    Ambiguous,
-    Choice,
-    Found,
-    LearningOutcome,
-    Nearest,
-    NeedsRepair,
-    NoProgram,
-    Question,
-    Repair,
-    TimedOut,
-)
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,25 +38,25 @@ class LearningContext:
         return shlex.quote(str(self.folder))
 
 
-def format_result(outcome: LearningOutcome, about: LearningContext) -> str:
+def format_result(outcome: synthesis.LearningOutcome, about: LearningContext) -> str:
     """The result: a program, or why there is none."""
     match outcome:
-        case Found() | Ambiguous():
+        case synthesis.Found() | synthesis.Ambiguous():
             return str(outcome.program).rstrip("\n")
-        case NeedsRepair():
+        case synthesis.NeedsRepair():
             return "\n".join(_describe_repairs(outcome, about))
-        case NoProgram():
+        case synthesis.NoProgram():
             return "\n".join(_describe_failure(outcome))
-        case TimedOut():
+        case synthesis.TimedOut():
             return "\n".join(_describe_timeout(outcome, about))
         case _:
             assert_never(outcome)
 
 
-def format_remarks(outcome: LearningOutcome, about: LearningContext) -> str:
+def format_remarks(outcome: synthesis.LearningOutcome, about: LearningContext) -> str:
     """How far the result can be trusted, and what to do next."""
     lines = [*_describe_stale(outcome, about), *_describe_overruled(outcome)]
-    if isinstance(outcome, Found | Ambiguous):
+    if isinstance(outcome, synthesis.Found | synthesis.Ambiguous):
         took = f"learned in {sum(outcome.seconds.values()):.2f} s{_describe_inputs(about)}"
         lines += [f"{took}, kept as {about.folder / 'program.mf'}" if about.kept else took]
         lines += _describe_agreement(outcome, about)
@@ -82,7 +70,7 @@ def _describe_inputs(about: LearningContext) -> str:
     return f" with {' and '.join(parts)}" if parts else ""
 
 
-def _describe_agreement(outcome: Found | Ambiguous, about: LearningContext) -> Iterator[str]:
+def _describe_agreement(outcome: synthesis.Found | synthesis.Ambiguous, about: LearningContext) -> Iterator[str]:
     if outcome.settled:
         all_ = "your one asset" if about.assets == 1 else f"your {about.assets:,} assets"
         part = "were looked at" if about.in_use < about.assets else "can be read"
@@ -100,7 +88,7 @@ def _describe_agreement(outcome: Found | Ambiguous, about: LearningContext) -> I
         yield f"  meshforge demonstrate {about.folder_word} {shlex.quote(outcome.hint.asset)} 'HULLS => ACTION' ..."
 
 
-def _describe_doubt(outcome: Found | Ambiguous) -> Iterator[str]:
+def _describe_doubt(outcome: synthesis.Found | synthesis.Ambiguous) -> Iterator[str]:
     """Where a reading that is not likely enough to ask about would do something else."""
     rows = _doubtful_pairs(outcome)
     rules, assets = sorted({str(rule) for rule, _ in rows}), sorted({asset for _, asset in rows})
@@ -112,26 +100,26 @@ def _describe_doubt(outcome: Found | Ambiguous) -> Iterator[str]:
         )
 
 
-def _doubtful_pairs(outcome: Found | Ambiguous) -> set[tuple[int, str]]:
+def _doubtful_pairs(outcome: synthesis.Found | synthesis.Ambiguous) -> set[tuple[int, str]]:
     """The rules and assets on which a believable reading differs from the program."""
-    believable = (reading for reading in outcome.readings if reading.belief >= BELIEVABLE)
+    believable = (reading for reading in outcome.readings if reading.belief >= synthesis.BELIEVABLE)
     return {(reading.rule, asset) for reading in believable for asset in reading.differs_on}
 
 
-def _describe_stale(outcome: LearningOutcome, about: LearningContext) -> Iterator[str]:
+def _describe_stale(outcome: synthesis.LearningOutcome, about: LearningContext) -> Iterator[str]:
     for answer in outcome.stale:
         question = f"{answer.rule}:{answer.asset}"
         yield f"the answer {question} no longer fits what is there, and is left out"
         yield f"  to take it back: meshforge synthesize {about.folder_word} --forget {shlex.quote(question)}"
 
 
-def _describe_overruled(outcome: LearningOutcome) -> Iterator[str]:
+def _describe_overruled(outcome: synthesis.LearningOutcome) -> Iterator[str]:
     if outcome.overruled:
         yield f"no program does what is demonstrated and keeps the accepted results of {join_names(outcome.overruled)};"
         yield "  it was learned without these: look at them again after applying"
 
 
-def _describe_failure(outcome: NoProgram) -> Iterator[str]:
+def _describe_failure(outcome: synthesis.NoProgram) -> Iterator[str]:
     yield f"no program found: {outcome.why}"
     yield from (f"  learned: {rule}" for rule in outcome.rules)
     yield from _describe_nearest(outcome.nearest)
@@ -143,7 +131,7 @@ def _describe_failure(outcome: NoProgram) -> Iterator[str]:
         yield "  in meshforge.toml write: orient = " + toml_value(orientation_text(outcome.suggested.orient))
 
 
-def _describe_timeout(outcome: TimedOut, about: LearningContext) -> Iterator[str]:
+def _describe_timeout(outcome: synthesis.TimedOut, about: LearningContext) -> Iterator[str]:
     number = len(outcome.rules) + 1
     if about.stopped:
         yield f"stopped while rule {number} was searched for"
@@ -153,7 +141,7 @@ def _describe_timeout(outcome: TimedOut, about: LearningContext) -> Iterator[str
     yield from _describe_nearest(outcome.nearest) if outcome.nearest else ()
 
 
-def _describe_nearest(nearest: Nearest) -> Iterator[str]:
+def _describe_nearest(nearest: synthesis.Nearest) -> Iterator[str]:
     yield f"nearest for rule {nearest.rule}: {show(nearest.extractor)}; on {nearest.asset} it"
     if nearest.extra:
         yield f"  selects too much: {', '.join(nearest.extra)}"
@@ -161,7 +149,7 @@ def _describe_nearest(nearest: Nearest) -> Iterator[str]:
         yield f"  leaves out:       {', '.join(nearest.missing)}"
 
 
-def _describe_repairs(outcome: NeedsRepair, about: LearningContext) -> Iterator[str]:
+def _describe_repairs(outcome: synthesis.NeedsRepair, about: LearningContext) -> Iterator[str]:
     yield f"no program yet: {pluralize(len(outcome.repairs), 'label')} may be wrong"
     for repair in outcome.repairs:
         yield f"  {describe_change(repair)}" + (f"  ({format_belief(repair)} sure)" if format_belief(repair) else "")
@@ -174,14 +162,14 @@ def _describe_repairs(outcome: NeedsRepair, about: LearningContext) -> Iterator[
     yield f"To keep the labels as they are: {command} --reject-repairs"
 
 
-def format_question(question: Question, program: Program, pictures: Sequence[Path] = ()) -> str:
+def format_question(question: synthesis.Question, program: Program, pictures: Sequence[Path] = ()) -> str:
     """What a rule does as it stands, and what else it may be meant to select."""
     rule = program.rules[question.rule - 1]
     lines = [f"Rule {question.rule} can be read in more than one way.", f"  now: {rule}", f"       {explain(rule)}"]
     return "\n".join([*lines, format_choices(question, pictures)])
 
 
-def format_choices(question: Question, pictures: Sequence[Path] = ()) -> str:
+def format_choices(question: synthesis.Question, pictures: Sequence[Path] = ()) -> str:
     """The choices alone, numbered from 1."""
     lines = [f"What should rule {question.rule} take on {question.asset}?"]
     for number, choice in enumerate(question.choices, 1):
@@ -190,7 +178,7 @@ def format_choices(question: Question, pictures: Sequence[Path] = ()) -> str:
     return "\n".join(lines)
 
 
-def _describe_choice(choice: Choice, number: int, first: Choice) -> str:
+def _describe_choice(choice: synthesis.Choice, number: int, first: synthesis.Choice) -> str:
     """The hulls of a choice; those of a later one by how they differ from the first, where that says it shorter."""
     if not choice.select:
         return "nothing"
@@ -203,25 +191,25 @@ def _describe_choice(choice: Choice, number: int, first: Choice) -> str:
     return f"{count}: those of 1, {', '.join(parts)}"
 
 
-def format_repair(repair: Repair, picture: Path | None = None) -> str:
+def format_repair(repair: synthesis.Repair, picture: Path | None = None) -> str:
     """A label that may be wrong, and why."""
     lines = ["A label may be wrong.", f"  {describe_change(repair)}", f"  why: {repair.why}"]
     lines += [f"  how sure: {format_belief(repair)}"] if format_belief(repair) else []
     return "\n".join([*lines, f"  picture: {picture}"] if picture else lines)
 
 
-def describe_change(repair: Repair) -> str:
+def describe_change(repair: synthesis.Repair) -> str:
     """`hull of asset: door -> handle`."""
     wrong = repair.correction
     return f"{wrong.hull} of {wrong.asset}: {wrong.was or 'no label'} -> {wrong.to}"
 
 
-def format_belief(repair: Repair) -> str | None:
+def format_belief(repair: synthesis.Repair) -> str | None:
     """How likely the repair is right, for people; None where that is not known, as of the paper's strategy."""
     return f"{min(round(100 * repair.belief), 99)} %" if repair.belief < 1 else None
 
 
-def format_answer_help(question: Question, project: str) -> str:
+def format_answer_help(question: synthesis.Question, project: str) -> str:
     """How to answer where nobody can be asked; project: its folder, as one types it."""
     example = json.dumps([{"question": question.id, "choice": 1}], ensure_ascii=False)
     return (

@@ -1,10 +1,9 @@
 """What is done with a project folder: demonstrate, learn, ask, review, apply, and how far everything is."""
 
-from meshforge.project.family import FamilyMeshes, select_assets, suggest_first_demonstration
-from meshforge.project.learn import ProgramState
+from meshforge.project.learn import FamilyMeshes, ProgramState, select_assets, suggest_first_demonstration
 from meshforge.project.prepare import PreparationResult
 from meshforge.project.project import Project
-from meshforge.project.review import output_digest
+from meshforge.project.run import make_correction, output_digest, run_with_corrections
 from meshforge.project.status import AssetStatus, Status
 
 __all__ = [
@@ -14,7 +13,9 @@ __all__ = [
     "ProgramState",
     "Project",
     "Status",
+    "make_correction",
     "output_digest",
+    "run_with_corrections",
     "select_assets",
     "suggest_first_demonstration",
 ]

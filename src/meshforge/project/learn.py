@@ -1,5 +1,5 @@
-"""The program of a project: learned from its demonstrations and from what a person said since, accepted, and compared
-with what it was learned from.
+"""The program of a project: learned from its demonstrations on some of its assets and from what a person said since,
+accepted, and compared with what it was learned from.
 """
 
 from __future__ import annotations
@@ -7,26 +7,73 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
+from meshforge import synthesis
 from meshforge.batch import RECORD_FILE, file_digest, program_digest, text_digest
-from meshforge.common import ProgramError, ProjectError, write_atomically
+from meshforge.common import MeshForgeError, ProgramError, ProjectError, write_atomically
 from meshforge.language import Program
-from meshforge.project.answer import actions_of, check_answer, confirm_repair, reject_repair
-from meshforge.project.family import FamilyMeshes
-from meshforge.project.review import find_accepted_results
+from meshforge.project import lesson
+from meshforge.project.run import find_accepted_results, pick_evenly
 from meshforge.store import AnswerLine, AnswersFile, ProgramRecord, Settings, Store
 from meshforge.symbolic import SymbolicMesh
-from meshforge.synthesis import (
-    Ambiguous,
-    Answer,
-    Demonstration,
-    Found,
-    LabelCorrection,
-    LearningOutcome,
-    NoProgram,
-    Options,
-    Repair,
-    synthesize,
-)
+
+MOST_ASSETS = 400
+"""Of more assets so many are looked at while a program is learned, besides those of which something was said: they are
+all read and edited again after each answer. A variant that one asset in a hundred has is then missed once in fifty
+times."""
+
+MOST_COMPARED = 100
+"""Of more assets so many are looked at, evenly over all: each has to be read."""
+
+
+class FamilyMeshes:
+    """Reads every asset once; labels are looked at anew each time, as answers change them."""
+
+    def __init__(self, store: Store) -> None:
+        self._store = store
+        self._kept: dict[str, tuple[bytes, SymbolicMesh]] = {}
+
+    def meshes(self) -> dict[str, SymbolicMesh]:
+        """The assets to learn from that can be read, by id, with the labels they have now."""
+        if not self._kept:
+            rows = self._store.meshes_by_id(select_assets(self._store))
+            self._kept = {asset: (self._store.label_bytes(asset), mesh) for asset, mesh in rows}
+        for asset, (before, mesh) in self._kept.items():
+            now = self._store.label_bytes(asset)
+            if now != before:
+                self._kept[asset] = now, self._store.relabel(asset, mesh)
+        return {asset: mesh for asset, (_, mesh) in self._kept.items()}
+
+
+def select_assets(store: Store) -> tuple[str, ...]:
+    """The assets to learn from: all, or of very many those that a person said something about, and some evenly."""
+    every = store.assets()
+    if len(every) <= MOST_ASSETS:
+        return every
+    known = {line.asset for line in store.answers().answers}
+    known.update(find_accepted_results(store))
+    known.update(store.demonstration_ids())
+    known.update(pick_evenly(every, MOST_ASSETS))
+    return tuple(asset for asset in every if asset in known)
+
+
+def suggest_first_demonstration(store: Store, assets: Sequence[str]) -> str | None:
+    """The id of the asset that tells most when it is demonstrated, None where there is nothing to choose by.
+
+    assets: ids of those that come into question.
+    """
+    if len(assets) < 2:
+        return next(iter(assets), None)
+    meshes: dict[str, SymbolicMesh] = {}
+    for asset in pick_evenly(assets, MOST_COMPARED):
+        try:
+            meshes[asset] = store.mesh(asset)
+        except MeshForgeError:  # the status names it, with the reason
+            continue
+    settings = store.settings
+    limits = settings.thresholds
+    return synthesis.choose_first_demonstration(
+        meshes, settings.vocabulary, store.orientation, limits.contact, limits.extremity
+    )
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,7 +89,7 @@ class ProgramState:
     by_hand: bool = False
 
 
-def accept_outcome(store: Store, outcome: Found | Ambiguous, inputs: str) -> None:
+def accept_outcome(store: Store, outcome: synthesis.Found | synthesis.Ambiguous, inputs: str) -> None:
     """Keep a learned program, and what it was learned from."""
     store.write_program(outcome.program)
     question = outcome.question.id if outcome.question else None
@@ -100,70 +147,73 @@ def digest_learning_inputs(store: Store, settings: Settings | None = None) -> st
     return text_digest("\n".join(words))
 
 
-Confirm = Callable[[Repair], bool]
+Confirm = Callable[[synthesis.Repair], bool]
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class LearnOptions:
-    """How a project is to learn; the fields are those of `Project.synthesize`."""
+def learn_program(
+    store: Store,
+    *,
+    accept: bool = True,
+    options: synthesis.Options | None = None,
+    confirm: Confirm | None = None,
+    stop: Callable[[], bool] | None = None,
+    answers: Sequence[synthesis.Answer] = (),
+    meshes: Mapping[str, SymbolicMesh] | None = None,
+) -> synthesis.LearningOutcome:
+    """Learn the program from the demonstrations and from what a person said since.
 
-    accept: bool = True
-    options: Options | None = None
-    confirm: Confirm | None = None
-    stop: Callable[[], bool] | None = None
-    answers: Sequence[Answer] = ()
-    meshes: Mapping[str, SymbolicMesh] | None = None
-
-
-def learn_program(store: Store, how: LearnOptions) -> LearningOutcome:
-    """What can be learned from the demonstrations. Raises ProjectError where there are none."""
-    meshes = FamilyMeshes(store).meshes() if how.meshes is None else how.meshes
+    accept: what is found becomes the project's program, and what `confirm` says about repairs is kept at once.
+    confirm, stop: as of `meshforge.synthesize`; answers: for this lesson, before those that are kept.
+    meshes: the assets by id, where they are in memory already (`FamilyMeshes`); else they are read, of very many some.
+    Raises ProjectError where nothing is demonstrated.
+    """
+    meshes = FamilyMeshes(store).meshes() if meshes is None else meshes
     demos = _read_demonstrations(store, meshes)
     inputs = digest_learning_inputs(store)
     answers_file = store.answers()
-    fitting, unfit = _sort_answers(store, answers_file, demos, how.answers)
+    fitting, unfit = _sort_answers(store, answers_file, demos, answers)
     accepted = _answers_of_accepted(store, demos, fitting)
-    asker = _RepairAsker(store, how.confirm) if how.accept and how.confirm else None
+    asker = _RepairAsker(store, confirm) if accept and confirm else None
     settings = store.settings
     names = dict.fromkeys(name for demo in demos.values() for step in demo.steps for name in step.action.templates)
-    confirm = _ask_once(asker or how.confirm) if how.confirm else None
+    ask = _ask_once(asker or confirm) if confirm else None
     templates = store.templates(names)
     options = replace(
-        how.options or Options(),
+        options or synthesis.Options(),
         contact=settings.thresholds.contact,
         extremity=settings.thresholds.extremity,
         rejected=tuple(_list_rejections(answers_file)),
-        stop=how.stop,
+        stop=stop,
     )
 
-    def learn(answers: Sequence[Answer]) -> LearningOutcome:
-        return synthesize(
+    def learn(answers: Sequence[synthesis.Answer]) -> synthesis.LearningOutcome:
+        return synthesis.synthesize(
             tuple(demos.values()),
             batch=meshes,
             orient=store.orientation,
             templates=templates,
             vocabulary=settings.vocabulary or None,
             options=options,
-            confirm=confirm,
+            confirm=ask,
             answers=answers,
         )
 
     outcome = learn([*accepted, *fitting])
-    if isinstance(outcome, NoProgram) and accepted:
+    if isinstance(outcome, synthesis.NoProgram) and accepted:
         overruled = tuple(dict.fromkeys(answer.asset for answer in accepted))
         outcome = replace(learn(fitting), overruled=overruled)
     stale = [answer for answer in outcome.stale if answer not in accepted]
     outcome = replace(outcome, stale=tuple(dict.fromkeys([*unfit, *stale])))
-    if how.accept and isinstance(outcome, Found | Ambiguous):
+    if accept and isinstance(outcome, synthesis.Found | synthesis.Ambiguous):
         accept_outcome(store, outcome, asker.inputs if asker and asker.inputs else inputs)
     return outcome
 
 
 def _ask_once(confirm: Confirm) -> Confirm:
     """Asks about each correction once, however often something is learned."""
-    answers: dict[LabelCorrection, bool] = {}
+    answers: dict[synthesis.LabelCorrection, bool] = {}
 
-    def ask(repair: Repair) -> bool:
+    def ask(repair: synthesis.Repair) -> bool:
         if repair.correction not in answers:
             answers[repair.correction] = confirm(repair)
         return answers[repair.correction]
@@ -178,14 +228,14 @@ class _RepairAsker:
         self._store, self._confirm = store, confirm
         self.inputs: str | None = None
 
-    def __call__(self, repair: Repair) -> bool:
+    def __call__(self, repair: synthesis.Repair) -> bool:
         right = self._confirm(repair)
-        (confirm_repair if right else reject_repair)(self._store, repair.correction)
+        (lesson.confirm if right else lesson.reject)(self._store, repair.correction)
         self.inputs = digest_learning_inputs(self._store)
         return right
 
 
-def _read_demonstrations(store: Store, meshes: Mapping[str, SymbolicMesh]) -> dict[str, Demonstration]:
+def _read_demonstrations(store: Store, meshes: Mapping[str, SymbolicMesh]) -> dict[str, synthesis.Demonstration]:
     ids = store.demonstration_ids()
     if not ids:
         raise ProjectError(
@@ -194,15 +244,18 @@ def _read_demonstrations(store: Store, meshes: Mapping[str, SymbolicMesh]) -> di
             remedy=f"Show the steps on an asset or two: meshforge demonstrate {store.folder} ASSET STEPS...",
         )
     # one that cannot be read is missing among the meshes; reading it again says why
-    return {asset: Demonstration(meshes.get(asset) or store.mesh(asset), store.steps(asset), asset) for asset in ids}
+    return {
+        asset: synthesis.Demonstration(meshes.get(asset) or store.mesh(asset), store.steps(asset), asset)
+        for asset in ids
+    }
 
 
 def _sort_answers(
-    store: Store, said: AnswersFile, demos: Mapping[str, Demonstration], more: Sequence[Answer]
-) -> tuple[list[Answer], list[Answer]]:
+    store: Store, said: AnswersFile, demos: Mapping[str, synthesis.Demonstration], more: Sequence[synthesis.Answer]
+) -> tuple[list[synthesis.Answer], list[synthesis.Answer]]:
     """The answers to learn from, and those to a rule that does something else by now."""
-    lines = {line.id: line for line in [*said.answers, *(check_answer(store, answer) for answer in more)]}
-    actions = actions_of(demo.steps for demo in demos.values())
+    lines = {line.id: line for line in [*said.answers, *(lesson.check_answer(store, answer) for answer in more)]}
+    actions = lesson.actions_of(demo.steps for demo in demos.values())
 
     def fits(line: AnswerLine) -> bool:
         return actions.get(line.rule) == (line.action or actions.get(line.rule, ""))
@@ -211,19 +264,21 @@ def _sort_answers(
     return fitting, [line.answer for line in lines.values() if not fits(line)]
 
 
-def _answers_of_accepted(store: Store, demos: Mapping[str, Demonstration], said: Sequence[Answer]) -> list[Answer]:
+def _answers_of_accepted(
+    store: Store, demos: Mapping[str, synthesis.Demonstration], said: Sequence[synthesis.Answer]
+) -> list[synthesis.Answer]:
     """What rules select on results that were accepted, but for what was said otherwise, or of rules that are others."""
-    actions = actions_of(demo.steps for demo in demos.values())
+    actions = lesson.actions_of(demo.steps for demo in demos.values())
     known = {(answer.rule, answer.asset) for answer in said}
     return [
-        Answer(one.rule, asset, one.select)
+        synthesis.Answer(one.rule, asset, one.select)
         for asset, seen in find_accepted_results(store).items()
         for one in seen
         if actions.get(one.rule) == one.action and (one.rule, asset) not in known
     ]
 
 
-def _list_rejections(answers: AnswersFile) -> list[LabelCorrection]:
+def _list_rejections(answers: AnswersFile) -> list[synthesis.LabelCorrection]:
     """What is not to be proposed: what was refused, and what would undo a confirmed repair."""
     undone = (line.correction.reverse for line in answers.confirmed)
     return [*(line.correction for line in answers.rejected), *(reverse for reverse in undone if reverse)]

@@ -2,32 +2,33 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator
 from functools import partial
 
 from meshforge.batch import ApplyTask, AssetJob, ExecutionOptions, Stamp, inputs_of, read_stamp
 from meshforge.common import MeshForgeError
 from meshforge.language import Program
-from meshforge.project.demonstrate import find_unknown_hulls
-from meshforge.project.family import suggest_first_demonstration
-from meshforge.project.learn import program_state_of
-from meshforge.project.review import output_digest
-from meshforge.project.run import build_jobs, build_task
-from meshforge.project.status import AssetStatus, OutputState, Status, advise
+from meshforge.project.learn import program_state_of, suggest_first_demonstration
+from meshforge.project.lesson import find_unknown_hulls
+from meshforge.project.run import build_jobs, build_task, output_digest
+from meshforge.project.status import Adviser, AssetStatus, Status
 from meshforge.store import AssetFacts, Review, Store, geometry_digest, survey
 from meshforge.symbolic import LabelFile, match_labels
 
 
 def compute_status(
     store: Store,
-    only: Collection[str] | None,
-    others: Iterable[AssetStatus],
-    workers: int | None,
-    progress: Callable[[], None] | None,
+    only: Collection[str] | None = None,
+    *,
+    others: Iterable[AssetStatus] = (),
+    workers: int | None = None,
+    progress: Callable[[], None] | None = None,
     stop: Callable[[], bool] | None = None,
 ) -> Status:
-    """How far everything is, or some assets; others: what is known of other ones, which counts for the advice.
+    """How far everything is, what is stale, and the next sensible step.
 
+    only: ids; then the status holds these assets alone, and its next step counts besides them `others`, which are
+    known already. workers, progress, stop: as of `meshforge.batch.run_isolated`, for assets that have to be read.
     Raises ProjectError for an asset that is not there, and for a file of the project that cannot be read.
     """
     for asset in only or ():
@@ -41,8 +42,8 @@ def compute_status(
     rules = len(program.rules) if program else None
     known = {asset.id: asset for asset in (*others, *assets)}
     every = [known[asset] for asset in ids if asset in known]
-    first = partial(suggest_first_demonstration, store) if only is None else _choose_none
-    advised = advise(store.folder, ids, every, settings.vocabulary, rules, state, problem, first)
+    first = partial(suggest_first_demonstration, store) if only is None else lambda assets: None
+    adviser = Adviser(store.folder, ids, every, settings.vocabulary, rules, state, problem, first)
     return Status(
         settings.name,
         assets,
@@ -51,13 +52,9 @@ def compute_status(
         state.outdated,
         problem,
         _find_lost_ids(store),
-        advised,
+        adviser.advise(),
         state.question,
     )
-
-
-def _choose_none(assets: Sequence[str]) -> None:
-    """No suggestion, where only a part of the project is looked at."""
 
 
 def _read_program(store: Store) -> tuple[Program | None, ApplyTask | None, str | None]:
@@ -84,7 +81,7 @@ def _asset_status(
         labelled=len(homes.labels),
         doubtful=tuple(sorted((*homes.changed, *homes.gone), key=list(file.labels).index)),
         demonstrated=store.layout.demonstration(job.id).exists(),
-        output=_output_state(stamp),
+        output=stamp.status if stamp else "none",
         stale=_find_changes(stamp, job, facts, task),
         error=facts.error or unreadable or failed,
         flags=(*_describe_unknown_hulls(store, job.id, facts), *(stamp.flags if stamp else ())),
@@ -121,10 +118,6 @@ def _read_labels(store: Store, job: AssetJob) -> tuple[LabelFile, str | None]:
         return store.labels(job.id), None
     except MeshForgeError as error:
         return LabelFile(), error.message
-
-
-def _output_state(stamp: Stamp | None) -> OutputState:
-    return stamp.status if stamp else "none"
 
 
 def _find_changes(stamp: Stamp | None, job: AssetJob, facts: AssetFacts, task: ApplyTask | None) -> tuple[str, ...]:

@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
-from contextlib import AbstractContextManager
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 from meshforge import batch
 from meshforge.common import AssetError, MeshForgeError, ProjectError, describe_error, join_names
 from meshforge.formats import read
-from meshforge.geometry import DecomposeSettings, Shape, cache_folder
+from meshforge.geometry import CoacdSettings, DecomposeSettings, Shape, cache_folder
 from meshforge.labels import label_new_hulls
-from meshforge.project.demonstrate import find_unknown_hulls
+from meshforge.project.lesson import find_unknown_hulls
 from meshforge.store import Store
 from meshforge.symbolic import Asset, SymbolicMesh
 
@@ -50,19 +51,33 @@ def change_preparation(
     return PreparationResult(asset, tuple(entry for step in added for entry in step.replaced), tuple(notes))
 
 
-def split(store: Store, asset: str, hull: str, settings: DecomposeSettings, hollow: bool) -> PreparationResult:
-    """Split a hull by a decomposition of what its body shows."""
+def cut(store: Store, asset: str, hull: str, at: Sequence[float], across: Sequence[float]) -> PreparationResult:
+    """Cut a hull along the plane through `at` (3,) [m] across `across` (3,), in the frame that the asset comes in.
+
+    Raises GeometryError: no such hull, or a plane that misses it.
+    """
+    return change_preparation(store, asset, lambda source, before: batch.cut_hull(source, before, hull, at, across))
+
+
+def split(
+    store: Store, asset: str, hull: str, settings: DecomposeSettings | None = None, *, hollow: bool = False
+) -> PreparationResult:
+    """Split a hull by a decomposition of what its body shows, or of the opaque piece that it was made of.
+
+    Raises GeometryError: no such hull, nothing to decompose, or nothing that divides it.
+    """
 
     def make(source: Asset, before: batch.Preparation) -> batch.Preparation:
-        return batch.split_hull(source, before, hull, settings, hollow=hollow, cache=cache_folder())
+        engine = settings or CoacdSettings()
+        return batch.split_hull(source, before, hull, engine, hollow=hollow, cache=cache_folder())
 
     return change_preparation(store, asset, make)
 
 
-def unprepare(store: Store, asset: str, everything: bool) -> PreparationResult:
-    """Take back the last thing that was done to an asset, or everything. Raises ProjectError where nothing was.
+def unprepare(store: Store, asset: str, *, everything: bool = False) -> PreparationResult:
+    """Take back the last thing that was done to an asset before the program, or everything.
 
-    What is kept for an asset that is gone, or cannot be read, can be taken back as a whole.
+    Everything also of an asset that is gone or cannot be read. Raises ProjectError where nothing was done.
     """
     if asset not in store.layout.ids_with_preparation():
         store.path(asset)
@@ -136,43 +151,40 @@ def _exchange(store: Store, asset: str, after: batch.Preparation) -> list[str]:
 
 
 @dataclass(frozen=True, slots=True)
-class DecomposeOptions:
-    """What is decomposed, and how.
-
-    only: names of pieces and bodies, or patterns of them, none for all; again: also what is decomposed already;
-    hollow: shells of one sheet are not filled.
-    """
-
-    settings: DecomposeSettings
-    only: tuple[str, ...] = ()
-    again: bool = False
-    hollow: bool = False
-
-
-@dataclass(frozen=True, slots=True)
 class _DecomposeWork:
-    """One asset to be decomposed; folder: of its preparation."""
+    """One asset to be decomposed; folder: of its preparation; options: those of `batch.decompose_asset`."""
 
     path: Path
     folder: Path
-    options: DecomposeOptions
+    settings: DecomposeSettings
+    options: Mapping[str, Any]
 
 
 def decompose(
     store: Store,
-    assets: Sequence[str],
-    options: DecomposeOptions,
-    execution: batch.ExecutionOptions,
-    write_block: Callable[[str], AbstractContextManager[object]],
+    assets: Iterable[str] | None = None,
+    settings: DecomposeSettings | None = None,
+    *,
+    only: Sequence[str] = (),
+    again: bool = False,
+    hollow: bool = False,
+    execution: batch.ExecutionOptions = batch.EXECUTION_DEFAULTS,
+    write_block: Callable[[str], AbstractContextManager[object]] = nullcontext,
 ) -> Iterator[PreparationResult]:
-    """Decompose what assets have no hulls for, in worker processes; each is kept as soon as it is done."""
-    work = [_DecomposeWork(store.path(asset), store.layout.preparation(asset), options) for asset in assets]
+    """Make hulls of what has none: non-convex pieces, and what bodies without collision geometry show.
+
+    It is done in worker processes. assets: all when None; settings: CoACD's defaults when None; only: names of pieces
+    and bodies, or patterns; again: also what is decomposed already; hollow: shells of one sheet are not filled;
+    write_block: the block in which an asset's files are written. Each is kept as soon as it is done, and what is done
+    stays done when the caller stops in the midst.
+    """
+    ids = store.assets() if assets is None else tuple(dict.fromkeys(assets))
+    engine, options = settings or CoacdSettings(), {"only": tuple(only), "again": again, "hollow": hollow}
+    work = [_DecomposeWork(store.path(asset), store.layout.preparation(asset), engine, options) for asset in ids]
     results = batch.run_isolated(_decompose_one, work, execution)
-    for asset, result in zip(assets, results, strict=True):
-        if isinstance(result, batch.WorkerFailure):
-            yield PreparationResult(asset, problems=(result.why,))
-        elif isinstance(result, str):
-            yield PreparationResult(asset, problems=(result,))
+    for asset, result in zip(ids, results, strict=True):
+        if isinstance(result, batch.WorkerFailure | str):
+            yield PreparationResult(asset, problems=(result if isinstance(result, str) else result.why,))
         else:
             with write_block(asset):
                 kept = _write_result(store, asset, *result)
@@ -185,11 +197,7 @@ def _decompose_one(work: _DecomposeWork) -> tuple[batch.DecompositionResult, str
         seen = batch.record_digest(work.folder)
         before = batch.read_preparation(work.folder) or batch.Preparation()
         asset = read(work.path)
-        options, cache = work.options, cache_folder()
-        done = batch.decompose_asset(
-            asset, before, options.settings, only=options.only, again=options.again, hollow=options.hollow, cache=cache
-        )
-        return done, seen
+        return batch.decompose_asset(asset, before, work.settings, **work.options, cache=cache_folder()), seen
     except Exception as error:  # one asset never stops the others
         return describe_error(error, str(work.path))
 

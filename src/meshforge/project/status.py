@@ -123,139 +123,112 @@ class Advice:
     command: str | None = None
 
 
-def advise(
-    folder: Path,
-    paths: Mapping[str, Path],
-    assets: Sequence[AssetStatus],
-    vocabulary: Sequence[str],
-    rules: int | None,
-    state: ProgramState,
-    problem: str | None,
-    first: Callable[[Sequence[str]], str | None],
-) -> Advice:
-    """The first thing that is missing on the way from assets to edited assets.
+@dataclass(frozen=True, slots=True)
+class Adviser:
+    """Finds what to do next in a project. paths: of the assets by id; rules: of the program, None where there is none.
 
-    paths: of the assets by id; first: which of some assets, by id, is to be demonstrated first.
+    problem: why the program cannot be applied; first: which of some assets, by id, is to be demonstrated first.
     """
-    if problem:
-        return Advice(f"The program cannot be applied: {problem}")
-    return (
-        _advise_hulls(folder, assets)
-        or _advise_labels(folder, paths, assets, vocabulary, rules)
-        or _advise_propagation(folder, assets, rules)
-        or _advise_demonstration(folder, paths, assets, rules, first)
-        or _advise_program(folder, rules, state.outdated)
-        or _advise_question(folder, assets, state.question)
-        or _advise_output(folder, assets)
-        or _advise_review(folder, assets)
-    )
 
+    folder: Path
+    paths: Mapping[str, Path]
+    assets: Sequence[AssetStatus]
+    vocabulary: Sequence[str]
+    rules: int | None
+    state: ProgramState
+    problem: str | None
+    first: Callable[[Sequence[str]], str | None]
 
-def _advise_hulls(folder: Path, assets: Sequence[AssetStatus]) -> Advice | None:
-    bare = [asset for asset in assets if asset.hulls == 0 and asset.sources]
-    if not bare:
-        return None
-    first = bare[0].id
-    who = f"{first} has" if len(bare) == 1 else f"{len(bare)} assets, first {first}, have"
-    return Advice(
-        f"{who} no hulls: decompose what has none.",
-        f"meshforge prepare {_quote_path(folder)} --decompose coacd",
-    )
-
-
-def _advise_labels(
-    folder: Path,
-    paths: Mapping[str, Path],
-    assets: Sequence[AssetStatus],
-    vocabulary: Sequence[str],
-    rules: int | None,
-) -> Advice | None:
-    if rules is not None or any(asset.labelled or asset.demonstrated for asset in assets):
-        return None
-    words = "" if vocabulary else " --vocabulary a,b,c"
-    command = f"meshforge label {_quote_path(folder)} --with file"
-    if any(map(label_file_beside, paths.values())):
-        return Advice("No hull has a label yet: take over the labels files beside the assets.", command)
-    return Advice("No hull has a label yet: name a folder of labels files.", f"{command} --labels FOLDER{words}")
-
-
-def _advise_propagation(folder: Path, assets: Sequence[AssetStatus], rules: int | None) -> Advice | None:
-    bare = [asset for asset in assets if asset.hulls and not asset.labelled]
-    whole = [asset for asset in assets if asset.hulls and asset.labelled == asset.hulls]
-    if rules is not None or not bare or not whole:
-        return None
-    who = f"{bare[0].id} has" if len(bare) == 1 else f"{len(bare)} assets, first {bare[0].id}, have"
-    return Advice(
-        f"{who} no label: propagate those of the labelled assets.",
-        f"meshforge label {_quote_path(folder)} --with propagate",
-    )
-
-
-def _advise_demonstration(
-    folder: Path,
-    paths: Mapping[str, Path],
-    assets: Sequence[AssetStatus],
-    rules: int | None,
-    first: Callable[[Sequence[str]], str | None],
-) -> Advice | None:
-    if rules is not None or any(asset.demonstrated for asset in assets):
-        return None
-    labelled = [asset.id for asset in assets if asset.labelled]
-    example = first(labelled) or next(iter(labelled or paths))
-    return Advice(
-        f"Nothing is demonstrated yet: show the steps of the edit on an asset or two, best first on {example}. "
-        f"The names of hulls: meshforge info {_quote_path(Path(example))} --project {_quote_path(folder)}",
-        f"meshforge demonstrate {_quote_path(folder)} {_quote_path(Path(example))} 'HULLS => ACTION' ...",
-    )
-
-
-def _advise_program(folder: Path, rules: int | None, outdated: bool) -> Advice | None:
-    if rules is None:
-        return Advice("Learn the program from the demonstrations.", f"meshforge synthesize {_quote_path(folder)}")
-    if outdated:
-        say = "Labels, demonstrations or settings changed since the program was learned: learn it again."
-        return Advice(say, f"meshforge synthesize {_quote_path(folder)}")
-    return None
-
-
-def _advise_question(folder: Path, assets: Sequence[AssetStatus], question: str | None) -> Advice | None:
-    """Nobody is asked who has applied the program as it is."""
-    if not question or not _not_up_to_date(assets):
-        return None
-    rule, _, asset = question.partition(":")
-    say = f"It is open what rule {rule} does on {asset}: answer the question, or apply the program as it is."
-    return Advice(say, f"meshforge synthesize {_quote_path(folder)}")
-
-
-def _not_up_to_date(assets: Sequence[AssetStatus]) -> list[AssetStatus]:
-    return [asset for asset in assets if not asset.is_done and (asset.output != "failed" or asset.stale)]
-
-
-def _advise_output(folder: Path, assets: Sequence[AssetStatus]) -> Advice | None:
-    behind = _not_up_to_date(assets)
-    if behind:
-        return Advice(
-            f"Apply the program: {_subject_of(behind)} not up to date.", f"meshforge apply {_quote_path(folder)}"
+    def advise(self) -> Advice:
+        """The first thing that is missing on the way from assets to edited assets."""
+        if self.problem:
+            return Advice(f"The program cannot be applied: {self.problem}")
+        return (
+            self._advise_hulls()
+            or (self._advise_before_learning() if self.rules is None else None)
+            or self._advise_program()
+            or self._advise_output()
+            or self._advise_review()
         )
-    failed = [asset for asset in assets if asset.output == "failed"]
-    if failed:
-        some = f"{len(failed)} of {len(assets)} assets, first on {failed[0].id}"
-        say = f"The program fails on {some}: fix what is named, then apply it again."
-        return Advice(say, f"meshforge apply {_quote_path(folder)}")
-    return None
+
+    def _advise_hulls(self) -> Advice | None:
+        bare = [asset for asset in self.assets if asset.hulls == 0 and asset.sources]
+        if not bare:
+            return None
+        return Advice(
+            f"{_name_assets(bare)} no hulls: decompose what has none.", self._type("prepare --decompose coacd")
+        )
+
+    def _advise_before_learning(self) -> Advice | None:
+        """Labels, then a demonstration."""
+        shown = any(asset.demonstrated for asset in self.assets)
+        if not shown and not any(asset.labelled for asset in self.assets):
+            command = self._type("label --with file")
+            if any(map(label_file_beside, self.paths.values())):
+                return Advice("No hull has a label yet: take over the labels files beside the assets.", command)
+            words = "" if self.vocabulary else " --vocabulary a,b,c"
+            return Advice(
+                "No hull has a label yet: name a folder of labels files.", f"{command} --labels FOLDER{words}"
+            )
+        bare = [asset for asset in self.assets if asset.hulls and not asset.labelled]
+        if bare and any(asset.hulls and asset.labelled == asset.hulls for asset in self.assets):
+            say = f"{_name_assets(bare)} no label: propagate those of the labelled assets."
+            return Advice(say, self._type("label --with propagate"))
+        return None if shown else self._advise_demonstration()
+
+    def _advise_demonstration(self) -> Advice:
+        labelled = [asset.id for asset in self.assets if asset.labelled]
+        example = self.first(labelled) or next(iter(labelled or self.paths))
+        quoted = _quote_path(Path(example))
+        return Advice(
+            f"Nothing is demonstrated yet: show the steps of the edit on an asset or two, best first on {example}. "
+            f"The names of hulls: meshforge info {quoted} --project {_quote_path(self.folder)}",
+            self._type(f"demonstrate {quoted} 'HULLS => ACTION' ..."),
+        )
+
+    def _advise_program(self) -> Advice | None:
+        if self.rules is None:
+            return Advice("Learn the program from the demonstrations.", self._type("synthesize"))
+        if self.state.outdated:
+            say = "Labels, demonstrations or settings changed since the program was learned: learn it again."
+            return Advice(say, self._type("synthesize"))
+        if self.state.question and self._behind:  # nobody is asked who has applied the program as it is
+            rule, _, asset = self.state.question.partition(":")
+            say = f"It is open what rule {rule} does on {asset}: answer the question, or apply the program as it is."
+            return Advice(say, self._type("synthesize"))
+        return None
+
+    @property
+    def _behind(self) -> list[AssetStatus]:
+        """The assets whose output is not up to date."""
+        return [asset for asset in self.assets if not asset.is_done and (asset.output != "failed" or asset.stale)]
+
+    def _advise_output(self) -> Advice | None:
+        if behind := self._behind:
+            who = f"{behind[0].id} is" if len(behind) == 1 else f"{len(behind)} assets are"
+            return Advice(f"Apply the program: {who} not up to date.", self._type("apply"))
+        failed = [asset for asset in self.assets if asset.output == "failed"]
+        if not failed:
+            return None
+        some = f"{len(failed)} of {len(self.assets)} assets, first on {failed[0].id}"
+        return Advice(f"The program fails on {some}: fix what is named, then apply it again.", self._type("apply"))
+
+    def _advise_review(self) -> Advice:
+        odd = [asset.id for asset in self.assets if asset.flags or asset.review == "flagged"]
+        if odd:
+            return Advice(f"All assets are edited; {len(odd)} of them want a look, first {odd[0]}.")
+        edited = _quote_path(self.folder / "edited")
+        return Advice("All assets are edited and up to date: check them.", f"meshforge check {edited}")
+
+    def _type(self, words: str) -> str:
+        """A command on the project as one types it here; words: its name, and what follows the project."""
+        command, *more = words.split(" ", 1)
+        return " ".join(["meshforge", command, _quote_path(self.folder), *more])
 
 
-def _advise_review(folder: Path, assets: Sequence[AssetStatus]) -> Advice:
-    odd = [asset.id for asset in assets if asset.flags or asset.review == "flagged"]
-    if odd:
-        return Advice(f"All assets are edited; {len(odd)} of them want a look, first {odd[0]}.")
-    return Advice(
-        "All assets are edited and up to date: check them.", f"meshforge check {_quote_path(folder / 'edited')}"
-    )
-
-
-def _subject_of(assets: Sequence[AssetStatus]) -> str:
-    return f"{assets[0].id} is" if len(assets) == 1 else f"{len(assets)} assets are"
+def _name_assets(assets: Sequence[AssetStatus]) -> str:
+    first = assets[0].id
+    return f"{first} has" if len(assets) == 1 else f"{len(assets)} assets, first {first}, have"
 
 
 def _quote_path(path: Path) -> str:

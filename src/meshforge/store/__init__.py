@@ -12,7 +12,6 @@ from meshforge.store.feedback import (
     Verdict,
     repair_id,
 )
-from meshforge.store.folder import add_assets, create_folder, find_assets
 from meshforge.store.layout import json_text, read_json, write_json
 from meshforge.store.meshes import AssetFacts, AssetFiles, geometry_digest, hull_digests, iterate_survey, survey
 from meshforge.store.program import (
@@ -27,7 +26,10 @@ from meshforge.store.program import (
 from meshforge.store.settings import (
     Settings,
     VlmSettings,
+    add_assets,
+    create_folder,
     edit_settings,
+    find_assets,
     orientation,
     orientation_text,
     read_settings,

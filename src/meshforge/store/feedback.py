@@ -3,13 +3,11 @@
 from __future__ import annotations
 
 from abc import abstractmethod
-from collections.abc import Mapping
-from pathlib import Path
 from typing import Annotated, Literal, Self
 
 from pydantic import ConfigDict, Field, model_validator
 
-from meshforge.store.layout import JsonFile, read_json, write_json
+from meshforge.store.layout import JsonFile
 from meshforge.symbolic import Label, LabelSource
 from meshforge.synthesis import Answer, LabelCorrection
 
@@ -111,47 +109,25 @@ class AnswersFile(JsonFile):
 
     def without(self, entry: str) -> AnswersFile:
         """All but the entry of this id."""
+        kinds = {"answers": self.answers, "confirmed": self.confirmed, "rejected": self.rejected}
         return self.model_copy(
-            update={
-                "answers": tuple(line for line in self.answers if line.id != entry),
-                "confirmed": tuple(line for line in self.confirmed if line.id != entry),
-                "rejected": tuple(line for line in self.rejected if line.id != entry),
-            }
+            update={kind: tuple(line for line in lines if line.id != entry) for kind, lines in kinds.items()}
         )
 
     def with_line(self, line: AnswerLine | RepairLine) -> AnswersFile:
         """All, and one entry more in place of that of the same id."""
         rest = self.without(line.id)
-        match line:
-            case AnswerLine():
-                lines = sorted([*rest.answers, line], key=lambda one: (one.rule, one.asset))
-                return rest.model_copy(update={"answers": tuple(lines)})
-            case ConfirmationLine():
-                return rest.model_copy(update={"confirmed": tuple(sorted([*rest.confirmed, line], key=_sort_key))})
-            case _:
-                return rest.model_copy(update={"rejected": tuple(sorted([*rest.rejected, line], key=_sort_key))})
+        if isinstance(line, AnswerLine):
+            answers = sorted([*rest.answers, line], key=lambda one: (one.rule, one.asset))
+            return rest.model_copy(update={"answers": tuple(answers)})
+        kind = "confirmed" if isinstance(line, ConfirmationLine) else "rejected"
+        lines = sorted([*getattr(rest, kind), line], key=lambda one: (one.asset, one.hull, one.to))
+        return rest.model_copy(update={kind: tuple(lines)})
 
 
 def repair_id(correction: LabelCorrection) -> str:
     """What a repair is called: `ASSET#HULL=LABEL`, with the label that it gives."""
     return f"{correction.asset}#{correction.hull}={correction.to}"
-
-
-def _sort_key(line: RepairLine) -> tuple[str, str, str]:
-    return line.asset, line.hull, line.to
-
-
-def read_answers(path: Path) -> AnswersFile:
-    """All answers and repairs."""
-    return read_json(path, AnswersFile) or AnswersFile()
-
-
-def write_answers(path: Path, answers: AnswersFile) -> None:
-    """Write all answers and repairs; where there are none, there is no file."""
-    if answers.ids or answers.model_extra:
-        write_json(path, answers)
-    else:
-        path.unlink(missing_ok=True)
 
 
 class RuleSelection(JsonFile):
@@ -178,16 +154,3 @@ class ReviewFile(JsonFile):
     """All reviews, by asset."""
 
     assets: dict[str, Review] = Field(default_factory=dict)
-
-
-def read_reviews(path: Path) -> dict[str, Review]:
-    """All reviews, by asset."""
-    return (read_json(path, ReviewFile) or ReviewFile()).assets
-
-
-def write_reviews(path: Path, changes: Mapping[str, Review | None]) -> None:
-    """Write some reviews beside those of other assets; None takes one back."""
-    kept = read_json(path, ReviewFile) or ReviewFile()
-    reviews = {asset: review for asset, review in {**kept.assets, **changes}.items() if review}
-    if reviews != kept.assets:
-        write_json(path, kept.model_copy(update={"assets": dict(sorted(reviews.items()))}))

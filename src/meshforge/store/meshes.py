@@ -4,8 +4,7 @@ kept on disk, so that a status need not read hundreds of files again.
 
 from __future__ import annotations
 
-import json
-from collections.abc import Callable, Collection, Generator, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Generator, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 from time import monotonic
@@ -14,7 +13,7 @@ from typing import Literal
 from pydantic import BaseModel, ConfigDict, ValidationError
 
 from meshforge import batch, symbolic
-from meshforge.common import MeshForgeError, describe_error, relative_name, write_atomically
+from meshforge.common import describe_error, relative_name, write_atomically
 from meshforge.formats import read
 from meshforge.geometry import digest
 from meshforge.store.layout import Layout
@@ -217,33 +216,6 @@ def read_labels_file(path: Path) -> symbolic.LabelFile:
     return symbolic.read_labels(path) if path.exists() else symbolic.LabelFile()
 
 
-def read_meshes(ids: Iterable[str], files: Iterable[AssetFiles]) -> Iterator[tuple[str, symbolic.SymbolicMesh]]:
-    """Assets with their ids, one after the other; those that cannot be read are left out."""
-    for asset, own in zip(ids, files, strict=True):
-        try:
-            yield asset, own.read_mesh()
-        except MeshForgeError:
-            continue
-
-
 def hull_digests(mesh: symbolic.SymbolicMesh) -> dict[str, str]:
     """The digests of all hulls of a mesh by name, in order."""
     return {hull.name: digest(hull.shape) for hull in mesh.hulls}
-
-
-def write_labels(
-    path: Path,
-    hulls: Mapping[str, str],
-    labels: Mapping[str, symbolic.Label],
-    vocabulary: Sequence[str],
-    away: Collection[str] = (),
-) -> None:
-    """Write a labels file; labels of hulls that are gone stay in it, except for those of `away`."""
-    present = {name: labels[name] for name in hulls if name in labels}
-    text = symbolic.format_labels(symbolic.LabelFile(tuple(vocabulary), present, hulls))
-    if gone := [name for name in symbolic.match_labels(read_labels_file(path), hulls).gone if name not in away]:
-        old, new = json.loads(path.read_text(encoding="utf-8")), json.loads(text)
-        new["hulls"] |= {name: old["hulls"][name] for name in gone}
-        new["vocabulary"] = list(dict.fromkeys([*new["vocabulary"], *old.get("vocabulary", [])]))
-        text = json.dumps(new, ensure_ascii=False, indent=2) + "\n"
-    write_atomically(path, text)

@@ -98,33 +98,6 @@ class CorrectionsFile(JsonFile):
     steps: tuple[CorrectionLine, ...]
 
 
-def to_step_lines(steps: Sequence[Step]) -> tuple[StepLine, ...]:
-    """Steps as a file keeps them, names sorted."""
-    return tuple(
-        StepLine(
-            rule=step.rule,
-            select=None if step.select is None else tuple(sorted(step.select)),
-            action=action_text(step.action, step.label),
-        )
-        for step in steps
-    )
-
-
-def steps_of(lines: Sequence[StepLine], path: Path) -> tuple[Step, ...]:
-    """The steps of a file. Raises ProjectError for an action that does not parse."""
-    return tuple(Step(line.rule, line.select, *parse_action_text(line.action, path)) for line in lines)
-
-
-def to_correction_lines(corrections: Sequence[Correction]) -> tuple[CorrectionLine, ...]:
-    """Edits by hand as a file keeps them."""
-    return tuple(CorrectionLine(hulls=dict(c.hulls), action=action_text(c.action, c.label)) for c in corrections)
-
-
-def corrections_of(lines: Sequence[CorrectionLine], path: Path) -> tuple[Correction, ...]:
-    """The edits by hand of a file. Raises ProjectError for an action that does not parse."""
-    return tuple(Correction(tuple(line.hulls.items()), *parse_action_text(line.action, path)) for line in lines)
-
-
 def action_text(action: Action, label: str | None) -> str:
     """An action as a rule has it after its arrow: `Add(+X, "knob.obj") as handle`."""
     return f"{action} as {show_label(label)}" if label else str(action)
@@ -145,27 +118,38 @@ def parse_action_text(text: str, where: str | Path) -> tuple[Action, str | None]
 
 
 def read_steps(path: Path) -> tuple[Step, ...]:
-    """The steps in a demonstrations file, none where there is no such file."""
+    """The steps in a demonstrations file, none where there is no such file. Raises ProjectError for no action."""
     kept = read_json(path, DemonstrationFile)
-    return steps_of(kept.steps, path) if kept else ()
+    lines = kept.steps if kept else ()
+    return tuple(Step(line.rule, line.select, *parse_action_text(line.action, path)) for line in lines)
 
 
 def read_corrections(path: Path) -> tuple[Correction, ...]:
-    """The edits by hand in a file, none where there is no such file."""
+    """The edits by hand in a file, none where there is no such file. Raises ProjectError for no action."""
     kept = read_json(path, CorrectionsFile)
-    return corrections_of(kept.steps, path) if kept else ()
+    lines = kept.steps if kept else ()
+    return tuple(Correction(tuple(line.hulls.items()), *parse_action_text(line.action, path)) for line in lines)
 
 
 def write_steps(path: Path, asset: str, steps: Sequence[Step]) -> None:
-    """Write the steps of a demonstrations file; without any step the file is removed."""
+    """Write the steps of a demonstrations file, names sorted; without any step the file is removed."""
     if not steps:
         path.unlink(missing_ok=True)
         return
     kept = read_json(path, DemonstrationFile) or DemonstrationFile(asset=asset, steps=())
-    write_json(path, kept.model_copy(update={"asset": asset, "steps": to_step_lines(steps)}))
+    lines = tuple(
+        StepLine(
+            rule=step.rule,
+            select=None if step.select is None else tuple(sorted(step.select)),
+            action=action_text(step.action, step.label),
+        )
+        for step in steps
+    )
+    write_json(path, kept.model_copy(update={"asset": asset, "steps": lines}))
 
 
 def write_corrections(path: Path, asset: str, corrections: Sequence[Correction]) -> None:
     """Write the edits by hand of a corrections file."""
     kept = read_json(path, CorrectionsFile) or CorrectionsFile(asset=asset, steps=())
-    write_json(path, kept.model_copy(update={"steps": to_correction_lines(corrections)}))
+    lines = [CorrectionLine(hulls=dict(c.hulls), action=action_text(c.action, c.label)) for c in corrections]
+    write_json(path, kept.model_copy(update={"steps": tuple(lines)}))

@@ -2,37 +2,21 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from contextlib import AbstractContextManager
 from dataclasses import dataclass, field
 from pathlib import Path
 
 from meshforge.batch import AssetSet, Correction, Preparation, hold_lock, load_named_templates, read_preparation
-from meshforge.common import write_atomically
+from meshforge.common import MeshForgeError, ProjectError, nearest_name, write_atomically
 from meshforge.language import Orient, Program, Template
-from meshforge.store.feedback import AnswersFile, Review, read_answers, read_reviews, write_answers, write_reviews
-from meshforge.store.folder import path_of
+from meshforge.store import program as program_files
+from meshforge.store import settings as settings_file
+from meshforge.store.feedback import AnswersFile, Review, ReviewFile
 from meshforge.store.layout import Layout, read_json, write_json
-from meshforge.store.meshes import AssetFiles, read_labels_file, read_meshes, write_labels
-from meshforge.store.program import (
-    ProgramRecord,
-    check_template,
-    list_templates,
-    read_corrections,
-    read_steps,
-    write_corrections,
-    write_program,
-    write_steps,
-)
-from meshforge.store.settings import (
-    Settings,
-    change_setting,
-    orientation,
-    orientation_text,
-    parse_orientation,
-    read_settings,
-)
-from meshforge.symbolic import Label, LabelFile, SymbolicMesh
+from meshforge.store.meshes import AssetFiles, read_labels_file
+from meshforge.symbolic import Label, LabelFile, SymbolicMesh, format_labels, match_labels, transfer_labels
 from meshforge.synthesis import Demonstration, Step
 
 
@@ -58,8 +42,8 @@ class Store:
     # Settings
 
     @property
-    def settings(self) -> Settings:
-        return read_settings(self.folder)
+    def settings(self) -> settings_file.Settings:
+        return settings_file.read_settings(self.folder)
 
     @property
     def name(self) -> str:
@@ -71,19 +55,19 @@ class Store:
 
     @property
     def orientation(self) -> Orient | None:
-        return orientation(self.settings, self.folder)
+        return settings_file.orientation(self.settings, self.folder)
 
     def set_vocabulary(self, labels: Sequence[str]) -> None:
         """Set the labels that hulls can have. Raises ProgramError for one that no program could write."""
         Program(labels=tuple(labels))  # raises ProgramError
         with self.lock():
-            change_setting(self.folder, "vocabulary", tuple(labels))
+            settings_file.change_setting(self.folder, "vocabulary", tuple(labels))
 
     def set_orientation(self, orient: Orient | str | None) -> None:
         """Set the orientation directive; a text has the form it has in a program. Raises ProjectError for another."""
-        directive = parse_orientation(orient) if isinstance(orient, str) else orient
+        directive = settings_file.parse_orientation(orient) if isinstance(orient, str) else orient
         with self.lock():
-            change_setting(self.folder, "orient", orientation_text(directive))
+            settings_file.change_setting(self.folder, "orient", settings_file.orientation_text(directive))
 
     # Assets
 
@@ -93,7 +77,12 @@ class Store:
 
     def path(self, asset: str) -> Path:
         """The file of an asset. Raises ProjectError, naming the nearest id, where there is no such asset."""
-        return path_of(self.folder, self.found, asset)
+        ids = self.found.ids
+        if asset not in ids:
+            like = nearest_name(asset, ids)
+            remedy = f"Did you mean {like!r}?" if like else f"See them with: meshforge status {self.folder}"
+            raise ProjectError(f"there is no asset {asset!r}", where=str(self.folder), remedy=remedy)
+        return ids[asset]
 
     def asset_files(self, assets: Iterable[str]) -> tuple[AssetFiles, ...]:
         """What each of some assets is read from, for reading it in another process."""
@@ -112,7 +101,11 @@ class Store:
     def meshes_by_id(self, assets: Iterable[str] | None = None) -> Iterator[tuple[str, SymbolicMesh]]:
         """All assets, or some, with their ids and labels; those that cannot be read are left out."""
         ids = self.assets() if assets is None else tuple(assets)
-        yield from read_meshes(ids, self.asset_files(ids))
+        for asset, files in zip(ids, self.asset_files(ids), strict=True):
+            try:
+                yield asset, files.read_mesh()
+            except MeshForgeError:
+                continue
 
     def readers(self, assets: Iterable[str]) -> tuple[Callable[[], SymbolicMesh], ...]:
         """Functions that read each of some assets as `mesh` does, in this process or another."""
@@ -129,6 +122,15 @@ class Store:
         """The labels file of an asset; an empty one where there is none."""
         return read_labels_file(self.layout.labels(asset))
 
+    def label_bytes(self, asset: str) -> bytes:
+        """What the labels file of an asset holds, empty where there is none."""
+        path = self.layout.labels(asset)
+        return path.read_bytes() if path.exists() else b""
+
+    def relabel(self, asset: str, mesh: SymbolicMesh) -> SymbolicMesh:
+        """The mesh of an asset with the labels that it has now; what was measured between its hulls stays known."""
+        return transfer_labels(self.labels(asset), mesh.with_labels(dict.fromkeys(mesh.index))).mesh
+
     def write_labels(
         self,
         asset: str,
@@ -142,7 +144,14 @@ class Store:
         Labels of hulls that are gone stay in the file, since hulls may come back. hulls: the digests of all, by name,
         in order; away: names of hulls that are gone whose labels do not stay.
         """
-        write_labels(self.layout.labels(asset), hulls, labels, vocabulary, away)
+        path, present = self.layout.labels(asset), {name: labels[name] for name in hulls if name in labels}
+        text = format_labels(LabelFile(tuple(vocabulary), present, hulls))
+        if gone := [name for name in match_labels(self.labels(asset), hulls).gone if name not in away]:
+            old, new = json.loads(path.read_text(encoding="utf-8")), json.loads(text)
+            new["hulls"] |= {name: old["hulls"][name] for name in gone}
+            new["vocabulary"] = list(dict.fromkeys([*new["vocabulary"], *old.get("vocabulary", [])]))
+            text = json.dumps(new, ensure_ascii=False, indent=2) + "\n"
+        write_atomically(path, text)
 
     # Demonstrations, and edits by hand
 
@@ -156,21 +165,21 @@ class Store:
 
     def steps(self, asset: str) -> tuple[Step, ...]:
         """The steps that were demonstrated on an asset; none where nothing was."""
-        return read_steps(self.layout.demonstration(asset))
+        return program_files.read_steps(self.layout.demonstration(asset))
 
     def write_steps(self, asset: str, steps: Sequence[Step]) -> None:
         """Write the steps that are demonstrated on an asset; without any step its file is removed."""
         with self.lock():
-            write_steps(self.layout.demonstration(asset), asset, steps)
+            program_files.write_steps(self.layout.demonstration(asset), asset, steps)
 
     def corrections(self, asset: str) -> tuple[Correction, ...]:
         """The edits by hand that are replayed on an asset after the program."""
-        return read_corrections(self.layout.corrections(asset))
+        return program_files.read_corrections(self.layout.corrections(asset))
 
     def write_corrections(self, asset: str, corrections: Sequence[Correction]) -> None:
         """Write the edits by hand of an asset."""
         with self.lock():
-            write_corrections(self.layout.corrections(asset), asset, corrections)
+            program_files.write_corrections(self.layout.corrections(asset), asset, corrections)
 
     def drop_corrections(self, asset: str) -> None:
         """Remove all edits by hand of an asset."""
@@ -186,13 +195,13 @@ class Store:
     def write_program(self, program: Program) -> None:
         """Write the accepted program; the one before stays as `program.previous.mf`."""
         with self.lock():
-            write_program(self.layout.program, program)
+            program_files.write_program(self.layout.program, program)
 
-    def program_record(self) -> ProgramRecord | None:
+    def program_record(self) -> program_files.ProgramRecord | None:
         """What the program was learned from; None where none was learned."""
-        return read_json(self.layout.learned, ProgramRecord)
+        return read_json(self.layout.learned, program_files.ProgramRecord)
 
-    def write_program_record(self, record: ProgramRecord) -> None:
+    def write_program_record(self, record: program_files.ProgramRecord) -> None:
         """Write what the program was learned from."""
         with self.lock():
             write_json(self.layout.learned, record)
@@ -203,11 +212,11 @@ class Store:
 
     def template_names(self) -> tuple[str, ...]:
         """The names of all templates in the project's folder of them, as actions write them."""
-        return list_templates(self.layout)
+        return program_files.list_templates(self.layout)
 
     def add_template(self, name: str, data: bytes) -> None:
         """Keep the contents of a mesh file as a template. Raises ProjectError: no plain name, or no convex hulls."""
-        check_template(self.layout, name, data)
+        program_files.check_template(self.layout, name, data)
         with self.lock():
             write_atomically(self.layout.templates[1] / name, data)
 
@@ -215,17 +224,23 @@ class Store:
 
     def answers(self) -> AnswersFile:
         """All answers to questions, and all repairs of labels that were confirmed or rejected."""
-        return read_answers(self.layout.answers)
+        return read_json(self.layout.answers, AnswersFile) or AnswersFile()
 
     def write_answers(self, answers: AnswersFile) -> None:
-        """Write all answers and repairs, under the lock that the caller holds."""
-        write_answers(self.layout.answers, answers)
+        """Write all answers and repairs, under the lock that the caller holds; without any there is no file."""
+        if answers.ids or answers.model_extra:
+            write_json(self.layout.answers, answers)
+        else:
+            self.layout.answers.unlink(missing_ok=True)
 
     def reviews(self) -> dict[str, Review]:
         """What a person said about edited assets."""
-        return read_reviews(self.layout.review)
+        return (read_json(self.layout.review, ReviewFile) or ReviewFile()).assets
 
     def write_reviews(self, changes: Mapping[str, Review | None]) -> None:
         """Write the reviews of some assets beside those of the others; None takes one back."""
         with self.lock():
-            write_reviews(self.layout.review, changes)
+            kept = read_json(self.layout.review, ReviewFile) or ReviewFile()
+            reviews = {asset: review for asset, review in {**kept.assets, **changes}.items() if review}
+            if reviews != kept.assets:
+                write_json(self.layout.review, kept.model_copy(update={"assets": dict(sorted(reviews.items()))}))

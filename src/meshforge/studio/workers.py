@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, ParamSpec, TypeVar
 from meshforge.batch import AssetSet, count_processors, read_prepared, record_digest, source_files, worker_context
 from meshforge.common import FileStates, MeshForgeError, file_states
 from meshforge.project import Project
-from meshforge.symbolic import Asset, SymbolicMesh, transfer_labels
+from meshforge.symbolic import Asset, SymbolicMesh
 
 if TYPE_CHECKING:
     from pebble import ProcessPool
@@ -168,21 +168,10 @@ def _is_current(read: _SourceMesh, project: Project, asset: str) -> bool:
 
 
 def _apply_labels(project: Project, asset: str, read: _SourceMesh, cached: _CacheEntry | None) -> _CacheEntry:
-    contact, labels = project.settings.thresholds.contact, read_label_bytes(project, asset)
+    contact, labels = project.settings.thresholds.contact, project.label_bytes(asset)
     same_mesh = cached and cached.source is read and cached.contact == contact
     if cached and same_mesh and cached.labels == labels:
         return cached
-    mesh = relabel(project, asset, cached.mesh if cached and same_mesh else read.mesh)
+    mesh = project.relabel(asset, cached.mesh if cached and same_mesh else read.mesh)
     wanted = mesh if contact is None or mesh.epsilon == contact else replace(mesh, epsilon=contact)
     return _CacheEntry(read, labels, contact, wanted)
-
-
-def read_label_bytes(project: Project, asset: str) -> bytes:
-    """What the labels file of an asset holds, empty where there is none."""
-    path = project.layout.labels(asset)
-    return path.read_bytes() if path.exists() else b""
-
-
-def relabel(project: Project, asset: str, mesh: SymbolicMesh) -> SymbolicMesh:
-    """The mesh of an asset with the labels that it has now; what was measured between its hulls stays known."""
-    return transfer_labels(project.labels(asset), mesh.with_labels(dict.fromkeys(mesh.index))).mesh

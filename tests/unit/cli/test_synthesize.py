@@ -17,7 +17,6 @@ from meshforge.cli.synthesize import synthesize
 from meshforge.cli.terminal import catch_interrupt
 from meshforge.language import Delete
 from meshforge.project import Project
-from meshforge.project import learn as learn_module
 from meshforge.synthesis import LAYERS, Step
 from meshforge.synthesis.options import STRATEGIES
 from tests.unit.cli.in_process import Run, runner
@@ -248,7 +247,7 @@ def test_the_first_interrupt_stops_the_search_and_tells_what_was_found(
         os.kill(os.getpid(), signal.SIGINT)
         return learn(*demos, **options)
 
-    monkeypatch.setattr(learn_module, "synthesize", interrupted)
+    monkeypatch.setattr(synthesis, "synthesize", interrupted)
     told = run("synthesize", "racks")
     assert told.code == 1
     assert told.out.startswith("stopped while rule 1 was searched for\n")
@@ -272,7 +271,7 @@ def test_a_search_without_time_tells_how_to_give_it_more(
     def stopped(*given: Any, **more: Any) -> Any:
         return learn(*given, **more | {"options": replace(more["options"], stop=lambda: True)})
 
-    monkeypatch.setattr(learn_module, "synthesize", stopped)
+    monkeypatch.setattr(synthesis, "synthesize", stopped)
     told = run("synthesize", "racks", "--budget", "0.1")
     assert told.code == 1
     assert told.out.startswith("the time ran out while rule 1 was searched for; --budget SECONDS gives more\n")

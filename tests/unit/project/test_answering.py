@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from meshforge.common import ProjectError, UsageError
-from meshforge.project import Project, family, select_assets
+from meshforge.project import Project, learn, select_assets
 from meshforge.symbolic import Label
 from meshforge.synthesis import Answer, Choice, LabelCorrection, Question
 from tests.unit.project.shelves import OTHER, PLAIN, SHELVED, ambiguous, mislabelled
@@ -48,7 +48,7 @@ def test_of_very_many_assets_some_are_learned_from_and_all_of_which_something_wa
 ) -> None:
     project = ambiguous(tmp_path)
     assert select_assets(project) == project.assets()
-    monkeypatch.setattr(family, "MOST_ASSETS", 2)
+    monkeypatch.setattr(learn, "MOST_ASSETS", 2)
     shown = set(project.demonstrations())
     project.add_answer(Answer(1, project.assets()[-1], ()))
     some = select_assets(project)

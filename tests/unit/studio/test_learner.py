@@ -129,7 +129,7 @@ def test_without_a_program_an_extractor_is_generalised_on_the_turned_assets(proj
 def test_of_a_very_large_family_only_what_is_looked_at_while_learning_is_held_in_memory(
     project: Project, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("meshforge.project.family.MOST_ASSETS", 4)
+    monkeypatch.setattr("meshforge.project.learn.MOST_ASSETS", 4)
     flag = CancelFlag()
     rows = process.compute_reach(project.folder, flag.make_token("reach"), BUNDLED)
     found = process.generalise(project.folder, flag.make_token("generalise"), "Is(leg)", 1, None)

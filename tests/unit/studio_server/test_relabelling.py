@@ -11,8 +11,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from meshforge.project import Project
+from meshforge.studio.edits.assets import LabelFromNames, LabelHulls, Propagate, RenameLabel
 from meshforge.studio.edits.base import Edit
-from meshforge.studio.edits.labels import LabelFromNames, LabelHulls, Propagate, RenameLabel
 from meshforge.studio.history import History
 from meshforge.studio.label_changes import LabelChanges
 from meshforge.studio.wire.family import Card

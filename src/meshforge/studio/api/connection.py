@@ -71,7 +71,8 @@ class Guard:
         origin = request.headers.get("origin")
         if origin is not None and origin != f"http://{host}":
             return _Refusal(403, Problem(message="another site asked for this", where=origin, remedy=_REOPEN))
-        if not _needs_token(request.url.path):
+        path = request.url.path
+        if path != "/ws" and not path.startswith(("/api/", "/ws/")):
             return None
         if not self._has_token(request):
             return _Refusal(401, Problem(message="this page has no valid token for the studio", remedy=_REOPEN))
@@ -81,10 +82,6 @@ class Guard:
         kind, _, given = request.headers.get("authorization", "").partition(" ")
         token = given if kind.lower() == "bearer" else request.query_params.get("token", "")
         return compare_digest(token.encode(), self._token)
-
-
-def _needs_token(path: str) -> bool:
-    return path == "/ws" or path.startswith(("/api/", "/ws/"))
 
 
 def _check_length(request: HTTPConnection) -> _Refusal | None:

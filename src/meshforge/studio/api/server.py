@@ -27,7 +27,7 @@ from starlette.types import ASGIApp, Scope
 from meshforge.batch import STATE, hold_lock
 from meshforge.common import MeshForgeError, ProjectError, UsageError
 from meshforge.project import Project
-from meshforge.studio.api import connection, edits, queries
+from meshforge.studio.api import connection, routes
 from meshforge.studio.api.connection import Guard
 from meshforge.studio.errors import problem_of, status_of
 from meshforge.studio.session.session import Session, StudioOptions
@@ -142,7 +142,7 @@ def build_app(session: Session, token: str, page: Path) -> ASGIApp:
     """The web application of a session. page: the folder of the built page. Raises MeshForgeError as `open_page`."""
     app = FastAPI(title="MeshForge studio", docs_url=None, redoc_url=None, openapi_url=None)
     app.state.session = session
-    for module in (queries, edits, connection):
+    for module in (routes, connection):
         app.include_router(module.router)
     app.mount("/", open_page(page))
     app.add_exception_handler(MeshForgeError, _handle_error)

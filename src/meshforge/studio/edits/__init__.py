@@ -6,14 +6,14 @@ from typing import Annotated
 
 from pydantic import Field
 
-from meshforge.studio.edits import assets, labels, program
+from meshforge.studio.edits import assets, program
 
 AnyEdit = Annotated[
-    labels.LabelHulls
-    | labels.LabelFromFiles
-    | labels.LabelFromNames
-    | labels.SetVocabulary
-    | labels.RenameLabel
+    assets.LabelHulls
+    | assets.LabelFromFiles
+    | assets.LabelFromNames
+    | assets.SetVocabulary
+    | assets.RenameLabel
     | program.SetSteps
     | program.MoveRule
     | program.DeleteRule

@@ -1,23 +1,119 @@
-"""Edits of assets: added, prepared before any program, reviewed and corrected after it."""
+"""Edits of assets, labelled, added, prepared before any program, reviewed and corrected after it; of the vocabulary."""
 
 from __future__ import annotations
 
 from pathlib import Path
 from typing import Literal
 
+from meshforge.batch import SETTINGS
 from meshforge.common import join_names, pluralize
 from meshforge.project import Project
 from meshforge.store import parse_action_text
-from meshforge.studio.edits.base import Edit, JobEdit
+from meshforge.studio.edits.base import PROGRAM_FILES, Edit, JobEdit
+
+
+class LabelHulls(Edit):
+    """Label some hulls of an asset; null takes their labels away."""
+
+    kind: Literal["label"] = "label"
+    touches = ("labels/{asset}.json",)
+    asset: str
+    hulls: tuple[str, ...]
+    label: str | None
+
+    def apply(self, project: Project) -> None:
+        project.set_labels(self.asset, dict.fromkeys(self.hulls, self.label))
+
+    def describe(self, project: Project) -> str:
+        hulls = f"{pluralize(len(self.hulls), 'hull')} of {self.asset}"
+        return f"{hulls} labelled {self.label}" if self.label else f"label of {hulls} taken away"
+
+
+class LabelFromFiles(Edit):
+    """Take over the labels files beside the assets."""
+
+    kind: Literal["label-files"] = "label-files"
+    touches = (SETTINGS, "labels")
+
+    def apply(self, project: Project) -> None:
+        project.label_from_files()
+
+    def describe(self, project: Project) -> str:
+        return "labels taken over from files"
+
+
+class LabelFromNames(Edit):
+    """Label hulls without a label by the words in their names and in the names of their bodies."""
+
+    kind: Literal["label-names"] = "label-names"
+    touches = ("labels",)
+
+    def apply(self, project: Project) -> None:
+        project.label_from_names()
+
+    def describe(self, project: Project) -> str:
+        return "labels taken from names"
+
+
+class SetVocabulary(Edit):
+    """Set the labels that hulls can have, in the order of their colours."""
+
+    kind: Literal["vocabulary"] = "vocabulary"
+    touches = (SETTINGS,)
+    labels: tuple[str, ...]
+
+    def apply(self, project: Project) -> None:
+        project.set_vocabulary(self.labels)
+
+    def describe(self, project: Project) -> str:
+        return f"vocabulary: {', '.join(self.labels) or 'empty'}"
+
+
+class RenameLabel(Edit):
+    """Give a label of the vocabulary another name, wherever it is used."""
+
+    kind: Literal["rename-label"] = "rename-label"
+    touches = (SETTINGS, "labels", "demonstrations", "corrections", "answers.json", *PROGRAM_FILES)
+    old: str
+    new: str
+
+    def apply(self, project: Project) -> None:
+        project.rename_label(self.old, self.new)
+
+    def describe(self, project: Project) -> str:
+        return f"{self.old} renamed {self.new}"
+
+
+class Propagate(JobEdit):
+    """A job propagated labels to all other hulls. next: the asset that would help most if it were labelled; used: how
+    many entries the history had when labels were read."""
+
+    kind: Literal["propagate"] = "propagate"
+    touches = ("labels",)
+    used: int
+    next: str | None
+
+    def describe(self, project: Project) -> str:
+        return "labels propagated"
+
+
+class LabelFromModel(JobEdit):
+    """A job asked a model for labels."""
+
+    kind: Literal["label-vlm"] = "label-vlm"
+    touches = ("labels",)
+    model: str
+
+    def describe(self, project: Project) -> str:
+        return f"labels from {self.model}"
+
 
 Vector = tuple[float, float, float]
 
 
 class _PreparationEdit(Edit):
+    touches = ("prepared/{asset}", "labels/{asset}.json")
     asset: str
-
-    def list_paths(self, project: Project) -> tuple[Path, ...]:
-        return (project.layout.preparation(self.asset), project.layout.labels(self.asset))
 
 
 class CutHull(_PreparationEdit):
@@ -51,6 +147,7 @@ class ReviewAssets(Edit):
     """Accept or flag the outputs of some assets; null takes that back."""
 
     kind: Literal["review"] = "review"
+    touches = ("review.json",)
     ids: tuple[str, ...]
     verdict: Literal["accepted", "flagged"] | None
     note: str | None = None
@@ -58,19 +155,14 @@ class ReviewAssets(Edit):
     def apply(self, project: Project) -> None:
         project.review(self.ids, self.verdict, self.note)
 
-    def list_paths(self, project: Project) -> tuple[Path, ...]:
-        return (project.layout.review,)
-
     def describe(self, project: Project) -> str:
         what = self.ids[0] if len(self.ids) == 1 else pluralize(len(self.ids), "asset")
         return f"{what} {self.verdict or 'not reviewed'}"
 
 
 class _CorrectionEdit(Edit):
+    touches = ("corrections/{asset}.json",)
     asset: str
-
-    def list_paths(self, project: Project) -> tuple[Path, ...]:
-        return (project.layout.corrections(self.asset),)
 
 
 class CorrectByHand(_CorrectionEdit):
@@ -109,14 +201,12 @@ class Decompose(_PreparationEdit, JobEdit):
 class AddTemplate(Edit):
     """Keep an uploaded file as a template. file: where it lies."""
 
+    touches = ("templates/{name}",)
     name: str
     file: str
 
     def apply(self, project: Project) -> None:
         project.add_template(self.name, Path(self.file).read_bytes())
-
-    def list_paths(self, project: Project) -> tuple[Path, ...]:
-        return (project.layout.templates[1] / self.name,)
 
     def describe(self, project: Project) -> str:
         return f"template {self.name} added"

@@ -4,29 +4,37 @@ from __future__ import annotations
 
 from abc import abstractmethod
 from pathlib import Path
+from typing import ClassVar
 
-from meshforge.batch import file_digest
+from meshforge.batch import STATE, file_digest
 from meshforge.project import Project
 from meshforge.studio.wire import Wire
+
+PROGRAM_FILE, PREVIOUS_FILE, LEARNED_FILE = "program.mf", "program.previous.mf", f"{STATE}/learned.json"
+PROGRAM_FILES = (PROGRAM_FILE, PREVIOUS_FILE, LEARNED_FILE)
+"""The files that accepting a program writes, from the project's folder."""
 
 
 class Edit(Wire):
     """One change that a person makes to a project, as the page sends it and the history keeps it.
 
-    It names the files that it changes, so that the history can put back what they held before.
+    touches: the files and folders that `apply` may change, from the project's folder, `{asset}` standing for the field;
+    the history puts back what they held before.
     """
+
+    touches: ClassVar[tuple[str, ...]]
 
     @abstractmethod
     def apply(self, project: Project) -> None:
         """Make the change; on disk when this returns. Raises MeshForgeError, with nothing changed."""
 
     @abstractmethod
-    def list_paths(self, project: Project) -> tuple[Path, ...]:
-        """The files and folders that `apply` may change."""
-
-    @abstractmethod
     def describe(self, project: Project) -> str:
         """What it does, in a few words: `label 3 hulls of table_04 as leg`."""
+
+    def list_paths(self, project: Project) -> tuple[Path, ...]:
+        """The files and folders that `apply` may change."""
+        return tuple(project.folder / name.format(**dict(self)) for name in self.touches)
 
 
 class JobEdit(Edit):
@@ -51,9 +59,3 @@ def _digest_or_empty(path: Path) -> str:
         return file_digest(path)
     except FileNotFoundError:
         return ""
-
-
-def program_files(project: Project) -> tuple[Path, ...]:
-    """The files that accepting a program writes."""
-    program = project.layout.program
-    return program, program.with_name("program.previous.mf"), project.layout.learned

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import Literal
 
+from meshforge.batch import SETTINGS
 from meshforge.common import MeshForgeError, pluralize
 from meshforge.language import Program
 from meshforge.project import Project
 from meshforge.store import action_text, parse_action_text
-from meshforge.studio.edits.base import Edit, program_files, program_version, steps_version
+from meshforge.studio.edits.base import LEARNED_FILE, PROGRAM_FILE, PROGRAM_FILES, Edit, program_version, steps_version
 from meshforge.studio.errors import ConflictError
 from meshforge.studio.wire import Wire
 from meshforge.synthesis import Answer, LabelCorrection, Step
@@ -30,6 +30,7 @@ class SetSteps(Edit):
     """Set the steps of an asset, one a rule, in order. version: of the steps that were changed."""
 
     kind: Literal["steps"] = "steps"
+    touches = ("demonstrations/{asset}.json",)
     asset: str
     version: str
     steps: tuple[StepText, ...]
@@ -42,9 +43,6 @@ class SetSteps(Edit):
                 remedy="They are shown as they are now; do it again if it is still wanted.",
             )
         project.demonstrate(self.asset, [step.parse(k) for k, step in enumerate(self.steps, 1)])
-
-    def list_paths(self, project: Project) -> tuple[Path, ...]:
-        return (project.layout.demonstration(self.asset),)
 
     def describe(self, project: Project) -> str:
         before = [(step.select, action_text(step.action, step.label)) for step in _read_steps(project, self.asset)]
@@ -70,8 +68,7 @@ def _read_steps(project: Project, asset: str) -> tuple[Step, ...]:
 class _RuleEdit(Edit):
     """An edit of a rule in all demonstrations, and in the answers about it."""
 
-    def list_paths(self, project: Project) -> tuple[Path, ...]:
-        return (project.layout.folder / "demonstrations", project.layout.answers)
+    touches = ("demonstrations", "answers.json")
 
 
 class MoveRule(_RuleEdit):
@@ -105,13 +102,11 @@ class SetOrientation(Edit):
     """Set the orientation directive; empty takes it away."""
 
     kind: Literal["orient"] = "orient"
+    touches = (SETTINGS,)
     text: str
 
     def apply(self, project: Project) -> None:
         project.set_orientation(self.text)
-
-    def list_paths(self, project: Project) -> tuple[Path, ...]:
-        return (project.layout.settings,)
 
     def describe(self, project: Project) -> str:
         return f"orientation: {self.text}" if self.text else "orientation taken away"
@@ -121,6 +116,7 @@ class AnswerQuestion(Edit):
     """Say which hulls a rule selects on an asset; null: neither of the choices, which are then in `refused`."""
 
     kind: Literal["answer"] = "answer"
+    touches = ("answers.json",)
     rule: int
     asset: str
     select: tuple[str, ...] | None
@@ -128,9 +124,6 @@ class AnswerQuestion(Edit):
 
     def apply(self, project: Project) -> None:
         project.add_answer(Answer(self.rule, self.asset, self.select, self.refused))
-
-    def list_paths(self, project: Project) -> tuple[Path, ...]:
-        return (project.layout.answers,)
 
     def describe(self, project: Project) -> str:
         return f"rule {self.rule} on {self.asset} answered"
@@ -140,6 +133,7 @@ class SettleRepair(Edit):
     """Confirm or refuse a repair of a label."""
 
     kind: Literal["repair"] = "repair"
+    touches = ("answers.json", "labels/{asset}.json")
     asset: str
     hull: str
     was: str | None
@@ -150,9 +144,6 @@ class SettleRepair(Edit):
         decide = project.confirm if self.accept else project.reject
         decide(LabelCorrection(self.asset, self.hull, self.was, self.to))
 
-    def list_paths(self, project: Project) -> tuple[Path, ...]:
-        return (project.layout.answers, project.layout.labels(self.asset))
-
     def describe(self, project: Project) -> str:
         how = "is now labelled" if self.accept else "is not"
         return f"{self.hull} of {self.asset} {how} {self.to}"
@@ -162,13 +153,11 @@ class TakeBack(Edit):
     """Take back an answer or a repair by its id."""
 
     kind: Literal["take-back"] = "take-back"
+    touches = ("answers.json", "labels")
     id: str
 
     def apply(self, project: Project) -> None:
         project.take_back(self.id)
-
-    def list_paths(self, project: Project) -> tuple[Path, ...]:
-        return (project.layout.answers, project.layout.folder / "labels")
 
     def describe(self, project: Project) -> str:
         return f"{self.id} taken back"
@@ -178,6 +167,7 @@ class WriteProgram(Edit):
     """Make a text the project's program. version: of the program that was changed."""
 
     kind: Literal["program"] = "program"
+    touches = PROGRAM_FILES
     text: str
     version: str
 
@@ -190,9 +180,6 @@ class WriteProgram(Edit):
             )
         project.accept(Program.parse(self.text))
 
-    def list_paths(self, project: Project) -> tuple[Path, ...]:
-        return program_files(project)
-
     def describe(self, project: Project) -> str:
         return "program changed by hand"
 
@@ -200,12 +187,11 @@ class WriteProgram(Edit):
 class TakeLearned(Edit):
     """Give up the program that was written by hand, so that the learned one takes its place."""
 
-    def apply(self, project: Project) -> None:
-        for path in program_files(project)[::2]:
-            path.unlink(missing_ok=True)
+    touches = PROGRAM_FILES
 
-    def list_paths(self, project: Project) -> tuple[Path, ...]:
-        return program_files(project)
+    def apply(self, project: Project) -> None:
+        for name in (PROGRAM_FILE, LEARNED_FILE):
+            (project.folder / name).unlink(missing_ok=True)
 
     def describe(self, project: Project) -> str:
         return "the learned program taken in place of the one by hand"

@@ -12,8 +12,7 @@ from meshforge.geometry import CoacdSettings, VhacdSettings
 from meshforge.labels import LabelOutcome, PropagationResult, VlmForecast, VlmResult, check_vlm_settings
 from meshforge.project import PreparationResult, Project
 from meshforge.store import VlmSettings
-from meshforge.studio.edits.assets import Decompose
-from meshforge.studio.edits.labels import LabelFromModel, Propagate
+from meshforge.studio.edits.assets import Decompose, LabelFromModel, Propagate
 from meshforge.studio.errors import ConflictError
 from meshforge.studio.session.job_runner import JobProgress
 from meshforge.studio.session.session import Session

@@ -15,7 +15,6 @@ from meshforge.project import Project, select_assets
 from meshforge.studio.learning.queue import CancelToken
 from meshforge.studio.learning.results import ProgramWithTemplates, RuleSelector, build_lesson_view, measure_reach
 from meshforge.studio.wire.program import Generalised, LessonView, Reach
-from meshforge.studio.workers import read_label_bytes, relabel
 from meshforge.symbolic import SymbolicMesh
 
 RENEW_AFTER = 64
@@ -130,7 +129,7 @@ class FamilyCache:
             self._entries = {asset: _renew(entry) for asset, entry in self._entries.items()}
 
     def _update(self, project: Project, asset: str, contact: float | None) -> _CacheEntry:
-        cached, labels = self._entries.get(asset), read_label_bytes(project, asset)
+        cached, labels = self._entries.get(asset), project.label_bytes(asset)
         if cached is None or cached.contact != contact or file_states(cached.times) != cached.times:
             return _read(project, asset, contact, labels)
         if cached.labels == labels:
@@ -138,7 +137,7 @@ class FamilyCache:
         if cached.mesh is None:
             return _read(project, asset, contact, labels)
         try:
-            return replace(cached, labels=labels, mesh=relabel(project, asset, cached.mesh))
+            return replace(cached, labels=labels, mesh=project.relabel(asset, cached.mesh))
         except MeshForgeError:
             return replace(cached, labels=labels, mesh=None)
 

@@ -35,7 +35,7 @@ def build_lesson_view(
         readings=tuple(map(_view_reading, outcome.readings)),
         repairs=tuple(map(_view_repair, outcome.repairs)),
         question=_view_question(outcome.question, outcome) if outcome.question else None,
-        nearest=_view_nearest(outcome),
+        nearest=_view_nearest(outcome.nearest) if outcome.nearest else None,
         hint=wire.HintView(asset=outcome.hint.asset, why=outcome.hint.why) if outcome.hint else None,
         why=failure.why if failure else None,
         advice=failure.advice if failure else (),
@@ -93,10 +93,7 @@ def _view_question(question: synthesis.Question, outcome: synthesis.LearningOutc
     )
 
 
-def _view_nearest(outcome: synthesis.LearningOutcome) -> wire.NearestView | None:
-    near = outcome.nearest
-    if near is None:
-        return None
+def _view_nearest(near: synthesis.Nearest) -> wire.NearestView:
     return wire.NearestView(
         rule=near.rule, extractor=show(near.extractor), asset=near.asset, extra=near.extra, missing=near.missing
     )

@@ -4,19 +4,19 @@ one more action, or the program with corrections; and of its output.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from typing import Literal, cast
 
 import numpy as np
 
-from meshforge.batch import Correction, RuleEffect, read_stamp, replay_corrections
+from meshforge.batch import RuleEffect, read_stamp, replay_corrections
 from meshforge.checks import Finding, check
-from meshforge.common import ProjectError, nearest_name
+from meshforge.common import ProjectError
 from meshforge.formats import load
 from meshforge.geometry import digest
-from meshforge.language import Action, Program, RuleTrace, RunResult, Template
-from meshforge.project import Project
+from meshforge.language import Program, RuleTrace
+from meshforge.project import Project, make_correction, run_with_corrections
 from meshforge.rendering import RenderMesh, to_render_mesh
 from meshforge.store import parse_action_text
 from meshforge.studio.queries.replay import AssetReplay, replay_steps
@@ -234,40 +234,3 @@ def preview_result(project: Project, asset: str, mesh: SymbolicMesh, of: ResultO
 def _collect_notes(mesh: SymbolicMesh, rules: Iterable[RuleTrace | RuleEffect], flags: tuple[str, ...]) -> EditNotes:
     trace = tuple(TraceLine(rule=r.rule, selected=r.selected, made=r.made, note=r.note) for r in rules)
     return EditNotes(trace=trace, findings=finding_views(check(mesh)), flags=flags)
-
-
-@dataclass(frozen=True, eq=False, slots=True)
-class RunWithCorrections:
-    """An asset after the program and the edits by hand; flags: a sentence for each of these that was left out."""
-
-    program: Program
-    templates: Mapping[str, Template]
-    run: RunResult
-    corrections: tuple[Correction, ...]
-    mesh: SymbolicMesh
-    flags: tuple[str, ...]
-
-
-def run_with_corrections(
-    project: Project, asset: str, mesh: SymbolicMesh, program: Program | None
-) -> RunWithCorrections:
-    """An asset after a program and its corrections; None changes nothing. Raises MeshForgeError where it cannot run."""
-    plan = program or Program(orient=project.orientation)
-    corrections = project.corrections(asset)
-    names = [*plan.templates, *(name for one in corrections for name in one.action.templates)]
-    templates = project.templates(dict.fromkeys(names))
-    run = plan.run(mesh, templates)
-    after, flags = replay_corrections(corrections, mesh, run.mesh, plan, templates)
-    return RunWithCorrections(plan, templates, run, corrections, after, flags)
-
-
-def make_correction(
-    mesh: SymbolicMesh, asset: str, select: Sequence[str], action: Action, label: str | None
-) -> Correction:
-    """One more edit by hand, on hulls of the mesh. Raises ProjectError for a hull that is not there."""
-    for name in select:
-        if name not in mesh.index:
-            like = nearest_name(name, mesh.index)
-            remedy = f"Did you mean {like!r}?" if like else None
-            raise ProjectError(f"after the program there is no hull {name!r}", where=asset, remedy=remedy)
-    return Correction(tuple((name, digest(mesh.hull_of(name).shape)) for name in select), action, label)

@@ -139,8 +139,8 @@ def select_hulls(
     text = request.extractor
     try:
         extractor = parse_extractor(text)
-    except ProgramError as error:
-        return wire.Selected(mark=mark_error(error, *_indent_of(text)))
+    except ProgramError as error:  # its place counts from the first character that is no space
+        return wire.Selected(mark=mark_error(error, *_end_of(text[: len(text) - len(text.lstrip())])))
     if request.rule is None:
         now = replay_steps(project, asset, mesh, request.steps).mesh
     else:
@@ -152,11 +152,6 @@ def select_hulls(
     mask = select_mask(extractor, now, project.settings.thresholds.extremity or EXTREMITY)
     names = tuple(now.hulls[k].name for k in sorted(bits_of(mask)))
     return wire.Selected(select=names, sentence=explain(extractor))
-
-
-def _indent_of(text: str) -> tuple[int, int]:
-    """Lines and columns before the first character that is no space: the parser sees the text without them."""
-    return _end_of(text[: len(text) - len(text.lstrip())])
 
 
 def _end_of(text: str) -> tuple[int, int]:

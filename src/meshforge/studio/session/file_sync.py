@@ -13,6 +13,7 @@ from meshforge.batch import SETTINGS, STATE, source_files
 from meshforge.common import MeshForgeError, relative_name
 from meshforge.project import Project
 from meshforge.store import Review
+from meshforge.studio.edits.base import LEARNED_FILE, PROGRAM_FILE
 from meshforge.studio.learning.scheduler import LearningScheduler
 from meshforge.studio.pages import PageState
 from meshforge.studio.queries.programs import read_program_view
@@ -23,7 +24,6 @@ from meshforge.studio.workers import ProjectWithCache
 
 _LOG = logging.getLogger(__name__)
 
-PROGRAM_FILE, PREVIOUS_FILE, LEARNED_FILE = "program.mf", "program.previous.mf", f"{STATE}/learned.json"
 _STAMPS = f"edited/{STATE}/stamps/"
 _ASSET_FOLDERS = ("labels/", "demonstrations/", "corrections/", _STAMPS)
 _LEARNING_FOLDERS = ("labels/", "demonstrations/", "prepared/", "templates/")
@@ -32,7 +32,7 @@ _LEARNING_FILES = frozenset(("answers.json", "review.json", PROGRAM_FILE))
 POLL_SECONDS = 1.5
 """Seconds between two polls."""
 _WATCH_FOLDERS = ("labels", "demonstrations", "corrections", "prepared", "templates", f"edited/{STATE}/stamps")
-_WATCH_FILES = (SETTINGS, "answers.json", "program.mf", "review.json", f"{STATE}/learned.json")
+_WATCH_FILES = (SETTINGS, "answers.json", PROGRAM_FILE, "review.json", LEARNED_FILE)
 
 FileStamps = dict[str, tuple[int, int]]
 """Modification time [ns] and size of each file, by its path from the project's folder."""

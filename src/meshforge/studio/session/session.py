@@ -14,7 +14,7 @@ from meshforge.batch import STATE, stamp_path
 from meshforge.common import UsageError, relative_name
 from meshforge.labels import OfferCache
 from meshforge.project import Project
-from meshforge.studio.edits.base import Edit
+from meshforge.studio.edits.base import LEARNED_FILE, PREVIOUS_FILE, PROGRAM_FILE, Edit
 from meshforge.studio.edits.program import TakeLearned
 from meshforge.studio.errors import NotHereError
 from meshforge.studio.history import History
@@ -24,7 +24,7 @@ from meshforge.studio.learning.scheduler import Learner, LearningScheduler
 from meshforge.studio.output_checks import OutputChecks
 from meshforge.studio.pages import PageHub, PageState
 from meshforge.studio.queries.programs import read_program_view
-from meshforge.studio.session.file_sync import LEARNED_FILE, PREVIOUS_FILE, PROGRAM_FILE, FileSync, FileWatcher
+from meshforge.studio.session.file_sync import FileSync, FileWatcher
 from meshforge.studio.session.job_runner import JobRunner
 from meshforge.studio.session.refresh import Refresher, initial_view
 from meshforge.studio.thumbnails import Thumbnails

@@ -1,23 +1,33 @@
-"""Routes that answer questions about assets, pictures, programs, the language, and checks of outputs."""
+"""Routes that answer questions about assets, pictures, programs, the language, and checks of outputs; and those that
+change the project: edits, undo and redo, learning, jobs, and uploaded templates and assets.
+"""
 
 from __future__ import annotations
 
 from asyncio import wait, wrap_future
 from concurrent.futures import Future
-from typing import Literal, TypeVar
+from pathlib import Path
+from typing import Annotated, Literal, TypeVar
 
-from fastapi import APIRouter, Request, Response
+from fastapi import APIRouter, Body, Request, Response
+from starlette.concurrency import run_in_threadpool
 
-from meshforge.common import ProjectError, StoppedError
+from meshforge.common import ProjectError, StoppedError, join_names
 from meshforge.language import Program
-from meshforge.studio.api.connection import CurrentSession, packet_response
+from meshforge.studio.api.connection import CurrentSession, SenderId, packet_response
+from meshforge.studio.edits import AnyEdit
+from meshforge.studio.edits.assets import AddAssets, AddTemplate
 from meshforge.studio.errors import NotHereError
+from meshforge.studio.jobs import start_job
 from meshforge.studio.queries import assets, packets, programs
+from meshforge.studio.queries.project import model_of
 from meshforge.studio.session.session import Session
 from meshforge.studio.thumbnails import ThumbnailOf
+from meshforge.studio.uploads import find_assets
+from meshforge.studio.wire import requests
 from meshforge.studio.wire.asset import AssetView, Checked, CheckPart, CheckPicture
+from meshforge.studio.wire.jobs import Job, JobRequest
 from meshforge.studio.wire.program import Generalised, Guesses, LanguageView, ProgramCheck, Selected
-from meshforge.studio.wire.requests import CheckRequest, GeneraliseRequest, PreviewRequest, SelectRequest
 from meshforge.studio.workers import wait_for
 
 router = APIRouter(prefix="/api")
@@ -53,20 +63,20 @@ def get_stage(session: CurrentSession, asset: str, steps: int) -> Response:
 
 
 @router.post("/preview")
-def preview(session: CurrentSession, request: PreviewRequest) -> Response:
+def preview(session: CurrentSession, request: requests.PreviewRequest) -> Response:
     """What one more action would do."""
     return packet_response(packets.preview_action(session.project, request.asset, session.mesh(request.asset), request))
 
 
 @router.post("/select")
-def select(session: CurrentSession, request: SelectRequest) -> Selected:
+def select(session: CurrentSession, request: requests.SelectRequest) -> Selected:
     """What an extractor selects on an asset."""
     program = None if request.rule is None else present_program(session)
     return programs.select_hulls(session.project, request.asset, session.mesh(request.asset), request, program)
 
 
 @router.post("/generalise")
-def generalise(session: CurrentSession, request: GeneraliseRequest) -> Generalised:
+def generalise(session: CurrentSession, request: requests.GeneraliseRequest) -> Generalised:
     """What an extractor selects on all assets."""
     return wait_for(session.learning.generalise(request.extractor, request.rule))
 
@@ -122,7 +132,7 @@ def get_language() -> LanguageView:
 
 
 @router.post("/program/check")
-def check_program(request: CheckRequest) -> ProgramCheck:
+def check_program(request: requests.CheckRequest) -> ProgramCheck:
     """Whether a text is a program."""
     return programs.check_text(request.text)
 
@@ -168,3 +178,106 @@ async def _wait_while_connected(request: Request, future: Future[Result]) -> Res
         raise StoppedError("the studio is being closed")
     waiting.exception()  # `wait_for` raises it
     return wait_for(future)
+
+
+ADDED_FOLDER = "added"
+"""The folder for new assets, below that of the project's assets."""
+
+
+@router.post("/edit")
+def make_edit(session: CurrentSession, change: Annotated[AnyEdit, Body()], page: SenderId = None) -> requests.Done:
+    """Make an edit."""
+    return session.edit(change, page)
+
+
+@router.post("/undo")
+def undo(session: CurrentSession, page: SenderId = None) -> requests.Done:
+    """Undo what was done last."""
+    return session.move("undo", page)
+
+
+@router.post("/redo")
+def redo(session: CurrentSession, page: SenderId = None) -> requests.Done:
+    """Redo what was undone last."""
+    return session.move("redo", page)
+
+
+@router.post("/learn")
+def learn(session: CurrentSession) -> requests.Done:
+    """Learn now, and take what is learned."""
+    return session.learn()
+
+
+@router.post("/learn/stop")
+def stop_learning(session: CurrentSession) -> requests.Done:
+    """Stop the learning run that is under way."""
+    session.learning.stop()
+    return requests.Done(said="stopped")
+
+
+@router.post("/jobs")
+def post_job(session: CurrentSession, request: Annotated[JobRequest, Body(discriminator="kind")]) -> Job:
+    """Start a job."""
+    return start_job(session, request)
+
+
+@router.post("/jobs/cancel")
+def cancel_job(session: CurrentSession, request: requests.JobCancel) -> Job:
+    """Have a job stop."""
+    return session.jobs.cancel(request.id)
+
+
+@router.get("/labels/sources")
+def get_label_sources(session: CurrentSession) -> requests.LabelSources:
+    """Where labels could come from, as far as assets are read by now."""
+    offered = session.offers.of(session.project, {card.asset for card in session.pages.cards if card.hulls is not None})
+    names = sum(map(len, offered.names.values()))
+    return requests.LabelSources(files=len(offered.files), names=names, model=model_of(session.project))
+
+
+@router.put("/templates")
+async def put_template(
+    session: CurrentSession, request: Request, name: str, page: SenderId = None
+) -> requests.Uploaded:
+    """Take a hull template."""
+    file = await session.uploads.put_template(request.stream())
+    return await run_in_threadpool(_add_template, session, name, file, page)
+
+
+def _add_template(session: Session, name: str, file: Path, page: str | None) -> requests.Uploaded:
+    """Keep an uploaded file as a template. Raises ProjectError: no name for one, or no convex hulls in it."""
+    try:
+        session.edit(AddTemplate(name=name, file=str(file)), page)
+    finally:
+        file.unlink(missing_ok=True)
+    return requests.Uploaded(names=(name,))
+
+
+@router.put("/assets")
+async def put_asset_file(session: CurrentSession, request: Request, path: str) -> requests.Uploaded:
+    """Keep a file of an asset aside."""
+    await session.uploads.put(path, request.stream())
+    return requests.Uploaded(names=(path,))
+
+
+@router.post("/assets")
+def add_assets(session: CurrentSession, page: SenderId = None) -> requests.Uploaded:
+    """Take the files that were sent into the project, as assets. Raises ProjectError, and throws them away, where one
+    cannot be read, or would take the place of another file."""
+    try:
+        staged, files = session.uploads.list_files()
+        added = find_assets(session.readers, staged)
+        home = session.project.found.base / ADDED_FOLDER
+        _check_free(home, files)
+        session.edit(AddAssets(staged=str(staged), files=files, added=added, home=str(home)), page)
+    finally:
+        session.uploads.clear()
+    return requests.Uploaded(names=tuple(f"{ADDED_FOLDER}/{name}" for name in added))
+
+
+def _check_free(home: Path, files: tuple[str, ...]) -> None:
+    if not home.resolve().is_relative_to(home.parent.resolve()):
+        raise ProjectError("this folder is a link to somewhere else", where=str(home), remedy="Remove the link.")
+    taken = [name for name in files if (home / name).exists()]
+    if taken:
+        raise ProjectError(f"there is a file of that name already: {join_names(taken)}", remedy="Give it another name.")

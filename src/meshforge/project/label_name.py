@@ -6,28 +6,11 @@ from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
 
+from meshforge import store as files
 from meshforge.common import ProgramError, ProjectError, nearest_name, write_atomically
 from meshforge.language import Program, rename_in_orient, rename_in_program
 from meshforge.project import learn
-from meshforge.store import (
-    AnswerLine,
-    AnswersFile,
-    ConfirmationLine,
-    CorrectionsFile,
-    DemonstrationFile,
-    RepairLine,
-    Settings,
-    Store,
-    action_text,
-    edit_settings,
-    json_text,
-    orientation,
-    orientation_text,
-    parse_action_text,
-    read_json,
-    repair_id,
-    set_value,
-)
+from meshforge.store import Store
 from meshforge.symbolic import LabelFile, format_labels, read_labels
 
 
@@ -45,7 +28,7 @@ def rename_label(store: Store, old: str, new: str) -> None:
         texts = dict(_rewrite_files(store, old, new))
         program = store.program()
         after = _rename_in_settings(store, settings, old, new)
-        fresh = edit_settings(store.folder, {"vocabulary": after.vocabulary, "orient": after.orient})
+        fresh = files.edit_settings(store.folder, {"vocabulary": after.vocabulary, "orient": after.orient})
         fresh = _rename_in_tables(store, fresh, settings, old, new)
         inputs = learn.digest_learning_inputs(store)
         for path, text in texts.items():
@@ -84,13 +67,13 @@ def _rewrite_files(store: Store, old: str, new: str) -> Iterator[tuple[Path, str
         if old in (*file.vocabulary, *(label.name for label in file.labels.values())):
             yield path, format_labels(_rename_in_labels(file, old, new))
     for path in map(layout.demonstration, layout.ids_with("demonstrations")):
-        yield from _rename_in_steps(path, read_json(path, DemonstrationFile), old, new)
+        yield from _rename_in_steps(path, files.read_json(path, files.DemonstrationFile), old, new)
     for path in map(layout.corrections, layout.ids_with("corrections")):
-        yield from _rename_in_steps(path, read_json(path, CorrectionsFile), old, new)
+        yield from _rename_in_steps(path, files.read_json(path, files.CorrectionsFile), old, new)
     answers = store.answers()
     now = _rename_in_answers(answers, layout.answers, old, new)
     if now != answers:
-        yield layout.answers, json_text(now)
+        yield layout.answers, files.json_text(now)
 
 
 def _rename_in_labels(file: LabelFile, old: str, new: str) -> LabelFile:
@@ -99,62 +82,58 @@ def _rename_in_labels(file: LabelFile, old: str, new: str) -> LabelFile:
 
 
 def _rename_in_steps(
-    path: Path, kept: DemonstrationFile | CorrectionsFile | None, old: str, new: str
+    path: Path, kept: files.DemonstrationFile | files.CorrectionsFile | None, old: str, new: str
 ) -> Iterator[tuple[Path, str]]:
     steps = kept.steps if kept else ()
     lines = tuple(line.model_copy(update={"action": _rename_in_action(line.action, path, old, new)}) for line in steps)
     if kept and lines != steps:
-        yield path, json_text(kept.model_copy(update={"steps": lines}))
+        yield path, files.json_text(kept.model_copy(update={"steps": lines}))
 
 
 def _rename_in_action(text: str, where: Path, old: str, new: str) -> str:
-    action, label = parse_action_text(text, where)
-    return action_text(action, new) if label == old else text
+    action, label = files.parse_action_text(text, where)
+    return files.action_text(action, new) if label == old else text
 
 
-def _rename_in_answers(answers: AnswersFile, where: Path, old: str, new: str) -> AnswersFile:
+def _rename_in_answers(answers: files.AnswersFile, where: Path, old: str, new: str) -> files.AnswersFile:
     """All answers with the label by its new name; of those that are the same then, one stays."""
     now = answers.model_copy(update={"answers": (), "confirmed": (), "rejected": ()})
     for line in answers.answers:
-        now = now.with_line(_rename_in_answer(line, where, old, new))
+        action = None if line.action is None else _rename_in_action(line.action, where, old, new)
+        now = now.with_line(line.model_copy(update={"action": action}))
     for repair in (*answers.rejected, *answers.confirmed):
         now = now.with_line(_rename_in_repair(repair, old, new))
     return now
 
 
-def _rename_in_answer(line: AnswerLine, where: Path, old: str, new: str) -> AnswerLine:
-    action = None if line.action is None else _rename_in_action(line.action, where, old, new)
-    return line.model_copy(update={"action": action})
-
-
-def _rename_in_repair(line: RepairLine, old: str, new: str) -> RepairLine:
+def _rename_in_repair(line: files.RepairLine, old: str, new: str) -> files.RepairLine:
     right = replace(
         line.correction,
         was=new if line.was == old else line.was,
         to=new if line.to == old else line.to,
     )
-    values: dict[str, object] = {"id": repair_id(right), "was": right.was, "to": right.to}
-    if isinstance(line, ConfirmationLine) and line.before and line.before.label == old:
+    values: dict[str, object] = {"id": files.repair_id(right), "was": right.was, "to": right.to}
+    if isinstance(line, files.ConfirmationLine) and line.before and line.before.label == old:
         values["before"] = line.before.model_copy(update={"label": new})
     return line.model_copy(update=values)
 
 
-def _rename_in_tables(store: Store, text: str, settings: Settings, old: str, new: str) -> str:
+def _rename_in_tables(store: Store, text: str, settings: files.Settings, old: str, new: str) -> str:
     """The settings with the label's other name in the patterns that say what names mean, and where it is described."""
     descriptions, table = settings.vlm.descriptions, "vlm.descriptions"
     try:
         for pattern in (pattern for pattern, label in settings.names.items() if label == old):
-            text = set_value(text, pattern, new, "names")
+            text = files.set_value(text, pattern, new, "names")
         if old in descriptions:
-            text = set_value(set_value(text, new, descriptions[old], table), old, None, table)
+            text = files.set_value(files.set_value(text, new, descriptions[old], table), old, None, table)
     except ProjectError as error:
         raise error.at(str(store.layout.settings)) from None
     return text
 
 
-def _rename_in_settings(store: Store, settings: Settings, old: str, new: str) -> Settings:
+def _rename_in_settings(store: Store, settings: files.Settings, old: str, new: str) -> files.Settings:
     vocabulary = tuple(new if word == old else word for word in settings.vocabulary)
-    before = orientation(settings, store.folder)
+    before = files.orientation(settings, store.folder)
     after = rename_in_orient(before, old, new) if before else None
-    text = settings.orient if after == before else orientation_text(after)
+    text = settings.orient if after == before else files.orientation_text(after)
     return settings.model_copy(update={"vocabulary": vocabulary, "orient": text})

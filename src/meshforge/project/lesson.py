@@ -1,0 +1,268 @@
+"""What a person shows and says, of which a program is learned: the steps on an asset, checked and written; rules moved
+or taken out of all demonstrations; answers to questions; and repairs of labels, confirmed or rejected.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Container, Iterable, Iterator, Mapping, Sequence
+from pathlib import Path
+
+from meshforge import store as files
+from meshforge.common import MeshForgeError, ProjectError, UsageError, nearest_name
+from meshforge.labels import merge
+from meshforge.store import Store
+from meshforge.symbolic import Label, SymbolicMesh
+from meshforge.synthesis import Answer, Demonstration, LabelCorrection, Question, Step
+
+
+def demonstrate(store: Store, asset: str, steps: Iterable[Step]) -> None:
+    """Set the steps that are demonstrated on an asset; no steps take the demonstration away.
+
+    Raises DemonstrationError for steps that are not numbered in order, ProjectError for a hull that cannot be there:
+    every name is a hull of the mesh, or, after the first step, one that an edit of such a hull can have made.
+    """
+    mesh, steps = store.mesh(asset), tuple(steps)
+    for rule, name in find_unknown_hulls(Demonstration(mesh, steps, asset).steps, mesh.index):
+        like = nearest_name(name, mesh.index)
+        raise ProjectError(
+            f"rule {rule}: there is no hull {name!r}", where=asset, remedy=f"Did you mean {like!r}?" if like else None
+        )
+    store.write_steps(asset, steps)
+
+
+def find_unknown_hulls(steps: Iterable[Step], hulls: Container[str]) -> Iterator[tuple[int, str]]:
+    """The rules and names of steps that cannot be meant: no such hull, and none that an edit could have made it of."""
+    for step in steps:
+        for name in sorted(step.select or ()):
+            stem = name.rpartition("~")[0] if step.rule > 1 else name
+            if name not in hulls and stem not in hulls:
+                yield step.rule, name
+
+
+def move_rule(store: Store, rule: int, to: int) -> None:
+    """Put a rule at another place in all demonstrations and answers. Raises UsageError for a wrong number.
+
+    A demonstration that says nothing about a rule in between leaves it open.
+    """
+    with store.lock():
+        kept = _read_demonstration_files(store)
+        order = _rule_numbers(kept, rule, to)
+        order.insert(to - 1, order.pop(rule - 1))
+        _write_reordered(store, kept, order)
+
+
+def delete_rule(store: Store, rule: int) -> None:
+    """Take a rule out of all demonstrations, and the answers about it. Raises UsageError for a wrong number.
+
+    A demonstration without any step goes away with it.
+    """
+    with store.lock():
+        kept = _read_demonstration_files(store)
+        order = _rule_numbers(kept, rule)
+        order.remove(rule)
+        _write_reordered(store, kept, order)
+
+
+def _read_demonstration_files(store: Store) -> dict[Path, files.DemonstrationFile]:
+    """All demonstrations by file. Raises ProjectError where one cannot be read, or its steps are not in order."""
+    layout = store.layout
+    paths = map(layout.demonstration, layout.ids_with("demonstrations"))
+    found = {path: files.read_json(path, files.DemonstrationFile) for path in paths}
+    kept = {path: file for path, file in found.items() if file}
+    for path, file in kept.items():
+        if [line.rule for line in file.steps] != list(range(1, len(file.steps) + 1)):
+            remedy = "Number them 1, 2, 3 and so on by hand, in the order in which they were done."
+            raise ProjectError("its steps are not numbered in order", where=str(path), remedy=remedy)
+    return kept
+
+
+def _rule_numbers(kept: Mapping[Path, files.DemonstrationFile], *asked: int) -> list[int]:
+    """The numbers of all rules. Raises UsageError where one that is asked for is not among them."""
+    most = max((len(file.steps) for file in kept.values()), default=0)
+    for rule in asked:
+        if not 1 <= rule <= most:
+            shown = f"rules 1 to {most} are demonstrated" if most else "nothing is demonstrated"
+            raise UsageError(f"there is no rule {rule}: {shown}")
+    return list(range(1, most + 1))
+
+
+def _write_reordered(store: Store, kept: Mapping[Path, files.DemonstrationFile], order: Sequence[int]) -> None:
+    """Write demonstrations and answers with the rules in another order, each file for itself.
+
+    order: the old number of the rule that is first from now on, of the second, and so on.
+    """
+    answers = store.answers()
+    actions = _actions_by_rule(kept)
+    for path, file in kept.items():
+        steps = _reorder(file.steps, order, actions)
+        if not steps:
+            path.unlink(missing_ok=True)
+        elif steps != file.steps:
+            files.write_json(path, file.model_copy(update={"steps": steps}))
+    now = _renumber(answers, order, len(actions))
+    if now != answers:
+        store.write_answers(now)
+
+
+def _actions_by_rule(kept: Mapping[Path, files.DemonstrationFile]) -> dict[int, str]:
+    """What each rule does, as the first demonstration that shows it says, or that at least mentions it."""
+    lines = [line for file in [*kept.values()][::-1] for line in file.steps]
+    return {line.rule: line.action for line in sorted(lines, key=lambda line: bool(line.select))}
+
+
+def _reorder(
+    lines: Sequence[files.StepLine], order: Sequence[int], actions: Mapping[int, str]
+) -> tuple[files.StepLine, ...]:
+    """The steps in another order; those that are missing before the last one are open."""
+    own = {line.rule: line for line in lines}
+    last = max((place for place, rule in enumerate(order, 1) if rule in own), default=0)
+    open_steps = {rule: files.StepLine(rule=rule, select=None, action=action) for rule, action in actions.items()}
+    steps = [(open_steps | own)[rule] for rule in order[:last]]
+    return tuple(step.model_copy(update={"rule": place}) for place, step in enumerate(steps, 1))
+
+
+def _renumber(answers: files.AnswersFile, order: Sequence[int], before: int) -> files.AnswersFile:
+    """The answers about other numbers; before: how many rules there were. Answers about rules beyond stay."""
+    places = {rule: place for place, rule in enumerate(order, 1)}
+    now = answers.model_copy(update={"answers": ()})
+    for line in answers.answers:
+        rule = places.get(line.rule, line.rule if line.rule > before else 0)
+        if rule:
+            now = now.with_line(line.model_copy(update={"rule": rule, "id": f"{rule}:{line.asset}"}))
+    return now
+
+
+def add_answer(store: Store, answer: Answer) -> str:
+    """Answer for a rule by any selection, whether that was asked for or not; give the answer's id `RULE:ASSET`.
+
+    It takes the place of an earlier answer to the same question. Raises ProjectError: no such asset or rule.
+    """
+    line = check_answer(store, answer)
+    with store.lock():
+        store.write_answers(store.answers().with_line(line))
+    return line.id
+
+
+def answer(store: Store, question: Question, choice: int | None) -> str:
+    """Answer a question by a choice, counted from 0, or by None for neither; give the answer's id `RULE:ASSET`.
+
+    Raises UsageError where there is no such choice.
+    """
+    if choice is not None and not 0 <= choice < len(question.choices):
+        raise UsageError(f"the question {question.id} has {len(question.choices)} choices, none at place {choice}")
+    return add_answer(store, question.answer_with(choice))
+
+
+def check_answer(store: Store, given: Answer) -> files.AnswerLine:
+    """An answer as it is kept. Raises ProjectError: no such asset, or no such rule. Its hulls may be made by a rule."""
+    store.path(given.asset)
+    actions = actions_of(map(store.steps, store.demonstration_ids()))
+    if given.rule not in actions:
+        shown = f"only rules 1 to {max(actions)} are" if actions else "nothing is"
+        raise ProjectError(f"there is no rule {given.rule} to answer for: {shown} demonstrated", where=given.asset)
+    select = None if given.select is None else tuple(sorted(given.select))
+    identity = f"{given.rule}:{given.asset}"
+    refused = tuple(tuple(sorted(choice)) for choice in given.refused)
+    action = actions[given.rule]
+    return files.AnswerLine(
+        id=identity, rule=given.rule, asset=given.asset, select=select, action=action, refused=refused
+    )
+
+
+def actions_of(demonstrations: Iterable[Iterable[Step]]) -> dict[int, str]:
+    """What each rule does, as the first demonstration that shows it says, without `Each`."""
+    found: dict[int, str] = {}
+    for step in (step for steps in demonstrations for step in steps if step.shown):
+        found.setdefault(step.rule, files.action_text_without_each(step.action, step.label))
+    return dict(sorted(found.items()))
+
+
+def confirm(store: Store, right: LabelCorrection) -> str:
+    """Repair a label, as a `Repair` proposes it or not, remembering the one before; give the repair's id
+    `ASSET#HULL=LABEL`.
+
+    Raises ProjectError where the asset, the hull or the label is not there, or the hull has another label by now.
+    """
+    with store.lock():
+        mesh = store.mesh(right.asset)
+        labels, problem = _repair_label(store, mesh, right)
+        if problem:
+            raise ProjectError(problem, where=right.asset, remedy=f"Learn again: meshforge synthesize {store.folder}")
+        answers, identity = store.answers(), files.repair_id(right)
+        known = [line.before for line in answers.confirmed if line.id == identity]
+        current = mesh.hull_of(right.hull).annotation
+        before = known[0] if known and current == _label_of_repair(right) else files.LabelBefore.of(current)
+        line = files.ConfirmationLine(
+            id=identity, asset=right.asset, hull=right.hull, was=right.was, to=right.to, before=before
+        )
+        # the record first: killed in between, the repair is merely proposed again
+        store.write_answers(answers.with_line(line))
+        store.write_labels(right.asset, files.hull_digests(mesh), labels, store.vocabulary)
+    return identity
+
+
+def reject(store: Store, wrong: LabelCorrection) -> str:
+    """Refuse a repair, so that it is not proposed again; give its id."""
+    store.path(wrong.asset)
+    identity = files.repair_id(wrong)
+    line = files.RepairLine(id=identity, asset=wrong.asset, hull=wrong.hull, was=wrong.was, to=wrong.to)
+    with store.lock():
+        store.write_answers(store.answers().with_line(line))
+    return identity
+
+
+def take_back(store: Store, said: str) -> str | None:
+    """Take back an answer or a repair by its id; the hull of a confirmed repair gets the label it had before.
+
+    Gives a sentence where that label was changed since, and is left alone. Raises ProjectError, naming the nearest id,
+    where there is no such one.
+    """
+    with store.lock():
+        kept = store.answers()
+        if said not in kept.ids:
+            like = nearest_name(said, kept.ids)
+            listing = f"See what was said: meshforge synthesize {store.folder} --list-answers"
+            remedy = f"Did you mean {like!r}?" if like else listing
+            raise ProjectError(f"there is no answer or repair {said!r}", where=str(store.folder), remedy=remedy)
+        notes = [_restore_label(store, line) for line in kept.confirmed if line.id == said]
+        store.write_answers(kept.without(said))
+    return next(iter(notes), None)
+
+
+def forget_answers(store: Store) -> tuple[str, ...]:
+    """Take back everything; gives the sentences about labels that are left alone."""
+    notes = [take_back(store, entry) for entry in store.answers().ids]
+    return tuple(note for note in notes if note)
+
+
+def _label_of_repair(correction: LabelCorrection) -> Label:
+    return Label(correction.to, 1.0, "repair")
+
+
+def _repair_label(store: Store, mesh: SymbolicMesh, right: LabelCorrection) -> tuple[dict[str, Label], str | None]:
+    """The labels of a mesh with one repaired, and why that cannot be."""
+    given = {right.hull: _label_of_repair(right)}
+    labels, report = merge.merge_labels(right.asset, mesh.index, mesh.labels, given, store.vocabulary)
+    if report.problems:
+        return labels, report.problems[0]
+    label = mesh.hull_of(right.hull).label
+    if label not in (right.was, right.to):
+        return labels, f"{right.hull} is labelled {label or 'nothing'} now, no longer {right.was or 'nothing'}"
+    return labels, None
+
+
+def _restore_label(store: Store, line: files.ConfirmationLine) -> str | None:
+    """Give a hull the label back that it had before a repair; a sentence on why, where that is not done."""
+    try:
+        mesh = store.mesh(line.asset)
+        current = mesh.hull_of(line.hull).annotation
+    except MeshForgeError as error:
+        return f"the label of {line.hull} in {line.asset} is left as it is: {error.problem}"
+    before = line.before.annotation if line.before else None
+    if current not in (before, _label_of_repair(line.correction)):
+        state = f"labelled {current.name}" if current else "without a label"
+        return f"{line.hull} in {line.asset} is left {state}, as it was changed after the repair"
+    if current != before:
+        labels = mesh.with_labels({line.hull: before}).labels
+        store.write_labels(line.asset, files.hull_digests(mesh), labels, store.vocabulary)
+    return None
