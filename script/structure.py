@@ -186,8 +186,7 @@ def find_participles(modules: dict[str, Module]) -> list[str]:
     """Functions, methods, classes and modules whose names begin with a participle; properties are attributes."""
     found = [name for name in modules if is_participle(name.split(".")[-1])]
     for name, module in modules.items():
-        if ".wire." not in name:  # classes of the wire are types of the page
-            found += [f"{name}:{own}" for own in module.classes() if is_participle(own) and own not in OUTCOMES]
+        found += [f"{name}:{own}" for own in module.classes() if is_participle(own) and own not in OUTCOMES]
         found += [
             f"{name}:{own}"
             for own, node in module.functions()

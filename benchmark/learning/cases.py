@@ -53,7 +53,7 @@ def name_of(place: int) -> str:
 
 
 def learned(search: Search) -> RankedReadings:
-    """The readings of a rule, as a lesson makes them."""
+    """The readings of a rule, as learning makes them."""
     found = search.run()
     assert isinstance(found, Hit), "there is an extractor: the hidden one"
     return RankedReadings(search, enumerate_consistent(search, found.extractor, search.options.above))

@@ -73,7 +73,7 @@ class Contest:
         return found.extractor if isinstance(found, Hit) else None
 
     def _with_repair(self) -> Extractor | None:
-        """All that a lesson does for a rule: what label repair finds on right labels is a false alarm."""
+        """All that learning does for a rule: what label repair finds on right labels is a false alarm."""
         search = self.case.search()
         found = search.run()
         assert isinstance(found, Hit)

@@ -60,7 +60,7 @@ def _tasks(quick: bool) -> Iterator[tuple[Wanted, Sequence[str]]]:
 
 
 def _timed(task: Wanted, shown: Sequence[str], rounds: int) -> Timed:
-    first, again = zip(*(_lessons(task, shown) for _ in range(rounds)), strict=True)
+    first, again = zip(*(_time_learning(task, shown) for _ in range(rounds)), strict=True)
     return Timed(
         task.name,
         len(task.program.rules),
@@ -73,17 +73,17 @@ def _timed(task: Wanted, shown: Sequence[str], rounds: int) -> Timed:
     )
 
 
-def _lessons(task: Wanted, shown: Sequence[str]) -> tuple[Mapping[str, float], Mapping[str, float]]:
-    """What a lesson takes on meshes that are new to it, and the next one on the same."""
+def _time_learning(task: Wanted, shown: Sequence[str]) -> tuple[Mapping[str, float], Mapping[str, float]]:
+    """What learning takes on meshes that are new to it, and once more on the same."""
     meshes = {name: replace(mesh) for name, mesh in task.meshes.items()}
     demos = [Demonstration(meshes[name], task.demonstration(name).steps, name) for name in shown]
     program = task.program
 
-    def lesson() -> Mapping[str, float]:
+    def learn_once() -> Mapping[str, float]:
         rest = (meshes, program.orient, task.templates, program.labels)
         return synthesize(demos, *rest, confirm=lambda _: False).seconds
 
-    return lesson(), lesson()
+    return learn_once(), learn_once()
 
 
 def _readings(task: Wanted, shown: Sequence[str], number: int, rounds: int) -> float:

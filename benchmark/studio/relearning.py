@@ -20,15 +20,15 @@ from meshforge.cli.demo import create_tables
 
 OPEN, SHOWN = "table_05.obj", "table_08.obj"
 """A table of which nothing is shown, and one that demonstrates."""
-LESSONS = """
-window.lessons = [];
+OUTCOMES = """
+window.outcomes = [];
 const Before = window.WebSocket;
 window.WebSocket = class extends Before {
   constructor(...given) {
     super(...given);
     this.addEventListener('message', ({ data }) => {
       const event = JSON.parse(data);
-      if (event.kind === 'lesson' && !event.learning) requestAnimationFrame(() => lessons.push(performance.now()));
+      if (event.kind === 'outcome' && !event.learning) requestAnimationFrame(() => outcomes.push(performance.now()));
     });
   }
 };
@@ -39,14 +39,14 @@ Change = Callable[[], None]
 
 
 def measure(tell: Tell, quick: bool) -> Result:
-    """On the bundled tables, of which two show five rules: change a label, or a step, and wait for the lesson."""
+    """On the bundled tables, of which two show five rules: change a label, or a step, and wait for the outcome."""
     turns = 2 if quick else 10
     with tempfile.TemporaryDirectory() as folder:
         project = create_tables(Path(folder) / "tables")
         with studio(project.folder) as address:
             with chromium() as browser:
-                page = seen(browser, address, project.assets()[0], LESSONS)
-                page.wait_for_timeout(4000)  # the first lesson is longer than those that are measured
+                page = seen(browser, address, project.assets()[0], OUTCOMES)
+                page.wait_for_timeout(4000)  # the first outcome is longer than those that are measured
                 rows = []
                 for what, changes in (
                     ("a label on a table of which nothing is shown", _labels(page, OPEN)),
@@ -75,7 +75,7 @@ def _row(what: str, times: list[float]) -> tuple[str, float, float]:
 
 
 def _told(address: str, turns: int) -> list[float]:
-    """From the request to the lesson, at a client without a picture [ms]."""
+    """From the request to the outcome, at a client without a picture [ms]."""
     base, _, token = address.partition("/?token=")
     headers, times = {"Authorization": f"Bearer {token}"}, []
     with (
@@ -88,14 +88,14 @@ def _told(address: str, turns: int) -> list[float]:
             label = ("misc", "panel")[turn % 2]
             edit = {"kind": "label", "asset": OPEN, "hulls": ["convex_02"], "label": label}
             client.post("/api/edit", json=edit).raise_for_status()
-            while not _is_lesson(json.loads(socket.recv())):
+            while not _is_outcome(json.loads(socket.recv())):
                 pass
             times.append(1000 * (time.perf_counter() - began))
     return times
 
 
-def _is_lesson(event: dict[str, Any]) -> bool:
-    return event["kind"] == "lesson" and not event["learning"]
+def _is_outcome(event: dict[str, Any]) -> bool:
+    return event["kind"] == "outcome" and not event["learning"]
 
 
 def _labels(page: Page, asset: str) -> Iterator[Change]:
@@ -125,10 +125,10 @@ def _open(page: Page, asset: str) -> None:
 
 
 def _learned(page: Page, change: Change) -> float:
-    """The time from the key of a change to the lesson [ms]."""
+    """The time from the key of a change to the outcome [ms]."""
     page.wait_for_timeout(500)  # a person looks
-    before = page.evaluate("() => window.lessons.length")
+    before = page.evaluate("() => window.outcomes.length")
     change()
-    page.wait_for_function("count => window.lessons.length > count", arg=before)
-    milliseconds: float = page.evaluate("() => window.lessons.at(-1) - window.watched.keys.at(-1)")
+    page.wait_for_function("count => window.outcomes.length > count", arg=before)
+    milliseconds: float = page.evaluate("() => window.outcomes.at(-1) - window.watched.keys.at(-1)")
     return milliseconds

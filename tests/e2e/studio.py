@@ -57,7 +57,7 @@ class Studio:
             yield Page(connection)
 
     def settled(self) -> dict[str, Any]:
-        """What a page is told on connecting, once the assets are read and the lesson is over."""
+        """What a page is told on connecting, once the assets are read and the outcome is over."""
         return self.until(
             lambda hello: (
                 all(card["hulls"] is not None or card["error"] for card in hello["cards"]) and not hello["learning"]
@@ -78,7 +78,7 @@ class Studio:
                 if holds(hello):
                     return hello
                 assert time.monotonic() < until, "the studio does not come to that"
-                page.until(lambda event: event["kind"] in ("cards", "lesson", "project", "reach"))
+                page.until(lambda event: event["kind"] in ("cards", "outcome", "project", "reach"))
 
 
 @dataclass

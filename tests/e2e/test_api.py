@@ -32,8 +32,8 @@ def test_hello_tells_everything(studio: Studio) -> None:
     assert [card["asset"] for card in hello["cards"]] == [f"table_{k:02}.obj" for k in range(1, 15)]
     assert hello["project"]["vocabulary"][0] == {"name": "panel", "color": "#E69F00", "used": 123}
     assert hello["project"]["rules"][0]["action"] == "Delete"
-    assert hello["lesson"]["status"] == "found"
-    assert hello["program"]["text"] == hello["lesson"]["program"]
+    assert hello["outcome"]["status"] == "found"
+    assert hello["program"]["text"] == hello["outcome"]["program"]
     assert not hello["program"]["by_hand"]
     assert hello["history"] == {"undo": None, "redo": None, "undoable": 0, "redoable": 0}
     assert hello["project"]["next"]["stage"] == "review"

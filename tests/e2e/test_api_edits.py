@@ -155,7 +155,7 @@ def test_two_pages_are_told_the_same_in_the_same_order(studio: Studio) -> None:
             assert event["said"] == f"1 hull of {FIRST} labelled leg"
             (card,) = page.kind("cards")["cards"]
             assert card["labels"][0] == 1
-            page.until(lambda e: e["kind"] == "lesson" and not e["learning"])
+            page.until(lambda e: e["kind"] == "outcome" and not e["learning"])
         ok(studio.post("/api/undo", page="two"))
         for page in (one, two):
             assert page.kind("history")["by"] == "two"
@@ -190,10 +190,10 @@ def test_the_program_is_learned_again_after_each_step_and_shown(studio: Studio) 
     with studio.page() as page:
         assert page.hello["program"]["text"] == before
         studio.edit("delete-rule", rule=5)
-        lesson = page.until(lambda e: e["kind"] == "lesson" and not e["learning"])["lesson"]
-        assert len(lesson["rules"]) == 4
+        outcome = page.until(lambda e: e["kind"] == "outcome" and not e["learning"])["outcome"]
+        assert len(outcome["rules"]) == 4
         (told,) = [event for event in page.events if event["kind"] == "program"]
-        assert told["program"]["text"] == lesson["program"]
+        assert told["program"]["text"] == outcome["program"]
         assert all(len(row["rules"]) == 4 for row in page.kind("reach")["reach"])
     ok(studio.post("/api/undo"))
     assert studio.settled()["program"]["text"] == before

@@ -15,7 +15,7 @@ def test_the_demo_begins_with_labelled_tables_and_a_tour_and_keeps_what_is_done(
     with ending(started(*words)) as studio:
         hello = studio.settled()
         cards = {card["asset"]: card for card in hello["cards"]}
-        assert hello["tour"] and hello["lesson"] is None and not hello["program"]["text"]
+        assert hello["tour"] and hello["outcome"] is None and not hello["program"]["text"]
         assert len(cards) == 14
         assert all(place >= 0 for place in cards[FIRST]["labels"])
         assert not any(card["demonstrated"] for card in cards.values())

@@ -128,7 +128,7 @@ def _answer(person: Hand, studio: Studio) -> int:
     """Take the choice that is meant, of everything that is asked; gives how many questions there were."""
     person.press("Alt+3")
     answered = 0
-    while question := studio.settled()["lesson"]["question"]:
+    while question := studio.settled()["outcome"]["question"]:
         place = [choice["extractor"] for choice in question["choices"]].index(MEANT[question["rule"] - 1])
         card = person.page.get_by_role("region", name=re.compile(f"which hulls should rule {question['rule']} take"))
         person.click(card.get_by_role("button").nth(place))
@@ -157,12 +157,12 @@ def _second_table(person: Hand) -> None:
 
 def _repair(person: Hand, studio: Studio) -> None:
     """Accept that the label is wrong."""
-    studio.until(lambda hello: bool(hello["lesson"] and hello["lesson"]["repairs"]))
+    studio.until(lambda hello: bool(hello["outcome"] and hello["outcome"]["repairs"]))
     person.press("Alt+3")
     card = person.page.get_by_role("article", name=f"{MISLABELLED} of {SECOND}")
     person.click(card.get_by_role("button", name="Accept"))
     person.sees(f"{MISLABELLED} of {SECOND} is now labelled misc")
-    studio.until(lambda hello: not hello["learning"] and hello["lesson"]["status"] in ("found", "ambiguous"))
+    studio.until(lambda hello: not hello["learning"] and hello["outcome"]["status"] in ("found", "ambiguous"))
 
 
 def _review(person: Hand, other: Hand, studio: Studio) -> None:
@@ -183,5 +183,5 @@ def _review(person: Hand, other: Hand, studio: Studio) -> None:
 
 
 def _rules(studio: Studio) -> str:
-    program: str = studio.settled()["lesson"]["program"]
+    program: str = studio.settled()["outcome"]["program"]
     return program.split("\n\n")[-1].strip()

@@ -121,7 +121,7 @@ def learned(studio: Studio) -> str:
     until = time.monotonic() + PATIENCE
     while True:
         hello = studio.settled()
-        if hello["lesson"] and hello["lesson"]["program"]:
+        if hello["outcome"] and hello["outcome"]["program"]:
             text: str = hello["program"]["text"]
             return text
         assert time.monotonic() < until

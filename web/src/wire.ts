@@ -24,9 +24,9 @@ export type Event =
   | CardsChanged
   | ProjectChanged
   | HistoryChanged
-  | RelabelledChanged
+  | LabelUpdateChanged
   | AssetsChanged
-  | LessonChanged
+  | OutcomeChanged
   | ReachChanged
   | ProgramChanged
   | JobChanged;
@@ -35,29 +35,31 @@ export type JobRequest = ApplyJob | DecomposeJob | ExportJob | PropagateJob | Fo
 export interface Everything {
   ActionForm: ActionForm;
   AnswerQuestion: AnswerQuestion;
+  AnswerView: AnswerView;
   AnyEdit: AnyEdit;
   ApplyJob: ApplyJob;
   Argument: Argument;
   AskJob: AskJob;
+  AssetLabelUpdate: AssetLabelUpdate;
   AssetView: AssetView;
   AssetsChanged: AssetsChanged;
   Card: Card;
   CardsChanged: CardsChanged;
-  CarriedOver: CarriedOver;
   CheckFinding: CheckFinding;
   CheckJob: CheckJob;
   CheckPicture: CheckPicture;
   CheckRequest: CheckRequest;
-  Checked: Checked;
+  CheckResult: CheckResult;
   ChoiceView: ChoiceView;
   CorrectByHand: CorrectByHand;
   CorrectionView: CorrectionView;
+  CoverageView: CoverageView;
   CutHull: CutHull;
   DecomposeJob: DecomposeJob;
   DeleteRule: DeleteRule;
-  Done: Done;
   DropCorrections: DropCorrections;
-  EditedHeader: EditedHeader;
+  EditHeader: EditHeader;
+  EditReceipt: EditReceipt;
   EngineView: EngineView;
   Event: Event;
   ExportJob: ExportJob;
@@ -66,7 +68,6 @@ export interface Everything {
   FindingView: FindingView;
   ForecastJob: ForecastJob;
   GeneraliseRequest: GeneraliseRequest;
-  Generalised: Generalised;
   Guess: Guess;
   Guesses: Guesses;
   Hello: Hello;
@@ -83,9 +84,9 @@ export interface Everything {
   LabelFromNames: LabelFromNames;
   LabelHulls: LabelHulls;
   LabelSources: LabelSources;
+  LabelUpdate: LabelUpdate;
+  LabelUpdateChanged: LabelUpdateChanged;
   LanguageView: LanguageView;
-  LessonChanged: LessonChanged;
-  LessonView: LessonView;
   Mark: Mark;
   Model: Model;
   MoveRule: MoveRule;
@@ -94,6 +95,8 @@ export interface Everything {
   Next: Next;
   OpaqueView: OpaqueView;
   Operator: Operator;
+  OutcomeChanged: OutcomeChanged;
+  OutcomeView: OutcomeView;
   PreviewRequest: PreviewRequest;
   Problem: Problem;
   ProgramChanged: ProgramChanged;
@@ -102,21 +105,18 @@ export interface Everything {
   ProjectChanged: ProjectChanged;
   ProjectView: ProjectView;
   PropagateJob: PropagateJob;
+  PropagationState: PropagationState;
   QuestionView: QuestionView;
   Reach: Reach;
   ReachChanged: ReachChanged;
   ReadingView: ReadingView;
-  Relabelled: Relabelled;
-  RelabelledAsset: RelabelledAsset;
-  RelabelledChanged: RelabelledChanged;
   RenameLabel: RenameLabel;
   RepairView: RepairView;
   ReviewAssets: ReviewAssets;
   RuleLine: RuleLine;
   RuleView: RuleView;
-  Said: Said;
   SelectRequest: SelectRequest;
-  Selected: Selected;
+  SelectionView: SelectionView;
   SetOrientation: SetOrientation;
   SetSteps: SetSteps;
   SetVocabulary: SetVocabulary;
@@ -128,7 +128,7 @@ export interface Everything {
   TakeBack: TakeBack;
   TraceLine: TraceLine;
   Unprepare: Unprepare;
-  Uploaded: Uploaded;
+  UploadReceipt: UploadReceipt;
   VocabularyLabel: VocabularyLabel;
   WriteProgram: WriteProgram;
 }
@@ -162,6 +162,15 @@ export interface AnswerQuestion {
   asset: string;
   select: string[] | null;
   refused?: string[][];
+}
+/**
+ * An answer, or a repair of a label that was confirmed or refused; id: to take it back.
+ */
+export interface AnswerView {
+  id: string;
+  kind: "answer" | "confirmed" | "rejected";
+  asset: string;
+  text: string;
 }
 /**
  * Label some hulls of an asset; null takes their labels away.
@@ -329,6 +338,16 @@ export interface AskJob {
   max_cost?: number | null;
 }
 /**
+ * Hulls of an asset that got a new label, by position. new: those that had none; changed: those that had another;
+ * was: the label that each of the changed ones had.
+ */
+export interface AssetLabelUpdate {
+  asset: string;
+  new: number[];
+  changed: number[];
+  was: string[];
+}
+/**
  * An asset as it is prepared, in the frame it comes in.
  *
  * upright: the 16 numbers (row by row) of canonical_T_incoming, null for the identity; unturned: why the orientation
@@ -473,14 +492,6 @@ export interface CardsChanged {
   gone: string[];
 }
 /**
- * The last propagation of labels. unused: how many labels people and files gave since; next: the asset that would
- * help most if it were labelled, null where it is labelled by now, or where all are.
- */
-export interface CarriedOver {
-  unused: number;
-  next: string | null;
-}
-/**
  * A fault with its text. hulls: those that it concerns, by their names in the output.
  */
 export interface CheckFinding {
@@ -515,7 +526,7 @@ export interface CheckRequest {
  * The result of one part of a check. gone: how many findings about the asset the output no longer has; notes: what
  * could not be measured, and why; cell: the resolution [m]; pictured: whether there are pictures of it.
  */
-export interface Checked {
+export interface CheckResult {
   part: "engines" | "physics" | "clearance" | "fit";
   figures: Figure[];
   findings: CheckFinding[];
@@ -543,6 +554,15 @@ export interface ChoiceView {
   select: string[];
 }
 /**
+ * What an extractor selects on every asset, by positions of the asset's own hulls; in very large families on those
+ * assets that learning looks at.
+ */
+export interface CoverageView {
+  assets: {
+    [k: string]: number[];
+  };
+}
+/**
  * Make hulls for pieces and bodies that have none; method: the tool that makes them.
  */
 export interface DecomposeJob {
@@ -551,19 +571,12 @@ export interface DecomposeJob {
   method?: "coacd" | "vhacd";
 }
 /**
- * An edit is on disk. said: what was done, in words; nothing: whether there was nothing to do.
- */
-export interface Done {
-  said: string;
-  nothing?: boolean;
-}
-/**
  * The header of a packet of an edited asset: all of its hulls, with the shapes of those that the asset has not.
  *
  * made, removed: names of hulls, compared with the asset as it comes; trace: what each rule did; findings: of the
  * check of legality; volume: the sum over hulls before and after [m^3].
  */
-export interface EditedHeader {
+export interface EditHeader {
   rows: ShapeRow[];
   hulls: HullView[];
   made: string[];
@@ -606,6 +619,13 @@ export interface FindingView {
   hull: string | null;
 }
 /**
+ * An edit is on disk. said: what was done, in words; nothing: whether there was nothing to do.
+ */
+export interface EditReceipt {
+  said: string;
+  nothing?: boolean;
+}
+/**
  * An engine whose limits can be checked; title: its name as its makers write it.
  */
 export interface EngineView {
@@ -622,9 +642,9 @@ export interface Hello {
   project: ProjectView;
   cards: Card[];
   history: HistoryView;
-  relabelled: Relabelled | null;
+  relabelled: LabelUpdate | null;
   program: ProgramView;
-  lesson: LessonView | null;
+  outcome: OutcomeView | null;
   learning: boolean;
   reach: Reach[];
   jobs: Job[];
@@ -647,9 +667,9 @@ export interface ProjectView {
   contact: number | null;
   extremity: number | null;
   rules: RuleLine[];
-  said: Said[];
+  said: AnswerView[];
   templates: string[];
-  carried: CarriedOver | null;
+  carried: PropagationState | null;
   next: Next;
   problem: string | null;
   lost: string[];
@@ -672,13 +692,12 @@ export interface RuleLine {
   nothing: string[];
 }
 /**
- * An answer, or a repair of a label that was confirmed or refused; id: to take it back.
+ * The last propagation of labels. unused: how many labels people and files gave since; next: the asset that would
+ * help most if it were labelled, null where it is labelled by now, or where all are.
  */
-export interface Said {
-  id: string;
-  kind: "answer" | "confirmed" | "rejected";
-  asset: string;
-  text: string;
+export interface PropagationState {
+  unused: number;
+  next: string | null;
 }
 /**
  * The next sensible step. say: the step in words; asset: the one to open.
@@ -701,21 +720,11 @@ export interface HistoryView {
  * What the last edit did, if it changed the labels of all assets. entry: its number in the history; way: its kind;
  * settled: how many labels it made sure.
  */
-export interface Relabelled {
+export interface LabelUpdate {
   entry: number;
   way: "propagate" | "label-files" | "label-names" | "label-vlm";
-  assets: RelabelledAsset[];
+  assets: AssetLabelUpdate[];
   settled: number;
-}
-/**
- * Hulls of an asset that got a new label, by position. new: those that had none; changed: those that had another;
- * was: the label that each of the changed ones had.
- */
-export interface RelabelledAsset {
-  asset: string;
-  new: number[];
-  changed: number[];
-  was: string[];
 }
 /**
  * The accepted program. by_hand: a person wrote or changed it; outdated: what it was learned from changed since;
@@ -748,7 +757,7 @@ export interface RuleView {
  * a rule without an extractor. stale: ids of answers that no longer fit. sample: the assets whose results show best
  * whether the program is right, best first; overruled: those whose accepted result no program keeps.
  */
-export interface LessonView {
+export interface OutcomeView {
   number: number;
   status: "found" | "ambiguous" | "repair" | "none" | "timeout" | "error";
   program: string | null;
@@ -879,24 +888,24 @@ export interface HistoryChanged {
 /**
  * What the last edit did to all labels, sent after the cards; null as soon as there is another edit.
  */
-export interface RelabelledChanged {
+export interface LabelUpdateChanged {
   kind: "relabelled";
-  relabelled: Relabelled | null;
+  relabelled: LabelUpdate | null;
 }
 /**
  * A learning run has started (`learning`), or its outcome is there.
  */
-export interface LessonChanged {
-  kind: "lesson";
-  lesson: LessonView | null;
+export interface OutcomeChanged {
+  kind: "outcome";
+  outcome: OutcomeView | null;
   learning: boolean;
 }
 /**
- * What the program does on all assets; lesson: the number of the learning run that it belongs to.
+ * What the program does on all assets; number: the number of the learning run that it belongs to.
  */
 export interface ReachChanged {
   kind: "reach";
-  lesson: number;
+  number: number;
   reach: Reach[];
 }
 /**
@@ -934,15 +943,6 @@ export interface ForecastJob {
 export interface GeneraliseRequest {
   extractor: string;
   rule?: number;
-}
-/**
- * What an extractor selects on every asset, by positions of the asset's own hulls; in very large families on those
- * assets that learning looks at.
- */
-export interface Generalised {
-  assets: {
-    [k: string]: number[];
-  };
 }
 /**
  * What the program would select for a rule on an asset, after the steps demonstrated before it.
@@ -1058,7 +1058,7 @@ export interface SelectRequest {
 /**
  * The names of the hulls that an extractor selects on an asset; mark: what is wrong with its text.
  */
-export interface Selected {
+export interface SelectionView {
   select: string[];
   sentence: string;
   mark: Mark | null;
@@ -1076,6 +1076,6 @@ export interface ShapesHeader {
 /**
  * An upload is stored. names: of a template, as actions write it; or the paths of asset files.
  */
-export interface Uploaded {
+export interface UploadReceipt {
   names: string[];
 }

@@ -11,7 +11,7 @@ from meshforge import synthesis
 from meshforge.batch import RECORD_FILE, file_digest, program_digest, text_digest
 from meshforge.common import MeshForgeError, ProgramError, ProjectError, write_atomically
 from meshforge.language import Program
-from meshforge.project import lesson
+from meshforge.project import demonstrations
 from meshforge.project.run import find_accepted_results, pick_evenly
 from meshforge.store import AnswerLine, AnswersFile, ProgramRecord, Settings, Store
 from meshforge.symbolic import SymbolicMesh
@@ -163,7 +163,7 @@ def learn_program(
     """Learn the program from the demonstrations and from what a person said since.
 
     accept: what is found becomes the project's program, and what `confirm` says about repairs is kept at once.
-    confirm, stop: as of `meshforge.synthesize`; answers: for this lesson, before those that are kept.
+    confirm, stop: as of `meshforge.synthesize`; answers: for this run, before those that are kept.
     meshes: the assets by id, where they are in memory already (`FamilyMeshes`); else they are read, of very many some.
     Raises ProjectError where nothing is demonstrated.
     """
@@ -230,7 +230,7 @@ class _RepairAsker:
 
     def __call__(self, repair: synthesis.Repair) -> bool:
         right = self._confirm(repair)
-        (lesson.confirm if right else lesson.reject)(self._store, repair.correction)
+        (demonstrations.confirm if right else demonstrations.reject)(self._store, repair.correction)
         self.inputs = digest_learning_inputs(self._store)
         return right
 
@@ -254,8 +254,10 @@ def _sort_answers(
     store: Store, said: AnswersFile, demos: Mapping[str, synthesis.Demonstration], more: Sequence[synthesis.Answer]
 ) -> tuple[list[synthesis.Answer], list[synthesis.Answer]]:
     """The answers to learn from, and those to a rule that does something else by now."""
-    lines = {line.id: line for line in [*said.answers, *(lesson.check_answer(store, answer) for answer in more)]}
-    actions = lesson.actions_of(demo.steps for demo in demos.values())
+    lines = {
+        line.id: line for line in [*said.answers, *(demonstrations.check_answer(store, answer) for answer in more)]
+    }
+    actions = demonstrations.actions_of(demo.steps for demo in demos.values())
 
     def fits(line: AnswerLine) -> bool:
         return actions.get(line.rule) == (line.action or actions.get(line.rule, ""))
@@ -268,7 +270,7 @@ def _answers_of_accepted(
     store: Store, demos: Mapping[str, synthesis.Demonstration], said: Sequence[synthesis.Answer]
 ) -> list[synthesis.Answer]:
     """What rules select on results that were accepted, but for what was said otherwise, or of rules that are others."""
-    actions = lesson.actions_of(demo.steps for demo in demos.values())
+    actions = demonstrations.actions_of(demo.steps for demo in demos.values())
     known = {(answer.rule, answer.asset) for answer in said}
     return [
         synthesis.Answer(one.rule, asset, one.select)

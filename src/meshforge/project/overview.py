@@ -8,8 +8,8 @@ from functools import partial
 from meshforge.batch import ApplyTask, AssetJob, ExecutionOptions, Stamp, inputs_of, read_stamp
 from meshforge.common import MeshForgeError
 from meshforge.language import Program
+from meshforge.project.demonstrations import find_unknown_hulls
 from meshforge.project.learn import program_state_of, suggest_first_demonstration
-from meshforge.project.lesson import find_unknown_hulls
 from meshforge.project.run import build_jobs, build_task, output_digest
 from meshforge.project.status import Adviser, AssetStatus, Status
 from meshforge.store import AssetFacts, Review, Store, geometry_digest, survey

@@ -13,7 +13,7 @@ from meshforge.common import AssetError, MeshForgeError, ProjectError, describe_
 from meshforge.formats import read
 from meshforge.geometry import CoacdSettings, DecomposeSettings, Shape, cache_folder
 from meshforge.labels import label_new_hulls
-from meshforge.project.lesson import find_unknown_hulls
+from meshforge.project.demonstrations import find_unknown_hulls
 from meshforge.store import Store
 from meshforge.symbolic import Asset, SymbolicMesh
 

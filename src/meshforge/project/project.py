@@ -9,7 +9,7 @@ from pathlib import Path
 from meshforge import batch
 from meshforge.labels import LabelStore
 from meshforge.language import Orient
-from meshforge.project import label_name, learn, lesson, overview, prepare, run
+from meshforge.project import demonstrations, learn, overview, prepare, rename, run
 from meshforge.store import add_assets, create_folder, find_assets
 
 
@@ -46,7 +46,7 @@ class Project(LabelStore):
             add_assets(self.folder, self.found, paths)
         return Project.open(self.folder)
 
-    rename_label = label_name.rename_label
+    rename_label = rename.rename_label
 
     # Preparation
 
@@ -57,9 +57,9 @@ class Project(LabelStore):
 
     # Demonstrations
 
-    demonstrate = lesson.demonstrate
-    move_rule = lesson.move_rule
-    delete_rule = lesson.delete_rule
+    demonstrate = demonstrations.demonstrate
+    move_rule = demonstrations.move_rule
+    delete_rule = demonstrations.delete_rule
 
     # The program
 
@@ -87,12 +87,12 @@ class Project(LabelStore):
 
     # What a person said while it was learned
 
-    answer = lesson.answer
-    add_answer = lesson.add_answer
-    confirm = lesson.confirm
-    reject = lesson.reject
-    take_back = lesson.take_back
-    forget_answers = lesson.forget_answers
+    answer = demonstrations.answer
+    add_answer = demonstrations.add_answer
+    confirm = demonstrations.confirm
+    reject = demonstrations.reject
+    take_back = demonstrations.take_back
+    forget_answers = demonstrations.forget_answers
 
     # After the program
 

@@ -12,7 +12,7 @@ from meshforge.rendering import UNSURE
 from meshforge.studio.history import History
 from meshforge.studio.history_store import HistoryEntry
 from meshforge.studio.wire.family import Card
-from meshforge.studio.wire.jobs import CarriedOver, LabelEditKind, Relabelled, RelabelledAsset
+from meshforge.studio.wire.jobs import AssetLabelUpdate, LabelEditKind, LabelUpdate, PropagationState
 from meshforge.symbolic import GIVEN_SOURCES, Label, read_labels
 
 _LABEL_EDIT_KINDS: tuple[str, ...] = get_args(LabelEditKind)
@@ -36,10 +36,10 @@ class LabelChanges:
 
     def __init__(self, history: History) -> None:
         self._history = history
-        self._last: tuple[HistoryEntry, int, Relabelled] | None = None
+        self._last: tuple[HistoryEntry, int, LabelUpdate] | None = None
         self._no_change: tuple[tuple[HistoryEntry, ...], str | None] | None = None
 
-    def last_change(self, names: HullNames) -> Relabelled | None:
+    def last_change(self, names: HullNames) -> LabelUpdate | None:
         """What the last edit did to assets whose hulls are known by now; None where it did not edit all labels."""
         done = self._history.entries
         if not done or done[-1].edit.get("kind") not in _LABEL_EDIT_KINDS:
@@ -53,7 +53,7 @@ class LabelChanges:
         """Note a propagation that changed no label and so is no entry; entries: how many there were then."""
         self._no_change = self._history.entries[:entries], best
 
-    def propagation_state(self, project: Project, cards: Sequence[Card]) -> CarriedOver | None:
+    def propagation_state(self, project: Project, cards: Sequence[Card]) -> PropagationState | None:
         """What is known of the last propagation; None where there was none, or where it is undone."""
         done = self._history.entries
         used = self._last_propagation(done)
@@ -62,15 +62,15 @@ class LabelChanges:
         is_open = any(card.asset == used.best and card.given < (card.hulls or 0) for card in cards)
         states = self._label_states(project, done[used.entries :])
         unused = sum(count_new_labels(before, now) for before, now in states)
-        return CarriedOver(unused=unused, next=used.best if is_open else None)
+        return PropagationState(unused=unused, next=used.best if is_open else None)
 
-    def _build_change(self, entry: HistoryEntry, number: int, names: HullNames) -> Relabelled:
+    def _build_change(self, entry: HistoryEntry, number: int, names: HullNames) -> LabelUpdate:
         files = {asset: name for asset, name in _labels_files(entry.names).items() if asset in names}
         states = [
             (a, self._read_state(entry.before[name]), self._read_state(entry.after[name])) for a, name in files.items()
         ]
         assets = (diff_labels(asset, names[asset], before, after) for asset, before, after in states)
-        return Relabelled(
+        return LabelUpdate(
             entry=number,
             way=entry.edit["kind"],
             assets=tuple(filter(None, assets)),
@@ -118,14 +118,14 @@ def _labels_files(names: Iterable[str]) -> dict[str, str]:
     return {name.removeprefix("labels/").removesuffix(".json"): name for name in names if name.startswith("labels/")}
 
 
-def diff_labels(asset: str, names: Sequence[str], before: HullLabels, after: HullLabels) -> RelabelledAsset | None:
+def diff_labels(asset: str, names: Sequence[str], before: HullLabels, after: HullLabels) -> AssetLabelUpdate | None:
     """Which hulls got another label, None where none did; names: of all hulls, in order."""
     pairs = [(k, before.get(name), after.get(name)) for k, name in enumerate(names)]
     new = tuple(k for k, was, now in pairs if now and not was)
     changed = {k: was.name for k, was, now in pairs if was and now and was.name != now.name}
     if not new and not changed:
         return None
-    return RelabelledAsset(asset=asset, new=new, changed=tuple(changed), was=tuple(changed.values()))
+    return AssetLabelUpdate(asset=asset, new=new, changed=tuple(changed), was=tuple(changed.values()))
 
 
 def count_newly_sure(before: HullLabels, after: HullLabels) -> int:

@@ -17,7 +17,7 @@ from meshforge.project import Project
 from meshforge.rendering import encode_png
 from meshforge.studio.errors import NotHereError
 from meshforge.studio.output_measures import MEASURES, MeasureTask, check_key, measure, read_pair
-from meshforge.studio.wire.asset import Checked, CheckPart, CheckPicture, Fault
+from meshforge.studio.wire.asset import CheckPart, CheckPicture, CheckResult, Fault
 from meshforge.studio.workers import WORK_TIMEOUT, Workers, future_of, project_of_one
 
 PICTURE_SIZE = (800, 600)
@@ -36,7 +36,7 @@ class OutputChecks:
         self._faults: dict[str, tuple[Fault, ...]] = {}
         self._cache.remove_oldest()
 
-    def check_part(self, project: Project, asset: str, part: CheckPart) -> Future[Checked]:
+    def check_part(self, project: Project, asset: str, part: CheckPart) -> Future[CheckResult]:
         """One part of what is measured of an asset's output. Raises ProjectError where there is no output."""
         work = _make_task(project, asset)
         kept = self._cache.read(work.key, part)
@@ -100,7 +100,7 @@ def _make_task(project: Project, asset: str) -> MeasureTask:
     return MeasureTask(project_of_one(project, asset), asset, key)
 
 
-def _measure_part(task: MeasureTask, part: CheckPart, cache: ResultCache) -> Checked:
+def _measure_part(task: MeasureTask, part: CheckPart, cache: ResultCache) -> CheckResult:
     checked = measure(read_pair(task), part)
     cache.write(task.key, checked)
     return checked
@@ -137,14 +137,14 @@ class ResultCache:
 
     folder: Path
 
-    def read(self, key: str, part: CheckPart) -> Checked | None:
+    def read(self, key: str, part: CheckPart) -> CheckResult | None:
         """A part that was measured."""
         try:
-            return Checked.model_validate_json((self.folder / f"{key}.{part}.json").read_bytes())
+            return CheckResult.model_validate_json((self.folder / f"{key}.{part}.json").read_bytes())
         except (OSError, ValidationError):
             return None
 
-    def write(self, key: str, checked: Checked) -> None:
+    def write(self, key: str, checked: CheckResult) -> None:
         """Keep a part."""
         write_atomically(self.folder / f"{key}.{checked.part}.json", checked.model_dump_json())
 

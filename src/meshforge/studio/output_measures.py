@@ -12,7 +12,7 @@ from meshforge.common import ProjectError
 from meshforge.formats import load
 from meshforge.project import Project, output_digest
 from meshforge.studio.errors import NotHereError
-from meshforge.studio.wire.asset import Checked, CheckFinding, CheckPart, Figure, FigureUnit
+from meshforge.studio.wire.asset import CheckFinding, CheckPart, CheckResult, Figure, FigureUnit
 from meshforge.symbolic import SymbolicMesh
 
 _RULE_PREFIXES = {"fit": ("fit-", "shape-"), "clearance": ("clearance-",), "physics": ("physics-",)}
@@ -31,7 +31,7 @@ _VERSION = "1"
 """To be raised when outputs are measured in another way."""
 
 
-def measure(pair: OutputPair, part: CheckPart) -> Checked:
+def measure(pair: OutputPair, part: CheckPart) -> CheckResult:
     """One part of what `meshforge check OUTPUT --against ASSET` reports."""
     if part == "engines":
         return _check_engines(pair)
@@ -49,7 +49,7 @@ def measure(pair: OutputPair, part: CheckPart) -> Checked:
 
 def _to_checked(
     part: CheckPart, before: Iterable[Finding], now: Examination, rows: Iterable[Figure], cell: float | None
-) -> Checked:
+) -> CheckResult:
     figures = tuple(rows)
     found = [f for f in now.findings if f.rule.startswith(_RULE_PREFIXES[part])]
     old = [f for f in before if f.rule.startswith(_RULE_PREFIXES[part])]
@@ -57,7 +57,7 @@ def _to_checked(
     gone = {finding.rule for finding in old} - {finding.rule for finding in found}
     physics = (("", now.physics), ("before the edit ", now.earlier))
     no_rest = (f"{when}{p.description}" for when, p in physics if p and p.rest is None)
-    return Checked(
+    return CheckResult(
         part=part,
         figures=figures,
         findings=tuple(_to_row(f, None, f in by_edit or not _was_there(f, old)) for f in found),
@@ -68,13 +68,13 @@ def _to_checked(
     )
 
 
-def _check_engines(pair: OutputPair) -> Checked:
+def _check_engines(pair: OutputPair) -> CheckResult:
     """Findings about legality, and about the limits of each engine."""
     rows = []
     for engine in (None, *ENGINES):
         known = _findings_of(pair.before, engine)
         rows += [_to_row(f, engine, not _was_there(f, known)) for f in _findings_of(pair.after, engine)]
-    return Checked(part="engines", findings=tuple(rows))
+    return CheckResult(part="engines", findings=tuple(rows))
 
 
 def _findings_of(mesh: SymbolicMesh, engine: str | None) -> list[Finding]:

@@ -12,8 +12,8 @@ from meshforge.checks import ENGINES
 from meshforge.studio.wire import Wire, events
 from meshforge.studio.wire.asset import EngineView
 from meshforge.studio.wire.family import Card, HistoryView, ProjectView, VocabularyLabel
-from meshforge.studio.wire.jobs import Job, Relabelled
-from meshforge.studio.wire.program import LessonView, ProgramView, Reach
+from meshforge.studio.wire.jobs import Job, LabelUpdate
+from meshforge.studio.wire.program import OutcomeView, ProgramView, Reach
 
 MOST_FINISHED_JOBS = 20
 """Jobs that are over and still sent to pages that connect."""
@@ -45,8 +45,8 @@ class PageState:
             return tuple(self._cards.values())
 
     @property
-    def lesson(self) -> LessonView | None:
-        return self._rest.lesson
+    def outcome(self) -> OutcomeView | None:
+        return self._rest.outcome
 
     @property
     def program(self) -> ProgramView:
@@ -98,13 +98,13 @@ class PageState:
             self._rest = self._rest.model_copy(update={"history": event.history})
             self._hub.broadcast(event)
 
-    def set_relabelled(self, relabelled: Relabelled | None) -> None:
+    def set_relabelled(self, relabelled: LabelUpdate | None) -> None:
         """Show what the last edit did to all labels."""
-        self._change(events.RelabelledChanged(relabelled=relabelled), relabelled=relabelled)
+        self._change(events.LabelUpdateChanged(relabelled=relabelled), relabelled=relabelled)
 
-    def set_lesson(self, lesson: LessonView | None, learning: bool) -> None:
+    def set_outcome(self, outcome: OutcomeView | None, learning: bool) -> None:
         """Show the outcome of a learning run, or that one has started."""
-        self._change(events.LessonChanged(lesson=lesson, learning=learning), lesson=lesson, learning=learning)
+        self._change(events.OutcomeChanged(outcome=outcome, learning=learning), outcome=outcome, learning=learning)
 
     def set_program(self, program: ProgramView) -> bool:
         """Show the accepted program; whether its text is another than before."""
@@ -113,9 +113,9 @@ class PageState:
             self._change(events.ProgramChanged(program=program), program=program)
             return program.text != before.text
 
-    def set_reach(self, lesson: int, reach: tuple[Reach, ...]) -> None:
-        """Show what the program does on all assets; lesson: the number of the learning run."""
-        self._change(events.ReachChanged(lesson=lesson, reach=reach), reach=reach)
+    def set_reach(self, number: int, reach: tuple[Reach, ...]) -> None:
+        """Show what the program does on all assets; number: the number of the learning run."""
+        self._change(events.ReachChanged(number=number, reach=reach), reach=reach)
 
     def set_job(self, job: Job) -> None:
         """Show a job as it stands."""

@@ -104,7 +104,7 @@ def test_the_bundled_demonstrations_are_what_their_program_does() -> None:
 
 
 def test_features_are_what_the_weights_multiply() -> None:
-    """With the weights in use they give the beliefs that a lesson has."""
+    """With the weights in use they give the beliefs that learning has."""
     case = next(cases([0], 1, ("table",)))
     rule = calibrate._rule(case)
     assert rule is not None

@@ -57,15 +57,15 @@ def go_on() -> bool:
 
 @pytest.mark.slow
 def test_the_bundled_program_is_learned_and_kept(project: Project, learner: Learner) -> None:
-    lesson = learner.learn(7, take=False).result()
-    assert (lesson.number, lesson.status, lesson.error) == (7, "found", None)
-    assert rules_of(lesson.program) == rules_of(BUNDLED)
-    assert lesson.rules[0].sentence == "The misc hulls are deleted."
-    counts = {rule.rule: rule.readings for rule in lesson.rules}
-    assert counts == {rule: sum(r.rule == rule for r in lesson.readings) for rule in counts}
+    outcome = learner.learn(7, take=False).result()
+    assert (outcome.number, outcome.status, outcome.error) == (7, "found", None)
+    assert rules_of(outcome.program) == rules_of(BUNDLED)
+    assert outcome.rules[0].sentence == "The misc hulls are deleted."
+    counts = {rule.rule: rule.readings for rule in outcome.rules}
+    assert counts == {rule: sum(r.rule == rule for r in outcome.readings) for rule in counts}
     kept = project.program()
     assert kept
-    assert str(kept) == lesson.program
+    assert str(kept) == outcome.program
 
 
 @pytest.mark.slow
@@ -149,9 +149,9 @@ def test_a_changed_label_and_a_new_demonstration_are_noticed(fresh: tuple[Projec
     project, learner = fresh
     learner.learn(1, take=False).result()
     project.set_labels("table_03.obj", {"convex_00": "leg"})
-    lesson = learner.learn(2, take=False).result()
-    assert lesson.status == "repair"
-    assert [repair.id for repair in lesson.repairs] == ["table_03.obj#convex_00=panel"]
+    outcome = learner.learn(2, take=False).result()
+    assert outcome.status == "repair"
+    assert [repair.id for repair in outcome.repairs] == ["table_03.obj#convex_00=panel"]
     project.set_labels("table_03.obj", {"convex_00": "panel"})
     project.demonstrate("table_03.obj", project.steps("table_03.obj")[:1])
     project.demonstrate("table_08.obj", project.steps("table_08.obj")[:1])
@@ -162,21 +162,21 @@ def test_a_changed_label_and_a_new_demonstration_are_noticed(fresh: tuple[Projec
 def test_a_program_written_by_hand_stays_until_the_learned_one_is_taken(fresh: tuple[Project, Learner]) -> None:
     project, learner = fresh
     project.accept(Program.parse("Is(leg) => Delete\n"))
-    lesson = learner.learn(1, take=False).result()
-    assert rules_of(lesson.program) == rules_of(BUNDLED)
-    assert project.layout.program.read_text() != lesson.program
+    outcome = learner.learn(1, take=False).result()
+    assert rules_of(outcome.program) == rules_of(BUNDLED)
+    assert project.layout.program.read_text() != outcome.program
     learner.learn(2, take=True).result()
-    assert project.layout.program.read_text() == lesson.program
+    assert project.layout.program.read_text() == outcome.program
 
 
 @pytest.mark.slow
-def test_a_lesson_that_cannot_be_has_its_message(tmp_path: Path) -> None:
+def test_a_run_that_cannot_be_has_its_message(tmp_path: Path) -> None:
     project = demo_project(tmp_path, demonstrated=False)
     learner = Learner(project.folder)
     try:
-        lesson = learner.learn(1, take=False).result()
-        assert lesson.status == "error"
-        assert "nothing is demonstrated yet" in (lesson.error or "")
+        outcome = learner.learn(1, take=False).result()
+        assert outcome.status == "error"
+        assert "nothing is demonstrated yet" in (outcome.error or "")
         project.demonstrate(
             OTHER, [Step(1, {"convex_00"}, parse_action("Delete")), Step(2, set(), parse_action("Merge"))]
         )
@@ -186,24 +186,24 @@ def test_a_lesson_that_cannot_be_has_its_message(tmp_path: Path) -> None:
 
 
 @pytest.mark.slow
-def test_an_interrupted_lesson_comes_to_its_end_and_the_next_one_is_whole(fresh: tuple[Project, Learner]) -> None:
+def test_an_interrupted_run_comes_to_its_end_and_the_next_one_is_whole(fresh: tuple[Project, Learner]) -> None:
     _, learner = fresh
-    lesson = learner.learn(1, take=False)
+    outcome = learner.learn(1, take=False)
     learner.interrupt()
-    assert lesson.result().status == "timeout"
+    assert outcome.result().status == "timeout"
     assert learner.learn(2, take=False).result().status == "found"
 
 
 @pytest.mark.slow
 def test_of_many_calls_only_the_last_is_done(fresh: tuple[Project, Learner]) -> None:
     _, learner = fresh
-    lessons = [learner.learn(number, take=False) for number in range(20)]
+    outcomes = [learner.learn(number, take=False) for number in range(20)]
     reaches = [learner.reach(BUNDLED) for _ in range(20)]
-    assert lessons[-1].result().status == "found"
+    assert outcomes[-1].result().status == "found"
     assert reaches[-1].result()
-    for lesson in lessons[1:-1]:
-        assert isinstance(lesson.exception(), Superseded)
-    assert lessons[0].result().status == "timeout"
+    for outcome in outcomes[1:-1]:
+        assert isinstance(outcome.exception(), Superseded)
+    assert outcomes[0].result().status == "timeout"
     assert all(isinstance(reach.exception(), Superseded) for reach in reaches[:-1])
 
 
@@ -248,10 +248,10 @@ def test_a_call_that_nobody_waits_for_any_more_is_passed_over() -> None:
 def test_a_cancel_flag_stops_calls_of_its_kind_that_were_made_before() -> None:
     flag = CancelFlag()
     try:
-        lesson, reach = flag.make_token("learn"), flag.make_token("reach")
-        assert not lesson.stop()
+        outcome, reach = flag.make_token("learn"), flag.make_token("reach")
+        assert not outcome.stop()
         flag.cancel("learn")
-        assert lesson.stop()
+        assert outcome.stop()
         assert not reach.stop()
         assert not flag.make_token("learn").stop()
     finally:
@@ -275,7 +275,7 @@ def test_the_shelf_reads_again_only_what_changed(tmp_path: Path) -> None:
         list(shelf.read_meshes(project, project.assets(), lambda: True))
 
 
-def test_after_many_lessons_the_shelf_hands_out_the_same_assets_anew(tmp_path: Path) -> None:
+def test_after_many_runs_the_shelf_hands_out_the_same_assets_anew(tmp_path: Path) -> None:
     project, shelf = demo_project(tmp_path), FamilyCache()
     before = dict(shelf.read_meshes(project, [OTHER], go_on))[OTHER]
     known = dict(before.graph)
@@ -291,16 +291,16 @@ def test_after_many_lessons_the_shelf_hands_out_the_same_assets_anew(tmp_path: P
 def test_a_question_tells_what_each_choice_reads(fresh: tuple[Project, Learner]) -> None:
     project, learner = fresh
     project.demonstrate("table_03.obj", [])
-    lesson = learner.learn(1, take=False).result()
-    assert lesson.status == "ambiguous"
-    assert lesson.question
-    asked, program = lesson.question, Program.parse(lesson.program or "")
+    outcome = learner.learn(1, take=False).result()
+    assert outcome.status == "ambiguous"
+    assert outcome.question
+    asked, program = outcome.question, Program.parse(outcome.program or "")
     met = project.mesh_before_rule(asked.asset, asked.rule, program)
     for choice in asked.choices:
         found = select(parse_extractor(choice.extractor), met)
         assert [met.hulls[k].name for k in sorted(found)] == list(choice.select)
         assert choice.sentence
-    assert {choice.reading for choice in asked.choices} <= {reading.id for reading in lesson.readings}
+    assert {choice.reading for choice in asked.choices} <= {reading.id for reading in outcome.readings}
 
 
 @pytest.mark.slow
@@ -309,10 +309,10 @@ def test_a_rule_that_no_extractor_fits_says_what_came_nearest(fresh: tuple[Proje
     project.demonstrate("table_08.obj", [])
     odd = {"convex_00", "convex_07", "convex_12", "convex_24", "convex_31"}
     project.demonstrate("table_03.obj", [Step(1, odd, parse_action("Delete"))])
-    lesson = learner.learn(1, take=False).result()
-    assert (lesson.status, lesson.program) == ("none", None)
-    assert lesson.why
-    assert lesson.nearest
+    outcome = learner.learn(1, take=False).result()
+    assert (outcome.status, outcome.program) == ("none", None)
+    assert outcome.why
+    assert outcome.nearest
     mesh = project.mesh_before_rule("table_03.obj", 1, Program(orient=project.orientation))
-    chosen = {mesh.hulls[k].name for k in select(parse_extractor(lesson.nearest.extractor), mesh)}
-    assert (chosen - odd, odd - chosen) == (set(lesson.nearest.extra), set(lesson.nearest.missing))
+    chosen = {mesh.hulls[k].name for k in select(parse_extractor(outcome.nearest.extractor), mesh)}
+    assert (chosen - odd, odd - chosen) == (set(outcome.nearest.extra), set(outcome.nearest.missing))

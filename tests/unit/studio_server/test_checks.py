@@ -15,7 +15,7 @@ from meshforge.project import Project
 from meshforge.studio.jobs.outputs import to_line
 from meshforge.studio.output_checks import CHECK_PARTS, OutputChecks, ResultCache, _measure_all
 from meshforge.studio.output_measures import MeasureTask, check_key
-from meshforge.studio.wire.asset import Checked, Fault
+from meshforge.studio.wire.asset import CheckResult, Fault
 from meshforge.studio.workers import Workers, project_of_one
 from tests.cup_project import BARE, CUP, FILLED, cup_project
 
@@ -43,7 +43,7 @@ def key_of(project: Project, asset: str) -> str:
     return key
 
 
-def figures(checked: Checked) -> dict[str, tuple[float | None, float | None]]:
+def figures(checked: CheckResult) -> dict[str, tuple[float | None, float | None]]:
     return {figure.what: (figure.before, figure.after) for figure in checked.figures}
 
 
@@ -158,7 +158,7 @@ def test_what_nobody_waits_for_any_more_ends(project: Project, tmp_path: Path) -
 def test_a_file_that_cannot_be_read_counts_as_not_measured(tmp_path: Path) -> None:
     shelf = ResultCache(tmp_path)
     for part in CHECK_PARTS:
-        shelf.write("k", Checked(part=part))
+        shelf.write("k", CheckResult(part=part))
     assert shelf.missing_parts("k") == () and shelf.read_faults("k") == ()
     (tmp_path / "k.fit.json").write_text("{")
     assert shelf.read("k", "fit") is None and shelf.read_faults("k") is None and shelf.missing_parts("k") == ("fit",)

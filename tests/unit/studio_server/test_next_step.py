@@ -4,14 +4,14 @@ from collections.abc import Sequence
 
 from meshforge.studio.queries.project import choose_next_step
 from meshforge.studio.wire.family import Card, Next
-from meshforge.studio.wire.jobs import CarriedOver
-from meshforge.studio.wire.program import LessonView, NearestView, QuestionView, RepairView
+from meshforge.studio.wire.jobs import PropagationState
+from meshforge.studio.wire.program import NearestView, OutcomeView, QuestionView, RepairView
 
 BARE = Card(asset="a", hulls=2, labels=(-1, -1))
 LABELLED = Card(asset="a", hulls=2, labels=(0, -1))
 SHOWN = LABELLED.model_copy(update={"demonstrated": True})
 DONE = SHOWN.model_copy(update={"output": "edited"})
-FOUND = LessonView(number=1, status="found", program="labels leg\nIs(leg) => Delete\n")
+FOUND = OutcomeView(number=1, status="found", program="labels leg\nIs(leg) => Delete\n")
 ASKING = FOUND.model_copy(
     update={"question": QuestionView(id="1:b", rule=1, asset="b", choices=(), harm=0.5, left=0.5)}
 )
@@ -23,9 +23,9 @@ def last(assets: Sequence[str]) -> str | None:
 
 
 def stage(
-    card: Card, *, words: tuple[str, ...] = ("leg",), program: bool = False, lesson: LessonView | None = None
+    card: Card, *, words: tuple[str, ...] = ("leg",), program: bool = False, outcome: OutcomeView | None = None
 ) -> str:
-    return choose_next_step([card], words, program, lesson, None, last).stage
+    return choose_next_step([card], words, program, outcome, None, last).stage
 
 
 def test_the_stages_follow_one_another() -> None:
@@ -33,9 +33,9 @@ def test_the_stages_follow_one_another() -> None:
     assert stage(BARE, words=()) == "label"
     assert stage(BARE) == "label"
     assert stage(LABELLED) == "demonstrate"
-    assert stage(SHOWN, lesson=FOUND) == "learn"
-    assert stage(SHOWN, program=True, lesson=FOUND) == "review"
-    assert stage(DONE, program=True, lesson=FOUND) == "review"
+    assert stage(SHOWN, outcome=FOUND) == "learn"
+    assert stage(SHOWN, program=True, outcome=FOUND) == "review"
+    assert stage(DONE, program=True, outcome=FOUND) == "review"
 
 
 def test_the_step_names_the_asset_to_go_to() -> None:
@@ -61,11 +61,11 @@ def test_the_asset_that_tells_most_is_shown_first_and_without_one_the_first_with
 
 def test_the_results_that_tell_most_are_looked_at_first_as_far_as_nobody_reviewed_them() -> None:
     cards = {asset: DONE.model_copy(update={"asset": asset}) for asset in "abcd"}
-    lesson = FOUND.model_copy(update={"sample": ("d", "gone", "b", "c")})
+    outcome = FOUND.model_copy(update={"sample": ("d", "gone", "b", "c")})
 
     def step_with(*accepted: str) -> Next:
         seen = [c.model_copy(update={"review": "accepted"}) if c.asset in accepted else c for c in cards.values()]
-        return choose_next_step(seen, ("leg",), True, lesson, None, last)
+        return choose_next_step(seen, ("leg",), True, outcome, None, last)
 
     step = step_with()
     assert (step.stage, step.asset) == ("review", "d")
@@ -90,14 +90,14 @@ def test_at_the_end_there_is_only_the_export() -> None:
     assert "export" in choose_next_step([accepted], ("leg",), True, FOUND, None, last).say
 
 
-def test_a_lesson_without_a_program_leads_to_what_came_nearest_and_does_not_repeat_its_reasons() -> None:
+def test_a_run_without_a_program_leads_to_what_came_nearest_and_does_not_repeat_its_reasons() -> None:
     near = NearestView(rule=2, extractor="Is(leg)", asset="b", extra=(), missing=("h",))
-    failed = LessonView(number=1, status="none", why="no extractor of up to 9 symbols", nearest=near)
+    failed = OutcomeView(number=1, status="none", why="no extractor of up to 9 symbols", nearest=near)
     step = choose_next_step([SHOWN], ("leg",), False, failed, None, last)
     assert (step.stage, step.asset) == ("learn", "b")
     assert step.say == "No selection fits rule 2 yet: see what comes nearest."
     for status in ("none", "timeout", "error"):
-        over = LessonView(number=1, status=status, why="a long reason", error="a long\n  message")
+        over = OutcomeView(number=1, status=status, why="a long reason", error="a long\n  message")
         assert "long" not in choose_next_step([SHOWN], ("leg",), False, over, None, last).say
 
 
@@ -105,7 +105,7 @@ WHOLE = Card(asset="w", hulls=2, labels=(0, 0), given=2)
 DOUBTFUL = Card(asset="d", hulls=5, labels=(0,) * 5, unsure=(1, 2, 3))
 
 
-def labelling(*cards: Card, carried: CarriedOver | None = None, program: bool = False) -> Next:
+def labelling(*cards: Card, carried: PropagationState | None = None, program: bool = False) -> Next:
     return choose_next_step(cards, ("leg",), program, None, None, last, carried)
 
 
@@ -120,20 +120,20 @@ def test_labels_of_a_labelled_asset_are_carried_over_to_those_that_have_none() -
 def test_unsure_labels_are_looked_through_unless_something_else_is_less_work() -> None:
     step = labelling(WHOLE, DOUBTFUL)
     assert (step.stage, step.asset, step.say) == ("label", "d", "3 labels are unsure: press N.")
-    best = CarriedOver(unused=0, next="d")
+    best = PropagationState(unused=0, next="d")
     assert labelling(WHOLE, DOUBTFUL, carried=best).say == step.say, "to label it is more work"
     nearly = DOUBTFUL.model_copy(update={"asset": "n", "given": 4, "unsure": ()})
-    step = labelling(WHOLE, DOUBTFUL, nearly, carried=CarriedOver(unused=0, next="n"))
+    step = labelling(WHOLE, DOUBTFUL, nearly, carried=PropagationState(unused=0, next="n"))
     assert (step.asset, step.say) == ("n", "3 labels are unsure: label n next.")
 
 
 def test_what_was_said_is_used_when_it_outweighs_what_is_unsure() -> None:
-    step = labelling(WHOLE, DOUBTFUL, carried=CarriedOver(unused=3))
+    step = labelling(WHOLE, DOUBTFUL, carried=PropagationState(unused=3))
     assert step.say == "Propagate labels again: 3 labels of yours not used yet."
-    assert "press N" in labelling(WHOLE, DOUBTFUL, carried=CarriedOver(unused=2)).say
+    assert "press N" in labelling(WHOLE, DOUBTFUL, carried=PropagationState(unused=2)).say
 
 
 def test_who_has_begun_to_demonstrate_is_not_told_to_label() -> None:
     assert labelling(BARE, WHOLE, DOUBTFUL, program=True).stage == "review"
     shown = WHOLE.model_copy(update={"demonstrated": True})
-    assert labelling(BARE, shown, DOUBTFUL, carried=CarriedOver(unused=9)).stage != "label"
+    assert labelling(BARE, shown, DOUBTFUL, carried=PropagationState(unused=9)).stage != "label"

@@ -16,7 +16,7 @@ from meshforge.studio.edits.base import Edit
 from meshforge.studio.history import History
 from meshforge.studio.label_changes import LabelChanges
 from meshforge.studio.wire.family import Card
-from meshforge.studio.wire.jobs import CarriedOver
+from meshforge.studio.wire.jobs import PropagationState
 from meshforge.symbolic import GIVEN_SOURCES, HUMAN_SOURCES, Label
 from tests.examples import examples
 from tests.unit.batch.families import label_of, table_boxes, tree
@@ -54,7 +54,7 @@ def cards(project: Project) -> list[Card]:
     return [Card(asset=asset, hulls=len(NAMES), given=given[asset]) for asset in ASSETS]
 
 
-def carried(project: Project, history: History) -> CarriedOver | None:
+def carried(project: Project, history: History) -> PropagationState | None:
     return LabelChanges(history).propagation_state(project, cards(project))
 
 
@@ -126,7 +126,7 @@ def test_what_a_person_says_since_is_counted_until_labels_are_carried_over_again
     project, history = labelled(tmp_path)
     assert carried(project, history) is None
     carry(project, history)
-    assert carried(project, history) == CarriedOver(unused=0, next="t1.obj")
+    assert carried(project, history) == PropagationState(unused=0, next="t1.obj")
 
     def unused_after(edit: Edit) -> int:
         history.do(project, edit)
@@ -142,29 +142,29 @@ def test_what_a_person_says_since_is_counted_until_labels_are_carried_over_again
     assert unused_after(RenameLabel(old="leg", new="foot")) == 2
     assert unused_after(label("t1.obj", "crumb", None)) == 1
     history.undo(project)
-    assert carried(project, history) == CarriedOver(unused=2, next="t1.obj")
+    assert carried(project, history) == PropagationState(unused=2, next="t1.obj")
     project.set_labels("t2.obj", {"top": "misc"}, source="propagated", confidence=0.2)
     carry(project, history, "t2.obj")
-    assert carried(project, history) == CarriedOver(unused=0, next="t2.obj")
+    assert carried(project, history) == PropagationState(unused=0, next="t2.obj")
     history.undo(project)
-    assert carried(project, history) == CarriedOver(unused=2, next="t1.obj")
+    assert carried(project, history) == PropagationState(unused=2, next="t1.obj")
 
 
 def test_labels_are_used_also_where_that_changes_none(tmp_path: Path) -> None:
     project, history = labelled(tmp_path)
     relabelling = LabelChanges(history)
     relabelling.note_no_change(0, "t2.obj")
-    assert relabelling.propagation_state(project, cards(project)) == CarriedOver(unused=0, next="t2.obj")
+    assert relabelling.propagation_state(project, cards(project)) == PropagationState(unused=0, next="t2.obj")
     carry(project, history)
     history.do(project, label("t1.obj", "top", "top"))
-    assert relabelling.propagation_state(project, cards(project)) == CarriedOver(unused=1, next="t1.obj")
+    assert relabelling.propagation_state(project, cards(project)) == PropagationState(unused=1, next="t1.obj")
     relabelling.note_no_change(2, "t2.obj")
-    assert relabelling.propagation_state(project, cards(project)) == CarriedOver(unused=0, next="t2.obj")
+    assert relabelling.propagation_state(project, cards(project)) == PropagationState(unused=0, next="t2.obj")
     history.do(project, label("t2.obj", "top", "top"))
-    assert relabelling.propagation_state(project, cards(project)) == CarriedOver(unused=1, next="t2.obj")
+    assert relabelling.propagation_state(project, cards(project)) == PropagationState(unused=1, next="t2.obj")
     history.undo(project)
     history.undo(project)
-    assert relabelling.propagation_state(project, cards(project)) == CarriedOver(unused=0, next="t1.obj"), (
+    assert relabelling.propagation_state(project, cards(project)) == PropagationState(unused=0, next="t1.obj"), (
         "before it was said"
     )
 
@@ -190,7 +190,9 @@ def test_an_asset_that_is_labelled_is_no_longer_the_next(tmp_path: Path) -> None
     project, history = labelled(tmp_path)
     carry(project, history)
     project.set_labels("t1.obj", {name: label_of(name) for name in NAMES[1:]})
-    assert carried(project, history) == CarriedOver(unused=0, next="t1.obj"), "others than the studio are not counted"
+    assert carried(project, history) == PropagationState(unused=0, next="t1.obj"), (
+        "others than the studio are not counted"
+    )
     history.do(project, label("t1.obj", NAMES[0], label_of(NAMES[0])))
     now = carried(project, history)
     assert now and now.next is None
@@ -208,7 +210,7 @@ def test_a_damaged_history_tells_less_and_fails_nowhere(tmp_path: Path) -> None:
     history.do(project, label("t1.obj", "crumb", "misc"))
     known = cards(project)
     project.layout.labels("t1.obj").write_text("{")
-    assert LabelChanges(history).propagation_state(project, known) == CarriedOver(unused=0, next="t1.obj")
+    assert LabelChanges(history).propagation_state(project, known) == PropagationState(unused=0, next="t1.obj")
 
 
 MOVES = st.lists(

@@ -3,7 +3,7 @@ import { beforeEach, describe, expect, it, vi } from "vitest";
 import { api } from "../server/api";
 import { emptyProject, useProject } from "../store/project";
 import { initialWorkspace, useWorkspace } from "../store/workspace";
-import type { AnyEdit, LessonView, QuestionView, ReadingView } from "../wire";
+import type { AnyEdit, OutcomeView, QuestionView, ReadingView } from "../wire";
 import { answer, chooseReading, demonstrate, learnCommands, showNearest, showQuestion, showRepair } from "./learn";
 
 const question: QuestionView = {
@@ -42,14 +42,14 @@ describe("answering", () => {
   });
 
   it("means a reading that is among the choices by that choice", async () => {
-    useProject.setState({ lesson: { question, readings: [] } as unknown as LessonView });
+    useProject.setState({ outcome: { question, readings: [] } as unknown as OutcomeView });
     await chooseReading(reading("r2"));
     expect(edits[0]).toMatchObject({ asset: "x", select: ["q", "s"] });
   });
 
   it("means another reading by what it selects where that rules out the others", async () => {
     const readings = [reading("r7"), { ...reading("r1"), extractor: "All", belief: 0.7 }];
-    useProject.setState({ lesson: { question, readings } as unknown as LessonView });
+    useProject.setState({ outcome: { question, readings } as unknown as OutcomeView });
     vi.spyOn(api, "generalise").mockImplementation((extractor) =>
       Promise.resolve({ assets: extractor === "All" ? { x: [0], y: [0, 1] } : { x: [0], y: [1] } }),
     );

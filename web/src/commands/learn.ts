@@ -24,7 +24,7 @@ export function answer(question: QuestionView, choice: number | null): Promise<b
 /** Answers that a rule means another reading: what it selects where that distinguishes it from the others of the rule. */
 export async function chooseReading(reading: ReadingView): Promise<void> {
   setHighlight(null);
-  const question = useProject.getState().lesson?.question;
+  const question = useProject.getState().outcome?.question;
   const chosen = question?.choices.findIndex((choice) => choice.reading === reading.id) ?? -1;
   if (question && chosen >= 0) return void (await answer(question, chosen));
   const { rule, extractor } = reading;
@@ -93,9 +93,9 @@ export const learnCommands: readonly Command[] = [
     title: "Demonstrate the asset that helps most",
     group: "Learn",
     keys: [],
-    enabled: () => project().lesson?.hint != null,
+    enabled: () => project().outcome?.hint != null,
     run: () => {
-      const hint = project().lesson?.hint;
+      const hint = project().outcome?.hint;
       if (hint) demonstrate(hint.asset);
     },
   },
@@ -104,9 +104,9 @@ export const learnCommands: readonly Command[] = [
     title: "Show the hulls that the question is about",
     group: "Learn",
     keys: [],
-    enabled: () => project().lesson?.question != null && useWorkspace.getState().stage === "learn",
+    enabled: () => project().outcome?.question != null && useWorkspace.getState().stage === "learn",
     run: () => {
-      const question = project().lesson?.question;
+      const question = project().outcome?.question;
       if (question) showQuestion(question);
     },
   },

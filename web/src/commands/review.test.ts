@@ -6,7 +6,7 @@ import { emptyProject, useProject } from "../store/project";
 import { sampleCard } from "../store/sample.test-help";
 import { useToasts } from "../store/toasts";
 import { initialWorkspace, useWorkspace } from "../store/workspace";
-import type { AnyEdit, Card, EditedHeader } from "../wire";
+import type { AnyEdit, Card, EditHeader } from "../wire";
 import { accept, acceptLegal, nextToReview, reviewCommands } from "./review";
 
 const card = (asset: string, more: Partial<Card> = {}) =>
@@ -51,7 +51,7 @@ describe("accepting", () => {
     family(card("a"), card("b"), card("c", { stale: ["program"] }), card("d", { review: "flagged" }));
     vi.spyOn(api, "result").mockImplementation((asset) => {
       const findings = asset === "b" ? [{ severity: "error", text: "not convex", hull: null }] : [];
-      return Promise.resolve({ header: { findings } as unknown as EditedHeader, rows: [], shapes: [] });
+      return Promise.resolve({ header: { findings } as unknown as EditHeader, rows: [], shapes: [] });
     });
     const steps: string[] = [];
     await acceptLegal((done, total) => steps.push(`${done}/${total}`));

@@ -68,7 +68,7 @@ export function startCorrection(asset: string): void {
 
 export const dropCorrections = (asset: string): Promise<boolean> => perform({ kind: "drop-corrections", asset });
 
-const queue = (): readonly string[] => reviewQueue(cardsInOrder(), useProject.getState().lesson?.sample ?? []);
+const queue = (): readonly string[] => reviewQueue(cardsInOrder(), useProject.getState().outcome?.sample ?? []);
 
 function nextOf(asset: string | null): string | null {
   return nextInQueue(queue(), useProject.getState().order, asset);

@@ -22,7 +22,7 @@ import { useLabelChangesOf } from "../store/labelChanges";
 import { useProject } from "../store/project";
 import { openAsset, setLayout, useWorkspace } from "../store/workspace";
 import { Button } from "../ui/Button";
-import type { Card as CardData, RelabelledAsset } from "../wire";
+import type { Card as CardData, AssetLabelUpdate } from "../wire";
 import css from "./card.module.css";
 import { type Badge, badgesOf, cardText, fitBadges, hullsText, relabelledText, shortenMiddle } from "./cardText";
 
@@ -85,7 +85,7 @@ interface FaceProps {
   card: CardData;
   large: boolean;
   /** What became of its labels in the last edit of all labels. */
-  relabelled: RelabelledAsset | null;
+  relabelled: AssetLabelUpdate | null;
 }
 
 /** The picture: of the output where results are looked at and there is one; under the pointer, of what was before. */
@@ -108,7 +108,7 @@ function Face({ card, large, relabelled }: FaceProps) {
     <div className={css.face} onPointerEnter={() => setOver(true)} onPointerLeave={() => setOver(false)}>
       <Thumbnail asset={card.asset} of={showing} highlight={marked} label="" />
       {marked && isKnown && card.hulls > 0 && <span className={css.marked}>{marked.length}</span>}
-      {!marked && relabelled && <Relabelled found={relabelled} />}
+      {!marked && relabelled && <LabelUpdate found={relabelled} />}
       {card.hulls === 0 && card.sources > 0 && (
         <span className={css.over}>
           <MakeHulls asset={card.asset} />
@@ -120,7 +120,7 @@ function Face({ card, large, relabelled }: FaceProps) {
 }
 
 /** How many of its labels the last edit of all labels gave or changed. */
-function Relabelled({ found }: { found: RelabelledAsset }) {
+function LabelUpdate({ found }: { found: AssetLabelUpdate }) {
   return (
     <span className={css.relabelled} title={relabelledText(found)}>
       {found.new.length > 0 && `+${found.new.length}`}

@@ -17,9 +17,9 @@ import { labelProgress } from "../store/unsureHulls";
 import { countText } from "../store/words";
 import { useWorkspace } from "../store/workspace";
 import { Button, IconButton } from "../ui/Button";
-import type { Relabelled } from "../wire";
+import type { LabelUpdate } from "../wire";
 
-const TITLES: Readonly<Record<Relabelled["way"], string>> = {
+const TITLES: Readonly<Record<LabelUpdate["way"], string>> = {
   propagate: "Labels propagated",
   "label-files": "Labels taken from files",
   "label-names": "Labels taken from names",
@@ -33,7 +33,7 @@ export function LabelChanges() {
   return relabelled && isFree ? <ChangeBar relabelled={relabelled} /> : null;
 }
 
-function ChangeBar({ relabelled }: { relabelled: Relabelled }) {
+function ChangeBar({ relabelled }: { relabelled: LabelUpdate }) {
   const { settled, way } = relabelled;
   const unsure = useProject((state) => labelProgress(state.cards).unsure);
   useEffect(() => clearLabelChanges, []);
@@ -54,7 +54,7 @@ function ChangeBar({ relabelled }: { relabelled: Relabelled }) {
   );
 }
 
-function ChangeButton({ relabelled, sort }: { relabelled: Relabelled; sort: ChangeKind }) {
+function ChangeButton({ relabelled, sort }: { relabelled: LabelUpdate; sort: ChangeKind }) {
   const { hulls, assets } = countChanges(relabelled, sort);
   if (!hulls) return null;
   return (

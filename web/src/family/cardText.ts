@@ -2,7 +2,7 @@
 import { countByEdit, faultsOf, findingsText } from "../store/checks";
 import { matchesFilter, unlabelled } from "../store/family";
 import type { FilterName } from "../store/workspace";
-import type { Card, RelabelledAsset } from "../wire";
+import type { Card, AssetLabelUpdate } from "../wire";
 
 /** A text of at most so many letters, shortened in the middle, where ids differ least. */
 export function shortenMiddle(text: string, most: number): string {
@@ -66,7 +66,7 @@ function flaggedText(card: Card): string {
 }
 
 /** What became of the labels of an asset: `24 labels are new, 1 is another`. */
-export function relabelledText({ new: fresh, changed }: RelabelledAsset): string {
+export function relabelledText({ new: fresh, changed }: AssetLabelUpdate): string {
   const parts = [
     fresh.length && (fresh.length === 1 ? "1 label is new" : `${fresh.length} labels are new`),
     changed.length && (changed.length === 1 ? "1 label changed" : `${changed.length} labels changed`),

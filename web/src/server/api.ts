@@ -2,11 +2,11 @@
 import type {
   AnyEdit,
   AssetView,
-  Checked,
+  CheckResult,
   CheckPicture,
-  Done,
-  EditedHeader,
-  Generalised,
+  EditReceipt,
+  EditHeader,
+  CoverageView,
   Guesses,
   Job,
   JobRequest,
@@ -14,10 +14,10 @@ import type {
   LanguageView,
   PreviewRequest,
   ProgramCheck,
-  Selected,
+  SelectionView,
   SelectRequest,
   ShapesHeader,
-  Uploaded,
+  UploadReceipt,
 } from "../wire";
 import { address, getBytes, getJson, postForBytes, postJson, putBytes } from "./http";
 import { readPacket, readPicture, type EditedPacket, type ShapesPacket } from "./packet";
@@ -29,35 +29,35 @@ export const api = {
   visual: async (asset: string): Promise<ShapesPacket> =>
     readPacket<ShapesHeader>(await getBytes("api/visual", { asset })),
   stage: async (asset: string, steps: number): Promise<EditedPacket> =>
-    readPacket<EditedHeader>(await getBytes("api/stage", { asset, steps })),
+    readPacket<EditHeader>(await getBytes("api/stage", { asset, steps })),
   result: async (asset: string, of: "program" | "output"): Promise<EditedPacket> =>
-    readPacket<EditedHeader>(await getBytes("api/result", { asset, of })),
+    readPacket<EditHeader>(await getBytes("api/result", { asset, of })),
   preview: async (request: PreviewRequest, stop?: AbortSignal): Promise<EditedPacket> =>
-    readPacket<EditedHeader>(await postForBytes("api/preview", request, stop)),
-  select: (request: SelectRequest, stop?: AbortSignal) => postJson<Selected>("api/select", request, stop),
+    readPacket<EditHeader>(await postForBytes("api/preview", request, stop)),
+  select: (request: SelectRequest, stop?: AbortSignal) => postJson<SelectionView>("api/select", request, stop),
   generalise: (extractor: string, rule: number, stop?: AbortSignal) =>
-    postJson<Generalised>("api/generalise", { extractor, rule }, stop),
+    postJson<CoverageView>("api/generalise", { extractor, rule }, stop),
   guesses: (asset: string) => getJson<Guesses>("api/guesses", { asset }),
   picture: async (asset: string, rule: number) => readPicture(await getBytes("api/picture", { asset, rule })),
   thumbnail: (asset: string, of: "source" | "output", version: string) =>
     address("api/thumbnail", { asset, of, v: version }),
-  checked: (asset: string, part: Checked["part"], stop: AbortSignal) =>
-    getJson<Checked>("api/checked", { asset, part }, stop),
-  checkPictures: (asset: string, part: Checked["part"], stop: AbortSignal) =>
+  checked: (asset: string, part: CheckResult["part"], stop: AbortSignal) =>
+    getJson<CheckResult>("api/checked", { asset, part }, stop),
+  checkPictures: (asset: string, part: CheckResult["part"], stop: AbortSignal) =>
     getJson<CheckPicture[]>("api/checked/pictures", { asset, part }, stop),
   checkPicture: (asset: string, name: string, version: string) =>
     address("api/checked/picture", { asset, name, v: version }),
-  edit: (edit: AnyEdit) => postJson<Done>("api/edit", edit),
-  undo: () => postJson<Done>("api/undo", {}),
-  redo: () => postJson<Done>("api/redo", {}),
-  learn: () => postJson<Done>("api/learn", {}),
-  stopLearning: () => postJson<Done>("api/learn/stop", {}),
+  edit: (edit: AnyEdit) => postJson<EditReceipt>("api/edit", edit),
+  undo: () => postJson<EditReceipt>("api/undo", {}),
+  redo: () => postJson<EditReceipt>("api/redo", {}),
+  learn: () => postJson<EditReceipt>("api/learn", {}),
+  stopLearning: () => postJson<EditReceipt>("api/learn/stop", {}),
   language: () => getJson<LanguageView>("api/language"),
   checkProgram: (text: string, stop?: AbortSignal) => postJson<ProgramCheck>("api/program/check", { text }, stop),
   labelSources: () => getJson<LabelSources>("api/labels/sources"),
   startJob: (request: JobRequest) => postJson<Job>("api/jobs", request),
   cancelJob: (id: string) => postJson<Job>("api/jobs/cancel", { id }),
-  uploadTemplate: (file: File) => putBytes<Uploaded>("api/templates", { name: file.name }, file),
-  stageAssetFile: (path: string, file: Blob) => putBytes<Uploaded>("api/assets", { path }, file),
-  takeAssets: () => postJson<Uploaded>("api/assets", {}),
+  uploadTemplate: (file: File) => putBytes<UploadReceipt>("api/templates", { name: file.name }, file),
+  stageAssetFile: (path: string, file: Blob) => putBytes<UploadReceipt>("api/assets", { path }, file),
+  takeAssets: () => postJson<UploadReceipt>("api/assets", {}),
 };

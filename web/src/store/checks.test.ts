@@ -5,7 +5,7 @@ import { reviewCommands } from "../commands/review";
 import { badgesOf } from "../family/cardText";
 import { api } from "../server/api";
 import { ServerProblem } from "../server/http";
-import type { Checked, Fault, Job } from "../wire";
+import type { CheckResult, Fault, Job } from "../wire";
 import {
   countByEdit,
   countUnchecked,
@@ -29,7 +29,7 @@ import { emptyProject, useProject } from "./project";
 import { sampleCard } from "./sample.test-help";
 import { initialWorkspace, openStage, useWorkspace } from "./workspace";
 
-const checked = (part: Part): Checked => ({ part, figures: [], findings: [], gone: 0, notes: [], cell: null, pictured: false });
+const checked = (part: Part): CheckResult => ({ part, figures: [], findings: [], gone: 0, notes: [], cell: null, pictured: false });
 const problem = { message: "the process that worked on this died", where: null, remedy: null, conflict: false };
 const kinds = () => PARTS.map((part) => useChecks.getState().parts[partKey("a", "1", part)]?.kind);
 

@@ -2,17 +2,17 @@
 import { create } from "zustand";
 import { api } from "../server/api";
 import { ServerProblem } from "../server/http";
-import type { Card, Checked, Fault, Problem } from "../wire";
+import type { Card, CheckResult, Fault, Problem } from "../wire";
 import { countText } from "./words";
 import { select, useWorkspace, visit } from "./workspace";
 
-export type Part = Checked["part"];
+export type Part = CheckResult["part"];
 /** In the order in which they are measured, what is quickest first. */
 export const PARTS: readonly Part[] = ["engines", "physics", "clearance", "fit"];
 
 type Measurement =
   | { kind: "coming" }
-  | { kind: "there"; checked: Checked }
+  | { kind: "there"; checked: CheckResult }
   | { kind: "problem"; problem: Problem };
 
 interface ChecksState {

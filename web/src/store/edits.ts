@@ -1,7 +1,7 @@
 // Edits go to the server one after the other; each is on disk, and what it changed is on the page, when its promise is
 // fulfilled with true.
 import { api } from "../server/api";
-import type { AnyEdit, Done } from "../wire";
+import type { AnyEdit, EditReceipt } from "../wire";
 import { type ProjectState, useProject } from "./project";
 import { reportError, notify } from "./toasts";
 
@@ -25,7 +25,7 @@ export const redo = (): Promise<boolean> => enqueue(api.redo, (said) => `Redone:
 export const capitalize = (said: string): string => said.replace(/^[a-z](?=[a-z]*[ :])/, (first) => first.toUpperCase());
 
 /** Does one request after those before; tell: what the toast says of what was done, null for no toast. */
-function enqueue(request: () => Promise<Done>, tell: ((said: string) => string) | null): Promise<boolean> {
+function enqueue(request: () => Promise<EditReceipt>, tell: ((said: string) => string) | null): Promise<boolean> {
   const mine = (queue ?? Promise.resolve()).then(async () => {
     const before = useProject.getState();
     try {

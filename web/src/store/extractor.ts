@@ -2,8 +2,8 @@
 import { create } from "zustand";
 import { api } from "../server/api";
 import { ServerProblem } from "../server/http";
-import type { Mark, Selected } from "../wire";
-import { type Coverage, coverageOf } from "./lessons";
+import type { Mark, SelectionView } from "../wire";
+import { type Coverage, coverageOf } from "./outcome";
 import { useScenes } from "./scenes";
 import { reportError } from "./toasts";
 import { select, setHighlight, useWorkspace, type WorkspaceState } from "./workspace";
@@ -11,7 +11,7 @@ import { select, setHighlight, useWorkspace, type WorkspaceState } from "./works
 interface ExtractorState {
   text: string;
   /** What a text selects; it stays until the next answer is there. */
-  found: Selected | null;
+  found: SelectionView | null;
   /** The text and the state of the asset that `found` is of. */
   of: string;
   /** How many hulls it selects on all assets, and on how many. */

@@ -57,14 +57,14 @@ export function followGuesses(): () => void {
 /** All that guesses depend on. */
 function stateKey(): string {
   const { asset, stage } = useWorkspace.getState();
-  const { revisions, program, lesson } = useProject.getState();
-  return JSON.stringify([asset, stage, revisions[asset ?? ""], program.version, lesson?.number]);
+  const { revisions, program, outcome } = useProject.getState();
+  return JSON.stringify([asset, stage, revisions[asset ?? ""], program.version, outcome?.number]);
 }
 
 async function fetchGuesses(): Promise<Partial<GuessesState>> {
   const { asset, stage } = useWorkspace.getState();
-  const { program, lesson } = useProject.getState();
-  if (asset === null || stage !== "demonstrate" || !(program.text || lesson?.program)) return noGuesses;
+  const { program, outcome } = useProject.getState();
+  if (asset === null || stage !== "demonstrate" || !(program.text || outcome?.program)) return noGuesses;
   if (useGuesses.getState().asset !== asset) useGuesses.setState({ ...noGuesses, asset, loading: true });
   try {
     const { guesses } = await api.guesses(asset);

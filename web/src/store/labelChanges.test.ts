@@ -1,6 +1,6 @@
 
 import { beforeEach, describe, expect, it, vi } from "vitest";
-import type { Relabelled } from "../wire";
+import type { LabelUpdate } from "../wire";
 import {
   clearLabelChanges,
   countChanges,
@@ -14,7 +14,7 @@ import {
 import { emptyProject, receive, useProject } from "./project";
 import { initialWorkspace, useWorkspace } from "./workspace";
 
-const found: Relabelled = {
+const found: LabelUpdate = {
   entry: 1,
   way: "propagate",
   settled: 0,

@@ -1,7 +1,7 @@
 // What the last edit of all labels changed, as long it was the last one and nobody dismissed it.
 import { useMemo } from "react";
 import { create } from "zustand";
-import type { Relabelled, RelabelledAsset } from "../wire";
+import type { LabelUpdate, AssetLabelUpdate } from "../wire";
 import { neighbour } from "./family";
 import { useProject } from "./project";
 import { openAsset, setHighlight, useWorkspace } from "./workspace";
@@ -12,27 +12,27 @@ export type ChangeKind = "new" | "changed";
 const WHAT = "relabelled";
 
 /** The one that was dismissed. */
-const useDismissed = create<{ what: Relabelled | null }>()(() => ({ what: null }));
+const useDismissed = create<{ what: LabelUpdate | null }>()(() => ({ what: null }));
 
 /** What changed; null where the last edit was another one, or this was dismissed. */
-export function currentLabelChanges(): Relabelled | null {
+export function currentLabelChanges(): LabelUpdate | null {
   const { relabelled } = useProject.getState();
   return relabelled === useDismissed.getState().what ? null : relabelled;
 }
 
-export function useLabelChanges(): Relabelled | null {
+export function useLabelChanges(): LabelUpdate | null {
   const relabelled = useProject((state) => state.relabelled);
   const aside = useDismissed(({ what }) => what);
   return relabelled === aside ? null : relabelled;
 }
 
 /** What changed on one asset. */
-export function useLabelChangesOf(asset: string): RelabelledAsset | null {
+export function useLabelChangesOf(asset: string): AssetLabelUpdate | null {
   const relabelled = useLabelChanges();
   return relabelled && (rowsOf(relabelled).get(asset) ?? null);
 }
 
-export const labelChangesOf = (asset: string): RelabelledAsset | null => {
+export const labelChangesOf = (asset: string): AssetLabelUpdate | null => {
   const relabelled = currentLabelChanges();
   return relabelled && (rowsOf(relabelled).get(asset) ?? null);
 };
@@ -62,13 +62,13 @@ export function dismissLabelChanges(): void {
 }
 
 /** Hulls of one sort, and on how many assets. */
-export function countChanges({ assets }: Relabelled, sort: ChangeKind): { hulls: number; assets: number } {
+export function countChanges({ assets }: LabelUpdate, sort: ChangeKind): { hulls: number; assets: number } {
   const counts = assets.map((one) => one[sort].length).filter(Boolean);
   return { hulls: counts.reduce((sum, count) => sum + count, 0), assets: counts.length };
 }
 
 /** Points out the hulls of one sort in the family. */
-export function highlightLabelChanges({ assets }: Relabelled, sort: ChangeKind): void {
+export function highlightLabelChanges({ assets }: LabelUpdate, sort: ChangeKind): void {
   const having = assets.filter((one) => one[sort].length);
   setHighlight({ what: WHAT, assets: Object.fromEntries(having.map((one) => [one.asset, one[sort]])) });
 }
@@ -78,16 +78,16 @@ export function clearLabelChanges(): void {
 }
 
 /** Opens the next asset with hulls of one sort. */
-export function openNextChange(relabelled: Relabelled, sort: ChangeKind): void {
+export function openNextChange(relabelled: LabelUpdate, sort: ChangeKind): void {
   const { order } = useProject.getState();
   const has = (asset: string) => Boolean(rowsOf(relabelled).get(asset)?.[sort].length);
   const next = neighbour(order, order, useWorkspace.getState().asset, 1, has);
   if (next !== null) openAsset(next);
 }
 
-const known = new WeakMap<Relabelled, ReadonlyMap<string, RelabelledAsset>>();
+const known = new WeakMap<LabelUpdate, ReadonlyMap<string, AssetLabelUpdate>>();
 
-function rowsOf(relabelled: Relabelled): ReadonlyMap<string, RelabelledAsset> {
+function rowsOf(relabelled: LabelUpdate): ReadonlyMap<string, AssetLabelUpdate> {
   const rows = known.get(relabelled) ?? new Map(relabelled.assets.map((one) => [one.asset, one]));
   known.set(relabelled, rows);
   return rows;

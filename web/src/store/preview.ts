@@ -3,7 +3,7 @@ import { create } from "zustand";
 import { api } from "../server/api";
 import { ServerProblem } from "../server/http";
 import type { EditedPacket } from "../server/packet";
-import type { EditedHeader, PreviewRequest } from "../wire";
+import type { EditHeader, PreviewRequest } from "../wire";
 import { missingArgument } from "./actions";
 import { selectedHulls, useDraftStatus, writeDraft } from "./draft";
 import { formOf, getLanguage } from "./language";
@@ -99,7 +99,7 @@ function clearPreview(): void {
 }
 
 /** What an action in hand would do: `12 hulls → 1`, `4 hulls go`, `1 hull is added`. */
-export function previewText(selected: number, { made, removed }: Pick<EditedHeader, "made" | "removed">): string {
+export function previewText(selected: number, { made, removed }: Pick<EditHeader, "made" | "removed">): string {
   if (!made.length && !removed.length) return "Nothing changes";
   if (!made.length) return `${countText(removed.length, "hull")} ${removed.length === 1 ? "goes" : "go"}`;
   if (!removed.length) return `${countText(made.length, "hull")} ${made.length === 1 ? "is" : "are"} added`;

@@ -13,7 +13,7 @@ const hello: Hello = {
   history: emptyProject.history,
   relabelled: null,
   program: emptyProject.program,
-  lesson: null,
+  outcome: null,
   learning: false,
   reach: [],
   jobs: [],
@@ -54,13 +54,13 @@ describe("what the server says", () => {
     expect(again.shapeRevisions["b"]).toBe(2);
   });
 
-  it("keeps the last lesson while the next one is learned", () => {
-    const lesson = { number: 1, status: "found" } as never;
-    const learned = applyEvent(begun, { kind: "lesson", lesson, learning: false });
-    const busy = applyEvent(learned, { kind: "lesson", lesson: null, learning: true });
+  it("keeps the last outcome while the next one is learned", () => {
+    const outcome = { number: 1, status: "found" } as never;
+    const learned = applyEvent(begun, { kind: "outcome", outcome, learning: false });
+    const busy = applyEvent(learned, { kind: "outcome", outcome: null, learning: true });
     expect(busy.learning).toBe(true);
-    expect(busy.lesson).toBe(lesson);
-    expect(applyEvent(busy, { kind: "lesson", lesson: null, learning: false }).lesson).toBeNull();
+    expect(busy.outcome).toBe(outcome);
+    expect(applyEvent(busy, { kind: "outcome", outcome: null, learning: false }).outcome).toBeNull();
   });
 
   it("has each job once, as it stands", () => {

@@ -1,7 +1,7 @@
 // What the server says of the project, kept as it comes; knows neither DOM nor three.js.
 import { create } from "zustand";
 import { page } from "../server/http";
-import type { Card, EngineView, Event, HistoryView, Job, LessonView, ProgramView, ProjectView, Reach, Relabelled } from "../wire";
+import type { Card, EngineView, Event, HistoryView, Job, OutcomeView, ProgramView, ProjectView, Reach, LabelUpdate } from "../wire";
 
 export interface ProjectState {
   connected: boolean;
@@ -14,9 +14,9 @@ export interface ProjectState {
   order: readonly string[];
   history: HistoryView;
   /** What the last edit did, where that was one of all labels. */
-  relabelled: Relabelled | null;
+  relabelled: LabelUpdate | null;
   program: ProgramView;
-  lesson: LessonView | null;
+  outcome: OutcomeView | null;
   learning: boolean;
   /** What the present program does on each asset. */
   reach: Readonly<Record<string, Reach>>;
@@ -68,7 +68,7 @@ export const emptyProject: ProjectState = {
   history: { undo: null, redo: null, undoable: 0, redoable: 0 },
   relabelled: null,
   program: noProgram,
-  lesson: null,
+  outcome: null,
   learning: false,
   reach: {},
   jobs: [],
@@ -96,7 +96,7 @@ export function applyEvent(state: ProjectState, event: Event): ProjectState {
         history: event.history,
         relabelled: event.relabelled,
         program: event.program,
-        lesson: event.lesson,
+        outcome: event.outcome,
         learning: event.learning,
         reach: byAsset(event.reach),
         jobs: event.jobs,
@@ -128,10 +128,10 @@ export function applyEvent(state: ProjectState, event: Event): ProjectState {
       const shapes = event.shapes ? increment(state.shapeRevisions, event.assets) : state.shapeRevisions;
       return { ...state, revisions: increment(state.revisions, event.assets), shapeRevisions: shapes };
     }
-    case "lesson":
+    case "outcome":
       return event.learning
         ? { ...state, learning: true }
-        : { ...state, learning: false, lesson: event.lesson, reach: event.lesson?.program ? state.reach : {} };
+        : { ...state, learning: false, outcome: event.outcome, reach: event.outcome?.program ? state.reach : {} };
     case "reach":
       return { ...state, reach: { ...state.reach, ...byAsset(event.reach) } };
     case "program":

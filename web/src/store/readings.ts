@@ -1,7 +1,7 @@
 // The readings of a rule: in which order they are listed, how the choices of a question differ, and which assets tell
 // them apart.
 import { api } from "../server/api";
-import type { ChoiceView, LessonView, ProgramView, ReadingView, RuleView } from "../wire";
+import type { ChoiceView, OutcomeView, ProgramView, ReadingView, RuleView } from "../wire";
 import { useProject } from "./project";
 import { countText, listText } from "./words";
 
@@ -47,7 +47,7 @@ const RIVALS = 8;
 
 /** Assets on which an answer distinguishes a reading from the others of its rule. */
 export async function findSeparatingAssets({ id, rule, extractor, differs_on }: ReadingView): Promise<string[]> {
-  const readings = (useProject.getState().lesson?.readings ?? []).filter((other) => other.rule === rule && other.id !== id);
+  const readings = (useProject.getState().outcome?.readings ?? []).filter((other) => other.rule === rule && other.id !== id);
   const rivals = [...readings].sort((a, b) => b.belief - a.belief).slice(0, RIVALS);
   const own = await selectEverywhere(extractor, rule);
   const known: Rival[] = [];
@@ -63,9 +63,9 @@ async function selectEverywhere(extractor: string, rule: number): Promise<Family
 }
 
 /** The readings of a rule, the one of the program first, then the most believable. */
-export function readingsOf(lesson: LessonView | null, rule: RuleView): readonly ReadingView[] {
+export function readingsOf(outcome: OutcomeView | null, rule: RuleView): readonly ReadingView[] {
   const own = extractorOf(rule.text);
-  const rows = (lesson?.readings ?? []).filter((reading) => reading.rule === rule.rule);
+  const rows = (outcome?.readings ?? []).filter((reading) => reading.rule === rule.rule);
   const taken = (reading: ReadingView): number => Number(reading.extractor === own);
   return [...rows].sort((a, b) => taken(b) - taken(a) || b.belief - a.belief);
 }
@@ -96,6 +96,6 @@ export function differing(sets: readonly (readonly string[])[]): string[] {
 }
 
 /** Whether what was learned is another program than the accepted one. */
-export function learnedDiffers(program: ProgramView, lesson: LessonView | null): boolean {
-  return lesson?.program != null && lesson.program.trim() !== program.text.trim();
+export function learnedDiffers(program: ProgramView, outcome: OutcomeView | null): boolean {
+  return outcome?.program != null && outcome.program.trim() !== program.text.trim();
 }

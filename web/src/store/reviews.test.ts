@@ -1,11 +1,11 @@
 import { describe, expect, it } from "vitest";
-import type { Card, EditedHeader, HullView } from "../wire";
+import type { Card, EditHeader, HullView } from "../wire";
 import { listAcceptable, nextInQueue, listOutdated, countExportable, type Group, groupCards, groupOf, numbersOf, rateOf, reviewQueue, staleText, verdictOf } from "./reviews";
 import { sampleCard } from "./sample.test-help";
 
 const card = (asset: string, more: Partial<Card> = {}) =>
   sampleCard({ asset, output: "edited", after: 2, ...more });
-const edited = (more: Partial<EditedHeader> = {}): EditedHeader => ({
+const edited = (more: Partial<EditHeader> = {}): EditHeader => ({
   rows: [],
   hulls: [],
   made: [],

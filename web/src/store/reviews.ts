@@ -1,7 +1,7 @@
 // The results of the family: what to look at, in which order, and numbers about one; knows neither DOM nor three.js.
 import { create } from "zustand";
 import { api } from "../server/api";
-import type { Card, EditedHeader, HullView } from "../wire";
+import type { Card, EditHeader, HullView } from "../wire";
 
 export type Group = "failed" | "flagged" | "stale" | "informative" | "open" | "accepted" | "none";
 
@@ -67,7 +67,7 @@ interface Numbers {
 }
 
 /** Numbers before and after an edit. */
-export function numbersOf(before: readonly HullView[], edit: EditedHeader): Numbers {
+export function numbersOf(before: readonly HullView[], edit: EditHeader): Numbers {
   const sum = (hulls: readonly HullView[], of: "vertices" | "faces"): number =>
     hulls.reduce((total, hull) => total + hull[of], 0);
   return {
@@ -79,7 +79,7 @@ export function numbersOf(before: readonly HullView[], edit: EditedHeader): Numb
 }
 
 /** What the check of legality says of an edited asset, at its worst. */
-export function verdictOf(edit: EditedHeader): "legal" | "doubtful" | "illegal" {
+export function verdictOf(edit: EditHeader): "legal" | "doubtful" | "illegal" {
   const worst = (severity: "error" | "warning") => edit.findings.some((finding) => finding.severity === severity);
   return worst("error") ? "illegal" : worst("warning") ? "doubtful" : "legal";
 }

@@ -4,7 +4,7 @@ import { create } from "zustand";
 import { api } from "../server/api";
 import { ServerProblem } from "../server/http";
 import type { EditedPacket, Shape, ShapesPacket } from "../server/packet";
-import type { AssetView, EditedHeader, HullView, OpaqueView, Problem } from "../wire";
+import type { AssetView, EditHeader, HullView, OpaqueView, Problem } from "../wire";
 import { useProject } from "./project";
 import { openAsset, show, type Showing, useWorkspace, type WorkspaceState } from "./workspace";
 
@@ -23,7 +23,7 @@ export interface Scene {
   readonly opaque: readonly (OpaqueView & { shape: Shape })[];
   readonly contacts: readonly (readonly [string, string])[];
   /** Header of the edit that led here; null for the original asset. */
-  readonly edit: EditedHeader | null;
+  readonly edit: EditHeader | null;
 }
 
 interface Details {

@@ -5,7 +5,7 @@ import { Popover } from "radix-ui";
 import { useEffect, useMemo, useState } from "react";
 import { leaveExtractor, selectFound, typeExtractor, useExtractor } from "../store/extractor";
 import { loadLanguage } from "../store/language";
-import { coverageText } from "../store/lessons";
+import { coverageText } from "../store/outcome";
 import { countReadable, useProject } from "../store/project";
 import { countText } from "../store/words";
 import { Button } from "../ui/Button";

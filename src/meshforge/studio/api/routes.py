@@ -25,9 +25,9 @@ from meshforge.studio.session.session import Session
 from meshforge.studio.thumbnails import ThumbnailOf
 from meshforge.studio.uploads import find_assets
 from meshforge.studio.wire import requests
-from meshforge.studio.wire.asset import AssetView, Checked, CheckPart, CheckPicture
+from meshforge.studio.wire.asset import AssetView, CheckPart, CheckPicture, CheckResult
 from meshforge.studio.wire.jobs import Job, JobRequest
-from meshforge.studio.wire.program import Generalised, Guesses, LanguageView, ProgramCheck, Selected
+from meshforge.studio.wire.program import CoverageView, Guesses, LanguageView, ProgramCheck, SelectionView
 from meshforge.studio.workers import wait_for
 
 router = APIRouter(prefix="/api")
@@ -69,14 +69,14 @@ def preview(session: CurrentSession, request: requests.PreviewRequest) -> Respon
 
 
 @router.post("/select")
-def select(session: CurrentSession, request: requests.SelectRequest) -> Selected:
+def select(session: CurrentSession, request: requests.SelectRequest) -> SelectionView:
     """What an extractor selects on an asset."""
     program = None if request.rule is None else present_program(session)
     return programs.select_hulls(session.project, request.asset, session.mesh(request.asset), request, program)
 
 
 @router.post("/generalise")
-def generalise(session: CurrentSession, request: requests.GeneraliseRequest) -> Generalised:
+def generalise(session: CurrentSession, request: requests.GeneraliseRequest) -> CoverageView:
     """What an extractor selects on all assets."""
     return wait_for(session.learning.generalise(request.extractor, request.rule))
 
@@ -99,7 +99,7 @@ def get_guesses(session: CurrentSession, asset: str) -> Guesses:
 
 def present_program(session: Session) -> Program | None:
     """The program that was learned last, or else the accepted one; one that a person wrote comes before both."""
-    learned, accepted = session.pages.lesson, session.pages.program
+    learned, accepted = session.pages.outcome, session.pages.program
     if learned and learned.program and not accepted.by_hand:
         return Program.parse(learned.program)
     if accepted.error:
@@ -138,7 +138,7 @@ def check_program(request: requests.CheckRequest) -> ProgramCheck:
 
 
 @router.get("/checked")
-async def get_checked(session: CurrentSession, request: Request, asset: str, part: CheckPart) -> Checked:
+async def get_checked(session: CurrentSession, request: Request, asset: str, part: CheckPart) -> CheckResult:
     """What is measured of the output of an asset."""
     session.check_assets(asset)
     known = session.checks.check_part(session.project, asset, part)
@@ -185,34 +185,36 @@ ADDED_FOLDER = "added"
 
 
 @router.post("/edit")
-def make_edit(session: CurrentSession, change: Annotated[AnyEdit, Body()], page: SenderId = None) -> requests.Done:
+def make_edit(
+    session: CurrentSession, change: Annotated[AnyEdit, Body()], page: SenderId = None
+) -> requests.EditReceipt:
     """Make an edit."""
     return session.edit(change, page)
 
 
 @router.post("/undo")
-def undo(session: CurrentSession, page: SenderId = None) -> requests.Done:
+def undo(session: CurrentSession, page: SenderId = None) -> requests.EditReceipt:
     """Undo what was done last."""
     return session.move("undo", page)
 
 
 @router.post("/redo")
-def redo(session: CurrentSession, page: SenderId = None) -> requests.Done:
+def redo(session: CurrentSession, page: SenderId = None) -> requests.EditReceipt:
     """Redo what was undone last."""
     return session.move("redo", page)
 
 
 @router.post("/learn")
-def learn(session: CurrentSession) -> requests.Done:
+def learn(session: CurrentSession) -> requests.EditReceipt:
     """Learn now, and take what is learned."""
     return session.learn()
 
 
 @router.post("/learn/stop")
-def stop_learning(session: CurrentSession) -> requests.Done:
+def stop_learning(session: CurrentSession) -> requests.EditReceipt:
     """Stop the learning run that is under way."""
     session.learning.stop()
-    return requests.Done(said="stopped")
+    return requests.EditReceipt(said="stopped")
 
 
 @router.post("/jobs")
@@ -238,30 +240,30 @@ def get_label_sources(session: CurrentSession) -> requests.LabelSources:
 @router.put("/templates")
 async def put_template(
     session: CurrentSession, request: Request, name: str, page: SenderId = None
-) -> requests.Uploaded:
+) -> requests.UploadReceipt:
     """Take a hull template."""
     file = await session.uploads.put_template(request.stream())
     return await run_in_threadpool(_add_template, session, name, file, page)
 
 
-def _add_template(session: Session, name: str, file: Path, page: str | None) -> requests.Uploaded:
+def _add_template(session: Session, name: str, file: Path, page: str | None) -> requests.UploadReceipt:
     """Keep an uploaded file as a template. Raises ProjectError: no name for one, or no convex hulls in it."""
     try:
         session.edit(AddTemplate(name=name, file=str(file)), page)
     finally:
         file.unlink(missing_ok=True)
-    return requests.Uploaded(names=(name,))
+    return requests.UploadReceipt(names=(name,))
 
 
 @router.put("/assets")
-async def put_asset_file(session: CurrentSession, request: Request, path: str) -> requests.Uploaded:
+async def put_asset_file(session: CurrentSession, request: Request, path: str) -> requests.UploadReceipt:
     """Keep a file of an asset aside."""
     await session.uploads.put(path, request.stream())
-    return requests.Uploaded(names=(path,))
+    return requests.UploadReceipt(names=(path,))
 
 
 @router.post("/assets")
-def add_assets(session: CurrentSession, page: SenderId = None) -> requests.Uploaded:
+def add_assets(session: CurrentSession, page: SenderId = None) -> requests.UploadReceipt:
     """Take the files that were sent into the project, as assets. Raises ProjectError, and throws them away, where one
     cannot be read, or would take the place of another file."""
     try:
@@ -272,7 +274,7 @@ def add_assets(session: CurrentSession, page: SenderId = None) -> requests.Uploa
         session.edit(AddAssets(staged=str(staged), files=files, added=added, home=str(home)), page)
     finally:
         session.uploads.clear()
-    return requests.Uploaded(names=tuple(f"{ADDED_FOLDER}/{name}" for name in added))
+    return requests.UploadReceipt(names=tuple(f"{ADDED_FOLDER}/{name}" for name in added))
 
 
 def _check_free(home: Path, files: tuple[str, ...]) -> None:

@@ -13,8 +13,8 @@ from meshforge.common import FileStates, MeshForgeError, file_states
 from meshforge.language import Program, parse_extractor
 from meshforge.project import Project, select_assets
 from meshforge.studio.learning.queue import CancelToken
-from meshforge.studio.learning.results import ProgramWithTemplates, RuleSelector, build_lesson_view, measure_reach
-from meshforge.studio.wire.program import Generalised, LessonView, Reach
+from meshforge.studio.learning.results import ProgramWithTemplates, RuleSelector, build_outcome_view, measure_reach
+from meshforge.studio.wire.program import CoverageView, OutcomeView, Reach
 from meshforge.symbolic import SymbolicMesh
 
 RENEW_AFTER = 64
@@ -32,7 +32,7 @@ def _rule_selector(folder: Path) -> RuleSelector:
     return RuleSelector()
 
 
-def learn(folder: Path, token: CancelToken, number: int, take: bool) -> LessonView:
+def learn(folder: Path, token: CancelToken, number: int, take: bool) -> OutcomeView:
     """Learn a program from a project as it is now. take: replace the accepted one even if a person wrote it."""
     started, stop = perf_counter(), token.stop
     try:
@@ -43,10 +43,10 @@ def learn(folder: Path, token: CancelToken, number: int, take: bool) -> LessonVi
         accept = take or not project.program_state().by_hand
         outcome = project.synthesize(accept=accept, meshes=meshes, stop=stop)
     except ReadInterrupted:
-        return LessonView(number=number, status="timeout", seconds=perf_counter() - started)
+        return OutcomeView(number=number, status="timeout", seconds=perf_counter() - started)
     except MeshForgeError as error:
-        return LessonView(number=number, status="error", error=error.message, seconds=perf_counter() - started)
-    return build_lesson_view(number, outcome, len(meshes), perf_counter() - started)
+        return OutcomeView(number=number, status="error", error=error.message, seconds=perf_counter() - started)
+    return build_outcome_view(number, outcome, len(meshes), perf_counter() - started)
 
 
 def compute_reach(folder: Path, token: CancelToken, program: str) -> tuple[Reach, ...] | None:
@@ -64,7 +64,7 @@ def compute_reach(folder: Path, token: CancelToken, program: str) -> tuple[Reach
         return None
 
 
-def generalise(folder: Path, token: CancelToken, extractor: str, rule: int, program: str | None) -> Generalised | None:
+def generalise(folder: Path, token: CancelToken, extractor: str, rule: int, program: str | None) -> CoverageView | None:
     """What an extractor selects on the assets that `compute_reach` looks at, None where it was interrupted.
 
     rule: the number of the rule that it belongs to; program: whose rules before that one are applied first.
@@ -76,7 +76,7 @@ def generalise(folder: Path, token: CancelToken, extractor: str, rule: int, prog
     selector = _rule_selector(folder)
     try:
         rows = _family_cache(folder).read_meshes(project, select_assets(project), token.stop)
-        return Generalised(assets={asset: selector.select(plan, mesh, wanted) for asset, mesh in rows})
+        return CoverageView(assets={asset: selector.select(plan, mesh, wanted) for asset, mesh in rows})
     except ReadInterrupted:
         return None
 

@@ -18,14 +18,14 @@ from meshforge.studio.wire import program as wire
 from meshforge.symbolic import SymbolicMesh, bits_of
 
 
-def build_lesson_view(
+def build_outcome_view(
     number: int, outcome: synthesis.LearningOutcome, looked_at: int, seconds: float
-) -> wire.LessonView:
+) -> wire.OutcomeView:
     """The outcome of a learning run. number: of the run; looked_at: how many assets it looked at; seconds: its time."""
     counts = Counter(reading.rule for reading in outcome.readings)
     failure = outcome if isinstance(outcome, synthesis.NoProgram) else None
     suggested = failure.suggested if failure else None
-    return wire.LessonView(
+    return wire.OutcomeView(
         number=number,
         status=outcome.status,
         program=str(outcome.program) if outcome.program else None,

@@ -13,7 +13,7 @@ from meshforge.common import MeshForgeError, describe_error
 from meshforge.studio.learning import process
 from meshforge.studio.learning.queue import CallKind, CancelFlag, LatestOnlyQueue
 from meshforge.studio.pages import PageState
-from meshforge.studio.wire.program import Generalised, LessonView, Reach
+from meshforge.studio.wire.program import CoverageView, OutcomeView, Reach
 from meshforge.studio.workers import Workers
 
 RESTART_DELAY = 0.03
@@ -34,23 +34,23 @@ class LearningScheduler:
         learner: Learner,
         pages: PageState,
         can_learn: Callable[[], bool],
-        on_outcome: Callable[[LessonView], None],
+        on_outcome: Callable[[OutcomeView], None],
     ) -> None:
         self._learner, self._pages = learner, pages
         self._can_learn, self._on_outcome = can_learn, on_outcome
         self._lock = RLock()
         self._number, self._paused = 0, False
         self._timer: Timer | None = None
-        self._running: Future[LessonView] | None = None
+        self._running: Future[OutcomeView] | None = None
 
     def restart(self) -> None:
         """Start a learning run, in place of the one that is under way."""
         number = self._stop()
         if not self._can_learn():
-            self._pages.set_lesson(None, learning=False)
+            self._pages.set_outcome(None, learning=False)
             self.measure_reach()
             return
-        self._pages.set_lesson(self._pages.lesson, learning=True)
+        self._pages.set_outcome(self._pages.outcome, learning=True)
         with self._lock:
             if number == self._number:
                 self._timer = Timer(RESTART_DELAY, self._begin, [number])
@@ -60,7 +60,7 @@ class LearningScheduler:
     def stop(self) -> None:
         """Stop the learning run that is under way; the outcome of the one before stays shown."""
         self._stop()
-        self._pages.set_lesson(self._pages.lesson, learning=False)
+        self._pages.set_outcome(self._pages.outcome, learning=False)
 
     def pause(self) -> None:
         """Stop the learning run that is under way, and wait until it no longer writes anything."""
@@ -91,7 +91,7 @@ class LearningScheduler:
             return
         self._learner.reach(text).add_done_callback(partial(self._show_reach, self._number))
 
-    def generalise(self, extractor: str, rule: int) -> Future[Generalised]:
+    def generalise(self, extractor: str, rule: int) -> Future[CoverageView]:
         """What an extractor selects on all assets."""
         return self._learner.generalise(extractor, rule, self._pages.program.text or None)
 
@@ -119,21 +119,21 @@ class LearningScheduler:
                 return
         self._running.add_done_callback(partial(self._finish, number))
 
-    def _finish(self, number: int, future: Future[LessonView]) -> None:
+    def _finish(self, number: int, future: Future[OutcomeView]) -> None:
         try:
-            lesson = future.result()
+            outcome = future.result()
         except CancelledError:
             return
         except Exception as error:  # whatever it is, the page must see that learning is over
-            lesson = LessonView(number=number, status="error", error=describe_error(error))
+            outcome = OutcomeView(number=number, status="error", error=describe_error(error))
         if number != self._number:
             return
         try:
-            self._on_outcome(lesson)
+            self._on_outcome(outcome)
         finally:
             with self._lock:  # so that no other run starts meanwhile
                 if number == self._number:
-                    self._pages.set_lesson(lesson, learning=False)
+                    self._pages.set_outcome(outcome, learning=False)
         self.measure_reach()
 
     def _show_reach(self, number: int, future: Future[tuple[Reach, ...]]) -> None:
@@ -159,7 +159,7 @@ class Learner:
         self._queue = LatestOnlyQueue(self._workers)
         self._cancel_flag = CancelFlag()
 
-    def learn(self, number: int, take: bool) -> Future[LessonView]:
+    def learn(self, number: int, take: bool) -> Future[OutcomeView]:
         """Learn now. take: what is found becomes the project's program even if a person wrote the present one.
 
         A run that is interrupted has the status `timeout`; one that fails has an error.
@@ -175,7 +175,7 @@ class Learner:
         self._cancel_flag.cancel("reach")
         return self._put("reach", process.compute_reach, program)
 
-    def generalise(self, extractor: str, rule: int, program: str | None) -> Future[Generalised]:
+    def generalise(self, extractor: str, rule: int, program: str | None) -> Future[CoverageView]:
         """What an extractor selects on these assets before the rule of that number, after the rules before it.
 
         Raises ProgramError for a text that is no extractor.

@@ -79,7 +79,7 @@ def _make_row(name: str, drawn: RenderMesh, rgba: tuple[float, float, float, flo
 
 @dataclass(frozen=True, eq=False, slots=True)
 class EditNotes:
-    """What the page shows of an edit besides its hulls; the fields are those of `EditedHeader`."""
+    """What the page shows of an edit besides its hulls; the fields are those of `EditHeader`."""
 
     note: str | None = None
     trace: tuple[wire.TraceLine, ...] = ()
@@ -95,7 +95,7 @@ def pack_edited(
     seen: `after` in the canonical frame, where that is at hand: its contacts are known already.
     """
     rows = hull_rows(hull for hull in after.hulls if not _has_hull(source, hull))
-    header = wire.EditedHeader(
+    header = wire.EditHeader(
         rows=tuple(row for row, _ in rows),
         hulls=hull_views(after),
         made=_names_not_in(after, before),

@@ -130,7 +130,7 @@ def _operator_view(name: str) -> wire.Operator:
 
 def select_hulls(
     project: Project, asset: str, mesh: SymbolicMesh, request: SelectRequest, program: Program | None = None
-) -> wire.Selected:
+) -> wire.SelectionView:
     """What an extractor selects on an asset after some of its steps, or what is wrong with its text.
 
     mesh: the asset as it comes; program: the one that `request.rule` counts in. Raises MeshForgeError where the asset
@@ -140,7 +140,7 @@ def select_hulls(
     try:
         extractor = parse_extractor(text)
     except ProgramError as error:  # its place counts from the first character that is no space
-        return wire.Selected(mark=mark_error(error, *_end_of(text[: len(text) - len(text.lstrip())])))
+        return wire.SelectionView(mark=mark_error(error, *_end_of(text[: len(text) - len(text.lstrip())])))
     if request.rule is None:
         now = replay_steps(project, asset, mesh, request.steps).mesh
     else:
@@ -148,10 +148,10 @@ def select_hulls(
         now = project.mesh_before_rule(asset, request.rule, plan, {asset: mesh})
     known = [*project.vocabulary, *(hull.label for hull in now.hulls if hull.label)]
     if unknown := _mark_unknown_label(extractor, text, known):
-        return wire.Selected(mark=unknown)
+        return wire.SelectionView(mark=unknown)
     mask = select_mask(extractor, now, project.settings.thresholds.extremity or EXTREMITY)
     names = tuple(now.hulls[k].name for k in sorted(bits_of(mask)))
-    return wire.Selected(select=names, sentence=explain(extractor))
+    return wire.SelectionView(select=names, sentence=explain(extractor))
 
 
 def _end_of(text: str) -> tuple[int, int]:

@@ -14,9 +14,9 @@ from meshforge.rendering import UNSURE, label_color
 from meshforge.store import action_text
 from meshforge.studio.queries.assets import output_picture_digest, picture_digest
 from meshforge.studio.wire.asset import Fault
-from meshforge.studio.wire.family import Card, Next, ProjectView, RuleLine, Said, VocabularyLabel
-from meshforge.studio.wire.jobs import CarriedOver, Model
-from meshforge.studio.wire.program import LessonView
+from meshforge.studio.wire.family import AnswerView, Card, Next, ProjectView, RuleLine, VocabularyLabel
+from meshforge.studio.wire.jobs import Model, PropagationState
+from meshforge.studio.wire.program import OutcomeView
 from meshforge.symbolic import GIVEN_SOURCES
 from meshforge.synthesis import Step
 
@@ -25,24 +25,24 @@ def choose_next_step(
     cards: Sequence[Card],
     vocabulary: Sequence[str],
     has_program: bool,
-    lesson: LessonView | None,
+    outcome: OutcomeView | None,
     problem: str | None,
     suggest: Callable[[Sequence[str]], str | None],
-    propagated: CarriedOver | None = None,
+    propagated: PropagationState | None = None,
 ) -> Next:
     """The first thing that is missing on the way from assets to exported outputs.
 
-    lesson: the outcome of the last learning run; problem: why the program cannot be applied; suggest: which of some
+    outcome: the outcome of the last learning run; problem: why the program cannot be applied; suggest: which of some
     assets, by id, to demonstrate first; propagated: what is known of the last propagation of labels.
     """
     return (
         _step_for_hulls(cards)
         or (None if vocabulary else Next(stage="label", say="Name what hulls can be: the labels of this family."))
         or _step_before_learning(cards, has_program, suggest, propagated)
-        or _step_for_learning(lesson, has_program)
+        or _step_for_learning(outcome, has_program)
         or (Next(stage="learn", say=f"The program cannot be applied: {problem.splitlines()[0]}") if problem else None)
         or _step_for_outputs(cards)
-        or _step_for_reviews(cards, lesson.sample if lesson else ())
+        or _step_for_reviews(cards, outcome.sample if outcome else ())
     )
 
 
@@ -63,7 +63,7 @@ def _step_before_learning(
     cards: Sequence[Card],
     has_program: bool,
     suggest: Callable[[Sequence[str]], str | None],
-    propagated: CarriedOver | None,
+    propagated: PropagationState | None,
 ) -> Next | None:
     if has_program or any(card.demonstrated for card in cards):
         return None
@@ -78,7 +78,7 @@ def _step_before_learning(
     return Next(stage="demonstrate", say=say, asset=best or labelled[0])
 
 
-def _step_for_propagation(cards: Sequence[Card], propagated: CarriedOver | None) -> Next | None:
+def _step_for_propagation(cards: Sequence[Card], propagated: PropagationState | None) -> Next | None:
     """What leads to sure labels with the least work."""
     bare = [card for card in cards if card.hulls and all(place < 0 for place in card.labels)]
     if bare and any(card.hulls and card.given == card.hulls for card in cards):
@@ -97,28 +97,30 @@ def _step_for_propagation(cards: Sequence[Card], propagated: CarriedOver | None)
     return Next(stage="label", say=f"{are}: press N.", asset=doubtful[0].asset)
 
 
-def _step_for_learning(lesson: LessonView | None, has_program: bool) -> Next | None:
-    if lesson is None:
+def _step_for_learning(outcome: OutcomeView | None, has_program: bool) -> Next | None:
+    if outcome is None:
         return None
-    if lesson.repairs:
-        first = lesson.repairs[0]
+    if outcome.repairs:
+        first = outcome.repairs[0]
         return Next(stage="learn", say=f"Is {first.hull} of {first.asset} labelled wrongly?", asset=first.asset)
-    if lesson.question:
-        say = f"Which hulls does rule {lesson.question.rule} select on {lesson.question.asset}?"
-        return Next(stage="learn", say=say, asset=lesson.question.asset)
-    if lesson.status in ("none", "timeout", "error"):
-        return Next(stage="learn", say=_explain_failure(lesson), asset=lesson.nearest.asset if lesson.nearest else None)
+    if outcome.question:
+        say = f"Which hulls does rule {outcome.question.rule} select on {outcome.question.asset}?"
+        return Next(stage="learn", say=say, asset=outcome.question.asset)
+    if outcome.status in ("none", "timeout", "error"):
+        return Next(
+            stage="learn", say=_explain_failure(outcome), asset=outcome.nearest.asset if outcome.nearest else None
+        )
     return None if has_program else Next(stage="learn", say="Learn the program from what is demonstrated.")
 
 
-def _explain_failure(lesson: LessonView) -> str:
+def _explain_failure(outcome: OutcomeView) -> str:
     """What to do where there is no program; the panel of the learning run says why."""
-    if lesson.status == "error":
+    if outcome.status == "error":
         return "Learning failed: see why."
-    if lesson.status == "timeout":
+    if outcome.status == "timeout":
         return "Learning was stopped: learn again, or show the steps on another asset."
-    if lesson.nearest:
-        return f"No selection fits rule {lesson.nearest.rule} yet: see what comes nearest."
+    if outcome.nearest:
+        return f"No selection fits rule {outcome.nearest.rule} yet: see what comes nearest."
     return "No program does all that is demonstrated: see why, and what may help."
 
 
@@ -156,7 +158,7 @@ def build_project_view(
     next_step: Next,
     problem: str | None,
     lost: tuple[str, ...],
-    propagated: CarriedOver | None = None,
+    propagated: PropagationState | None = None,
 ) -> ProjectView:
     """The project as the page shows it. problem, lost, propagated: see the fields of `ProjectView`."""
     settings, orient = project.settings, project.orientation
@@ -202,7 +204,7 @@ def vocabulary_view(words: Sequence[str], cards: Iterable[Card]) -> tuple[Vocabu
     return tuple(VocabularyLabel(name=w, color=label_color(k), used=used[k]) for k, w in enumerate(words))
 
 
-def _list_feedback(project: Project) -> Iterator[Said]:
+def _list_feedback(project: Project) -> Iterator[AnswerView]:
     kept = project.answers()
     for answer in kept.answers:
         if answer.select is None:
@@ -210,13 +212,13 @@ def _list_feedback(project: Project) -> Iterator[Said]:
         else:
             what = pluralize(len(answer.select), "hull") if answer.select else "nothing"
         text = f"rule {answer.rule} on {answer.asset} selects {what}"
-        yield Said(id=answer.id, kind="answer", asset=answer.asset, text=text)
+        yield AnswerView(id=answer.id, kind="answer", asset=answer.asset, text=text)
     for line in kept.confirmed:
         text = f"{line.hull} of {line.asset} is {line.to}, not {line.was or 'without a label'}"
-        yield Said(id=line.id, kind="confirmed", asset=line.asset, text=text)
+        yield AnswerView(id=line.id, kind="confirmed", asset=line.asset, text=text)
     for wrong in kept.rejected:
         text = f"{wrong.hull} of {wrong.asset} is not {wrong.to}"
-        yield Said(id=wrong.id, kind="rejected", asset=wrong.asset, text=text)
+        yield AnswerView(id=wrong.id, kind="rejected", asset=wrong.asset, text=text)
 
 
 def build_card(

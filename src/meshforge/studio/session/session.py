@@ -30,8 +30,8 @@ from meshforge.studio.session.refresh import Refresher, initial_view
 from meshforge.studio.thumbnails import Thumbnails
 from meshforge.studio.uploads import Uploads
 from meshforge.studio.wire.events import HistoryChanged
-from meshforge.studio.wire.program import LessonView
-from meshforge.studio.wire.requests import Done
+from meshforge.studio.wire.program import OutcomeView
+from meshforge.studio.wire.requests import EditReceipt
 from meshforge.studio.workers import MeshCache, ProjectWithCache, Workers
 from meshforge.symbolic import SymbolicMesh
 
@@ -116,7 +116,7 @@ class Session:
 
     # Changing
 
-    def edit(self, edit: Edit, by: str | None = None) -> Done:
+    def edit(self, edit: Edit, by: str | None = None) -> EditReceipt:
         """Make an edit; it is on disk when this returns."""
         with self._mutex:
             title = edit.describe(self.project)
@@ -127,11 +127,11 @@ class Session:
             finally:
                 self.learning.resume()
             if entry is None:
-                return Done(said=title, nothing=True)
+                return EditReceipt(said=title, nothing=True)
             self.announce((entry,), "edit", by)
-        return Done(said=entry.title)
+        return EditReceipt(said=entry.title)
 
-    def move(self, way: Literal["undo", "redo"], by: str | None = None) -> Done:
+    def move(self, way: Literal["undo", "redo"], by: str | None = None) -> EditReceipt:
         """Undo what was done last, or redo what was undone last."""
         with self._mutex:
             self.learning.pause()
@@ -140,9 +140,9 @@ class Session:
             finally:
                 self.learning.resume()
             if not entries:
-                return Done(said=f"there is nothing to {way}", nothing=True)
+                return EditReceipt(said=f"there is nothing to {way}", nothing=True)
             self.announce(entries, way, by)
-        return Done(said=entries[0].title)
+        return EditReceipt(said=entries[0].title)
 
     def announce(
         self, entries: Iterable[HistoryEntry], did: Literal["edit", "undo", "redo"], by: str | None = None
@@ -178,24 +178,24 @@ class Session:
 
     # Learning
 
-    def learn(self) -> Done:
+    def learn(self) -> EditReceipt:
         """Learn now, and take the learned program even if the present one was written by hand."""
         if not self._has_demonstrations():
             raise UsageError("nothing is demonstrated yet", remedy="Show the steps of the edit on one asset.")
         with self._mutex:
             self._take_learned = self.pages.program.by_hand
             self.learning.restart()
-        return Done(said="learning")
+        return EditReceipt(said="learning")
 
     def _has_demonstrations(self) -> bool:
         shown = set(self.project.layout.ids_with("demonstrations"))
         return any(asset in shown for asset in self.project.assets())
 
-    def _end_learning(self, lesson: LessonView) -> None:
+    def _end_learning(self, outcome: OutcomeView) -> None:
         """A learning run is over: it wrote its program, unless a person's is there."""
         with self._mutex:
             take, self._take_learned = self._take_learned, False
-            if take and lesson.program and self.learning.is_latest(lesson.number):
+            if take and outcome.program and self.learning.is_latest(outcome.number):
                 self.edit(TakeLearned())
                 return
             self._file_sync.show_program()

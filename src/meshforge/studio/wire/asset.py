@@ -135,7 +135,7 @@ class FindingView(Wire):
     hull: str | None = None
 
 
-class EditedHeader(Wire):
+class EditHeader(Wire):
     """The header of a packet of an edited asset: all of its hulls, with the shapes of those that the asset has not.
 
     made, removed: names of hulls, compared with the asset as it comes; trace: what each rule did; findings: of the
@@ -180,7 +180,7 @@ class Figure(Wire):
     after: float | None
 
 
-class Checked(Wire):
+class CheckResult(Wire):
     """The result of one part of a check. gone: how many findings about the asset the output no longer has; notes: what
     could not be measured, and why; cell: the resolution [m]; pictured: whether there are pictures of it."""
 

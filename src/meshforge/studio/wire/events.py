@@ -9,8 +9,8 @@ from pydantic import Field
 from meshforge.studio.wire import Wire
 from meshforge.studio.wire.asset import EngineView
 from meshforge.studio.wire.family import Card, HistoryView, ProjectView
-from meshforge.studio.wire.jobs import Job, Relabelled
-from meshforge.studio.wire.program import LessonView, ProgramView, Reach
+from meshforge.studio.wire.jobs import Job, LabelUpdate
+from meshforge.studio.wire.program import OutcomeView, ProgramView, Reach
 
 
 class Problem(Wire):
@@ -32,9 +32,9 @@ class Hello(Wire):
     project: ProjectView
     cards: tuple[Card, ...]
     history: HistoryView
-    relabelled: Relabelled | None = None
+    relabelled: LabelUpdate | None = None
     program: ProgramView
-    lesson: LessonView | None = None
+    outcome: OutcomeView | None = None
     learning: bool = False
     reach: tuple[Reach, ...] = ()
     jobs: tuple[Job, ...] = ()
@@ -68,11 +68,11 @@ class HistoryChanged(Wire):
     by: str | None = None
 
 
-class RelabelledChanged(Wire):
+class LabelUpdateChanged(Wire):
     """What the last edit did to all labels, sent after the cards; null as soon as there is another edit."""
 
     kind: Literal["relabelled"] = "relabelled"
-    relabelled: Relabelled | None
+    relabelled: LabelUpdate | None
 
 
 class AssetsChanged(Wire):
@@ -83,19 +83,19 @@ class AssetsChanged(Wire):
     shapes: bool = False
 
 
-class LessonChanged(Wire):
+class OutcomeChanged(Wire):
     """A learning run has started (`learning`), or its outcome is there."""
 
-    kind: Literal["lesson"] = "lesson"
-    lesson: LessonView | None
+    kind: Literal["outcome"] = "outcome"
+    outcome: OutcomeView | None
     learning: bool
 
 
 class ReachChanged(Wire):
-    """What the program does on all assets; lesson: the number of the learning run that it belongs to."""
+    """What the program does on all assets; number: the number of the learning run that it belongs to."""
 
     kind: Literal["reach"] = "reach"
-    lesson: int
+    number: int
     reach: tuple[Reach, ...]
 
 
@@ -118,9 +118,9 @@ Event = Annotated[
     | CardsChanged
     | ProjectChanged
     | HistoryChanged
-    | RelabelledChanged
+    | LabelUpdateChanged
     | AssetsChanged
-    | LessonChanged
+    | OutcomeChanged
     | ReachChanged
     | ProgramChanged
     | JobChanged,

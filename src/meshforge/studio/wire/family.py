@@ -6,7 +6,7 @@ from typing import Literal
 
 from meshforge.studio.wire import Wire
 from meshforge.studio.wire.asset import Fault
-from meshforge.studio.wire.jobs import CarriedOver
+from meshforge.studio.wire.jobs import PropagationState
 
 CardOutput = Literal["none", "edited", "unchanged", "failed"]
 Verdict = Literal["accepted", "flagged"]
@@ -67,7 +67,7 @@ class RuleLine(Wire):
     nothing: tuple[str, ...] = ()
 
 
-class Said(Wire):
+class AnswerView(Wire):
     """An answer, or a repair of a label that was confirmed or refused; id: to take it back."""
 
     id: str
@@ -100,9 +100,9 @@ class ProjectView(Wire):
     contact: float | None = None
     extremity: float | None = None
     rules: tuple[RuleLine, ...] = ()
-    said: tuple[Said, ...] = ()
+    said: tuple[AnswerView, ...] = ()
     templates: tuple[str, ...] = ()
-    carried: CarriedOver | None = None
+    carried: PropagationState | None = None
     next: Next
     problem: str | None = None
     lost: tuple[str, ...] = ()

@@ -92,7 +92,7 @@ class CheckJob(Wire):
 JobRequest = ApplyJob | DecomposeJob | ExportJob | PropagateJob | ForecastJob | AskJob | CheckJob
 
 
-class RelabelledAsset(Wire):
+class AssetLabelUpdate(Wire):
     """Hulls of an asset that got a new label, by position. new: those that had none; changed: those that had another;
     was: the label that each of the changed ones had."""
 
@@ -102,17 +102,17 @@ class RelabelledAsset(Wire):
     was: tuple[str, ...] = ()
 
 
-class Relabelled(Wire):
+class LabelUpdate(Wire):
     """What the last edit did, if it changed the labels of all assets. entry: its number in the history; way: its kind;
     settled: how many labels it made sure."""
 
     entry: int
     way: LabelEditKind
-    assets: tuple[RelabelledAsset, ...]
+    assets: tuple[AssetLabelUpdate, ...]
     settled: int = 0
 
 
-class CarriedOver(Wire):
+class PropagationState(Wire):
     """The last propagation of labels. unused: how many labels people and files gave since; next: the asset that would
     help most if it were labelled, null where it is labelled by now, or where all are."""
 

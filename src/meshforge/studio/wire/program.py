@@ -81,7 +81,7 @@ class HintView(Wire):
     why: str
 
 
-class LessonView(Wire):
+class OutcomeView(Wire):
     """The outcome of a learning run. number: counts the runs; program: its text, null where there is none; looked_at:
     how many assets the run looked at; settled: whether the program is unambiguous.
 
@@ -152,7 +152,7 @@ class ProgramCheck(Wire):
     orient_sentence: str = ""
 
 
-class Selected(Wire):
+class SelectionView(Wire):
     """The names of the hulls that an extractor selects on an asset; mark: what is wrong with its text."""
 
     select: tuple[str, ...] = ()
@@ -160,7 +160,7 @@ class Selected(Wire):
     mark: Mark | None = None
 
 
-class Generalised(Wire):
+class CoverageView(Wire):
     """What an extractor selects on every asset, by positions of the asset's own hulls; in very large families on those
     assets that learning looks at."""
 

@@ -45,13 +45,13 @@ class JobCancel(Wire):
     id: str
 
 
-class Uploaded(Wire):
+class UploadReceipt(Wire):
     """An upload is stored. names: of a template, as actions write it; or the paths of asset files."""
 
     names: tuple[str, ...]
 
 
-class Done(Wire):
+class EditReceipt(Wire):
     """An edit is on disk. said: what was done, in words; nothing: whether there was nothing to do."""
 
     said: str

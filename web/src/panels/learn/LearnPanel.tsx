@@ -14,12 +14,12 @@ import {
   X,
 } from "lucide-react";
 import { demonstrate, learnNow, orientBy, showNearest, stopLearning, withdraw } from "../../commands/learn";
-import { summarizeLesson, type Summary } from "../../store/lessons";
+import { summarizeOutcome, type Summary } from "../../store/outcome";
 import { countReadable, useProject } from "../../store/project";
 import { countText, listText, shortName } from "../../store/words";
 import { Button, IconButton } from "../../ui/Button";
 import { Section } from "../../ui/Section";
-import type { HintView, LessonView, NearestView, Said } from "../../wire";
+import type { HintView, OutcomeView, NearestView, AnswerView } from "../../wire";
 import css from "./learn.module.css";
 import { ProgramSection } from "./Program";
 import { QuestionCard } from "./Question";
@@ -27,15 +27,15 @@ import { Repairs } from "./Repairs";
 import { RuleText } from "./RuleText";
 
 export function LearnPanel() {
-  const lesson = useProject((state) => state.lesson);
+  const outcome = useProject((state) => state.outcome);
   return (
     <>
       <LearnHead />
-      {lesson?.question && <QuestionCard key={lesson.question.id} question={lesson.question} />}
-      {lesson && lesson.repairs.length > 0 && <Repairs repairs={lesson.repairs} />}
-      {lesson && <NoProgram lesson={lesson} />}
+      {outcome?.question && <QuestionCard key={outcome.question.id} question={outcome.question} />}
+      {outcome && outcome.repairs.length > 0 && <Repairs repairs={outcome.repairs} />}
+      {outcome && <NoProgram outcome={outcome} />}
       <ProgramSection />
-      {lesson?.hint && <NextDemonstration hint={lesson.hint} />}
+      {outcome?.hint && <NextDemonstration hint={outcome.hint} />}
       <AnswerList />
     </>
   );
@@ -44,7 +44,7 @@ export function LearnPanel() {
 /** The button that learns, and how learning stands in words. */
 function LearnHead() {
   const learning = useProject((state) => state.learning);
-  const wanted = useProject(({ lesson }) => !lesson || lesson.status === "timeout" || lesson.status === "error");
+  const wanted = useProject(({ outcome }) => !outcome || outcome.status === "timeout" || outcome.status === "error");
   const taught = useProject((state) => state.project.rules.length > 0);
   return (
     <section className={css.head} aria-label="Learning">
@@ -70,10 +70,10 @@ function LearnHead() {
 }
 
 function LearnState() {
-  const lesson = useProject((state) => state.lesson);
+  const outcome = useProject((state) => state.outcome);
   const learning = useProject((state) => state.learning);
   const assets = useProject((state) => countReadable(state.cards));
-  const said = summarizeLesson(lesson, assets);
+  const said = summarizeOutcome(outcome, assets);
   const Icon = learning ? LoaderCircle : MOOD_ICONS[said.mood];
   return (
     <div className={css.state} data-mood={learning ? "plain" : said.mood} role="status">
@@ -116,7 +116,7 @@ const KINDS = { answer: "Answer", confirmed: "Repair accepted", rejected: "Repai
 /** What was said so far: answers and repairs, each of which can be taken back. */
 function AnswerList() {
   const said = useProject((state) => state.project.said);
-  const stale = useProject((state) => state.lesson?.stale);
+  const stale = useProject((state) => state.outcome?.stale);
   if (!said.length) return null;
   return (
     <Section title="Your answers" aside={countText(said.length, "answer")}>
@@ -129,7 +129,7 @@ function AnswerList() {
   );
 }
 
-function AnswerRow({ line, stale }: { line: Said; stale: boolean }) {
+function AnswerRow({ line, stale }: { line: AnswerView; stale: boolean }) {
   const Icon = ANSWER_ICONS[line.kind];
   return (
     <li className={css.saidRow}>
@@ -144,8 +144,8 @@ function AnswerRow({ line, stale }: { line: Said; stale: boolean }) {
 }
 
 /** Why there is no program, what came nearest, and what would help. */
-function NoProgram({ lesson }: { lesson: LessonView }) {
-  const { nearest, advice, suggested_orientation: orient } = lesson;
+function NoProgram({ outcome }: { outcome: OutcomeView }) {
+  const { nearest, advice, suggested_orientation: orient } = outcome;
   if (!nearest && !advice.length && !orient) return null;
   return (
     <Section title="What would help">

@@ -52,7 +52,7 @@ function ProgramNotes() {
 
 /** Which accepted results no program keeps. */
 function LostResults() {
-  const overruled = useProject((state) => state.lesson?.overruled);
+  const overruled = useProject((state) => state.outcome?.overruled);
   const first = overruled?.[0];
   if (!first) return null;
   const some = overruled.length === 1 ? `the accepted result of ${shortName(first)}` : `${overruled.length} accepted results`;
@@ -60,7 +60,7 @@ function LostResults() {
 }
 
 function HandWritten() {
-  const differs = useProject((state) => learnedDiffers(state.program, state.lesson));
+  const differs = useProject((state) => learnedDiffers(state.program, state.outcome));
   return (
     <Note>
       <div className={css.split}>

@@ -1,9 +1,9 @@
-// The accepted program rule by rule; until there is one, the rules that the lesson has so far.
+// The accepted program rule by rule; until there is one, the rules that the outcome has so far.
 import { ChevronRight } from "lucide-react";
 import { memo, useState } from "react";
 import { chooseReading } from "../../commands/learn";
 import { highlightOfRule } from "../../store/highlight";
-import { coverageOfRule, coverageText } from "../../store/lessons";
+import { coverageOfRule, coverageText } from "../../store/outcome";
 import { countReadable, useProject } from "../../store/project";
 import { extractorOf, learnedDiffers, readingsOf } from "../../store/readings";
 import { countText, shortName } from "../../store/words";
@@ -17,7 +17,7 @@ const NONE: readonly RuleView[] = [];
 
 export function RuleList() {
   const program = useProject((state) => state.program);
-  const sofar = useProject((state) => state.lesson?.rules ?? NONE);
+  const sofar = useProject((state) => state.outcome?.rules ?? NONE);
   if (program.rules.length) {
     return (
       <>
@@ -39,7 +39,7 @@ export function RuleList() {
 
 /** What was learned meanwhile, beside a program by hand. */
 function Learned() {
-  const rules = useProject((state) => (learnedDiffers(state.program, state.lesson) ? (state.lesson?.rules ?? NONE) : NONE));
+  const rules = useProject((state) => (learnedDiffers(state.program, state.outcome) ? (state.outcome?.rules ?? NONE) : NONE));
   if (!rules.length) return null;
   return (
     <details className={css.learned}>
@@ -113,7 +113,7 @@ function Facts({ rule, accepted, learned }: RuleRowProps) {
     const found = accepted ? coverageOfRule(reach, rule.rule) : null;
     return found && coverageText(found, countReadable(cards));
   });
-  const readings = useProject((state) => (learned ? readingsOf(state.lesson, rule).length : 0));
+  const readings = useProject((state) => (learned ? readingsOf(state.outcome, rule).length : 0));
   const fit = readings > 1 ? `${countText(readings, "reading")} fit` : readings === 1 ? "the only reading" : null;
   const facts = [selects, fit].filter((fact) => fact !== null).join(" · ");
   return facts ? <span className={css.facts}>{facts}</span> : null;
@@ -123,8 +123,8 @@ const MOST = 12;
 
 /** The readings of a rule, side by side: all do what was shown, and differ elsewhere. */
 function Readings({ rule }: { rule: RuleView }) {
-  const lesson = useProject((state) => state.lesson);
-  const readings = readingsOf(lesson, rule);
+  const outcome = useProject((state) => state.outcome);
+  const readings = readingsOf(outcome, rule);
   const own = extractorOf(rule.text);
   if (!readings.length) return <p className={css.noReadings}>Learning found no other reading of this rule.</p>;
   return (

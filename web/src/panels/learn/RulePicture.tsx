@@ -40,7 +40,7 @@ const ENOUGH = 300;
 
 /** The picture; null while it comes, "failed" where there is none. */
 export function useRulePicture(asset: string, rule: number): RulePictureView | "failed" | null {
-  const version = useProject((state) => `${state.lesson?.number ?? 0} ${state.shapeRevisions[asset] ?? 0}`);
+  const version = useProject((state) => `${state.outcome?.number ?? 0} ${state.shapeRevisions[asset] ?? 0}`);
   const key = `${asset} ${rule} ${version}`;
   const [got, setGot] = useState<{ key: string; picture: RulePictureView | "failed" } | null>(null);
   useEffect(() => {

@@ -21,7 +21,7 @@ import { Button, Tip } from "../../ui/Button";
 import { Menu } from "../../ui/Menu";
 import { Note } from "../../ui/Section";
 import ui from "../../ui/ui.module.css";
-import type { Checked, Figure, Problem } from "../../wire";
+import type { CheckResult, Figure, Problem } from "../../wire";
 import { CheckFindings } from "./CheckFindings";
 import { CheckPictures } from "./CheckPictures";
 import css from "./checks.module.css";
@@ -130,7 +130,7 @@ function Failed({ problem, onAgain }: { problem: Problem; onAgain: () => void })
   );
 }
 
-function PartResult({ asset, version, checked }: { asset: string; version: string; checked: Checked }) {
+function PartResult({ asset, version, checked }: { asset: string; version: string; checked: CheckResult }) {
   const { part, figures, findings, notes, gone, cell, pictured } = checked;
   const engine = useWorkspace((workspace) => workspace.checks.engine);
   // what is not legal has a section of its own

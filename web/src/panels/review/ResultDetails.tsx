@@ -10,10 +10,10 @@ import { type Scene, sceneOf } from "../../store/scenes";
 import { changeText, countText, listText } from "../../store/words";
 import { hover, select, setHighlight, useWorkspace } from "../../store/workspace";
 import { Section } from "../../ui/Section";
-import type { EditedHeader, FindingView, HullView, Problem, TraceLine } from "../../wire";
+import type { EditHeader, FindingView, HullView, Problem, TraceLine } from "../../wire";
 import css from "./review.module.css";
 
-export function NumbersTable({ before, edit }: { before: readonly HullView[]; edit: EditedHeader }) {
+export function NumbersTable({ before, edit }: { before: readonly HullView[]; edit: EditHeader }) {
   const numbers = numbersOf(before, edit);
   const whole = (value: number) => value.toLocaleString("en-GB");
   return (
@@ -60,7 +60,7 @@ const ICONS = { error: CircleAlert, warning: TriangleAlert, note: Info } as cons
 const NAMES = { error: "Error", warning: "Warning", note: "Note" } as const;
 
 /** What the check of legality says of the edited asset. */
-export function Findings({ edit }: { edit: EditedHeader }) {
+export function Findings({ edit }: { edit: EditHeader }) {
   const verdict = verdictOf(edit);
   return (
     <Section title="Legality" aside={edit.findings.length ? countText(edit.findings.length, "finding") : null}>
@@ -106,7 +106,7 @@ function Finding({ finding: { severity, text, hull } }: { finding: FindingView }
 }
 
 /** What each rule did to this asset; the hulls are highlighted while one points at a line. */
-export function Trace({ asset, of, edit }: { asset: string; of: ResultKind; edit: EditedHeader }) {
+export function Trace({ asset, of, edit }: { asset: string; of: ResultKind; edit: EditHeader }) {
   const stale = useProject((state) => of === "output" && (state.cards[asset]?.stale.includes("program") ?? false));
   if (!edit.trace.length) return null;
   return (

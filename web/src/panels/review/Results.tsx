@@ -39,7 +39,7 @@ export function Results({ onOpen }: { onOpen: () => void }) {
   const cards = useProject((state) => state.cards);
   const order = useProject((state) => state.order);
   const inOrder = useMemo(() => order.flatMap((asset) => cards[asset] ?? []), [order, cards]);
-  const sample = useProject((state) => state.lesson?.sample);
+  const sample = useProject((state) => state.outcome?.sample);
   const lines = useMemo(() => linesOf(inOrder, sample ?? []), [inOrder, sample]);
   return (
     <div className={css.results}>

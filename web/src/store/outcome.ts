@@ -1,5 +1,5 @@
-// What a lesson came to, in words, and what a rule reaches; knows neither DOM nor three.js.
-import type { LessonView, Reach } from "../wire";
+// What a outcome came to, in words, and what a rule reaches; knows neither DOM nor three.js.
+import type { OutcomeView, Reach } from "../wire";
 import { sampleText, countText, listText, shortName } from "./words";
 
 /** How learning stands: a title, what more there is to say, and whether that is good. */
@@ -13,23 +13,23 @@ export interface Summary {
 const BELIEVABLE = 0.005;
 
 /** assets: how many there are to be learned from. */
-export function summarizeLesson(lesson: LessonView | null, assets: number): Summary {
-  if (!lesson) return summary("plain", "No demonstration yet", "Demonstrate the steps on an asset; MeshForge then learns the program.");
-  switch (lesson.status) {
+export function summarizeOutcome(outcome: OutcomeView | null, assets: number): Summary {
+  if (!outcome) return summary("plain", "No demonstration yet", "Demonstrate the steps on an asset; MeshForge then learns the program.");
+  switch (outcome.status) {
     case "found":
-      return lesson.settled ? summarizeUnambiguous(lesson.looked_at, assets) : summarizeFound(lesson);
+      return outcome.settled ? summarizeUnambiguous(outcome.looked_at, assets) : summarizeFound(outcome);
     case "ambiguous":
       return summary("warn", "One question is open", "The program fits your demonstrations; your answer decides the rest.");
     case "repair": {
-      const labels = countText(lesson.repairs.length, "label");
-      return summary("warn", `${labels} may be wrong`, `With ${lesson.repairs.length === 1 ? "it" : "them"} repaired, a program fits.`);
+      const labels = countText(outcome.repairs.length, "label");
+      return summary("warn", `${labels} may be wrong`, `With ${outcome.repairs.length === 1 ? "it" : "them"} repaired, a program fits.`);
     }
     case "none":
-      return summary("bad", `No program${lesson.nearest ? ` yet: rule ${lesson.nearest.rule} cannot be expressed` : ""}`, lesson.why);
+      return summary("bad", `No program${outcome.nearest ? ` yet: rule ${outcome.nearest.rule} cannot be expressed` : ""}`, outcome.why);
     case "timeout":
-      return summary("warn", `Stopped at rule ${lesson.rules.length + 1}`, "The earlier rules are learned. Learn again, or demonstrate this rule on another asset.");
+      return summary("warn", `Stopped at rule ${outcome.rules.length + 1}`, "The earlier rules are learned. Learn again, or demonstrate this rule on another asset.");
     case "error":
-      return summary("bad", "Learning failed", lesson.error);
+      return summary("bad", "Learning failed", outcome.error);
   }
 }
 
@@ -39,8 +39,8 @@ function summarizeUnambiguous(lookedAt: number, assets: number): Summary {
   return summary("good", "Unambiguous", `All readings select the same hulls on ${where}.`);
 }
 
-function summarizeFound(lesson: LessonView): Summary {
-  const open = lesson.readings.filter((reading) => reading.belief >= BELIEVABLE && reading.differs_on.length > 0);
+function summarizeFound(outcome: OutcomeView): Summary {
+  const open = outcome.readings.filter((reading) => reading.belief >= BELIEVABLE && reading.differs_on.length > 0);
   if (!open.length) return summary("good", "A program fits all your demonstrations", null);
   const rules = [...new Set(open.map((reading) => reading.rule))].sort((a, b) => a - b);
   const assets = [...new Set(open.flatMap((reading) => reading.differs_on))].sort();

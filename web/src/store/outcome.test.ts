@@ -1,11 +1,11 @@
 import { describe, expect, it } from "vitest";
-import type { LessonView, ReadingView } from "../wire";
-import { coverageOfRule, coverageText, summarizeLesson } from "./lessons";
+import type { OutcomeView, ReadingView } from "../wire";
+import { coverageOfRule, coverageText, summarizeOutcome } from "./outcome";
 import { highlightOfRule } from "./highlight";
 import { emptyProject } from "./project";
 import { choiceText, differing, extractorOf, learnedDiffers, readingsOf } from "./readings";
 
-const lesson = (more: Partial<LessonView>): LessonView => ({
+const outcome = (more: Partial<OutcomeView>): OutcomeView => ({
   number: 1,
   status: "found",
   program: "Is(a) => Delete",
@@ -43,14 +43,14 @@ const reach = {
   three: { asset: "three", rules: [], before: 2, after: 0, error: "no leg" },
 };
 
-describe("the summary of a lesson", () => {
+describe("the summary of a outcome", () => {
   it("says that all readings agree once it is unambiguous", () => {
-    const said = summarizeLesson(lesson({ settled: true, looked_at: 60 }), 60);
+    const said = summarizeOutcome(outcome({ settled: true, looked_at: 60 }), 60);
     expect(said).toEqual({ mood: "good", title: "Unambiguous", more: "All readings select the same hulls on your 60 assets." });
   });
 
   it("says so where not all assets were looked at", () => {
-    const said = summarizeLesson(lesson({ settled: true, looked_at: 400 }), 12_000);
+    const said = summarizeOutcome(outcome({ settled: true, looked_at: 400 }), 12_000);
     expect(said.more).toBe("All readings select the same hulls on the 400 assets looked at, of your 12,000 assets.");
     const spread = { hulls: 12, assets: 9, lookedAt: 400 };
     expect([coverageText(spread, 12_000), coverageText(spread, 400), coverageText({ ...spread, hulls: 0 }, 400)]).toEqual([
@@ -62,18 +62,18 @@ describe("the summary of a lesson", () => {
 
   it("names where a less believable reading differs", () => {
     const readings = [reading({ differs_on: ["a/x", "a/y"] }), reading({ rule: 2, belief: 0.001, differs_on: ["z"] })];
-    expect(summarizeLesson(lesson({ readings }), 3).more).toBe("Rule 1 may select other hulls on x and y.");
+    expect(summarizeOutcome(outcome({ readings }), 3).more).toBe("Rule 1 may select other hulls on x and y.");
   });
 
   it("has words for every outcome", () => {
     const statuses = ["found", "ambiguous", "repair", "none", "timeout", "error"] as const;
-    const titles = statuses.map((status) => summarizeLesson(lesson({ status, why: "so", error: "broken" }), 2).title);
+    const titles = statuses.map((status) => summarizeOutcome(outcome({ status, why: "so", error: "broken" }), 2).title);
     expect(new Set(titles).size).toBe(statuses.length);
-    expect(summarizeLesson(null, 2).title).toBe("No demonstration yet");
+    expect(summarizeOutcome(null, 2).title).toBe("No demonstration yet");
   });
 
   it("gives the reason why there is no program", () => {
-    const said = summarizeLesson(lesson({ status: "none", why: "rule 2 takes two alike hulls apart" }), 2);
+    const said = summarizeOutcome(outcome({ status: "none", why: "rule 2 takes two alike hulls apart" }), 2);
     expect(said).toMatchObject({ mood: "bad", more: "rule 2 takes two alike hulls apart" });
   });
 });
@@ -93,7 +93,7 @@ describe("readings and programs", () => {
   it("puts the reading of the program first, then by belief", () => {
     const readings = [reading({ extractor: "Is(b)", belief: 0.2 }), reading({ extractor: "Is(c)", belief: 0.3 }), reading({ belief: 0.1 })];
     const rule = { rule: 1, text: "Is(a)   => Delete", sentence: "", readings: 3 };
-    expect(readingsOf(lesson({ readings }), rule).map((row) => row.extractor)).toEqual(["Is(a)", "Is(c)", "Is(b)"]);
+    expect(readingsOf(outcome({ readings }), rule).map((row) => row.extractor)).toEqual(["Is(a)", "Is(c)", "Is(b)"]);
   });
 
   it("does not take an arrow in a label for the end of an extractor", () => {
@@ -103,9 +103,9 @@ describe("readings and programs", () => {
 
   it("tells a learned program from one by hand, but not by blank lines at its end", () => {
     const program = { ...emptyProject.program, text: "Is(a) => Delete\n" };
-    expect(learnedDiffers(program, lesson({}))).toBe(false);
-    expect(learnedDiffers(program, lesson({ program: "Is(b) => Delete" }))).toBe(true);
-    expect(learnedDiffers(program, lesson({ program: null }))).toBe(false);
+    expect(learnedDiffers(program, outcome({}))).toBe(false);
+    expect(learnedDiffers(program, outcome({ program: "Is(b) => Delete" }))).toBe(true);
+    expect(learnedDiffers(program, outcome({ program: null }))).toBe(false);
   });
 });
 
