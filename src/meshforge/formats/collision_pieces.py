@@ -276,20 +276,29 @@ class CollisionMeshes:
 
 
 class SourceMeshes:
-    """The mesh files of an asset when it is written; digests: of those that may have to be parted, as they were."""
+    """The mesh files of an asset when it is written; digests: of those that may have to be parted, as they were.
 
-    def __init__(self, digests: Iterable[tuple[Path, str]], where: str) -> None:
-        self._digests, self._where = dict(digests), where
+    select: what elements use of them.
+    """
+
+    def __init__(
+        self, digests: Iterable[tuple[Path, str]], where: str, select: SurfaceSelector = lambda surfaces, _: surfaces
+    ) -> None:
+        self._digests, self._where, self._select = dict(digests), where, select
         self._surfaces: dict[Path, Sequence[RawSurface]] = {}
+        self._pieces: dict[tuple[str, Resolver, tuple[str, ...]], list[Piece]] = {}
 
-    def surfaces(self, reference: str, resolver: Resolver) -> Sequence[RawSurface]:
-        """What is in a file. Raises AssetError where it has changed since the asset was read."""
-        path = resolver.find(reference)
-        if path is None or file_digest(path) != self._digests.get(path):
-            raise change_error(f"the mesh {reference!r}", self._where)
-        if path not in self._surfaces:
-            self._surfaces[path] = read_triangles(path)
-        return self._surfaces[path]
+    def pieces(self, reference: str, resolver: Resolver, part: tuple[str, ...]) -> list[Piece]:
+        """The pieces of what an element uses of a file. Raises AssetError where it has changed since it was read."""
+        key = reference, resolver, part
+        if key not in self._pieces:
+            path = resolver.find(reference)
+            if path is None or file_digest(path) != self._digests.get(path):
+                raise change_error(f"the mesh {reference!r}", self._where)
+            if path not in self._surfaces:
+                self._surfaces[path] = read_triangles(path)
+            self._pieces[key] = split_into_pieces(self._select(self._surfaces[path], part), name=reference)
+        return self._pieces[key]
 
 
 def change_error(what: str, where: str) -> AssetError:

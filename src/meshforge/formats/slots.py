@@ -4,12 +4,19 @@ of each (left alone, removed, split, joined by new ones), what they are called, 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
-from typing import Protocol
+from abc import ABC, abstractmethod
+from collections.abc import Collection, Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
 
-from meshforge.common import AssetError, nearest_name
-from meshforge.formats.collision_pieces import CollisionElement, name_pieces, names_to_keep, new_hulls
+from meshforge.common import AssetError, nearest_name, pluralize
+from meshforge.formats.collision_pieces import (
+    CollisionElement,
+    SourceMeshes,
+    name_pieces,
+    names_to_keep,
+    new_hulls,
+)
+from meshforge.formats.mesh_output import HullFiles
 from meshforge.formats.xml import (
     Element,
     Splice,
@@ -20,7 +27,7 @@ from meshforge.formats.xml import (
     set_attribute,
     strip_comments,
 )
-from meshforge.geometry import Pose
+from meshforge.geometry import Piece, Polytope, Pose, Shape
 from meshforge.symbolic import Asset, Geom, unique_names
 
 _TAG = re.compile(rb"<([^\s/>]+)")
@@ -59,20 +66,54 @@ class Slot:
         return strip_comments(text) if self.copy else text
 
 
-class ElementMaker(Protocol):
-    """Makes elements for one document of a format; data: its text."""
+@dataclass(frozen=True, eq=False, slots=True)
+class ElementMaker(ABC):
+    """Makes elements for one file of a format; data: its text; folder: for hulls whose parent has no mesh.
+
+    meshes: the files that the document refers to, where one may have to be split.
+    """
+
+    data: bytes
+    line_end: bytes
+    files: HullFiles
+    folder: str = ""
+    meshes: SourceMeshes | None = None
+    notes: list[str] = field(default_factory=list)
 
     @property
-    def data(self) -> bytes: ...
+    @abstractmethod
+    def title(self) -> str:
+        """The format, as notes name it."""
 
+    @abstractmethod
+    def find_mesh(self, collision: Element) -> str | None:
+        """The reference of a collision's mesh, None where it has another geometry or none."""
+
+    @abstractmethod
     def make_slot(self, geom: Geom, root_t_link: Pose, template: Element | None, lead: bytes) -> Slot:
         """The element of a hull; template: that of its parent, all but pose and geometry of which is inherited.
 
         lead: the blanks before an element without a template.
         """
 
+    @abstractmethod
     def extract_piece(self, element: Element, name: str, k: int) -> tuple[Splice, ...]:
         """The edits that leave of an element its k-th piece alone, triangles as authored; name: of that piece."""
+
+    def make_piece(self, reference: str, part: tuple[str, ...], name: str, k: int) -> tuple[Piece, str]:
+        """The k-th piece of a mesh, or of a part of it, and the reference to a file of its own, which is made."""
+        assert self.files.resolver is not None and self.meshes is not None  # only meshes have several pieces
+        piece = self.meshes.pieces(reference, self.files.resolver, part)[k]
+        return piece, self.files.add(name, self.files.folder_of(reference), piece.vertices, piece.faces)
+
+    def make_mesh(self, geom: Geom, shape: Shape, template: Element | None) -> str:
+        """The reference to the mesh file of a hull, which is made."""
+        if not isinstance(shape, Polytope):
+            corners = pluralize(len(shape.vertices), "vertex", "vertices")
+            self.notes.append(f"{self.title} has no {shape.kind}: {geom.name!r} is written as a hull of {corners}")
+        beside = self.find_mesh(template) if template else None
+        folder = self.files.folder_of(beside) if beside else self.folder
+        return self.files.add(geom.name, folder, shape.vertices, shape.faces)
 
 
 class ElementPlan:
@@ -98,6 +139,7 @@ class ElementPlan:
         self._poses = asset.body_poses
         self._place_authored()
         for geom in new_hulls(asset, self._owner):
+            refuse_unknown_link(geom, links, str(asset.path))
             self._place_made(geom)
 
     @property
@@ -137,24 +179,24 @@ class ElementPlan:
 
     def _place_made(self, geom: Geom) -> None:
         """A new element after that of its parent, or else after the last one of its link."""
-        link = self._link_of(geom)
         own = [k for k, authored in enumerate(self.authored) if authored.link == geom.body]
         parent = self._owner.get(geom.parent or "")
         template = self._elements[parent] if parent is not None else None
-        lead = child_indent_of(self.maker.data, link)
+        lead = child_indent_of(self.maker.data, self.links[geom.body])
         slot = self.maker.make_slot(geom, self._poses[geom.body], template, lead)
         if not own:
             self.ends.setdefault(geom.body, []).append(slot)
         else:
             self.places[parent if parent in own else own[-1]][1].append(slot)
 
-    def _link_of(self, geom: Geom) -> Element:
-        if geom.body in self.links:
-            return self.links[geom.body]
-        like = nearest_name(geom.body, self.links)
+
+def refuse_unknown_link(geom: Geom, links: Collection[str], where: str) -> None:
+    """Raise AssetError for a hull on a link that is not there."""
+    if geom.body not in links:
+        like = nearest_name(geom.body, links)
         raise AssetError(
             f"hull {geom.name!r} is on link {geom.body!r}, which is not there",
-            where=str(self.asset.path),
+            where=where,
             remedy=f"The nearest name of a link is {like!r}." if like else None,
         )
 

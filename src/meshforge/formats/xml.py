@@ -227,6 +227,21 @@ def indent_of(data: bytes, at: int) -> bytes | None:
     return blanks if not blanks.strip() else None
 
 
+def line_gap(data: bytes, at: int) -> bytes:
+    """What parts two elements where the first is at `at`: a line end and its indent, nothing where it has no line."""
+    lead = indent_of(data, at)
+    return b"" if lead is None else newline_of(data) + lead
+
+
+def replace_or_insert(data: bytes, parent: Element, tag: str, before: str, text: bytes) -> Splice:
+    """The edit that replaces a child of an element, or inserts it before another one."""
+    old, next_ = parent.first(tag), parent.first(before)
+    if old is not None:
+        return Splice(old.start, old.end, text)
+    assert next_ is not None
+    return Splice(next_.start, next_.start, text + line_gap(data, next_.start))
+
+
 def remove_element(data: bytes, element: Element) -> Splice:
     """The edit that removes an element, with its lines where it has them for itself."""
     end = data.find(b"\n", element.end) + 1 or len(data)

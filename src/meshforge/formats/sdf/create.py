@@ -9,23 +9,21 @@ import numpy as np
 from meshforge.common import join_names, pluralize
 from meshforge.formats import kinematic_tree
 from meshforge.formats.base import Loss, Output
-from meshforge.formats.mesh_output import HullFiles, VisualFiles
+from meshforge.formats.link_output import LinkCreator
+from meshforge.formats.mesh_output import HullFiles
 from meshforge.formats.sdf import elements
 from meshforge.formats.sdf.document import CONFIG
 from meshforge.formats.sdf.edit import SdfElementMaker
 from meshforge.formats.sdf.frames import WORLD
 from meshforge.formats.slots import Slot, assign_names, name_attribute_of
-from meshforge.formats.visuals import unreadable_visuals, visuals_of
 from meshforge.formats.xml import escape
-from meshforge.geometry import Pose, Shape
+from meshforge.geometry import Pose
 from meshforge.symbolic import Asset, FeatureKind, Opaque
 
 VISUAL_SUFFIXES = (".obj", ".stl", ".dae", ".glb", ".gltf")
 """The mesh files that Gazebo reads."""
 
 _VERSION = (1, 8)
-_RULES = kinematic_tree.JointRules(("fixed", "revolute", "prismatic", "ball", "floating"), world=True)
-_LEAD = 3 * elements.STEP
 _MAIN = "model.sdf"
 
 
@@ -38,24 +36,20 @@ def create_sdf(asset: Asset, name: str) -> Output:
     return _Creator(asset, name).build_output()
 
 
-class _Creator:
+class _Creator(LinkCreator):
+    native = elements.SdfShape
+    rules = kinematic_tree.JointRules(("fixed", "revolute", "prismatic", "ball", "floating"), world=True)
+    visual_suffixes = VISUAL_SUFFIXES
+    lead = 3 * elements.STEP
+
     def __init__(self, asset: Asset, name: str) -> None:
-        self.asset, self.name = asset, name
-        stem = Path(name).stem
+        self.name, stem = name, Path(name).stem
         self.model = asset.path.stem if name == _MAIN else stem
-        self.maker = SdfElementMaker(b"", b"\n", _VERSION, HullFiles(stem))
-        self.visuals = VisualFiles(self.maker.files, lambda mesh: mesh.suffix.lower() in VISUAL_SUFFIXES)
-        self.inertials = {inertial.body: inertial for inertial in asset.mechanism.inertials}
-        self.lost: list[Loss] = []
+        super().__init__(asset, SdfElementMaker(b"", b"\n", HullFiles(stem), version=_VERSION))
         self.renamed: dict[str, str] = {}
-        visuals = visuals_of(asset)
-        self.visuals.gather(visuals)
-        used = {g.body for g in asset.geoms} | {o.body for o in asset.opaque} | {body for body, _ in visuals}
-        bare = {body.name for body in asset.bodies} - used - set(self.inertials)
-        self.chain: kinematic_tree.KinematicChain = kinematic_tree.build_chain(asset, bare, _RULES)
-        self.links = self._link_names(bare)
-        self.slots = self._build_slots()
-        self.visual_lines = {link: self._build_visuals(link) for link in self.links}
+        for link, own in self.slots.items():
+            for slot in own:
+                self._rename(slot, self.links[link])
 
     def build_output(self) -> Output:
         others = assign_names([slot for own in self.slots.values() for slot in own])
@@ -71,32 +65,18 @@ class _Creator:
         model = elements.nest_with_name("model", self.model, *inside)
         head = [b'<?xml version="1.0"?>', b'<sdf version="%s">' % ".".join(map(str, _VERSION)).encode()]
         main = b"\n".join([*head, *(elements.STEP + line for line in model), b"</sdf>", b""])
-        lost = (*self.chain.lost, *self.lost, *unreadable_visuals(self.visuals.refused))
         made = dict(self.maker.files.made)
         if self.name == _MAIN:
             made[CONFIG] = self._config_text()
-        return Output(main, made, self.visuals.copies, self._collect_notes(), names, lost)
+        return Output(main, made, self.visuals.copies, self._collect_notes(), names, self.collect_losses())
 
-    def _link_names(self, bare: set[str]) -> dict[str, str]:
+    def name_links(self, bare: set[str]) -> dict[str, str]:
         """The name of each link; none for the world where it has nothing: joints can hold on to it without."""
         taken = set(self.chain.frames)
         names = {link: link for link in self.chain.frames if link != WORLD}
         if WORLD in self.chain.frames and WORLD not in bare:
             names = {WORLD: kinematic_tree.claim_name(f"{WORLD}_link", taken), **names}
         return {link: _legal_name(name, taken) for link, name in names.items()} or {WORLD: f"{WORLD}_link"}
-
-    def _build_slots(self) -> dict[str, list[Slot]]:
-        slots: dict[str, list[Slot]] = {link: [] for link in self.links}
-        for geom in self.asset.geoms:
-            link = self.chain.of_body[geom.body]
-            slots[link].append(self.maker.make_slot(geom, self.chain.frames[link], None, _LEAD))
-        for piece in self.asset.opaque:
-            link = self.chain.of_body[piece.body]
-            slots[link] += self._build_opaque(piece, self.chain.frames[link])
-        for link, own in slots.items():
-            for slot in own:
-                self._rename(slot, self.links[link])
-        return slots
 
     def _rename(self, slot: Slot, link: str) -> None:
         """Name the element of a slot, for the link as it is called in the file."""
@@ -106,13 +86,13 @@ class _Creator:
             self.renamed |= dict(zip(slot.names, names, strict=True))
             slot.body, slot.names = link, names
 
-    def _build_opaque(self, piece: Opaque, root_t_link: Pose) -> list[Slot]:
+    def build_opaque(self, piece: Opaque, root_t_link: Pose) -> list[Slot]:
         """The collision of a non-convex piece; none where it has no surface."""
         surface, link_t_root = piece.surface, root_t_link.inverse()
         if piece.plane is not None:
             plane = link_t_root @ piece.plane
             kind = elements.nest("plane", elements.leaf("normal", "0 0 1"), elements.leaf("size", "100 100"))
-            return [Slot(piece.body, (piece.name,), text=elements.build_collision(plane, kind, _LEAD, b"\n"))]
+            return [Slot(piece.body, (piece.name,), text=elements.build_collision(plane, kind, self.lead, b"\n"))]
         if surface is None:
             return []
         if not len(surface.faces):
@@ -120,36 +100,17 @@ class _Creator:
             return []
         vertices = link_t_root.apply(np.asarray(surface.vertices))
         kind = elements.mesh_lines(self.maker.files.add(piece.name, "", vertices, surface.faces))
-        return [Slot(piece.body, (piece.name,), text=elements.build_collision(Pose.identity(), kind, _LEAD, b"\n"))]
-
-    def _build_visuals(self, link: str) -> list[bytes]:
-        lines: list[bytes] = []
-        count = 0
-        for body, visual in visuals_of(self.asset):
-            if self.chain.of_body[body] == link:
-                placed = self.visuals.add_visual(body, visual, self.chain.frames[link])
-                if placed is not None:
-                    lines += elements.visual_lines(f"visual{count}", placed, self._add_mesh(body, placed.what))
-                    count += 1
-        return lines
-
-    def _add_mesh(self, body: str, shape: Shape | str) -> str | None:
-        """The file of a visual shape that SDF lacks."""
-        if isinstance(shape, str | elements.SdfShape):
-            return None
-        return self.maker.files.add(f"{body}-visual", "", shape.vertices, shape.faces)
+        return [Slot(piece.body, (piece.name,), text=elements.build_collision(Pose.identity(), kind, self.lead, b"\n"))]
 
     def _link_lines(self, link: str) -> list[bytes]:
-        body = next((body for body, own in self.chain.of_body.items() if own == link), None)
-        inertial = (
-            self.inertials.get(body) if body else kinematic_tree.LIGHT_INERTIAL if link in self.chain.light else None
-        )
         frame = self.chain.frames[link]
-        pose = Pose(frame.rotation, kinematic_tree.drop_rounding(frame.translation))
-        inside = [elements.pose_leaf(pose)]
-        inside += elements.inertial_lines(inertial, frame if body else Pose.identity()) if inertial else []
-        inside += self.visual_lines[link]
-        inside += [line.removeprefix(_LEAD) for slot in self.slots[link] for line in slot.to_bytes(b"").split(b"\n")]
+        inertial, base = self.inertial_of(link)
+        inside = [elements.pose_leaf(Pose(frame.rotation, kinematic_tree.drop_rounding(frame.translation)))]
+        inside += elements.inertial_lines(inertial, base) if inertial else []
+        for k, (visual, reference) in enumerate(self.shown[link]):
+            inside += elements.visual_lines(f"visual{k}", visual, reference)
+        collisions = [slot.to_bytes(b"").split(b"\n") for slot in self.slots[link]]
+        inside += [line.removeprefix(self.lead) for lines in collisions for line in lines]
         return elements.nest_with_name("link", self.links[link], *inside)
 
     def _joint_lines(self, made: kinematic_tree.LinkJoint) -> list[bytes]:

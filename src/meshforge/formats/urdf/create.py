@@ -9,21 +9,18 @@ import numpy as np
 from meshforge.common import join_names, pluralize
 from meshforge.formats.base import Loss, Output
 from meshforge.formats.collision_pieces import is_flat
-from meshforge.formats.kinematic_tree import LIGHT_INERTIAL, JointRules, KinematicChain, build_chain
-from meshforge.formats.mesh_output import HullFiles, VisualFiles
+from meshforge.formats.kinematic_tree import LIGHT_INERTIAL, JointRules
+from meshforge.formats.link_output import LinkCreator
+from meshforge.formats.mesh_output import HullFiles
 from meshforge.formats.slots import Slot, assign_names
 from meshforge.formats.urdf import elements
 from meshforge.formats.urdf.edit import UrdfElementMaker
-from meshforge.formats.visuals import unreadable_visuals, visuals_of
 from meshforge.formats.xml import escape
-from meshforge.geometry import Box, Cylinder, Pose, Shape, Sphere
+from meshforge.geometry import Pose
 from meshforge.symbolic import Asset, FeatureKind, Opaque
 
 VISUAL_SUFFIXES = (".obj", ".stl", ".dae")
 """The mesh files that ROS, PyBullet and others read."""
-
-_LEAD = b"    "
-_RULES = JointRules(("fixed", "revolute", "prismatic", "floating", "planar"))
 
 
 def create_urdf(asset: Asset, name: str) -> Output:
@@ -32,44 +29,26 @@ def create_urdf(asset: Asset, name: str) -> Output:
     Bodies become links, each with its frame on the joint that leads to it, so that at zero all is where it was; hulls
     become native shapes or mesh files, non-convex pieces meshes as they are.
     """
-    return _Creator(asset, Path(name).stem).build_output()
+    return _Creator(asset, UrdfElementMaker(b"", b"\n", HullFiles(Path(name).stem))).build_output()
 
 
-class _Creator:
-    def __init__(self, asset: Asset, stem: str) -> None:
-        self.asset, self.stem = asset, stem
-        self.maker = UrdfElementMaker(b"", b"\n", HullFiles(stem))
-        self.visuals = VisualFiles(self.maker.files, lambda mesh: mesh.suffix.lower() in VISUAL_SUFFIXES)
-        self.inertials = {inertial.body: inertial for inertial in asset.mechanism.inertials}
-        self.lost: list[Loss] = []
-        visuals = visuals_of(asset)
-        self.visuals.gather(visuals)
-        used = {g.body for g in asset.geoms} | {o.body for o in asset.opaque} | {body for body, _ in visuals}
-        bare = [body.name for body in asset.bodies if body.name not in used | set(self.inertials)]
-        self.chain: KinematicChain = build_chain(asset, bare, _RULES)
-        self.slots = self._build_slots()
-        self.visual_lines = {link: self._build_visuals(link) for link in self.chain.frames}
+class _Creator(LinkCreator):
+    native = elements.UrdfShape
+    rules = JointRules(("fixed", "revolute", "prismatic", "floating", "planar"))
+    visual_suffixes = VISUAL_SUFFIXES
+    lead = b"    "
 
     def build_output(self) -> Output:
         names = assign_names([slot for own in self.slots.values() for slot in own])
-        head = [b'<?xml version="1.0"?>', b'<robot name="%s">' % escape(self.stem)]
+        files = self.maker.files
+        head = [b'<?xml version="1.0"?>', b'<robot name="%s">' % escape(files.stem)]
         links = [line for link in self.chain.frames for line in self._link_lines(link)]
         joints = [line for joint in self.chain.joints for line in elements.joint_lines(joint)]
         main = b"\n".join([*head, *links, *joints, b"</robot>", b""])
-        lost = (*self.chain.lost, *self.lost, *unreadable_visuals(self.visuals.refused))
-        return Output(main, dict(self.maker.files.made), self.visuals.copies, self._collect_notes(), names, lost)
+        lost = self.collect_losses()
+        return Output(main, dict(files.made), self.visuals.copies, self._collect_notes(), names, lost)
 
-    def _build_slots(self) -> dict[str, list[Slot]]:
-        slots: dict[str, list[Slot]] = {link: [] for link in self.chain.frames}
-        for geom in self.asset.geoms:
-            link = self.chain.of_body[geom.body]
-            slots[link].append(self.maker.make_slot(geom, self.chain.frames[link], None, _LEAD))
-        for piece in self.asset.opaque:
-            link = self.chain.of_body[piece.body]
-            slots[link] += self._build_opaque(piece, self.chain.frames[link])
-        return slots
-
-    def _build_opaque(self, piece: Opaque, root_t_link: Pose) -> list[Slot]:
+    def build_opaque(self, piece: Opaque, root_t_link: Pose) -> list[Slot]:
         """The element of a non-convex piece; none where it has no surface, or a flat one, which engines refuse."""
         surface = piece.surface
         if surface is None or piece.plane is not None:
@@ -79,29 +58,13 @@ class _Creator:
             return []
         vertices = root_t_link.inverse().apply(np.asarray(surface.vertices))
         tag = elements.mesh_tag(self.maker.files.add(piece.name, "", vertices, surface.faces))
-        return [Slot(piece.body, (piece.name,), text=elements.build_collision(Pose.identity(), tag, _LEAD, b"\n"))]
-
-    def _build_visuals(self, link: str) -> list[bytes]:
-        lines = []
-        for body, visual in visuals_of(self.asset):
-            if self.chain.of_body[body] == link:
-                placed = self.visuals.add_visual(body, visual, self.chain.frames[link])
-                if placed is not None:
-                    lines += elements.visual_lines(placed, self._add_mesh(body, placed.what))
-        return lines
-
-    def _add_mesh(self, body: str, shape: Shape | str) -> str | None:
-        """The file of a visual shape that URDF lacks."""
-        if isinstance(shape, str | Box | Cylinder | Sphere):
-            return None
-        return self.maker.files.add(f"{body}-visual", "", shape.vertices, shape.faces)
+        return [Slot(piece.body, (piece.name,), text=elements.build_collision(Pose.identity(), tag, self.lead, b"\n"))]
 
     def _link_lines(self, link: str) -> list[bytes]:
-        body = next((body for body, own in self.chain.of_body.items() if own == link), None)
-        inertial = self.inertials.get(body) if body else LIGHT_INERTIAL if link in self.chain.light else None
-        frame = self.chain.frames[link] if body else Pose.identity()
+        inertial, frame = self.inertial_of(link)
         inside = elements.inertial_lines(inertial, frame) if inertial else []
-        inside += [*self.visual_lines[link], *(_LEAD + slot.to_bytes(b"") for slot in self.slots[link])]
+        inside += [line for visual in self.shown[link] for line in elements.visual_lines(*visual)]
+        inside += [self.lead + slot.to_bytes(b"") for slot in self.slots[link]]
         if not inside:
             return [b'  <link name="%s"/>' % escape(link)]
         return [b'  <link name="%s">' % escape(link), *inside, b"  </link>"]

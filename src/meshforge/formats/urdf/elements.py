@@ -9,7 +9,7 @@ import numpy as np
 from meshforge.formats.kinematic_tree import LinkJoint, drop_rounding, name_moments, place_inertial
 from meshforge.formats.mesh_output import LinkVisual
 from meshforge.formats.urdf.document import geometry_of
-from meshforge.formats.xml import Element, Splice, escape, format_numbers, indent_of, newline_of, set_attribute
+from meshforge.formats.xml import Element, Splice, escape, format_numbers, replace_or_insert, set_attribute
 from meshforge.geometry import Box, Cylinder, Pose, Sphere
 from meshforge.symbolic import Inertial
 
@@ -71,22 +71,9 @@ def replace_mesh(data: bytes, collision: Element, pose: Pose, reference: str) ->
     return (_replace_origin(data, collision, pose), set_attribute(data, kind, "filename", reference), *scale)
 
 
-def replace_mesh_file(data: bytes, collision: Element, reference: str) -> tuple[Splice, ...]:
-    """The edits that give a copy of a mesh collision another mesh file, of the same unit, scale and place."""
-    kind = geometry_of(collision)
-    assert kind is not None  # only meshes have several pieces
-    return (set_attribute(data, kind, "filename", reference),)
-
-
 def _replace_origin(data: bytes, collision: Element, pose: Pose) -> Splice:
     """The edit that gives an element another origin."""
-    origin, geometry = collision.first("origin"), collision.first("geometry")
-    if origin is not None:
-        return Splice(origin.start, origin.end, origin_tag(pose))
-    assert geometry is not None
-    lead = indent_of(data, geometry.start)
-    gap = newline_of(data) + lead if lead is not None else b""
-    return Splice(geometry.start, geometry.start, origin_tag(pose) + gap)
+    return replace_or_insert(data, collision, "origin", "geometry", origin_tag(pose))
 
 
 def joint_lines(made: LinkJoint) -> list[bytes]:
