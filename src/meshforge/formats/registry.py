@@ -12,15 +12,14 @@ import numpy as np
 
 from meshforge.common import AssetError, UsageError, expand_glob, nearest_name
 from meshforge.formats.base import Format, ReadOptions
-from meshforge.formats.engine_names.base import EngineName
+from meshforge.formats.engine_names.conventions import EngineName
 from meshforge.formats.gltf.format import GltfForGodot, GltfFormat, GltfForUnity, GltfForUnreal
 from meshforge.formats.meshfile.surface import FARTHEST
 from meshforge.formats.mjcf.format import MjcfFormat
 from meshforge.formats.plain.folder import FolderFormat
 from meshforge.formats.plain.obj import ObjFormat, ObjForUnreal
 from meshforge.formats.plain.ply import PlyFormat
-from meshforge.formats.plain.stl import StlFormat
-from meshforge.formats.plain.wrl import WrlFormat
+from meshforge.formats.plain.stl import StlFormat, WrlFormat
 from meshforge.formats.sdf.document import CONFIG, find_main_file
 from meshforge.formats.sdf.format import SdfFormat
 from meshforge.formats.segmentation.base import is_segmentation

@@ -8,7 +8,7 @@ from functools import partial
 
 from meshforge.common import AssetError, join_names
 from meshforge.formats.base import Loss
-from meshforge.formats.engine_names.base import CollisionNames
+from meshforge.formats.engine_names.conventions import CollisionNames
 from meshforge.formats.meshfile.surface import stack_triangles
 from meshforge.formats.visuals import read_visual_surfaces
 from meshforge.symbolic import Asset, Body, FeatureKind, Geom, Opaque, Surface

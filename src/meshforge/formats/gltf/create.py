@@ -12,8 +12,8 @@ import numpy as np
 
 from meshforge.common import AssetError
 from meshforge.formats.base import Output
-from meshforge.formats.engine_names.base import CollisionNames, godot_kind, unreal_kind
 from meshforge.formats.engine_names.bodies import EngineBodies, EngineBody, name_bodies
+from meshforge.formats.engine_names.conventions import CollisionNames, godot_kind, unreal_kind
 from meshforge.formats.gltf.document import BODY, Convention, GltfDocument
 from meshforge.formats.gltf.draft import SceneDraft
 from meshforge.formats.gltf.edit import assign_names

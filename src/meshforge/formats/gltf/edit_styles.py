@@ -8,8 +8,15 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from meshforge.formats.engine_names.base import godot_kind, strip_godot_suffix, unreal_kind, visible_mesh_of
-from meshforge.formats.engine_names.conventions import NATIVE_SHAPES, holds_colliders, next_name
+from meshforge.formats.engine_names.conventions import (
+    NATIVE_SHAPES,
+    godot_kind,
+    holds_colliders,
+    next_name,
+    strip_godot_suffix,
+    unreal_kind,
+    visible_mesh_of,
+)
 from meshforge.formats.gltf.colliders import nodes_below_colliders
 from meshforge.formats.gltf.document import NodeRecord
 from meshforge.formats.gltf.draft import SceneDraft, material_without_texture

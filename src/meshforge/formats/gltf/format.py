@@ -5,12 +5,11 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
-from typing import Any, ClassVar, Literal
+from typing import Any, ClassVar
 
 from meshforge.common import AssetError
 from meshforge.formats.base import BODY_FEATURES, SCENE_FEATURES, Format, Mass, Output, ReadOptions, feature_of
-from meshforge.formats.engine_names.base import CollisionNames, fallbacks_of
-from meshforge.formats.engine_names.conventions import GodotNames, UnityNames, UnrealNames
+from meshforge.formats.engine_names.conventions import CollisionNames, GodotNames, UnityNames, UnrealNames, fallbacks_of
 from meshforge.formats.gltf.create import create_for_engine, create_gltf
 from meshforge.formats.gltf.document import GltfDocument
 from meshforge.formats.gltf.edit import write_gltf
@@ -39,10 +38,10 @@ _COULD_NAMED = SCENE_FEATURES - {FeatureKind.CONTACT} | {
 class GltfFormat(Format):
     """glTF 2.0, as text with its buffers beside it, or as one GLB."""
 
-    name: ClassVar[str] = "gltf"
-    title: ClassVar[str] = "glTF"
-    suffixes: ClassVar[tuple[str, ...]] = (".glb", ".gltf")
-    up: ClassVar[Literal["y", "z"] | None] = "y"
+    name = "gltf"
+    title = "glTF"
+    suffixes = (".glb", ".gltf")
+    up = "y"
     holds = BODY_FEATURES | {FeatureKind.CAPSULES, FeatureKind.OPAQUE, FeatureKind.PLANES}
     could = _COULD_NAMED | {
         *(FeatureKind.JOINTS, FeatureKind.BALL_JOINTS, FeatureKind.FIXED_JOINTS, FeatureKind.CONTACT, FeatureKind.PAIRS)

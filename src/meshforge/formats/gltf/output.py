@@ -15,7 +15,7 @@ import numpy as np
 import numpy.typing as npt
 
 from meshforge.formats.base import Output
-from meshforge.formats.gltf.json_text import rewrite_json
+from meshforge.formats.gltf.document import rewrite_json
 from meshforge.formats.meshfile.gltf_document import Container, Json, entries
 from meshforge.formats.meshfile.gltf_scene import GltfScene
 from meshforge.formats.references import find_companions

@@ -11,7 +11,7 @@ import numpy as np
 
 from meshforge.common import AssetError, MeshForgeError, file_digest, pluralize
 from meshforge.formats.collision_pieces import CollisionElement, drop_repeats, geoms_of, opaque_of, place_surface
-from meshforge.formats.engine_names.base import godot_kind, unreal_kind
+from meshforge.formats.engine_names.conventions import godot_kind, unreal_kind
 from meshforge.formats.gltf.colliders import CollisionReader, NodeCollision, convention_of, nodes_below_colliders
 from meshforge.formats.gltf.document import BODY, Convention, GltfDocument, NodeRecord
 from meshforge.formats.gltf.physics import body_nodes, is_trigger, read_inertial, rigid_pose_of

@@ -6,7 +6,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
-from typing import ClassVar, Literal
+from typing import ClassVar
 
 from meshforge.common import AssetError
 from meshforge.formats.base import BODY_FEATURES, SCENE_FEATURES, Format, Mass, Output, ReadOptions, feature_of
@@ -44,11 +44,11 @@ _DYNAMICS = ("stiffness", "springref", "springdamper", "springlength", "armature
 class MjcfFormat(Format):
     """MuJoCo's own format for models."""
 
-    name: ClassVar[str] = "mjcf"
-    suffixes: ClassVar[tuple[str, ...]] = (".xml", ".mjcf")
-    is_description: ClassVar[bool] = True
-    title: ClassVar[str] = "MJCF"
-    up: ClassVar[Literal["y", "z"] | None] = "z"
+    name = "mjcf"
+    suffixes = (".xml", ".mjcf")
+    is_description = True
+    title = "MJCF"
+    up = "z"
     holds = BODY_FEATURES | {
         *(FeatureKind.CAPSULES, FeatureKind.ELLIPSOIDS, FeatureKind.PLANES, FeatureKind.JOINTS, FeatureKind.BALL_JOINTS)
     }

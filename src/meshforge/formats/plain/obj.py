@@ -12,9 +12,15 @@ from typing import ClassVar
 import numpy as np
 
 from meshforge.formats.base import Output
-from meshforge.formats.engine_names.base import fallbacks_of, unreal_kind, visible_mesh_of
 from meshforge.formats.engine_names.bodies import EngineBody, name_bodies
-from meshforge.formats.engine_names.conventions import UnrealNames, interpret_unreal_shape, next_name
+from meshforge.formats.engine_names.conventions import (
+    UnrealNames,
+    fallbacks_of,
+    interpret_unreal_shape,
+    next_name,
+    unreal_kind,
+    visible_mesh_of,
+)
 from meshforge.formats.meshfile.obj import ObjGroup, ObjText, parse_obj
 from meshforge.formats.meshfile.surface import Soup
 from meshforge.formats.plain.base import MeshFileEdit, PlainFormat

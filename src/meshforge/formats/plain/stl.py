@@ -1,4 +1,6 @@
-"""STL: the pieces of a soup of triangles are the hulls, counted in file order, since the format has no names."""
+"""The formats of triangles that only list them: STL, whose pieces are the hulls, counted in file order since it has no
+names; and VRML 2.0, which CoACD writes, a shape a hull: only read, and written back as it is.
+"""
 
 from __future__ import annotations
 
@@ -8,11 +10,15 @@ from pathlib import Path
 import numpy as np
 import numpy.typing as npt
 
+from meshforge.common import AssetError
+from meshforge.formats.base import Output
 from meshforge.formats.meshfile.stl import HEADER, RECORD, StlText, facet_spans, parse_stl
-from meshforge.formats.meshfile.surface import Soup
+from meshforge.formats.meshfile.surface import Soup, join_surfaces
+from meshforge.formats.meshfile.vrml import parse_vrml
 from meshforge.formats.plain.base import MeshFileEdit, PlainFormat
 from meshforge.formats.plain.parts import MeshPart, corners_of
 from meshforge.geometry import Floats
+from meshforge.symbolic import Asset
 
 _TITLE = b"MeshForge".ljust(80, b" ")  # must not begin with "solid", the mark of ASCII files
 
@@ -100,3 +106,28 @@ def _format_facets(part: MeshPart) -> bytes:
         lines += ["    vertex {!r} {!r} {!r}".format(*corner) for corner in triangle]
         lines.append("  endloop\nendfacet")
     return "".join(line + "\n" for line in lines).encode()
+
+
+class WrlFormat(PlainFormat):
+    """VRML files, to be read only."""
+
+    name = "wrl"
+    title = "VRML"
+    suffixes = (".wrl",)
+    writable = False
+
+    def parse_soup(self, data: bytes, path: Path) -> Soup:
+        return join_surfaces(parse_vrml(data, str(path)))
+
+    def apply_edit(self, edit: MeshFileEdit) -> bytes:
+        raise _read_only_error(str(edit.path))
+
+    def format_parts(self, parts: Sequence[MeshPart]) -> bytes:
+        raise _read_only_error(None)
+
+    def create(self, asset: Asset, name: str) -> Output:
+        raise _read_only_error(str(asset.path))
+
+
+def _read_only_error(where: str | None) -> AssetError:
+    return AssetError("VRML files are read, not written", where=where, remedy="Write an .obj, which keeps the names.")

@@ -17,7 +17,7 @@ from meshforge.formats.mesh_reader import read_content
 from meshforge.formats.references import Resolver, find_companions
 from meshforge.formats.slots import name_elements
 from meshforge.formats.urdf import document
-from meshforge.formats.urdf.mechanism import UrdfLinks, read_links, read_mechanism
+from meshforge.formats.urdf.document import UrdfLinks, read_links, read_mechanism
 from meshforge.formats.visuals import Rgba, Visual, VisualSurfaces
 from meshforge.formats.xml import Element, XmlText, format_numbers
 from meshforge.geometry import Box, Capsule, Cylinder, Floats, Pose, Shape, Sphere

@@ -6,8 +6,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import Any
 
-from meshforge.formats.usd.document import BODY
-from meshforge.formats.usd.stage import UsdStage
+from meshforge.formats.usd.stage import BODY, UsdStage
 from meshforge.geometry import Pose
 from meshforge.symbolic import Body, unique_names
 

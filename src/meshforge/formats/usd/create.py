@@ -13,7 +13,6 @@ from meshforge.common import join_names, pluralize
 from meshforge.formats.base import Loss, Output
 from meshforge.formats.kinematic_tree import BodyTree, claim_name
 from meshforge.formats.usd.colliders import apply_schemas
-from meshforge.formats.usd.document import BODY, export_layer, is_crate_wanted, pack_usdz
 from meshforge.formats.usd.prims import (
     PrimSpace,
     add_joint,
@@ -26,7 +25,7 @@ from meshforge.formats.usd.prims import (
     set_value,
     write_mass,
 )
-from meshforge.formats.usd.stage import usd
+from meshforge.formats.usd.stage import BODY, export_layer, is_crate_wanted, pack_usdz, usd
 from meshforge.formats.visuals import Rgba, Visual, linear_color, unreadable_visuals, visuals_of
 from meshforge.geometry import Pose
 from meshforge.symbolic import Asset, Geom, Inertial, Joint, Opaque, Surface

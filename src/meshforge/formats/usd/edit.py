@@ -14,13 +14,21 @@ from meshforge.common import AssetError
 from meshforge.formats import collision_pieces
 from meshforge.formats.base import Mass, Output, note_renames
 from meshforge.formats.usd.colliders import StageBodies, physics_material
-from meshforge.formats.usd.document import UsdDocument, export_layer, is_crate, is_crate_wanted, pack_usdz, unpack_usdz
 from meshforge.formats.usd.edit_stage import UsdEdit
 from meshforge.formats.usd.layer_text import has_comments, patch_layer
 from meshforge.formats.usd.mechanism import centre_of, moments_of, read_number
 from meshforge.formats.usd.prims import PrimSpace, write_mass
 from meshforge.formats.usd.read import PrimCollision, read_collisions
-from meshforge.formats.usd.stage import UsdStage, usd
+from meshforge.formats.usd.stage import (
+    UsdDocument,
+    UsdStage,
+    export_layer,
+    is_crate,
+    is_crate_wanted,
+    pack_usdz,
+    unpack_usdz,
+    usd,
+)
 from meshforge.geometry import Floats, Polytope, Shape, inertia, is_closed
 from meshforge.symbolic import Asset, Inertial
 

@@ -12,10 +12,9 @@ import numpy as np
 from meshforge.common import AssetError, pluralize
 from meshforge.formats.collision_pieces import CollisionPiece, names_to_keep, new_hulls
 from meshforge.formats.usd import colliders
-from meshforge.formats.usd.document import BODY, PrimRecord, UsdDocument
 from meshforge.formats.usd.prims import PrimSpace, add_mesh, add_native, free_prim_name, mark_collider
 from meshforge.formats.usd.read import PrimCollision
-from meshforge.formats.usd.stage import UsdStage
+from meshforge.formats.usd.stage import BODY, PrimRecord, UsdDocument, UsdStage
 from meshforge.symbolic import Asset, Geom
 
 _GROUP_PREFIX = "collection:colliders:"

@@ -6,15 +6,14 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
-from typing import Any, ClassVar, Literal
+from typing import Any, ClassVar
 
 from meshforge.common import AssetError
 from meshforge.formats.base import BODY_FEATURES, SCENE_FEATURES, Format, Mass, Output, ReadOptions, feature_of_tags
 from meshforge.formats.usd.create import create_usd
-from meshforge.formats.usd.document import UsdDocument
 from meshforge.formats.usd.edit import write_usd
 from meshforge.formats.usd.read import read_usd
-from meshforge.formats.usd.stage import UsdStage, usd
+from meshforge.formats.usd.stage import UsdDocument, UsdStage, usd
 from meshforge.symbolic import Asset, Feature, FeatureKind
 
 _TYPES = {
@@ -31,10 +30,10 @@ _LIGHTS = "Light"
 class UsdFormat(Format):
     """Universal Scene Description, as text (.usda), crate (.usdc), either (.usd) or a package (.usdz)."""
 
-    name: ClassVar[str] = "usd"
-    title: ClassVar[str] = "USD"
-    suffixes: ClassVar[tuple[str, ...]] = (".usda", ".usd", ".usdc", ".usdz")
-    up: ClassVar[Literal["y", "z"] | None] = "z"
+    name = "usd"
+    title = "USD"
+    suffixes = (".usda", ".usd", ".usdc", ".usdz")
+    up = "z"
     holds = BODY_FEATURES | {
         *(FeatureKind.CAPSULES, FeatureKind.OPAQUE, FeatureKind.PLANES),
         *(FeatureKind.JOINTS, FeatureKind.BALL_JOINTS, FeatureKind.FIXED_JOINTS),

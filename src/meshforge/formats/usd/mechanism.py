@@ -9,8 +9,7 @@ from typing import Any
 import numpy as np
 
 from meshforge.formats.usd.colliders import StageBodies
-from meshforge.formats.usd.document import BODY
-from meshforge.formats.usd.stage import UsdStage, rotation_of
+from meshforge.formats.usd.stage import BODY, UsdStage, rotation_of
 from meshforge.geometry import Floats, Pose, Shape, inertia, rotation_of_quaternion
 from meshforge.symbolic import Geom, Inertial, Joint, JointKind, Mechanism
 

@@ -13,11 +13,10 @@ from meshforge.common import AssetError, GeometryError, MeshForgeError, file_dig
 from meshforge.formats import collision_pieces
 from meshforge.formats.mesh_reader import read_content
 from meshforge.formats.usd import colliders
-from meshforge.formats.usd.document import PrimRecord, UsdDocument
 from meshforge.formats.usd.guard import refuse_harmful_layers
 from meshforge.formats.usd.mechanism import read_mechanism
 from meshforge.formats.usd.shapes import read_instances, read_mesh, read_parts
-from meshforge.formats.usd.stage import UsdStage, usd
+from meshforge.formats.usd.stage import PrimRecord, UsdDocument, UsdStage, usd
 from meshforge.formats.visuals import GAMMA, LazySurfaces, Rgba
 from meshforge.symbolic import Asset, Geom, Mentions, Surface
 
