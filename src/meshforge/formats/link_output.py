@@ -5,9 +5,7 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from types import UnionType
 
-from meshforge.formats import kinematic_tree
-from meshforge.formats.base import Loss
-from meshforge.formats.mesh_output import LinkVisual, VisualFiles
+from meshforge.formats import base, kinematic_tree, mesh_output
 from meshforge.formats.slots import ElementMaker, Slot
 from meshforge.formats.visuals import unreadable_visuals, visuals_of
 from meshforge.geometry import Pose, Shape
@@ -28,9 +26,9 @@ class LinkCreator(ABC):
 
     def __init__(self, asset: Asset, maker: ElementMaker) -> None:
         self.asset, self.maker = asset, maker
-        self.visuals = VisualFiles(maker.files, lambda mesh: mesh.suffix.lower() in self.visual_suffixes)
+        self.visuals = mesh_output.VisualFiles(maker.files, lambda mesh: mesh.suffix.lower() in self.visual_suffixes)
         self.inertials = {inertial.body: inertial for inertial in asset.mechanism.inertials}
-        self.lost: list[Loss] = []
+        self.lost: list[base.Loss] = []
         visuals = visuals_of(asset)
         self.visuals.gather(visuals)
         used = {g.body for g in asset.geoms} | {o.body for o in asset.opaque} | {body for body, _ in visuals}
@@ -55,7 +53,7 @@ class LinkCreator(ABC):
             return self.inertials.get(body), self.chain.frames[link]
         return kinematic_tree.LIGHT_INERTIAL if link in self.chain.light else None, Pose.identity()
 
-    def collect_losses(self) -> tuple[Loss, ...]:
+    def collect_losses(self) -> tuple[base.Loss, ...]:
         """What the file does not hold."""
         return (*self.chain.lost, *self.lost, *unreadable_visuals(self.visuals.refused))
 
@@ -69,7 +67,7 @@ class LinkCreator(ABC):
             slots[link] += self.build_opaque(piece, self.chain.frames[link])
         return slots
 
-    def _build_visuals(self, link: str) -> list[tuple[LinkVisual, str | None]]:
+    def _build_visuals(self, link: str) -> list[tuple[mesh_output.LinkVisual, str | None]]:
         shown = []
         for body, visual in visuals_of(self.asset):
             if self.chain.of_body[body] == link:

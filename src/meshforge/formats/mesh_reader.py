@@ -8,13 +8,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from meshforge.common import AssetError
-from meshforge.formats.meshfile.dae import parse_dae
-from meshforge.formats.meshfile.gltf_scene import parse_gltf
-from meshforge.formats.meshfile.obj import parse_obj
-from meshforge.formats.meshfile.ply import parse_ply
-from meshforge.formats.meshfile.stl import parse_stl
+from meshforge.formats.meshfile import dae, gltf_scene, obj, ply, stl, vrml
 from meshforge.formats.meshfile.surface import RawSurface, join_surfaces
-from meshforge.formats.meshfile.vrml import parse_vrml
 from meshforge.geometry import Piece, split_pieces
 
 READABLE_MESH_SUFFIXES = (".obj", ".stl", ".ply", ".dae", ".glb", ".gltf", ".wrl")
@@ -113,17 +108,17 @@ def parse_surfaces(data: bytes, path: Path) -> list[RawSurface]:
     where = str(path)
     match path.suffix.lower():
         case ".obj":
-            return parse_obj(data, where).surfaces(where)
+            return obj.parse_obj(data, where).surfaces(where)
         case ".stl":
-            return parse_stl(data, where).surfaces(where)
+            return stl.parse_stl(data, where).surfaces(where)
         case ".ply":
-            return parse_ply(data, where).surfaces(where)
+            return ply.parse_ply(data, where).surfaces(where)
         case ".dae":
-            return parse_dae(data, where)
+            return dae.parse_dae(data, where)
         case ".glb" | ".gltf":
-            return parse_gltf(data, path)
+            return gltf_scene.parse_gltf(data, path)
         case ".wrl":
-            return parse_vrml(data, where)
+            return vrml.parse_vrml(data, where)
     raise _unknown_kind_error(path)
 
 

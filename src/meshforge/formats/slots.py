@@ -9,14 +9,7 @@ from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 
 from meshforge.common import AssetError, nearest_name, pluralize
-from meshforge.formats.collision_pieces import (
-    CollisionElement,
-    SourceMeshes,
-    name_pieces,
-    names_to_keep,
-    new_hulls,
-)
-from meshforge.formats.mesh_output import HullFiles
+from meshforge.formats import collision_pieces, mesh_output
 from meshforge.formats.xml import (
     Element,
     Splice,
@@ -75,9 +68,9 @@ class ElementMaker(ABC):
 
     data: bytes
     line_end: bytes
-    files: HullFiles
+    files: mesh_output.HullFiles
     folder: str = ""
-    meshes: SourceMeshes | None = None
+    meshes: collision_pieces.SourceMeshes | None = None
     notes: list[str] = field(default_factory=list)
 
     @property
@@ -126,7 +119,7 @@ class ElementPlan:
     def __init__(
         self,
         asset: Asset,
-        authored: Sequence[CollisionElement],
+        authored: Sequence[collision_pieces.CollisionElement],
         elements: Sequence[Element],
         links: Mapping[str, Element],
         maker: ElementMaker,
@@ -138,7 +131,7 @@ class ElementPlan:
         self._elements = elements
         self._poses = asset.body_poses
         self._place_authored()
-        for geom in new_hulls(asset, self._owner):
+        for geom in collision_pieces.new_hulls(asset, self._owner):
             refuse_unknown_link(geom, links, str(asset.path))
             self._place_made(geom)
 
@@ -161,7 +154,7 @@ class ElementPlan:
         return edits + [append_elements(data, self.links[link], slots) for link, slots in self.ends.items()]
 
     def _place_authored(self) -> None:
-        kept = names_to_keep(self.asset)
+        kept = collision_pieces.names_to_keep(self.asset)
         for element, authored in zip(self._elements, self.authored, strict=True):
             staying = {k: name for k, name in enumerate(authored.names) if name in kept}
             if len(staying) == len(authored.names):
@@ -259,14 +252,16 @@ def name_element_pieces(elements: Sequence[tuple[str | None, str | None, int]]) 
         own = name or f"geom{count.get(link, 0)}"
         bases.append(own if link is None else f"{link}/{own}")
         count[link] = count.get(link, 0) + 1
-    return name_pieces(zip(unique_names(bases), (pieces for _, _, pieces in elements), strict=True))
+    return collision_pieces.name_pieces(zip(unique_names(bases), (pieces for _, _, pieces in elements), strict=True))
 
 
-def name_elements(found: Iterable[tuple[str, Element]], pieces: Iterable[int]) -> tuple[CollisionElement, ...]:
+def name_elements(
+    found: Iterable[tuple[str, Element]], pieces: Iterable[int]
+) -> tuple[collision_pieces.CollisionElement, ...]:
     """Collisions with the names of their pieces; found: of each its link and its element; pieces: how many it has."""
     own = [(link, e.attributes.get("name"), count) for (link, e), count in zip(found, pieces, strict=True)]
     named = zip(own, name_element_pieces(own), strict=True)
-    return tuple(CollisionElement(link, names) for (link, _, _), names in named)
+    return tuple(collision_pieces.CollisionElement(link, names) for (link, _, _), names in named)
 
 
 def assign_names(slots: Sequence[Slot]) -> dict[str, str]:

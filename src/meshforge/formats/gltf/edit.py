@@ -9,6 +9,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from meshforge.common import AssetError, pluralize
+from meshforge.formats import references, slots
 from meshforge.formats.base import Output, note_renames
 from meshforge.formats.collision_pieces import names_to_keep, new_hulls, refuse_changed_files
 from meshforge.formats.gltf.colliders import collision_name_of
@@ -18,10 +19,7 @@ from meshforge.formats.gltf.edit_physics import PhysicsStyle
 from meshforge.formats.gltf.edit_styles import EditStyle, GodotStyle, PlainStyle, UnityStyle, UnrealStyle
 from meshforge.formats.gltf.output import pack_scene, prepare_base
 from meshforge.formats.gltf.physics import body_nodes
-from meshforge.formats.meshfile.gltf_document import report_damage
-from meshforge.formats.meshfile.gltf_scene import GltfScene
-from meshforge.formats.references import find_companions
-from meshforge.formats.slots import name_element_pieces
+from meshforge.formats.meshfile import gltf_document, gltf_scene
 from meshforge.symbolic import Asset, Geom
 
 
@@ -32,10 +30,10 @@ def write_gltf(asset: Asset, document: GltfDocument, name: str) -> Output:
     """
     kept, known = names_to_keep(asset), {piece for element in document.authored for piece in element.names}
     made = new_hulls(asset, known)
-    with report_damage(str(asset.path)):
-        scene = GltfScene.of(document.source, asset.path)
+    with gltf_document.report_damage(str(asset.path)):
+        scene = gltf_scene.GltfScene.of(document.source, asset.path)
         if known <= kept and not made and Path(name).suffix.lower() == asset.path.suffix.lower():
-            return Output(document.source, copies=find_companions(asset.path))
+            return Output(document.source, copies=references.find_companions(asset.path))
         refuse_changed_files(document.digests, str(asset.path), "the buffer ")
         base = prepare_base(document.source, scene, name)
         if known <= kept and not made:
@@ -128,7 +126,7 @@ def assign_names(draft: SceneDraft, document: GltfDocument, *, renames: bool) ->
 
 def _find_misread(draft: SceneDraft, document: GltfDocument) -> dict[int, tuple[str | None, tuple[str, ...]]]:
     """The nodes whose pieces would read back under other names, with their body, and these names."""
-    scene = GltfScene(draft.tree, None, draft.scene.path)
+    scene = gltf_scene.GltfScene(draft.tree, None, draft.scene.path)
     owners, names = body_nodes(scene), dict(document.bodies)
     order = [node for node in scene.placements if node in draft.expected]
     bodies = [(names[owners[node]] if node in owners else BODY) if names else None for node in order]
@@ -138,7 +136,7 @@ def _find_misread(draft: SceneDraft, document: GltfDocument) -> dict[int, tuple[
     ]
     return {
         node: (body, read)
-        for node, body, read in zip(order, bodies, name_element_pieces(sources), strict=True)
+        for node, body, read in zip(order, bodies, slots.name_element_pieces(sources), strict=True)
         if read != draft.expected[node]
     }
 

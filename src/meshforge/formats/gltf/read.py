@@ -10,17 +10,15 @@ from urllib.parse import unquote
 import numpy as np
 
 from meshforge.common import AssetError, MeshForgeError, file_digest, pluralize
+from meshforge.formats import mesh_reader, references, slots
 from meshforge.formats.collision_pieces import CollisionElement, drop_repeats, geoms_of, opaque_of, place_surface
 from meshforge.formats.engine_names.conventions import godot_kind, unreal_kind
 from meshforge.formats.gltf.colliders import CollisionReader, NodeCollision, convention_of, nodes_below_colliders
 from meshforge.formats.gltf.document import BODY, Convention, GltfDocument, NodeRecord
 from meshforge.formats.gltf.physics import body_nodes, is_trigger, read_inertial, rigid_pose_of
-from meshforge.formats.mesh_reader import read_content
 from meshforge.formats.meshfile.gltf_document import Json, entries, entry, report_damage
 from meshforge.formats.meshfile.gltf_meshes import GltfMesh
 from meshforge.formats.meshfile.gltf_scene import GltfScene
-from meshforge.formats.references import find_companions
-from meshforge.formats.slots import name_element_pieces
 from meshforge.formats.visuals import GAMMA, LazySurfaces, Rgba
 from meshforge.geometry import Pose
 from meshforge.symbolic import Asset, Body, Geom, Inertial, Mechanism, Mentions, Surface, unique_names
@@ -45,7 +43,7 @@ def read_gltf(path: Path) -> Asset:
 
     Raises AssetError: damaged, compressed in a way that is not read, a buffer is missing, or there is nothing in it.
     """
-    source = read_content(path)
+    source = mesh_reader.read_content(path)
     with report_damage(str(path)):
         scene = GltfScene.of(source, path)
         reader = CollisionReader(scene)
@@ -102,7 +100,7 @@ def record_nodes(sources: Sequence[NodeCollision], bodies: Mapping[int, tuple[in
     ]
     return tuple(
         NodeRecord(source.node, body, names, source.owner)
-        for source, body, names in zip(sources, own, name_element_pieces(named), strict=True)
+        for source, body, names in zip(sources, own, slots.name_element_pieces(named), strict=True)
     )
 
 
@@ -128,7 +126,7 @@ def _read_masses(scene: GltfScene, bodies: Mapping[int, tuple[int, str]], geoms:
 
 def _find_files(scene: GltfScene, path: Path) -> tuple[tuple[Path, ...], tuple[str, ...]]:
     """The files beside it that are there, and the references that lead nowhere."""
-    found = find_companions(path)
+    found = references.find_companions(path)
     uris = [e.get("uri") for key in ("buffers", "images") for e in entries(scene.tree, key) if isinstance(e, dict)]
     named = [uri for uri in uris if isinstance(uri, str) and not uri.startswith("data:")]
     there = {(path.parent / key).resolve() for key in found}

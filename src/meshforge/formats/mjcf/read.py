@@ -11,11 +11,10 @@ import numpy as np
 
 from meshforge.common import AssetError, MeshForgeError, join_names, plain_path, pluralize
 from meshforge.formats.mesh_reader import READABLE_MESH_SUFFIXES, read_content
+from meshforge.formats.mjcf import reduce, references
 from meshforge.formats.mjcf.document import MjcfDocument, MjcfNode, MjcfTree, read_tree
 from meshforge.formats.mjcf.engine import EngineModel, FlatText, compile_text, flatten
 from meshforge.formats.mjcf.model import MjcfModel, read_mechanism
-from meshforge.formats.mjcf.reduce import reduce_model
-from meshforge.formats.mjcf.references import AssetFolders, find_files
 from meshforge.formats.mjcf.shapes import MjcfShapes, mesh_frame, mesh_surface
 from meshforge.formats.visuals import Rgba, Visual, VisualSurfaces
 from meshforge.formats.xml import Element, XmlText, parse_xml
@@ -51,7 +50,7 @@ def read_mjcf(path: Path) -> Asset:
     flat, made, stand_ins, refusal = _compile_or_reduce(tree)
     reading = MjcfModel(tree, flat, made)
     geoms, opaque = reading.read_pieces()
-    files, missing = find_files(tree)
+    files, missing = references.find_files(tree)
     return Asset(
         path=path,
         format="mjcf",
@@ -73,7 +72,7 @@ def _compile_or_reduce(tree: MjcfTree) -> tuple[FlatText, EngineModel, frozenset
     try:
         made = compile_text(tree, flat)
     except AssetError as error:
-        part = reduce_model(tree, error)
+        part = reduce.reduce_model(tree, error)
         return part.flat, part.made, part.stand_ins, _describe_refusal(error)
     return flat, made, frozenset(), ""
 
@@ -204,7 +203,7 @@ class _Visuals:
         self.reading, self.model = reading, reading.model
         self.shapes = MjcfShapes(reading.model)
         self.meshes = {mesh.id: mesh for mesh in spec.meshes}
-        self.folders = AssetFolders.of(reading.tree)
+        self.folders = references.AssetFolders.of(reading.tree)
         self.field = mujoco.mjtGeom.mjGEOM_HFIELD
 
     def of(self, k: int) -> Visual | None:

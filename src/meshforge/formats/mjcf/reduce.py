@@ -8,7 +8,7 @@ from math import isnan
 from typing import TYPE_CHECKING, Literal
 
 from meshforge.common import AssetError, is_file
-from meshforge.formats.mesh_reader import read_content
+from meshforge.formats import mesh_reader, references
 from meshforge.formats.mjcf.document import MjcfNode, MjcfTree
 from meshforge.formats.mjcf.engine import (
     EngineModel,
@@ -21,7 +21,6 @@ from meshforge.formats.mjcf.engine import (
 )
 from meshforge.formats.mjcf.model import MjcfModel
 from meshforge.formats.mjcf.references import AssetFolders
-from meshforge.formats.references import Resolver
 
 if TYPE_CHECKING:
     import mujoco
@@ -144,7 +143,7 @@ def _refuse_missing(tree: MjcfTree, flat: FlatText, spec: mujoco.MjSpec) -> None
         raise AssetError(
             f"the mesh {mesh.attributes['file']!r} of {called} of body {first.parent.name!r} is not there{others}",
             where=tree.where(mesh),
-            remedy=Resolver(tree.main.path.parent).advice(str(AssetFolders.of(tree).find(tree, mesh))),
+            remedy=references.Resolver(tree.main.path.parent).advice(str(AssetFolders.of(tree).find(tree, mesh))),
         )
 
 
@@ -156,7 +155,7 @@ def _refuse_lookalikes(tree: MjcfTree, flat: FlatText, spec: mujoco.MjSpec) -> N
         node = nodes.get(name)
         path = folders.find(tree, node) if node is not None and node.attributes.get("file") else None
         if path is not None and is_file(path):
-            read_content(path)
+            mesh_reader.read_content(path)
 
 
 def _find_missing_meshes(tree: MjcfTree, flat: FlatText, spec: mujoco.MjSpec) -> dict[str, MjcfNode]:

@@ -9,12 +9,10 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from meshforge.common import AssetError, join_names
+from meshforge.formats import collision_pieces, mesh_output
 from meshforge.formats.base import Mass, Output
-from meshforge.formats.collision_pieces import SourceMeshes
-from meshforge.formats.mesh_output import HullFiles
 from meshforge.formats.references import add_copy, note_absolute
-from meshforge.formats.sdf import document, elements
-from meshforge.formats.sdf.shapes import read_submesh, select_submesh
+from meshforge.formats.sdf import document, elements, shapes
 from meshforge.formats.slots import (
     ElementMaker,
     ElementPlan,
@@ -54,7 +52,7 @@ class _FileEdits:
 
     def __init__(self, asset: Asset, origin: document.SdfDocument, stem: str) -> None:
         self.asset, self.document, self.stem = asset, origin, stem
-        self.kept = SourceMeshes(origin.digests, str(asset.path), select_submesh)
+        self.kept = collision_pieces.SourceMeshes(origin.digests, str(asset.path), shapes.select_submesh)
         self.taken: set[str] = set()
         self.plans: list[ElementPlan] = []
         self.makers: list[SdfElementMaker] = []
@@ -93,7 +91,7 @@ class _FileEdits:
         at = {element.start: element for element in root.walk()}
         own = [k for k, place in enumerate(self.document.at) if place.source == number]
         links = {body: at[place.start] for body, place in self.document.links.items() if place.source == number}
-        files = HullFiles(self.stem, source.resolver, self.taken)
+        files = mesh_output.HullFiles(self.stem, source.resolver, self.taken)
         files.avoid(document.references(root))
         folder = _first_mesh_folder(root, files)
         maker = SdfElementMaker(data, newline_of(data), files, folder, self.kept, version=version)
@@ -114,7 +112,7 @@ class _FileEdits:
             raise AssetError(problem, where=where, remedy=f"Edit {source.path} itself.")
 
 
-def _first_mesh_folder(root: Element, files: HullFiles) -> str:
+def _first_mesh_folder(root: Element, files: mesh_output.HullFiles) -> str:
     """The folder of the first collision mesh, as its reference has it, where hulls of no mesh's kin go."""
     kinds = (document.geometry_of(element) for element in root.walk() if element.tag == "collision")
     return files.folder_of(
@@ -154,7 +152,7 @@ class SdfElementMaker(ElementMaker):
     def extract_piece(self, element: Element, name: str, k: int) -> tuple[Splice, ...]:
         mesh = document.geometry_of(element)
         assert mesh is not None  # only meshes have several pieces
-        _, made = self.make_piece(document.mesh_uri(mesh), read_submesh(mesh), name, k)
+        _, made = self.make_piece(document.mesh_uri(mesh), shapes.read_submesh(mesh), name, k)
         return elements.replace_mesh_file(self.data, mesh, made)
 
     def _fit_lines(self, kind: Sequence[bytes], template: Element) -> Sequence[bytes]:

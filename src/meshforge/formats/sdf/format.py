@@ -9,17 +9,12 @@ from pathlib import Path
 import numpy as np
 
 from meshforge.common import AssetError, join_names, pluralize
-from meshforge.formats import base, kinematic_tree
+from meshforge.formats import base, kinematic_tree, link_output, mesh_output, xml
 from meshforge.formats.base import Loss, Output
-from meshforge.formats.link_output import LinkCreator
-from meshforge.formats.mesh_output import HullFiles
-from meshforge.formats.sdf import elements
+from meshforge.formats.sdf import edit, elements, read
 from meshforge.formats.sdf.document import CONFIG, SdfDocument, is_main_file, parse_root
-from meshforge.formats.sdf.edit import SdfElementMaker, write_sdf
 from meshforge.formats.sdf.frames import WORLD, is_true
-from meshforge.formats.sdf.read import read_sdf
 from meshforge.formats.slots import Slot, assign_names, name_attribute_of
-from meshforge.formats.xml import Element, escape
 from meshforge.geometry import Pose
 from meshforge.symbolic import Asset, Feature, FeatureKind, Opaque
 
@@ -39,7 +34,7 @@ def create_sdf(asset: Asset, name: str) -> Output:
     return _Creator(asset, name).build_output()
 
 
-class _Creator(LinkCreator):
+class _Creator(link_output.LinkCreator):
     native = elements.SdfShape
     rules = kinematic_tree.JointRules(("fixed", "revolute", "prismatic", "ball", "floating"), world=True)
     visual_suffixes = VISUAL_SUFFIXES
@@ -48,7 +43,7 @@ class _Creator(LinkCreator):
     def __init__(self, asset: Asset, name: str) -> None:
         self.name, stem = name, Path(name).stem
         self.model = asset.path.stem if name == _MAIN else stem
-        super().__init__(asset, SdfElementMaker(b"", b"\n", HullFiles(stem), version=_VERSION))
+        super().__init__(asset, edit.SdfElementMaker(b"", b"\n", mesh_output.HullFiles(stem), version=_VERSION))
         self.renamed: dict[str, str] = {}
         for link, own in self.slots.items():
             for slot in own:
@@ -129,7 +124,7 @@ class _Creator(LinkCreator):
         """The `model.config` that makes the folder a Gazebo model."""
         version = ".".join(map(str, _VERSION)).encode()
         lines = elements.nest(
-            "model", elements.leaf("name", self.model), b'<sdf version="%s">%s</sdf>' % (version, escape(self.name))
+            "model", elements.leaf("name", self.model), b'<sdf version="%s">%s</sdf>' % (version, xml.escape(self.name))
         )
         return b"\n".join([b'<?xml version="1.0"?>', *lines, b""])
 
@@ -190,12 +185,12 @@ class SdfFormat(base.Format):
         return is_main_file(path)
 
     def read(self, path: Path, options: base.ReadOptions) -> Asset:
-        return read_sdf(path, options)
+        return read.read_sdf(path, options)
 
     def write(self, asset: Asset, name: str, mass: base.Mass = "keep") -> base.Output:
         if not isinstance(asset.document, SdfDocument):
             raise AssetError("this asset was not read from an SDF", where=str(asset.path))
-        return write_sdf(asset, asset.document, name, mass)
+        return edit.write_sdf(asset, asset.document, name, mass)
 
     def create(self, asset: Asset, name: str) -> base.Output:
         return create_sdf(asset, name)
@@ -225,12 +220,12 @@ def features_of(document: SdfDocument) -> Iterator[Feature]:
     yield Feature(FeatureKind.COMMENTS, unnamed=sum(source.text.data.count(b"<!--") for source in document.sources))
 
 
-def _has_springs(axis: Element) -> bool:
+def _has_springs(axis: xml.Element) -> bool:
     dynamics = axis.first("dynamics")
     return dynamics is not None and any(
         child.tag in _SPRINGS and child.text not in ("", "0") for child in dynamics.children
     )
 
 
-def _feature_of(what: FeatureKind, elements: Iterable[Element]) -> Feature:
+def _feature_of(what: FeatureKind, elements: Iterable[xml.Element]) -> Feature:
     return base.feature_of(what, (element.attributes.get("name", "") for element in elements))

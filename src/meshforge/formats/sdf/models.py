@@ -9,8 +9,7 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from meshforge.common import AssetError
-from meshforge.formats.mesh_reader import read_content
-from meshforge.formats.references import is_address
+from meshforge.formats import mesh_reader, references
 from meshforge.formats.sdf.document import RELATIVE_TO, ModelResolver, SdfSource, Version, parse_root
 from meshforge.formats.sdf.frames import MODEL, WORLD, FramePlaces, ModelScope, SdfFrame, is_true, pose_of, text_of
 from meshforge.formats.xml import Element, XmlText
@@ -87,7 +86,7 @@ class _Composer:
             number = self.files[path].number
             self.sources[number] = replace(self.sources[number], count=self.sources[number].count + 1)
             return self.files[path]
-        raw = read_content(path)
+        raw = mesh_reader.read_content(path)
         root, version = parse_root(XmlText.of(raw).data, str(path))
         self.sources.append(SdfSource(path, place, reference, raw, ModelResolver(path.parent, self.roots)))
         self.files[path] = _File(len(self.sources) - 1, root, version)
@@ -153,7 +152,7 @@ class _Composer:
         if not uri:
             raise AssetError("this <include> names no model: it has no <uri>", where=where)
         outer = self.sources[around.source]
-        path = None if is_address(uri) else outer.resolver.find_model_file(uri)
+        path = None if references.is_address(uri) else outer.resolver.find_model_file(uri)
         if path is None:
             problem = f"the included model {uri!r} is not there"
             raise AssetError(problem, where=where, remedy=outer.resolver.advise_on_model(uri))

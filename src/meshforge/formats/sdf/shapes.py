@@ -10,9 +10,8 @@ import numpy as np
 from meshforge.common import AssetError, GeometryError, join_names
 from meshforge.formats.collision_pieces import CollisionMeshes, CollisionPiece, MeshUse, place_pieces, turn_z_to
 from meshforge.formats.meshfile.surface import RawSurface
-from meshforge.formats.sdf.document import geometry_of
+from meshforge.formats.sdf import document, models
 from meshforge.formats.sdf.frames import is_true, read_floats, read_values, text_of
-from meshforge.formats.sdf.models import SdfCollision
 from meshforge.formats.xml import Element, format_numbers
 from meshforge.geometry import Box, Capsule, Cylinder, Ellipsoid, Floats, Pose, Shape, Sphere, convex_hull
 
@@ -152,9 +151,9 @@ def hull_of(surfaces: Sequence[RawSurface], linear: Floats, offset: Floats) -> C
         return CollisionPiece(None, error.problem)
 
 
-def read_parts(collision: SdfCollision, use: MeshUse | None, meshes: CollisionMeshes) -> list[CollisionPiece]:
+def read_parts(collision: models.SdfCollision, use: MeshUse | None, meshes: CollisionMeshes) -> list[CollisionPiece]:
     """The pieces of a collision, in the root frame; none where it has no geometry."""
-    kind, pose, where = geometry_of(collision.element), collision.pose, collision.link.where
+    kind, pose, where = document.geometry_of(collision.element), collision.pose, collision.link.where
     if kind is None:
         return []
     if use is not None:

@@ -8,10 +8,8 @@ from typing import assert_never
 
 import numpy as np
 
-from meshforge.formats.base import Output
-from meshforge.formats.collision_pieces import SourceMeshes, is_flat
+from meshforge.formats import base, collision_pieces, mesh_output
 from meshforge.formats.kinematic_tree import LinkJoint, drop_rounding, name_moments, place_inertial
-from meshforge.formats.mesh_output import HullFiles, LinkVisual
 from meshforge.formats.references import Resolver, add_copy, note_absolute, placement
 from meshforge.formats.slots import ElementMaker, ElementPlan, Slot, assign_names
 from meshforge.formats.urdf.document import UrdfDocument, collisions, geometry_of, parse_robot, references
@@ -130,7 +128,7 @@ def inertial_lines(inertial: Inertial, root_t_link: Pose) -> list[bytes]:
     ]
 
 
-def visual_lines(visual: LinkVisual, reference: str | None = None) -> list[bytes]:
+def visual_lines(visual: mesh_output.LinkVisual, reference: str | None = None) -> list[bytes]:
     """The lines of a `<visual>`; reference: the mesh file of a shape that URDF lacks."""
     if isinstance(visual.what, Box | Cylinder | Sphere):
         pose, tag = visual.what.pose, native_tag(visual.what)
@@ -151,16 +149,16 @@ def _text_of(*values: float) -> bytes:
     return format_numbers(values).encode()
 
 
-def write_urdf(asset: Asset, document: UrdfDocument, name: str) -> Output:
+def write_urdf(asset: Asset, document: UrdfDocument, name: str) -> base.Output:
     """The files of an asset that was read from a URDF; without an edit, its own bytes.
 
     Raises AssetError: a hull on a link that is not there, or a mesh file that changed since the asset was read.
     """
     text = XmlText.of(document.source)
     robot = parse_robot(text.data, str(asset.path))
-    files = HullFiles(Path(name).stem, document.resolver)
+    files = mesh_output.HullFiles(Path(name).stem, document.resolver)
     files.avoid(references(robot))
-    meshes = SourceMeshes(document.digests, str(asset.path))
+    meshes = collision_pieces.SourceMeshes(document.digests, str(asset.path))
     maker = UrdfElementMaker(text.data, newline_of(text.data), files, files.folder_of(_find_first_mesh(robot)), meshes)
     links = {link.attributes["name"]: link for link in robot.each("link")}
     plan = ElementPlan(asset, document.authored, [element for _, element in collisions(robot)], links, maker)
@@ -168,7 +166,7 @@ def write_urdf(asset: Asset, document: UrdfDocument, name: str) -> Output:
     data = apply_splices(text.data, plan.splices)
     main = document.source if data == text.data else text.encode(data)
     copies, far = _list_copies(parse_robot(data, str(asset.path)), document.resolver)
-    return Output(main, dict(files.made), copies, (*maker.notes, *far), names)
+    return base.Output(main, dict(files.made), copies, (*maker.notes, *far), names)
 
 
 def _find_first_mesh(robot: Element) -> str | None:
@@ -220,6 +218,6 @@ class UrdfElementMaker(ElementMaker):
         mesh = geometry_of(element)
         assert mesh is not None  # only meshes have several pieces
         piece, made = self.make_piece(mesh.attributes["filename"], (), name, k)
-        if piece.shape is None and is_flat(piece.vertices):
+        if piece.shape is None and collision_pieces.is_flat(piece.vertices):
             self.notes.append(f"flat piece {name!r} stays, now in a file of its own, which MuJoCo refuses")
         return (set_attribute(self.data, mesh, "filename", made),)

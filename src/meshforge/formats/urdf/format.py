@@ -10,16 +10,12 @@ from typing import ClassVar
 import numpy as np
 
 from meshforge.common import AssetError, join_names, pluralize
+from meshforge.formats import collision_pieces, link_output, mesh_output
 from meshforge.formats.base import BODY_FEATURES, Format, Loss, Mass, Output, ReadOptions, feature_of_tags
-from meshforge.formats.collision_pieces import is_flat
 from meshforge.formats.kinematic_tree import LIGHT_INERTIAL, JointRules
-from meshforge.formats.link_output import LinkCreator
-from meshforge.formats.mesh_output import HullFiles
 from meshforge.formats.slots import Slot, assign_names
-from meshforge.formats.urdf import edit
+from meshforge.formats.urdf import edit, read
 from meshforge.formats.urdf.document import UrdfDocument, parse_robot
-from meshforge.formats.urdf.edit import write_urdf
-from meshforge.formats.urdf.read import read_urdf
 from meshforge.formats.xml import Element, XmlText, escape
 from meshforge.geometry import Pose
 from meshforge.symbolic import Asset, Feature, FeatureKind, Opaque
@@ -34,10 +30,10 @@ def create_urdf(asset: Asset, name: str) -> Output:
     Bodies become links, each with its frame on the joint that leads to it, so that at zero all is where it was; hulls
     become native shapes or mesh files, non-convex pieces meshes as they are.
     """
-    return _Creator(asset, edit.UrdfElementMaker(b"", b"\n", HullFiles(Path(name).stem))).build_output()
+    return _Creator(asset, edit.UrdfElementMaker(b"", b"\n", mesh_output.HullFiles(Path(name).stem))).build_output()
 
 
-class _Creator(LinkCreator):
+class _Creator(link_output.LinkCreator):
     native = edit.UrdfShape
     rules = JointRules(("fixed", "revolute", "prismatic", "floating", "planar"))
     visual_suffixes = VISUAL_SUFFIXES
@@ -58,7 +54,7 @@ class _Creator(LinkCreator):
         surface = piece.surface
         if surface is None or piece.plane is not None:
             return []
-        if not len(surface.faces) or is_flat(surface.vertices):
+        if not len(surface.faces) or collision_pieces.is_flat(surface.vertices):
             self.lost.append(Loss(FeatureKind.OPAQUE, (piece.name,), "engines refuse a mesh that is flat"))
             return []
         vertices = root_t_link.inverse().apply(np.asarray(surface.vertices))
@@ -124,12 +120,12 @@ class UrdfFormat(Format):
     shown_files = VISUAL_SUFFIXES
 
     def read(self, path: Path, options: ReadOptions) -> Asset:
-        return read_urdf(path, options)
+        return read.read_urdf(path, options)
 
     def write(self, asset: Asset, name: str, mass: Mass = "keep") -> Output:
         if not isinstance(asset.document, UrdfDocument):
             raise AssetError("this asset was not read from a URDF", where=str(asset.path))
-        return write_urdf(asset, asset.document, name)
+        return edit.write_urdf(asset, asset.document, name)
 
     def create(self, asset: Asset, name: str) -> Output:
         return create_urdf(asset, name)

@@ -11,11 +11,8 @@ from pathlib import Path
 import numpy as np
 
 from meshforge.common import AssetError, MeshForgeError, join_names, plain_path, pluralize
-from meshforge.formats import collision_pieces
-from meshforge.formats.base import ReadOptions
-from meshforge.formats.mesh_reader import read_content
+from meshforge.formats import base, collision_pieces, mesh_reader, slots
 from meshforge.formats.references import Resolver, find_companions
-from meshforge.formats.slots import name_elements
 from meshforge.formats.urdf import document
 from meshforge.formats.urdf.document import UrdfLinks, read_links, read_mechanism
 from meshforge.formats.visuals import Rgba, Visual, VisualSurfaces
@@ -97,14 +94,14 @@ def read_parts(
 LinkCollisions = Sequence[tuple[str, Element]]  # of each `<collision>` the name of its link, and the element
 
 
-def read_urdf(path: Path, options: ReadOptions) -> Asset:
+def read_urdf(path: Path, options: base.ReadOptions) -> Asset:
     """The asset in a URDF file, its collision meshes included.
 
     Raises AssetError naming file, line, link and element: text that is not understood, links and joints that make no
     tree, a collision mesh that is not there.
     """
     where = str(path)
-    source = read_content(path)
+    source = mesh_reader.read_content(path)
     robot = document.parse_robot(XmlText.of(source).data, where)
     links = read_links(robot, where)
     resolver = Resolver(plain_path(path).parent, tuple(map(plain_path, options.package_roots)))
@@ -113,7 +110,7 @@ def read_urdf(path: Path, options: ReadOptions) -> Asset:
     uses = _mesh_uses(found, resolver, where)
     collision_pieces.refuse_missing(use for use in uses if use)
     parts = read_parts(found, uses, links, meshes, where)
-    authored = name_elements(found, [len(own) for own in parts])
+    authored = slots.name_elements(found, [len(own) for own in parts])
     mentions = _collect_mentions(found, links, [meshes.groups(use) for use in uses], parts)
     files, missing = _find_files(robot, resolver)
     return Asset(
@@ -134,7 +131,7 @@ def read_urdf(path: Path, options: ReadOptions) -> Asset:
 def _mesh_uses(found: LinkCollisions, resolver: Resolver, where: str) -> list[collision_pieces.MeshUse | None]:
     """The mesh file of each collision element, None where it has another geometry or none."""
     uses: list[collision_pieces.MeshUse | None] = []
-    for element, (_, collision) in zip(name_elements(found, [1] * len(found)), found, strict=True):
+    for element, (_, collision) in zip(slots.name_elements(found, [1] * len(found)), found, strict=True):
         kind = document.geometry_of(collision)
         is_mesh = kind is not None and kind.tag == "mesh"
         reference = kind.attributes.get("filename", "").strip() if kind else ""

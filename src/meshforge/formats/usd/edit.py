@@ -13,11 +13,8 @@ import numpy as np
 from meshforge.common import AssetError
 from meshforge.formats import collision_pieces
 from meshforge.formats.base import Mass, Output, note_renames
-from meshforge.formats.usd.colliders import StageBodies, physics_material
-from meshforge.formats.usd.edit_stage import UsdEdit
-from meshforge.formats.usd.layer_text import has_comments, patch_layer
+from meshforge.formats.usd import colliders, edit_stage, layer_text, prims
 from meshforge.formats.usd.mechanism import centre_of, moments_of, read_number
-from meshforge.formats.usd.prims import PrimSpace, write_mass
 from meshforge.formats.usd.read import PrimCollision, read_collisions
 from meshforge.formats.usd.stage import (
     UsdDocument,
@@ -58,9 +55,9 @@ def write_usd(asset: Asset, document: UsdDocument, name: str, mass: Mass) -> Out
         layer.TransferContent(scene.stage.GetRootLayer())
         notes, names = list(far), dict[str, str]()
         if edited:
-            bodies = StageBodies(scene, document.physics)
+            bodies = colliders.StageBodies(scene, document.physics)
             sources = list(read_collisions(scene, bodies, document.physics, []))
-            edit = UsdEdit(scene, bodies, document, layer)
+            edit = edit_stage.UsdEdit(scene, bodies, document, layer)
             edit.run(asset, sources)
             if mass == "keep":
                 notes += keep_masses(edit, sources)
@@ -77,7 +74,7 @@ def _layer_text(layer: Any, original: Any, source: bytes, notes: list[str]) -> b
     if is_crate(source):
         return bytes(after.encode())
     text = source.decode("utf-8", "replace")
-    made = patch_layer(text, original.ExportToString(), after)
+    made = layer_text.patch_layer(text, original.ExportToString(), after)
     if made is not None and "\ufffd" not in text:
         check = Sdf.Layer.CreateAnonymous(".usda")
         try:
@@ -85,7 +82,7 @@ def _layer_text(layer: Any, original: Any, source: bytes, notes: list[str]) -> b
                 return made.encode()
         except Tf.ErrorException:
             pass
-    if has_comments(text):
+    if layer_text.has_comments(text):
         notes.append("comments in its text are not kept")
     return bytes(after.encode())
 
@@ -160,7 +157,7 @@ def _refuse_changed(asset: Asset, document: UsdDocument) -> None:
         raise collision_pieces.change_error(asset.path.name, str(asset.path))
 
 
-def keep_masses(edit: UsdEdit, sources: Sequence[PrimCollision]) -> list[str]:
+def keep_masses(edit: edit_stage.UsdEdit, sources: Sequence[PrimCollision]) -> list[str]:
     """Author the masses of the bodies that an edit changed, where they came from colliders; notes on those unknown."""
     from pxr import Sdf  # lazy: an optional package, and 0.3 s
 
@@ -173,8 +170,8 @@ def keep_masses(edit: UsdEdit, sources: Sequence[PrimCollision]) -> list[str]:
         if found is None:
             notes.append(f"the mass of {name!r} is left to its colliders: of one of them the volume is not known")
         else:
-            spec, space = Sdf.CreatePrimInLayer(edit.layer, path), PrimSpace(*edit.scene.placement(prim))
-            write_mass(spec, found, space, edit.scene.metres, edit.scene.kilograms)
+            spec, space = Sdf.CreatePrimInLayer(edit.layer, path), prims.PrimSpace(*edit.scene.placement(prim))
+            prims.write_mass(spec, found, space, edit.scene.metres, edit.scene.kilograms)
     return notes
 
 
@@ -224,7 +221,7 @@ def _mass_of(scene: UsdStage, body: Any, source: PrimCollision, shapes: Sequence
     own = read_number(scene, source.prim, "physics:mass") if source.prim != body else None
     if own is not None and own > 0:
         return own * scene.kilograms
-    material = physics_material(source.prim)
+    material = colliders.physics_material(source.prim)
     for prim in (source.prim, body, *([material] if material else [])):
         density = read_number(scene, prim, "physics:density")
         if density is not None and density > 0:

@@ -10,10 +10,8 @@ from typing import Any
 import numpy as np
 
 from meshforge.common import AssetError, GeometryError, MeshForgeError, file_digest, is_file, join_names, pluralize
-from meshforge.formats import collision_pieces
-from meshforge.formats.mesh_reader import read_content
-from meshforge.formats.usd import colliders
-from meshforge.formats.usd.guard import refuse_harmful_layers
+from meshforge.formats import collision_pieces, mesh_reader
+from meshforge.formats.usd import colliders, guard
 from meshforge.formats.usd.mechanism import read_mechanism
 from meshforge.formats.usd.shapes import read_instances, read_mesh, read_parts
 from meshforge.formats.usd.stage import PrimRecord, UsdDocument, UsdStage, usd
@@ -43,9 +41,9 @@ def read_usd(path: Path) -> Asset:
 
     Raises AssetError: damaged, more than memory holds, or there is nothing in it.
     """
-    source = read_content(path)
+    source = mesh_reader.read_content(path)
     with usd(str(path)) as complaints:
-        refuse_harmful_layers(path, source)
+        guard.refuse_harmful_layers(path, source)
         scene = UsdStage.open(path)
         asset = _build_asset(scene, source)
     with usd(str(path)):  # which complains about missing files once more
