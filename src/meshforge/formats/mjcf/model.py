@@ -5,19 +5,16 @@ from __future__ import annotations
 
 from collections.abc import Hashable, Sequence
 from functools import cached_property
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from meshforge.formats.collision_pieces import ShapeNames, collect_mentions
+from meshforge.formats.lazy import mujoco
 from meshforge.formats.mjcf.document import GeomRecord, MjcfBody, MjcfTree, body_names, geom_names
 from meshforge.formats.mjcf.engine import EngineModel, FlatText
 from meshforge.formats.mjcf.shapes import MjcfShapes, body_poses, geom_poses
 from meshforge.geometry import Pose, rotation_of_quaternion
 from meshforge.symbolic import Geom, Inertial, Joint, JointKind, Mechanism, Mentions, Opaque
-
-if TYPE_CHECKING:
-    import mujoco
 
 _INSIDE = {
     "replicate": "it is inside a <replicate>, which makes several geoms of one element",
@@ -57,8 +54,6 @@ class MjcfModel:
 
     def read_pieces(self) -> tuple[tuple[Geom, ...], tuple[Opaque, ...]]:
         """The hulls, and the collision geometry that is none."""
-        import mujoco  # lazy: 0.2 s, only MJCF needs it
-
         geoms, opaque = [], []
         shapes, mentions = MjcfShapes(self.model), GeomMentions(self.spec_geoms, self.body_of, self.collides)
         for k, (name, body, pose) in enumerate(zip(self.names, self.body_of, self.geom_poses, strict=True)):

@@ -5,11 +5,11 @@ from __future__ import annotations
 
 import math
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from meshforge.common import AssetError, MeshForgeError, join_names, plain_path, pluralize
+from meshforge.formats.lazy import mujoco
 from meshforge.formats.mesh_reader import READABLE_MESH_SUFFIXES, read_content
 from meshforge.formats.mjcf import reduce, references
 from meshforge.formats.mjcf.document import MjcfDocument, MjcfNode, MjcfTree, read_tree
@@ -20,9 +20,6 @@ from meshforge.formats.visuals import Rgba, Visual, VisualSurfaces
 from meshforge.formats.xml import Element, XmlText, parse_xml
 from meshforge.geometry import Polytope, rotation_of_quaternion
 from meshforge.symbolic import Asset, Body
-
-if TYPE_CHECKING:
-    import mujoco
 
 _LEVELS = 3  # folders above a fragment in which a file that includes it may lie
 _MOST_FILES, _MOST_BYTES = 200, 2_000_000  # looked at in each folder, and read of each file
@@ -198,8 +195,6 @@ class _Visuals:
     """The visuals of the geoms of one model."""
 
     def __init__(self, reading: MjcfModel, spec: mujoco.MjSpec) -> None:
-        import mujoco  # lazy: 0.2 s, only MJCF needs it
-
         self.reading, self.model = reading, reading.model
         self.shapes = MjcfShapes(reading.model)
         self.meshes = {mesh.id: mesh for mesh in spec.meshes}

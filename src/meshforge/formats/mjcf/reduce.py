@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from math import isnan
-from typing import TYPE_CHECKING, Literal
+from typing import Literal
 
 from meshforge.common import AssetError, is_file
 from meshforge.formats import mesh_reader, references
+from meshforge.formats.lazy import mujoco
 from meshforge.formats.mjcf.document import MjcfNode, MjcfTree
 from meshforge.formats.mjcf.engine import (
     EngineModel,
@@ -21,9 +22,6 @@ from meshforge.formats.mjcf.engine import (
 )
 from meshforge.formats.mjcf.model import MjcfModel
 from meshforge.formats.mjcf.references import AssetFolders
-
-if TYPE_CHECKING:
-    import mujoco
 
 _ORIENTATION = "pos quat axisangle xyaxes zaxis euler"
 _NEEDED = {
@@ -182,8 +180,6 @@ def _replace_visuals(tree: MjcfTree, flat: FlatText, spec: mujoco.MjSpec, all_vi
 
     Returns the lines of these geoms, and whether they had a mass. Meshes that no geom is left to use go.
     """
-    import mujoco  # lazy: 0.2 s, only MJCF needs it
-
     lost = _find_missing_meshes(tree, flat, spec)
     infos = {}
     geoms = geoms_of(spec.bodies)

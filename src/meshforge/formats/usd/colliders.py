@@ -6,6 +6,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import Any
 
+from meshforge.formats.lazy import pxr
 from meshforge.formats.usd.stage import BODY, UsdStage
 from meshforge.geometry import Pose
 from meshforge.symbolic import Body, unique_names
@@ -54,11 +55,9 @@ def is_drawn(prim: Any) -> bool:
 
 def is_seen(scene: UsdStage, prim: Any) -> bool:
     """Whether a prim is geometry that renders: visible, and of the default or the render purpose."""
-    from pxr import UsdGeom  # lazy: an optional package, and 0.3 s
-
-    if not prim.IsA(UsdGeom.Gprim) or is_drawn(prim):
+    if not prim.IsA(pxr.UsdGeom.Gprim) or is_drawn(prim):
         return False
-    image = UsdGeom.Imageable(prim)
+    image = pxr.UsdGeom.Imageable(prim)
     return image.ComputePurpose() in ("default", "render") and image.ComputeVisibility(scene.time) != "invisible"
 
 
@@ -137,9 +136,7 @@ def contact_attributes(prim: Any) -> tuple[tuple[str, str], ...]:
 
 def physics_material(prim: Any) -> Any:
     """The material that a prim is bound to for physics, itself or from above; None where it is bound to none."""
-    from pxr import UsdShade  # lazy: an optional package, and 0.3 s
-
-    material, relationship = UsdShade.MaterialBindingAPI(prim).ComputeBoundMaterial("physics")
+    material, relationship = pxr.UsdShade.MaterialBindingAPI(prim).ComputeBoundMaterial("physics")
     return material.GetPrim() if material and relationship else None
 
 
@@ -168,22 +165,18 @@ def _has_physics_material(prim: Any) -> bool:
 
 
 def _copy_property(spec: Any, source: Any) -> None:
-    from pxr import Sdf, Usd  # lazy: an optional package, and 0.3 s
-
-    if isinstance(source, Usd.Relationship):
-        made = Sdf.RelationshipSpec(spec, source.GetName(), source.IsCustom())
+    if isinstance(source, pxr.Usd.Relationship):
+        made = pxr.Sdf.RelationshipSpec(spec, source.GetName(), source.IsCustom())
         made.targetPathList.explicitItems = source.GetTargets()
     elif source.Get() is not None:
         kind = source.GetTypeName()
-        made = Sdf.AttributeSpec(spec, source.GetName(), kind, source.GetVariability(), source.IsCustom())
+        made = pxr.Sdf.AttributeSpec(spec, source.GetName(), kind, source.GetVariability(), source.IsCustom())
         made.default = source.Get()
 
 
 def apply_schemas(spec: Any, names: Iterable[str]) -> None:
     """Put applied schemas before those that a spec prepends already."""
-    from pxr import Sdf  # lazy: an optional package, and 0.3 s
-
-    old = spec.GetInfo("apiSchemas") if spec.HasInfo("apiSchemas") else Sdf.TokenListOp()
+    old = spec.GetInfo("apiSchemas") if spec.HasInfo("apiSchemas") else pxr.Sdf.TokenListOp()
     wanted = [name for name in dict.fromkeys(names) if name not in old.GetAddedOrExplicitItems()]
     if old.isExplicit:
         old.explicitItems = [*old.explicitItems, *wanted]

@@ -13,6 +13,7 @@ import numpy as np
 from meshforge.common import AssetError
 from meshforge.formats import collision_pieces
 from meshforge.formats.base import Mass, Output, note_renames
+from meshforge.formats.lazy import pxr
 from meshforge.formats.usd import colliders, edit_stage, layer_text, prims
 from meshforge.formats.usd.mechanism import centre_of, moments_of, read_number
 from meshforge.formats.usd.read import PrimCollision, read_collisions
@@ -48,10 +49,8 @@ def write_usd(asset: Asset, document: UsdDocument, name: str, mass: Mass) -> Out
         return Output(document.source, copies=copies, notes=tuple(far))
     _refuse_changed(asset, document)
     with usd(str(asset.path)):
-        from pxr import Sdf  # lazy: an optional package, and 0.3 s
-
         scene = UsdStage.open(asset.path)
-        layer = Sdf.Layer.CreateAnonymous(".usda")
+        layer = pxr.Sdf.Layer.CreateAnonymous(".usda")
         layer.TransferContent(scene.stage.GetRootLayer())
         notes, names = list(far), dict[str, str]()
         if edited:
@@ -68,19 +67,17 @@ def write_usd(asset: Asset, document: UsdDocument, name: str, mass: Mass) -> Out
 
 def _layer_text(layer: Any, original: Any, source: bytes, notes: list[str]) -> bytes:
     """A layer as text: the authored one with the edit where that can be done, else as the library writes it."""
-    from pxr import Sdf, Tf  # lazy: an optional package, and 0.3 s
-
     after = layer.ExportToString()
     if is_crate(source):
         return bytes(after.encode())
     text = source.decode("utf-8", "replace")
     made = layer_text.patch_layer(text, original.ExportToString(), after)
     if made is not None and "\ufffd" not in text:
-        check = Sdf.Layer.CreateAnonymous(".usda")
+        check = pxr.Sdf.Layer.CreateAnonymous(".usda")
         try:
             if check.ImportFromString(made) and check.ExportToString() == after:
                 return made.encode()
-        except Tf.ErrorException:
+        except pxr.Tf.ErrorException:
             pass
     if layer_text.has_comments(text):
         notes.append("comments in its text are not kept")
@@ -143,10 +140,10 @@ def _list_copies(asset: Asset) -> tuple[dict[str, Path], list[str]]:
 def _find_absolute_references(asset: Asset) -> frozenset[Path]:
     """The files that the layers of an asset refer to by absolute paths."""
     with usd(str(asset.path)):
-        from pxr import UsdUtils  # lazy: an optional package, and 0.3 s
-
         layers = [asset.path, *(file for file in asset.files if file.suffix.lower() in LAYER_SUFFIXES)]
-        texts = [text for layer in layers for kind in UsdUtils.ExtractExternalReferences(str(layer)) for text in kind]
+        texts = [
+            text for layer in layers for kind in pxr.UsdUtils.ExtractExternalReferences(str(layer)) for text in kind
+        ]
     return frozenset(Path(os.path.normpath(text)) for text in texts if Path(text).is_absolute())
 
 
@@ -159,8 +156,6 @@ def _refuse_changed(asset: Asset, document: UsdDocument) -> None:
 
 def keep_masses(edit: edit_stage.UsdEdit, sources: Sequence[PrimCollision]) -> list[str]:
     """Author the masses of the bodies that an edit changed, where they came from colliders; notes on those unknown."""
-    from pxr import Sdf  # lazy: an optional package, and 0.3 s
-
     notes = []
     for path, name in edit.bodies.names.items():
         prim = edit.bodies.prims[path]
@@ -170,7 +165,7 @@ def keep_masses(edit: edit_stage.UsdEdit, sources: Sequence[PrimCollision]) -> l
         if found is None:
             notes.append(f"the mass of {name!r} is left to its colliders: of one of them the volume is not known")
         else:
-            spec, space = Sdf.CreatePrimInLayer(edit.layer, path), prims.PrimSpace(*edit.scene.placement(prim))
+            spec, space = pxr.Sdf.CreatePrimInLayer(edit.layer, path), prims.PrimSpace(*edit.scene.placement(prim))
             prims.write_mass(spec, found, space, edit.scene.metres, edit.scene.kilograms)
     return notes
 

@@ -20,6 +20,7 @@ from typing import Any, Literal
 import numpy as np
 
 from meshforge.common import AssetError
+from meshforge.formats.lazy import pxr
 from meshforge.formats.usd.crate import CRATE_MARK
 from meshforge.geometry import Floats, Pose
 from meshforge.symbolic import Document
@@ -139,15 +140,13 @@ def usd(where: str) -> Iterator[list[str]]:
     Raises AssetError at `where`, with its first complaint, where it gives up.
     """
     require_usd(where)
-    from pxr import Tf, UsdUtils  # lazy: an optional package, and 0.3 s
-
     complaints: list[str] = []
     with _LOCK:
-        delegate = UsdUtils.CoalescingDiagnosticDelegate()
+        delegate = pxr.UsdUtils.CoalescingDiagnosticDelegate()
         try:
             with np.errstate(over="ignore", invalid="ignore"):  # numbers beyond all bounds are found and reported
                 yield complaints
-        except Tf.ErrorException as error:
+        except pxr.Tf.ErrorException as error:
             problem = f"USD cannot read it: {_first_comment(error.args, where)}"
             raise AssetError(problem, where=where, remedy=_REMEDY) from None
         except _DAMAGE as error:  # names that are no text, values of types that their schema does not know
@@ -189,9 +188,7 @@ class UsdStage:
     @staticmethod
     def open(path: Path) -> UsdStage:
         """The stage of a file. Raises AssetError: it holds no prim, or its unit is none."""
-        from pxr import Usd  # lazy: an optional package, and 0.3 s
-
-        scene = UsdStage(Usd.Stage.Open(str(path)), path)
+        scene = UsdStage(pxr.Usd.Stage.Open(str(path)), path)
         if not np.isfinite(scene.metres) or scene.metres <= 0:
             raise AssetError(f"its metersPerUnit is {scene.metres:g}", where=str(path), remedy="Give it a unit.")
         return scene
@@ -199,45 +196,33 @@ class UsdStage:
     @cached_property
     def metres(self) -> float:
         """The metres of the stage's unit."""
-        from pxr import UsdGeom  # lazy: an optional package, and 0.3 s
-
-        said = UsdGeom.StageHasAuthoredMetersPerUnit(self.stage)
-        return float(UsdGeom.GetStageMetersPerUnit(self.stage)) if said else _CENTIMETRES
+        said = pxr.UsdGeom.StageHasAuthoredMetersPerUnit(self.stage)
+        return float(pxr.UsdGeom.GetStageMetersPerUnit(self.stage)) if said else _CENTIMETRES
 
     @cached_property
     def kilograms(self) -> float:
         """The kilograms of the stage's unit of mass."""
-        from pxr import UsdPhysics  # lazy: an optional package, and 0.3 s
-
-        return float(UsdPhysics.GetStageKilogramsPerUnit(self.stage))
+        return float(pxr.UsdPhysics.GetStageKilogramsPerUnit(self.stage))
 
     @property
     def up(self) -> Literal["y", "z"]:
-        from pxr import UsdGeom  # lazy: an optional package, and 0.3 s
-
-        return "z" if UsdGeom.GetStageUpAxis(self.stage) == UsdGeom.Tokens.z else "y"
+        return "z" if pxr.UsdGeom.GetStageUpAxis(self.stage) == pxr.UsdGeom.Tokens.z else "y"
 
     @cached_property
     def time(self) -> Any:
-        from pxr import Usd  # lazy: an optional package, and 0.3 s
-
-        return Usd.TimeCode.EarliestTime()
+        return pxr.Usd.TimeCode.EarliestTime()
 
     @cached_property
     def _cache(self) -> Any:
-        from pxr import UsdGeom  # lazy: an optional package, and 0.3 s
-
-        return UsdGeom.XformCache(self.time)
+        return pxr.UsdGeom.XformCache(self.time)
 
     def prims(self) -> Iterator[Any]:
         """All prims in the order of the stage, those of instances too; of point instancers, nothing below."""
-        from pxr import Usd, UsdGeom  # lazy: an optional package, and 0.3 s
-
-        predicate = Usd.TraverseInstanceProxies(Usd.PrimDefaultPredicate)
-        below = iter(Usd.PrimRange(self.stage.GetPseudoRoot(), predicate))
+        predicate = pxr.Usd.TraverseInstanceProxies(pxr.Usd.PrimDefaultPredicate)
+        below = iter(pxr.Usd.PrimRange(self.stage.GetPseudoRoot(), predicate))
         for prim in below:
             yield prim
-            if prim.IsA(UsdGeom.PointInstancer):
+            if prim.IsA(pxr.UsdGeom.PointInstancer):
                 below.PruneChildren()
 
     def placement(self, prim: Any) -> tuple[Floats, Floats]:
