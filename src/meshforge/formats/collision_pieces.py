@@ -223,7 +223,8 @@ def refuse_missing(uses: Iterable[MeshUse]) -> None:
             missing.append(use)
     if missing:
         first, others = missing[0], f" (and {len(missing) - 1} more like it)" if len(missing) > 1 else ""
-        problem = f"the mesh {_shorten(first.reference)!r} of collision {first.label!r} is not there{others}"
+        shown = first.reference if len(first.reference) <= _SHOWN else f"{first.reference[:_SHOWN]}..."
+        problem = f"the mesh {shown!r} of collision {first.label!r} is not there{others}"
         raise AssetError(problem, where=first.place, remedy=first.resolver.advice(first.reference))
 
 
@@ -311,7 +312,3 @@ def refuse_changed_files(digests: Iterable[tuple[Path, str]], where: str, kind: 
     for path, digest in digests:
         if not path.is_file() or file_digest(path) != digest:
             raise change_error(f"{kind}{path.name}", where)
-
-
-def _shorten(reference: str) -> str:
-    return reference if len(reference) <= _SHOWN else f"{reference[:_SHOWN]}..."

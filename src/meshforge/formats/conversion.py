@@ -49,7 +49,7 @@ def report_conversion(
     lost = [f for f in features if f.count and f.kind not in target.holds]
     return ConversionReport(
         held=tuple(f for f in features if f.count and f.kind in target.holds),
-        lost=(*(_loss_of(f, target) for f in (*lost, *beyond)), *_merge_losses(own)),
+        lost=(*(_explain_loss(f, target) for f in (*lost, *beyond)), *_merge_losses(own)),
         remarks=(*remarks, *output.notes),
     )
 
@@ -62,17 +62,18 @@ def _subtract_losses(feature: Feature, losses: Sequence[Loss]) -> Feature:
     return Feature(feature.kind, tuple(n for n in feature.names if n not in names), unnamed, feature.reason)
 
 
-def _loss_of(feature: Feature, target: Format) -> Loss:
-    what, why = feature.kind, feature.reason or _explain_loss(feature.kind, target)
+def _explain_loss(feature: Feature, target: Format) -> Loss:
+    """The loss of a feature that a format does not hold."""
+    what = feature.kind
+    if feature.reason:
+        why = feature.reason
+    elif what is FeatureKind.MATERIALS and FeatureKind.COLORS in target.holds:
+        why = f"MeshForge converts only their plain colours to {target.title}"
+    elif what in target.could | target.holds:
+        why = f"MeshForge does not convert {what.many} to {target.title}"
+    else:
+        why = _WORDING.get(what, "{title} has no {many}").format(title=target.title, many=what.many)
     return Loss(what, feature.names, why, target.instead.get(what), feature.unnamed)
-
-
-def _explain_loss(what: FeatureKind, target: Format) -> str:
-    if what is FeatureKind.MATERIALS and FeatureKind.COLORS in target.holds:
-        return f"MeshForge converts only their plain colours to {target.title}"
-    if what in target.could | target.holds:
-        return f"MeshForge does not convert {what.many} to {target.title}"
-    return _WORDING.get(what, "{title} has no {many}").format(title=target.title, many=what.many)
 
 
 def _find_renamed(output: Output, target: Format) -> list[Loss]:

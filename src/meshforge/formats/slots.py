@@ -51,7 +51,10 @@ class Slot:
     def to_bytes(self, data: bytes) -> bytes:
         """Its text; data: the authored document."""
         if self.source is None:
-            return apply_splices(self.text, [set_attribute(self.text, _parse_element(self.text), "name", self.name)])
+            tag = _TAG.match(self.text)
+            assert tag is not None  # a text is an element
+            element = Element(tag[1].decode(), {}, line=0, start=0, inside=tag.end())
+            return apply_splices(self.text, [set_attribute(self.text, element, "name", self.name)])
         edits = self.edits
         if self.name != self.source.attributes.get("name"):
             edits = (set_attribute(data, self.source, "name", self.name), *edits)
@@ -160,15 +163,11 @@ class ElementPlan:
             if len(staying) == len(authored.names):
                 slots = [Slot(authored.link, authored.names, element.attributes.get("name"), element)]
             else:
-                slots = [self._split_element(element, authored.link, name, k) for k, name in staying.items()]
-                for slot in slots[1:]:
-                    slot.copy = True
+                slots = []  # an element for each piece, its triangles as authored in a file of their own
+                for k, name in staying.items():
+                    edits, old = self.maker.extract_piece(element, name, k), element.attributes.get("name")
+                    slots.append(Slot(authored.link, (name,), old, element, edits, copy=bool(slots)))
             self.places.append((element, slots))
-
-    def _split_element(self, element: Element, link: str, name: str, k: int) -> Slot:
-        """An element for one piece of a mesh, its triangles as authored in a file of their own."""
-        edits = self.maker.extract_piece(element, name, k)
-        return Slot(link, (name,), element.attributes.get("name"), element, edits)
 
     def _place_made(self, geom: Geom) -> None:
         """A new element after that of its parent, or else after the last one of its link."""
@@ -231,13 +230,6 @@ def _join_slots(data: bytes, slots: Iterable[Slot], lead: bytes | None) -> bytes
     """Elements one after another, each on lines of its own where the first is."""
     gap = b"" if lead is None else newline_of(data) + lead
     return gap.join(slot.to_bytes(data) for slot in slots)
-
-
-def _parse_element(text: bytes) -> Element:
-    """The element of a text that has no name attribute."""
-    found = _TAG.match(text)
-    assert found is not None  # a text is an element
-    return Element(found[1].decode(), {}, line=0, start=0, inside=found.end())
 
 
 def name_element_pieces(elements: Sequence[tuple[str | None, str | None, int]]) -> list[tuple[str, ...]]:

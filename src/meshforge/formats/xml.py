@@ -81,7 +81,7 @@ class _TreeReader:
         self.parser = expat.ParserCreate("utf-8")
         self.parser.StartElementHandler = self._start
         self.parser.EndElementHandler = self._end
-        self.parser.CharacterDataHandler = self._characters
+        self.parser.CharacterDataHandler = lambda text: self.texts[-1].append(text)
         self.parser.buffer_text = True
         self.parser.EntityDeclHandler = self._entity
         self.parser.specified_attributes = True
@@ -104,9 +104,6 @@ class _TreeReader:
             self.open[-1].children.append(element)
         self.open.append(element)
         self.texts.append([])
-
-    def _characters(self, text: str) -> None:
-        self.texts[-1].append(text)
 
     def _end(self, tag: str) -> None:
         element = self.open.pop()

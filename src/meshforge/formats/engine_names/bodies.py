@@ -62,7 +62,8 @@ class _Namer:
         collides = [piece for piece in asset.opaque if _has_triangles(piece)] if engine.takes_opaque else []
         if not asset.geoms and not collides:
             raise AssetError("there is no hull to write", where=str(asset.path))
-        names = [self._claim_name(engine.body, self._base_name(body)) for body in asset.bodies]
+        bases = [self.stem] if [body.name for body in asset.bodies] == [_NAMELESS] else [b.name for b in asset.bodies]
+        names = [self._claim_name(engine.body, name) for name in bases]
         found = [self._name_body(*pair) for pair in zip(asset.bodies, names, strict=True)]
         notes = list(engine.notes(asset.geoms))
         if self.bare:
@@ -71,9 +72,6 @@ class _Namer:
             )
         kept = tuple(one for one in found if one.surfaces or one.hulls or one.opaque)
         return EngineBodies(kept, tuple(self.lost), tuple(notes))
-
-    def _base_name(self, body: Body) -> str:
-        return self.stem if len(self.asset.bodies) == 1 and body.name == _NAMELESS else body.name
 
     def _name_body(self, body: Body, name: str) -> EngineBody:
         engine = self.engine

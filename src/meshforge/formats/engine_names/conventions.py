@@ -66,7 +66,10 @@ class CollisionNames(ABC):
 
 def clean_name(name: str, not_taken: str) -> str:
     """A name without characters that an engine changes, and without marks of any; not_taken: a pattern of them."""
-    return strip_marks(re.sub(not_taken, "_", name)).strip() or "part"
+    name = re.sub(not_taken, "_", name)
+    while (bare := strip_godot_suffix(_UNREAL.sub("", name, count=1))) != name:
+        name = bare
+    return name.strip() or "part"
 
 
 def fallbacks_of(names: CollisionNames) -> dict[FeatureKind, str]:
@@ -107,13 +110,6 @@ def has_godot_word(name: str, word: str) -> bool:
     """Whether Godot takes a word in a name for its own; numbers behind it do not count."""
     text = _NUMBER.sub("", name).lower()
     return f"${word}" in text or text.endswith((f"-{word}", f"_{word}"))
-
-
-def strip_marks(name: str) -> str:
-    """A name without marks of Unreal and Godot."""
-    while (bare := strip_godot_suffix(_UNREAL.sub("", name, count=1))) != name:
-        name = bare
-    return name
 
 
 _PREFIXES: dict[str, UnrealPrefix] = {"box": "UBX", "sphere": "USP", "capsule": "UCP"}
@@ -257,18 +253,14 @@ class UnityNames(CollisionNames):
         return self.body(own)
 
     def notes(self, geoms: Iterable[Geom]) -> tuple[str, ...]:
-        large = [geom.name for geom in geoms if _is_large(geom)]
+        hulls = [(geom.name, geom.shape.tessellate()) for geom in geoms]
+        large = [name for name, hull in hulls if max(len(hull.vertices), len(polygon_sizes(hull))) > _MOST_UNITY]
         if not large:
             return ()
         return (
             f"Unity makes partial hulls of more than {_MOST_UNITY} vertices or flat faces: {join_names(large, 3)}; "
             "meshforge check --engine unity --fix makes them simpler",
         )
-
-
-def _is_large(geom: Geom) -> bool:
-    hull = geom.shape.tessellate()
-    return len(hull.vertices) > _MOST_UNITY or len(polygon_sizes(hull)) > _MOST_UNITY
 
 
 def holds_colliders(name: object) -> bool:

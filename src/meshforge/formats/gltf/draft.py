@@ -159,14 +159,10 @@ class SceneDraft:
         if source is not None:
             below = source == body or source in self.referred.animated
             holder = source if below else self.scene.placements[source].parent
-        if holder is not None and (self._bodies.get(holder) != body or self.is_degenerate(holder)):
+        if holder is None or self._bodies.get(holder) != body:
             return body
-        return holder if holder is not None else body
-
-    def is_degenerate(self, index: int) -> bool:
-        """Whether a node leaves no volume to what is below it."""
-        stretch = np.linalg.svd(self.scene.placements[index].linear, compute_uv=False)
-        return bool(stretch[-1] <= 1e-9 * stretch[0])
+        stretch = np.linalg.svd(self.scene.placements[holder].linear, compute_uv=False)
+        return body if stretch[-1] <= 1e-9 * stretch[0] else holder  # it leaves no volume to what is below it
 
     def shape_in(self, shape: Shape, holder: int | None) -> Shape:
         """A shape of the root frame in the space of a node."""

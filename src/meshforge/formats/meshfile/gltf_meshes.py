@@ -129,7 +129,11 @@ def is_instanced(node: Json) -> bool:
 def read_instances(node: Json, buffers: gltf_buffers.Buffers) -> Floats:
     """The places (k, 4, 4) of the instances of a node, in its space. Raises ValueError: they are damaged."""
     accessors = (extension(node, INSTANCING) or {}).get("attributes", {})
-    found = {name: _check_rows(buffers.accessor(accessors[name]), name) for name in _WIDTHS if name in accessors}
+    found: dict[str, Floats] = {}
+    for name in (name for name in _WIDTHS if name in accessors):
+        found[name] = rows = np.asarray(buffers.accessor(accessors[name]), dtype=np.float64)
+        if rows.shape[1] != _WIDTHS[name] or not np.isfinite(rows).all():
+            raise ValueError(f"the {name} of its instances should be {_WIDTHS[name]} finite numbers each")
     counts = {len(rows) for rows in found.values()} or {1}
     if len(counts) > 1 or max(counts) > _MOST_VERTICES:
         raise ValueError(f"the attributes of its instances have {' and '.join(map(str, sorted(counts)))} values")
@@ -165,13 +169,6 @@ def repeat_mesh(mesh: GltfMesh, places: Floats) -> GltfMesh:
         for patch, start in zip(mesh.patches, starts, strict=False)
     ]
     return GltfMesh(vertices, faces, tuple(patches))
-
-
-def _check_rows(values: Any, name: str) -> Floats:
-    rows = np.asarray(values, dtype=np.float64)
-    if rows.shape[1] != _WIDTHS[name] or not np.isfinite(rows).all():
-        raise ValueError(f"the {name} of its instances should be {_WIDTHS[name]} finite numbers each")
-    return rows
 
 
 def _is_reflection(places: Floats) -> Any:

@@ -173,7 +173,8 @@ class HullMeshes:
         inside = self._folder_inside(self._meshes[parent_mesh]) if parent_mesh in self._meshes else None
         folder = self._usual if inside is None else inside
         place = self._place_of(folder)
-        self.files.taken |= self._stems_in(place)
+        beside = Path(os.path.normpath(self.main / place))
+        self.files.taken |= {entry.stem.lower() for entry in beside.iterdir()} if beside.is_dir() else set()
         file = posixpath.basename(self.files.add(name, place, shape.vertices, shape.faces))
         attributes = {"name": posixpath.splitext(file)[0], "file": f"{folder}{file}"}
         if Path(self.folders.mesh).is_absolute():  # a file of the output has no name from there
@@ -211,10 +212,6 @@ class HullMeshes:
         """Where a folder of references is, seen from the main file, with a final slash."""
         place = posixpath.normpath(posixpath.join(self.folders.mesh.replace("\\", "/"), folder))
         return "" if place == "." else f"{place}/"
-
-    def _stems_in(self, place: str) -> set[str]:
-        folder = Path(os.path.normpath(self.main / place))
-        return {entry.stem.lower() for entry in folder.iterdir()} if folder.is_dir() else set()
 
 
 def _meshes_by_name(root: MjcfNode) -> Iterator[tuple[str, MjcfNode]]:

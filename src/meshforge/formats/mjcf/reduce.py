@@ -232,7 +232,8 @@ def read_model(tree: MjcfTree, is_whole: bool) -> MjcfModel:
 
 def read_unscaled_model(tree: MjcfTree, reading: MjcfModel) -> MjcfModel:
     """A whole reading with masses before they are scaled to a total, and free bodies in their authored frames."""
-    if not any(map(_scales_masses, tree.root.walk())):
+    changing = {"compiler": {"settotalmass", "alignfree"}} | {tag: {"align"} for tag in _FREE}
+    if not any(changing.get(node.tag, set()) & node.attributes.keys() for node in tree.root.walk()):
         return reading
     flat = flatten(tree)
     spec = parse_text(tree, flat)
@@ -241,10 +242,3 @@ def read_unscaled_model(tree: MjcfTree, reading: MjcfModel) -> MjcfModel:
     for joint in spec.joints:
         joint.align = 0
     return MjcfModel(tree, flat, compile_spec(tree, flat, spec))
-
-
-def _scales_masses(node: MjcfNode) -> bool:
-    """Whether an element changes masses or the frames of free bodies."""
-    if node.tag == "compiler":
-        return bool({"settotalmass", "alignfree"} & node.attributes.keys())
-    return node.tag in _FREE and "align" in node.attributes

@@ -13,7 +13,7 @@ import numpy as np
 
 from meshforge.formats.base import Output
 from meshforge.formats.engine_names import bodies, conventions
-from meshforge.formats.meshfile.obj import ObjGroup, ObjText, parse_obj
+from meshforge.formats.meshfile.obj import ObjText, parse_obj
 from meshforge.formats.meshfile.surface import Soup
 from meshforge.formats.plain.base import MeshFileEdit, PlainFormat
 from meshforge.formats.plain.obj_text import edit_obj, format_obj
@@ -125,14 +125,9 @@ def _parts_of(family: bodies.EngineBody) -> Sequence[MeshPart]:
     return [*seen, *(MeshPart(name, Surface(hull.vertices, hull.faces)) for name, hull in hulls.items())]
 
 
-def marks_of(groups: Sequence[ObjGroup]) -> list[str | None]:
-    """For each group, the name by which Unreal takes it for a hull: its object's, or its own; None for others."""
-    return [next((name for name in group if conventions.unreal_kind(name)), None) for group in groups]
-
-
 def regroup_by_marks(text: ObjText, soup: Soup) -> Soup:
     """The triangles of a file with a group for each hull, and -1 for what is only seen; as they are without marks."""
-    marks = marks_of(text.groups)
+    marks = [next((name for name in group if conventions.unreal_kind(name)), None) for group in text.groups]
     names = list(dict.fromkeys(name for name in marks if name is not None))
     if not names:
         return soup

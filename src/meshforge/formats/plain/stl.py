@@ -77,25 +77,17 @@ def _edit_ascii(data: bytes, text: StlText, edit: MeshFileEdit) -> bytes:
         at = stop
     if len(text.solids) > 1:
         end = len(data)
-        made = b"".join(
-            b"solid %s\n%sendsolid %s\n" % (n, _format_facets(p), n) for p in edit.parts for n in [_clean_name(p.name)]
-        )
+        names = [" ".join(part.name.split()).encode("utf-8", "surrogateescape") for part in edit.parts]
+        named = zip(names, map(_format_facets, edit.parts), names, strict=True)
+        made = b"".join(b"solid %s\n%sendsolid %s\n" % solid for solid in named)
     else:
-        end = _find_end_of_solid(data, int(spans[-1, 1]))
+        last = int(spans[-1, 1])
+        found = data[last:].lower().find(b"endsolid")
+        end = len(data) if found < 0 else last + found
         made = b"".join(map(_format_facets, edit.parts))
     body = b"".join([*kept, data[at:end]])
     gap = b"\n" if made and not body.rstrip(b" \t").endswith((b"\n", b"\r")) else b""
     return body + gap + made + data[end:]
-
-
-def _find_end_of_solid(data: bytes, at: int) -> int:
-    """Where the last solid ends, whose last facet ends at `at`."""
-    found = data[at:].lower().find(b"endsolid")
-    return len(data) if found < 0 else at + found
-
-
-def _clean_name(name: str) -> bytes:
-    return " ".join(name.split()).encode("utf-8", "surrogateescape")
 
 
 def _format_facets(part: MeshPart) -> bytes:

@@ -144,7 +144,11 @@ class SdfElementMaker(ElementMaker):
         if template is None:
             slot = Slot(geom.body, (geom.name,), text=elements.build_collision(pose, kind, lead, self.line_end))
         else:
-            edits = elements.replace_geometry(self.data, template, pose, self._fit_lines(kind, template))
+            old = document.geometry_of(template)
+            assert old is not None  # only elements with pieces are copied
+            if b"\n" not in self.data[old.start : old.end]:  # all in one line
+                kind = [b"".join(line.strip() for line in kind)]
+            edits = elements.replace_geometry(self.data, template, pose, kind)
             slot = Slot(geom.body, (geom.name,), None, template, edits, copy=True)
         slot.name = name_attribute_of(slot)  # SDF asks for one
         return slot
@@ -154,12 +158,6 @@ class SdfElementMaker(ElementMaker):
         assert mesh is not None  # only meshes have several pieces
         _, made = self.make_piece(document.mesh_uri(mesh), shapes.read_submesh(mesh), name, k)
         return elements.replace_mesh_file(self.data, mesh, made)
-
-    def _fit_lines(self, kind: Sequence[bytes], template: Element) -> Sequence[bytes]:
-        """The lines of a shape; all in one where the template has its own in one."""
-        old = document.geometry_of(template)
-        assert old is not None  # only elements with pieces are copied
-        return kind if b"\n" in self.data[old.start : old.end] else [b"".join(line.strip() for line in kind)]
 
 
 def keep_masses(asset: Asset, origin: document.SdfDocument, plan: ElementPlan) -> list[Splice]:

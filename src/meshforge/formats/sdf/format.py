@@ -209,7 +209,11 @@ def features_of(document: SdfDocument) -> Iterator[Feature]:
     yield _feature_of(FeatureKind.CONTACT, (e for e in collisions if e.first("surface")))
     joints = [e for e in every if e.tag == "joint"]
     yield _feature_of(FeatureKind.MIMICS, (j for j in joints if any(a.first("mimic") for a in j.children)))
-    yield _feature_of(FeatureKind.DYNAMICS, (j for j in joints if any(_has_springs(axis) for axis in j.children)))
+    dynamics = [
+        (j, part) for j in joints for axis in j.children if (found := axis.first("dynamics")) for part in found.children
+    ]
+    springs = dict.fromkeys(j for j, part in dynamics if part.tag in _SPRINGS and part.text not in ("", "0"))
+    yield _feature_of(FeatureKind.DYNAMICS, springs)
     yield _feature_of(FeatureKind.MATERIALS, (s for m in every if m.tag == "material" for s in m.each("script")))
     maps = dict.fromkeys(e.text for e in every if e.tag in _MAPS and e.text and e.text != "__default__")
     yield Feature(FeatureKind.TEXTURES, tuple(maps))
@@ -218,13 +222,6 @@ def features_of(document: SdfDocument) -> Iterator[Feature]:
     yield base.feature_of_tags(FeatureKind.SETTINGS, [*static, *settings])
     yield base.feature_of_tags(FeatureKind.OTHERS, (e.tag for e in every if e.tag in _OTHERS))
     yield Feature(FeatureKind.COMMENTS, unnamed=sum(source.text.data.count(b"<!--") for source in document.sources))
-
-
-def _has_springs(axis: xml.Element) -> bool:
-    dynamics = axis.first("dynamics")
-    return dynamics is not None and any(
-        child.tag in _SPRINGS and child.text not in ("", "0") for child in dynamics.children
-    )
 
 
 def _feature_of(what: FeatureKind, elements: Iterable[xml.Element]) -> Feature:

@@ -220,11 +220,10 @@ def _output_place(outer: SdfSource, uri: str, path: Path) -> str | None:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class SdfLink:
-    """A `<link>` as a body: its name in the asset, its scope and own name there, and root_T_link."""
+    """A `<link>` as a body: its name in the asset, its scope, and root_T_link."""
 
     body: str
     scope: ModelScope
-    name: str
     element: Element
     pose: Pose
 
@@ -258,11 +257,13 @@ def place_links(composed: ModelTree) -> SdfLinks:
     """
     places = FramePlaces()
     found: dict[str, SdfLink] = {}
-    for link in _iterate_links(composed, places):
-        if link.body in found:
-            problem = f"link {link.body!r} is there twice, in two models that are merged or of one name"
-            raise AssetError(problem, where=f"{link.where}:{link.element.line}", remedy="Rename one of them.")
-        found[link.body] = link
+    for scope, name, link in ((within, *named) for within in composed.scopes() for named in within.links.items()):
+        body, place = f"{scope.prefix}{name}", f"{scope.where}:{link.line}"
+        pose = places.pose_of(scope, name, place)
+        if body in found:
+            problem = f"link {body!r} is there twice, in two models that are merged or of one name"
+            raise AssetError(problem, where=place, remedy="Rename one of them.")
+        found[body] = SdfLink(body, scope, link, pose)
     if not found:
         raise AssetError("there is no <link> in it", where=composed.root.where)
     collisions = tuple(
@@ -282,10 +283,3 @@ def pose_in_link(places: FramePlaces, link: SdfLink, element: Element) -> Pose:
     while at.base == MODEL and scope.merged and scope.frame is not None:  # as libsdformat has it
         scope = scope.frame.scope
     return places.pose_of(scope, at.base, f"{link.where}:{at.line}") @ at.pose
-
-
-def _iterate_links(composed: ModelTree, places: FramePlaces) -> Iterator[SdfLink]:
-    for scope in composed.scopes():
-        for name, element in scope.links.items():
-            pose = places.pose_of(scope, name, f"{scope.where}:{element.line}")
-            yield SdfLink(f"{scope.prefix}{name}", scope, name, element, pose)

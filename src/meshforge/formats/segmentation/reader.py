@@ -138,7 +138,11 @@ def _from_archive(arrays: Mapping[str, Array], where: str) -> base.Segmentation:
         problem = f"it has {len(faces):,} vertices and as many faces, so that it is open whose the classes are"
         raise AssetError(problem, where=where, remedy="Leave the faces out if the classes are of vertices.")
     of_faces = len(classes) == len(faces)
-    return base.Segmentation(classes, vertices, _to_faces(faces, where), _name_classes(names), of_faces=of_faces)
+    texts = [
+        str(n, "utf-8", "replace") if isinstance(n, bytes) else str(n) for n in ([] if names is None else names.flat)
+    ]
+    called = base.number_names(texts)
+    return base.Segmentation(classes, vertices, _to_faces(faces, where), called, of_faces=of_faces)
 
 
 def _from_array(array: Array, where: str) -> base.Segmentation:
@@ -172,13 +176,6 @@ def _to_faces(array: Array, where: str) -> Ints:
         problem = f"its faces are {shape} values of type {array.dtype}, not three numbers of vertices each"
         raise AssetError(problem, where=where)
     return array.astype(np.int64)
-
-
-def _name_classes(names: Array | None) -> dict[int, str]:
-    known = names.ravel() if names is not None else ()
-    return base.number_names(
-        [str(name, "utf-8", "replace") if isinstance(name, bytes) else str(name) for name in known]
-    )
 
 
 def attach_own_mesh(found: base.Segmentation, asset: Path, where: str) -> base.Segmentation:

@@ -209,7 +209,7 @@ def read_mechanism(robot: Element, links: UrdfLinks) -> Mechanism:
 
 def _read_joint(element: Element, links: UrdfLinks) -> Joint:
     """A `<joint>`; its frame is that of its child link."""
-    parent, child = (_end_link(element, role) for role in ("parent", "child"))
+    parent, child = (end.attributes["link"] for role in ("parent", "child") if (end := element.first(role)))
     type_ = element.attributes.get("type", "fixed")
     pose = links.poses[child]
     limit, dynamics = element.first("limit"), element.first("dynamics")
@@ -226,12 +226,6 @@ def _read_joint(element: Element, links: UrdfLinks) -> Joint:
         effort=_read_number(limit, "effort") or None,
         velocity=_read_number(limit, "velocity") or None,
     )
-
-
-def _end_link(joint: Element, role: str) -> str:
-    end = joint.first(role)
-    assert end is not None  # `read_links` saw both
-    return end.attributes["link"]
 
 
 def _read_limits(limit: Element | None) -> tuple[float, float] | None:

@@ -86,7 +86,7 @@ class StageBodies:
 
     def __init__(self, scene: UsdStage, physics: bool) -> None:
         self.scene = scene
-        found = [prim for prim in scene.prims() if physics and _is_body(scene, prim)]
+        found = [prim for prim in scene.prims() if physics and prim == body_of(scene, prim)]
         self.prims: dict[str, Any] = {str(prim.GetPath()): prim for prim in found}
         names = unique_names([BODY, *(scene.shorten_path(path) for path in self.prims)])[1:]
         self.names = dict(zip(self.prims, names, strict=True))
@@ -114,11 +114,6 @@ class StageBodies:
         of_body = next((own for own, name in self.names.items() if name == body), "")
         own = self.scene.shorten_path(path, of_body)
         return f"{body}/{own}" if self.names else own
-
-
-def _is_body(scene: UsdStage, prim: Any) -> bool:
-    own = body_of(scene, prim)
-    return own is not None and own == prim
 
 
 def contact_attributes(prim: Any) -> tuple[tuple[str, str], ...]:

@@ -187,7 +187,9 @@ def weigh(scene: UsdStage, prim: Any, body: str, sources: Sequence[PrimCollision
     if centre is None:
         centre = middle
     if moments is None:
-        moments = factor * sum((_shift_inertia(own, mass, at - centre) for at, own, mass in weights), np.zeros((3, 3)))
+        ways = [(own, mass, at - centre) for at, own, mass in weights]
+        moved = [own + mass * (by @ by * np.eye(3) - np.outer(by, by)) for own, mass, by in ways]
+        moments = factor * sum(moved, np.zeros((3, 3)))
     return Inertial(body, mass, centre, moments)
 
 
@@ -222,9 +224,3 @@ def _mass_of(scene: UsdStage, body: Any, source: PrimCollision, shapes: Sequence
         if density is not None and density > 0:
             return volume * density * scene.kilograms / scene.metres**3
     return volume * _DENSITY
-
-
-def _shift_inertia(own: Floats, mass: float, by: Floats) -> Floats:
-    """An inertia (3, 3) about a point that is so far (3,) from the centre."""
-    moved: Floats = own + mass * (by @ by * np.eye(3) - np.outer(by, by))
-    return moved

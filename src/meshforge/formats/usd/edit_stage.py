@@ -210,7 +210,8 @@ def _remove_schemas(layer: Any, prim: Any) -> None:
     spec = pxr.Sdf.CreatePrimInLayer(layer, path)
     old = spec.GetInfo("apiSchemas") if spec.HasInfo("apiSchemas") else pxr.Sdf.TokenListOp()
     others = prim.GetPrimStack()[_count_own_specs(prim, layer) :]
-    elsewhere = {name for other in others for name in _schemas_added_by(other)}
+    lists = [other.GetInfo("apiSchemas") for other in others if other.HasInfo("apiSchemas")]
+    elsewhere = {name for listed in lists for name in listed.GetAddedOrExplicitItems()}
     for name in ("explicitItems", "prependedItems", "appendedItems", "addedItems"):
         left = [item for item in getattr(old, name) if item not in gone]
         if left != list(getattr(old, name)):
@@ -231,12 +232,6 @@ def _count_own_specs(prim: Any, layer: Any) -> int:
     stack = prim.GetPrimStack()
     own = layer.GetPrimAtPath(prim.GetPath())
     return int(bool(stack) and own is not None and stack[0].path == prim.GetPath())
-
-
-def _schemas_added_by(spec: Any) -> list[str]:
-    if not spec.HasInfo("apiSchemas"):
-        return []
-    return list(spec.GetInfo("apiSchemas").GetAddedOrExplicitItems())
 
 
 def _refuse_referenced(scene: UsdStage, prim: Any) -> None:

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from meshforge.formats.kinematic_tree import drop_rounding, perpendicular_to
+from meshforge.formats.kinematic_tree import claim_name, drop_rounding, perpendicular_to
 from meshforge.formats.lazy import pxr
 from meshforge.formats.usd.colliders import COLLISION, DRAWN, MESH_COLLISION, apply_schemas
 from meshforge.formats.usd.stage import rotation_of
@@ -64,10 +64,7 @@ def free_prim_name(wanted: str, taken: Iterable[str]) -> str:
     plain = _NOT_IN_NAMES.sub("_", wanted).strip("_") or "hull"
     if plain[0].isdigit():
         plain = f"_{plain}"
-    used, name, number = set(taken), plain, 2
-    while name in used:
-        name, number = f"{plain}_{number}", number + 1
-    return name
+    return claim_name(plain, set(taken))
 
 
 def set_value(spec: Any, name: str, kind: str, default: Any, *, uniform: bool = False) -> None:

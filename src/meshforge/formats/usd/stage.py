@@ -147,7 +147,8 @@ def usd(where: str) -> Iterator[list[str]]:
             with np.errstate(over="ignore", invalid="ignore"):  # numbers beyond all bounds are found and reported
                 yield complaints
         except pxr.Tf.ErrorException as error:
-            problem = f"USD cannot read it: {_first_comment(error.args, where)}"
+            comment = next(filter(None, map(_text_of, error.args)), "it gives no reason")
+            problem = f"USD cannot read it: {shorten(comment, where)}"
             raise AssetError(problem, where=where, remedy=_REMEDY) from None
         except _DAMAGE as error:  # names that are no text, values of types that their schema does not know
             problem = f"this USD file is damaged: {shorten(str(error), where)}"
@@ -162,12 +163,6 @@ def shorten(text: str, where: str) -> str:
     """A complaint in one line, of a long one the beginning; paths count from the folder of the asset."""
     line = " ".join(_INSIDE.sub("", _STAGE.sub("", text)).replace(f"{Path(where).absolute().parent}/", "").split())
     return line if len(line) <= _LONGEST else f"{line[:_LONGEST]} ..."
-
-
-def _first_comment(errors: tuple[object, ...], where: str) -> str:
-    """The commentary of the first of the library's errors."""
-    texts = (_text_of(error) for error in errors)
-    return shorten(next((text for text in texts if text), "it gives no reason"), where)
 
 
 def _text_of(complaint: object) -> str:
