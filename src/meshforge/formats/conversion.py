@@ -98,13 +98,10 @@ def _find_faded_materials(asset: Asset, target: Format) -> list[Loss]:
     if FeatureKind.VISUALS not in target.holds or not isinstance(asset.visuals, VisualSurfaces):
         return []
     files = dict.fromkeys(visual.what for visual in asset.visuals.visuals if isinstance(visual.what, Path))
-    faded = tuple(f.name for f in files if f.suffix.lower() not in target.shown_files and _has_materials(f))
+    unshown = [(f, (f, *find_companions(f).values())) for f in files if f.suffix.lower() not in target.shown_files]
+    faded = tuple(f.name for f, parts in unshown if any(part.suffix.lower() in _WITH_MATERIALS for part in parts))
     why = f"{target.title} gets the shapes alone"
     return [Loss(FeatureKind.MESH_MATERIALS, faded, why, "shown without these")] if faded else []
-
-
-def _has_materials(file: Path) -> bool:
-    return any(path.suffix.lower() in _WITH_MATERIALS for path in (file, *find_companions(file).values()))
 
 
 def _merge_losses(losses: Sequence[Loss]) -> list[Loss]:
@@ -141,6 +138,11 @@ def turn_upright(asset: Asset, source: Format | None, target: Format) -> tuple[A
     return turn_asset(asset, turn), (remark,)
 
 
+def _turn_opaque(piece: Opaque, turn: Pose) -> Opaque:
+    surface = _turn_surface(piece.surface, turn) if piece.surface else None
+    return replace(piece, surface=surface, plane=turn @ piece.plane if piece.plane else None)
+
+
 def turn_asset(asset: Asset, turn: Pose) -> Asset:
     """The asset in another root frame, new_T_old; frames of bodies are turned along, so that a root stays one."""
     back = turn.inverse()
@@ -152,11 +154,6 @@ def turn_asset(asset: Asset, turn: Pose) -> Asset:
         visuals=_turn_visuals(asset.visuals, turn),
         mechanism=asset.mechanism.move(turn),
     )
-
-
-def _turn_opaque(piece: Opaque, turn: Pose) -> Opaque:
-    surface = _turn_surface(piece.surface, turn) if piece.surface else None
-    return replace(piece, surface=surface, plane=turn @ piece.plane if piece.plane else None)
 
 
 def _turn_visuals(visuals: Sequence[Surface], turn: Pose) -> Sequence[Surface]:

@@ -138,8 +138,7 @@ def _unknown_kind_error(path: Path) -> AssetError:
 
 def refuse_lookalike(data: bytes, path: Path) -> None:
     """Raise AssetError where the bytes of a file plainly are something else than its suffix says."""
-    suffix = path.suffix.lower()
-    problem, remedy = _check_empty(data) or _check_kind(data, suffix) or (None, None)
+    problem, remedy = _check_kind(data, path.suffix.lower()) or (None, None)
     if problem:
         raise AssetError(problem, where=str(path), remedy=remedy)
 
@@ -152,29 +151,19 @@ def is_binary_stl(data: bytes) -> bool:
     return count > 0 and len(data) == _STL_HEADER + _STL_RECORD * count
 
 
-def _check_empty(data: bytes) -> Mismatch | None:
+def _check_kind(data: bytes, suffix: str) -> Mismatch | None:
     if not data:
         return "the file is empty", None
     if not data.strip(b"\0"):
         return "the file holds nothing but zero bytes", "The copy or download broke off: fetch it again."
-    return None
-
-
-def _check_kind(data: bytes, suffix: str) -> Mismatch | None:
     if is_binary_stl(data):
         return None if suffix == ".stl" else _wrong_suffix("a binary STL file", ".stl")
-    return (
-        _check_utf16(data, suffix)
-        or _check_signature(data, suffix)
-        or _check_markup(data, suffix)
-        or _check_merge_conflict(data)
-    )
-
-
-def _check_utf16(data: bytes, suffix: str) -> Mismatch | None:
-    """Text in UTF-16, which XML files may be."""
-    if suffix in _NEVER_XML and data[:2] in (b"\xff\xfe", b"\xfe\xff"):
+    if suffix in _NEVER_XML and data[:2] in (b"\xff\xfe", b"\xfe\xff"):  # XML files may be in UTF-16
         return "this is text in UTF-16", "Save it as plain text (ASCII or UTF-8)."
+    if found := _check_signature(data, suffix) or _check_markup(data, suffix):
+        return found
+    if b"<<<<<<< " in data and _CONFLICT.search(data):
+        return "a merge of two versions of this file is not finished", "Take one of them: git checkout --ours FILE."
     return None
 
 
@@ -195,12 +184,6 @@ def _check_markup(data: bytes, suffix: str) -> Mismatch | None:
     tag = root[1].decode("ascii", "replace")
     name, right = _ROOTS.get(tag.lower(), (f"XML, its root element is <{tag}>", ""))
     return _wrong_suffix(name, right) if right else (f"this is {name}", _OTHER if tag.lower() == "x3d" else _LOADED)
-
-
-def _check_merge_conflict(data: bytes) -> Mismatch | None:
-    if b"<<<<<<< " in data and _CONFLICT.search(data):
-        return "a merge of two versions of this file is not finished", "Take one of them: git checkout --ours FILE."
-    return None
 
 
 def _wrong_suffix(name: str, suffix: str) -> Mismatch:

@@ -277,6 +277,11 @@ def _find_misread(slots: Sequence[Slot]) -> list[tuple[Slot, tuple[str, ...]]]:
 
 
 def name_attribute_of(slot: Slot) -> str:
-    """The name attribute under which a slot's pieces have their names: that of the first, without link and `#0`."""
-    name = slot.names[0].removeprefix(f"{slot.body}/")
-    return name if len(slot.names) == 1 else name.removesuffix("#0")
+    """The name attribute under which a slot's pieces have their names."""
+    return own_name_of(slot.names, slot.body)
+
+
+def own_name_of(names: tuple[str, ...], body: str | None) -> str:
+    """The name of an element whose pieces are to have names: that of the first, without body and `#0`."""
+    name = names[0].removeprefix(f"{body}/")
+    return name if len(names) == 1 else name.removesuffix("#0")

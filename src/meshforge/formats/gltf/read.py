@@ -21,7 +21,7 @@ from meshforge.formats.meshfile.gltf_meshes import GltfMesh
 from meshforge.formats.meshfile.gltf_scene import GltfScene
 from meshforge.formats.visuals import GAMMA, LazySurfaces, Rgba
 from meshforge.geometry import Pose
-from meshforge.symbolic import Asset, Body, Geom, Inertial, Mechanism, Mentions, Surface, unique_names
+from meshforge.symbolic import Asset, Body, Mechanism, Mentions, Surface, unique_names
 
 _DAMAGE = (ValueError, LookupError, TypeError, AttributeError)
 
@@ -49,7 +49,8 @@ def read_gltf(path: Path) -> Asset:
         reader = CollisionReader(scene)
         sources = reader.read()
         bodies = name_bodies(scene)
-        fixed = _has_fixed_parts(scene, reader.convention, sources, bodies)
+        nodes = [*(source.node for source in sources), *visible_nodes(scene, reader.convention)]
+        fixed = not bodies or any(node not in bodies for node in nodes)  # something is part of no rigid body
         notes = [*collect_notes(scene, reader.convention), *reader.notes]
         authored = record_nodes(sources, bodies)
         mentions = [mentions_of_node(scene, source) for source in sources]
@@ -59,7 +60,9 @@ def read_gltf(path: Path) -> Asset:
             mentions,
         )
         geoms = geoms_of(*pieces)
-        masses = tuple(_read_masses(scene, bodies, geoms))
+        hulls = {name: [geom.shape for geom in geoms if geom.body == name] for _, name in _nodes_of(bodies)}
+        found = (read_inertial(scene.placements[node], name, hulls[name]) for node, name in _nodes_of(bodies))
+        masses = tuple(inertial for inertial in found if inertial is not None)
         digests = tuple((file, file_digest(file)) for file in scene.buffers.files() if file.is_file())
     if not sources:
         raise AssetError("there is no mesh and no collider in its scene", where=str(path))
@@ -106,22 +109,6 @@ def record_nodes(sources: Sequence[NodeCollision], bodies: Mapping[int, tuple[in
 
 def _nodes_of(bodies: Mapping[int, tuple[int, str]]) -> tuple[tuple[int, str], ...]:
     return tuple(dict.fromkeys(bodies.values()))
-
-
-def _has_fixed_parts(
-    scene: GltfScene, convention: Convention, sources: Sequence[NodeCollision], bodies: Mapping[int, tuple[int, str]]
-) -> bool:
-    """Whether something that collides or is seen is part of no rigid body."""
-    nodes = [*(source.node for source in sources), *visible_nodes(scene, convention)]
-    return not bodies or any(node not in bodies for node in nodes)
-
-
-def _read_masses(scene: GltfScene, bodies: Mapping[int, tuple[int, str]], geoms: Sequence[Geom]) -> Iterator[Inertial]:
-    for node, name in _nodes_of(bodies):
-        hulls = [geom.shape for geom in geoms if geom.body == name]
-        inertial = read_inertial(scene.placements[node], name, hulls)
-        if inertial is not None:
-            yield inertial
 
 
 def _find_files(scene: GltfScene, path: Path) -> tuple[tuple[Path, ...], tuple[str, ...]]:

@@ -15,9 +15,9 @@ from meshforge.common import AssetError, relative_name
 from meshforge.formats import mesh_output, xml
 from meshforge.formats.mjcf import engine, references
 from meshforge.formats.mjcf.document import MjcfNode, MjcfTree
-from meshforge.formats.mjcf.elements import geom_attributes, mesh_geom_attributes, tag
+from meshforge.formats.mjcf.elements import MjcfShape, geom_attributes, mesh_geom_attributes, tag
 from meshforge.formats.slots import Slot
-from meshforge.geometry import Box, Capsule, Cylinder, Ellipsoid, Pose, Shape, Sphere, rotation_of_quaternion
+from meshforge.geometry import Pose, Shape, rotation_of_quaternion
 from meshforge.symbolic import Asset, Geom
 
 _TURNS = ("quat", "axisangle", "xyaxes", "zaxis", "euler")
@@ -79,7 +79,7 @@ class HullGeomMaker:
         """The geometry of a hull in the frame in which its element stands."""
         frame_t_body, body_t_root = body_t_frame.inverse(), root_t_body.inverse()
         shape = geom.shape
-        if isinstance(shape, Box | Capsule | Cylinder | Ellipsoid | Sphere):
+        if isinstance(shape, MjcfShape):
             return geom_attributes(replace(shape, pose=frame_t_body @ body_t_root @ shape.pose))
         shape = shape.move(body_t_root)
         own = _own_attributes(parent) if parent else {}
@@ -244,8 +244,8 @@ class ElementContext:
 
     def class_of(self, node: MjcfNode) -> str:
         """The default class of a geom: its own, or that of the children of what is around it."""
-        classes = [node.attributes.get("class"), *(n.attributes.get("childclass") for n in self.ancestors_of(node))]
-        return next((name for name in classes if name), MAIN_CLASS)
+        outer = next(self.ancestors_of(node), None)
+        return node.attributes.get("class") or (self.class_inside(outer) if outer else MAIN_CLASS)
 
     def class_inside(self, node: MjcfNode) -> str:
         """The default class of what stands in an element without a class of its own."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from math import isnan
+from pathlib import Path
 from typing import Literal
 
 from meshforge.common import AssetError, is_file
@@ -106,7 +107,9 @@ def reduce_model(tree: MjcfTree, refusal: AssetError, masses: Literal["fixed", "
             continue
         _refuse_missing(tree, flat, spec)
         _refuse_lookalikes(tree, flat, spec)
-        _drop_loose_pairs(spec)
+        names = {geom.name for geom in geoms_of(spec.bodies)}
+        for pair in [pair for pair in spec.pairs if not names >= {pair.geomname1, pair.geomname2}]:
+            spec.delete(pair)
         infos = _replace_visuals(tree, flat, spec, attempt.all_visuals)
         spec.compiler.boundmass = max(spec.compiler.boundmass, _LEAST_MASS)
         spec.compiler.boundinertia = max(spec.compiler.boundinertia, _LEAST_INERTIA)
@@ -147,32 +150,23 @@ def _refuse_missing(tree: MjcfTree, flat: FlatText, spec: mujoco.MjSpec) -> None
 
 def _refuse_lookalikes(tree: MjcfTree, flat: FlatText, spec: mujoco.MjSpec) -> None:
     """Raise AssetError where the mesh of a collision geom plainly is a file of another kind, such as a pointer."""
-    folders = AssetFolders.of(tree)
-    nodes = {mesh.name: flat.node_at(mesh.info) for mesh in spec.meshes}
+    meshes = _locate_meshes(tree, flat, spec)
     for name in dict.fromkeys(geom.meshname for geom in geoms_of(spec.bodies) if _can_collide(geom, spec)):
-        node = nodes.get(name)
-        path = folders.find(tree, node) if node is not None and node.attributes.get("file") else None
-        if path is not None and is_file(path):
-            mesh_reader.read_content(path)
+        if name in meshes and is_file(meshes[name][1]):
+            mesh_reader.read_content(meshes[name][1])
+
+
+def _locate_meshes(tree: MjcfTree, flat: FlatText, spec: mujoco.MjSpec) -> dict[str, tuple[MjcfNode, Path]]:
+    """The elements of meshes that have a file, by name, and where it is or would be."""
+    folders, nodes = AssetFolders.of(tree), {mesh.name: flat.node_at(mesh.info) for mesh in spec.meshes}
+    return {
+        name: (node, folders.find(tree, node)) for name, node in nodes.items() if node and node.attributes.get("file")
+    }
 
 
 def _find_missing_meshes(tree: MjcfTree, flat: FlatText, spec: mujoco.MjSpec) -> dict[str, MjcfNode]:
     """The meshes whose files are not there, by name."""
-    folders = AssetFolders.of(tree)
-    nodes = {mesh.name: flat.node_at(mesh.info) for mesh in spec.meshes}
-    return {
-        name: node
-        for name, node in nodes.items()
-        if node is not None and node.attributes.get("file") and not tree.has(folders.find(tree, node))
-    }
-
-
-def _drop_loose_pairs(spec: mujoco.MjSpec) -> None:
-    """Take away the pairs of geoms that are not there."""
-    names = {geom.name for geom in geoms_of(spec.bodies)}
-    for pair in list(spec.pairs):
-        if not names >= {pair.geomname1, pair.geomname2}:
-            spec.delete(pair)
+    return {name: node for name, (node, path) in _locate_meshes(tree, flat, spec).items() if not tree.has(path)}
 
 
 def _replace_visuals(tree: MjcfTree, flat: FlatText, spec: mujoco.MjSpec, all_visuals: bool) -> dict[str, bool]:

@@ -65,7 +65,9 @@ class _Creator(link_output.LinkCreator):
         main = b"\n".join([*head, *(elements.STEP + line for line in model), b"</sdf>", b""])
         made = dict(self.maker.files.made)
         if self.name == _MAIN:
-            made[CONFIG] = self._config_text()
+            listed = b'<sdf version="%s">%s</sdf>' % (".".join(map(str, _VERSION)).encode(), xml.escape(self.name))
+            config = elements.nest("model", elements.leaf("name", self.model), listed)
+            made[CONFIG] = b"\n".join([b'<?xml version="1.0"?>', *config, b""])  # it makes the folder a Gazebo model
         return Output(main, made, self.visuals.copies, self._collect_notes(), names, self.collect_losses())
 
     def name_links(self, bare: set[str]) -> dict[str, str]:
@@ -119,14 +121,6 @@ class _Creator(link_output.LinkCreator):
             self.lost.append(Loss(FeatureKind.JOINTS, (name,) * bool(name), why, None, not name))
             return []
         return elements.joint_lines(made, self.links.get(made.parent, WORLD), self.links[made.child])
-
-    def _config_text(self) -> bytes:
-        """The `model.config` that makes the folder a Gazebo model."""
-        version = ".".join(map(str, _VERSION)).encode()
-        lines = elements.nest(
-            "model", elements.leaf("name", self.model), b'<sdf version="%s">%s</sdf>' % (version, xml.escape(self.name))
-        )
-        return b"\n".join([b'<?xml version="1.0"?>', *lines, b""])
 
     def _collect_notes(self) -> tuple[str, ...]:
         """What Gazebo makes of what the file does not say."""

@@ -67,7 +67,12 @@ class ModelScope:
         found: list[SdfFrame] = []
         scope, rest = self, name
         while rest and rest != MODEL and not (scope.is_world and rest in (WORLD, "__root__")):
-            frame, rest, scope = scope._take_step(rest) or _refuse_unknown_name(self, name, where)
+            step = scope._take_step(rest)
+            if step is None:
+                like = nearest_name(name, [*self.frames, *self.through])
+                remedy = f"The nearest name of a frame is {like!r}." if like else None
+                raise AssetError(f"there is no frame {name!r} in this model", where=where, remedy=remedy)
+            frame, rest, scope = step
             found.append(frame)
         return found
 
@@ -90,12 +95,6 @@ class ModelScope:
             return inner.frame, name, inner
         inside = self.frames[head].inside if tail and head in self.frames else None
         return (self.frames[head], tail, inside) if inside else None
-
-
-def _refuse_unknown_name(scope: ModelScope, name: str, where: str) -> tuple[SdfFrame, str, ModelScope]:
-    like = nearest_name(name, [*scope.frames, *scope.through])
-    remedy = f"The nearest name of a frame is {like!r}." if like else None
-    raise AssetError(f"there is no frame {name!r} in this model", where=where, remedy=remedy)
 
 
 class FramePlaces:

@@ -47,7 +47,9 @@ def write_usd(asset: Asset, document: UsdDocument, name: str, mass: Mass) -> Out
     copies, far = _list_copies(asset)
     if not edited and suffix == asset.path.suffix.lower():
         return Output(document.source, copies=copies, notes=tuple(far))
-    _refuse_changed(asset, document)
+    collision_pieces.refuse_changed_files(document.digests, str(asset.path))
+    if not asset.path.is_file() or asset.path.read_bytes() != document.source:
+        raise collision_pieces.change_error(asset.path.name, str(asset.path))
     with usd(str(asset.path)):
         scene = UsdStage.open(asset.path)
         layer = pxr.Sdf.Layer.CreateAnonymous(".usda")
@@ -147,20 +149,16 @@ def _find_absolute_references(asset: Asset) -> frozenset[Path]:
     return frozenset(Path(os.path.normpath(text)) for text in texts if Path(text).is_absolute())
 
 
-def _refuse_changed(asset: Asset, document: UsdDocument) -> None:
-    """Raise AssetError where the root layer, or one beside it, is not what it was when the asset was read."""
-    collision_pieces.refuse_changed_files(document.digests, str(asset.path))
-    if not asset.path.is_file() or asset.path.read_bytes() != document.source:
-        raise collision_pieces.change_error(asset.path.name, str(asset.path))
-
-
 def keep_masses(edit: edit_stage.UsdEdit, sources: Sequence[PrimCollision]) -> list[str]:
     """Author the masses of the bodies that an edit changed, where they came from colliders; notes on those unknown."""
     notes = []
     for path, name in edit.bodies.names.items():
         prim = edit.bodies.prims[path]
-        if name not in edit.changed or _has_full_mass(edit.scene, prim):
+        if name not in edit.changed:
             continue
+        own = read_number(edit.scene, prim, "physics:mass") or 0.0
+        if own > 0 and centre_of(edit.scene, prim) is not None and moments_of(edit.scene, prim) is not None:
+            continue  # it says all of its mass itself
         found = weigh(edit.scene, prim, name, [source for source in sources if source.body == name])
         if found is None:
             notes.append(f"the mass of {name!r} is left to its colliders: of one of them the volume is not known")
@@ -191,12 +189,6 @@ def weigh(scene: UsdStage, prim: Any, body: str, sources: Sequence[PrimCollision
         moved = [own + mass * (by @ by * np.eye(3) - np.outer(by, by)) for own, mass, by in ways]
         moments = factor * sum(moved, np.zeros((3, 3)))
     return Inertial(body, mass, centre, moments)
-
-
-def _has_full_mass(scene: UsdStage, prim: Any) -> bool:
-    """Whether a body says its mass, centre and inertia itself."""
-    mass = read_number(scene, prim, "physics:mass") or 0.0
-    return mass > 0 and centre_of(scene, prim) is not None and moments_of(scene, prim) is not None
 
 
 def _solids_of(parts: Sequence[collision_pieces.CollisionPiece]) -> list[Shape] | None:

@@ -49,8 +49,11 @@ def read_usd(path: Path) -> Asset:
         asset = _build_asset(scene, source)
     with usd(str(path)):  # which complains about missing files once more
         files, missing = find_files(path)
-    asset = replace(asset, files=files, missing=missing)
-    return _with_complaints(asset, complaints)
+    if complaints and not asset.geoms and not asset.opaque:
+        raise AssetError(f"nothing in it collides; USD says: {complaints[0]}", where=str(path))
+    more = [f"and {len(complaints) - 3} complaints more of USD"] if len(complaints) > 3 else []
+    notes = (*asset.notes, *(f"USD says: {text}" for text in complaints[:3]), *more)
+    return replace(asset, files=files, missing=missing, notes=notes)
 
 
 def _build_asset(scene: UsdStage, source: bytes) -> Asset:
@@ -113,14 +116,6 @@ def _build_geoms(
         for name, part in zip(element.names, source.parts, strict=True):
             if part.shape is not None:
                 yield Geom(name, element.body, part.shape, contact=contact, mentions=own)
-
-
-def _with_complaints(asset: Asset, complaints: Sequence[str]) -> Asset:
-    """The asset with what the library complained about; an asset of nothing with complaints is refused."""
-    if complaints and not asset.geoms and not asset.opaque:
-        raise AssetError(f"nothing in it collides; USD says: {complaints[0]}", where=str(asset.path))
-    more = [f"and {len(complaints) - 3} complaints more of USD"] if len(complaints) > 3 else []
-    return replace(asset, notes=(*asset.notes, *(f"USD says: {text}" for text in complaints[:3]), *more))
 
 
 def find_files(path: Path) -> tuple[tuple[Path, ...], tuple[str, ...]]:
