@@ -18,6 +18,7 @@ from meshforge.formats.references import Resolver
 from meshforge.geometry import FLATNESS, Floats, Ints, Piece, Pose, Shape, Sphere, principal_extents
 from meshforge.symbolic import Asset, Geom, Mentions, Opaque, Surface, unique_names
 
+_LEAST_SCALE = 1e-12  # a factor that is taken for zero
 _RING = 32  # corners of each end of a tapered cylinder
 
 
@@ -68,6 +69,13 @@ def is_flat(vertices: Floats) -> bool:
     """Whether points (n, 3) span no volume to speak of; MuJoCo refuses a mesh of such points."""
     extents = principal_extents(vertices)[2]
     return bool(extents.min() <= FLATNESS * extents.max())
+
+
+def refuse_zero_scale(scale: Floats, label: str, given: str, place: str) -> None:
+    """Raise AssetError where a factor by which the mesh of a collision is scaled is zero."""
+    if np.abs(scale).min() < _LEAST_SCALE:
+        problem = f"collision {label!r} is scaled to nothing: {given}"
+        raise AssetError(problem, where=place, remedy="Give every axis a factor that is not zero.")
 
 
 def turn_z_to(normal: Floats) -> Pose:
@@ -148,18 +156,23 @@ class ShapeNames:
     material: str = ""
 
 
-def collect_mentions(own: ShapeNames, shown: Sequence[ShapeNames], more: Iterable[tuple[str, str]] = ()) -> Mentions:
-    """What a file calls a shape that collides; shown: what its body shows; more: further mentions.
+def collect_mentions(
+    own: ShapeNames | None, found: Iterable[ShapeNames | None], more: Iterable[tuple[str, str]] = ()
+) -> Mentions:
+    """What a file calls a shape that collides; found: what its body shows; more: further mentions.
 
     A visual of the same shape is the shape itself to look at. What else the body shows counts where that is one thing.
     """
+    if own is None:
+        return ()
+    shown = [named for named in found if named]
     twins = [other for other in shown if other.shape == own.shape]
     alone = shown[0] if len(shown) == 1 and not twins else None
-    found = [("visual", twin.name) for twin in twins]
-    found += [("mesh", own.mesh), *more]
-    found += [("shown", alone.name), ("shown", alone.mesh)] if alone else []
-    found += [("material", named.material) for named in (own, *twins, *([alone] if alone else []))]
-    return drop_repeats(found)
+    said = [("visual", twin.name) for twin in twins]
+    said += [("mesh", own.mesh), *more]
+    said += [("shown", alone.name), ("shown", alone.mesh)] if alone else []
+    said += [("material", named.material) for named in (own, *twins, *([alone] if alone else []))]
+    return drop_repeats(said)
 
 
 def names_to_keep(asset: Asset) -> set[str]:
@@ -263,12 +276,13 @@ class CollisionMeshes:
                 raise AssetError(f"collision {use.label!r}: {error.message}", where=use.place) from error
         return self._pieces[key]
 
-    def groups(self, use: MeshUse | None) -> list[str | None]:
-        """The name of the group or node of each piece of a file that was cut; none for others."""
-        if use is None or (use.path, use.part) not in self._pieces:
-            return []
-        names = [surface.name for surface in self._surfaces[use.path, use.part]]
-        return [names[piece.group] for piece in self._pieces[use.path, use.part]]
+    def mention_groups(self, use: MeshUse | None, common: Mentions, count: int) -> list[Mentions]:
+        """What is said of each piece of an element, of several of a file also the name of its group or node."""
+        pieces = self._pieces.get((use.path, use.part)) if use else None
+        if not use or not pieces:
+            return [common] * count
+        groups = [self._surfaces[use.path, use.part][piece.group].name for piece in pieces]
+        return [(("group", group), *common) if group else common for group in groups]
 
     def digests(self) -> tuple[tuple[Path, str], ...]:
         """Digests of the files that hold several pieces, which an edit may have to part."""

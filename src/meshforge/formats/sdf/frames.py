@@ -8,9 +8,8 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from meshforge.common import AssetError, nearest_name
-from meshforge.formats.meshfile.surface import FARTHEST
 from meshforge.formats.sdf.document import Version
-from meshforge.formats.xml import Element, parse_numbers
+from meshforge.formats.xml import Element, read_numbers
 from meshforge.geometry import Floats, Pose, rotation_of_quaternion
 
 MODEL = "__model__"
@@ -172,15 +171,8 @@ def read_floats(parent: Element, tag: str, where: str, default: tuple[float, ...
 
 def read_values(element: Element, count: int, where: str) -> Floats:
     """The numbers (count,) that an element holds. Raises AssetError with `where:line`."""
-    found = parse_numbers(element.text)
     text = element.text if len(element.text) <= _LONGEST else f"{element.text[:_LONGEST]}..."
-    given, place = f"<{element.tag}>{text}</{element.tag}>", f"{where}:{element.line}"
-    if found is None or len(found) != count:
-        wanted = "a finite number" if count == 1 else f"{count} finite numbers"
-        raise AssetError(f"{given} does not hold {wanted}", where=place)
-    if any(abs(value) > FARTHEST for value in found):
-        raise AssetError(f"{given} is larger than anything", where=place)
-    return np.array(found)
+    return read_numbers(element.text, count, f"<{element.tag}>{text}</{element.tag}>", f"{where}:{element.line}")
 
 
 @dataclass(frozen=True, eq=False, slots=True)

@@ -37,7 +37,7 @@ def read_sdf(path: Path, options: base.ReadOptions) -> Asset:
     parts = [shapes.read_parts(one, use, meshes) for one, use in zip(links.collisions, uses, strict=True)]
     authored = slots.name_elements(_by_link(links), [len(own) for own in parts])
     mentions = [
-        _collect_mentions(one, meshes.groups(use), own)
+        meshes.mention_groups(use, mentions_of_element(one.link.element, one.element), len(own))
         for one, use, own in zip(links.collisions, uses, parts, strict=True)
     ]
     geoms = collision_pieces.geoms_of(authored, parts, mentions)
@@ -100,14 +100,6 @@ def _mesh_uses(links: models.SdfLinks, composed: models.ModelTree) -> list[colli
             )
         )
     return uses
-
-
-def _collect_mentions(
-    collision: models.SdfCollision, groups: Sequence[str | None], parts: Sequence[collision_pieces.CollisionPiece]
-) -> list[Mentions]:
-    """What else is said of each piece of a collision."""
-    common = mentions_of_element(collision.link.element, collision.element)
-    return [(("group", group), *common) if group else common for group in groups or [None] * len(parts)]
 
 
 def read_visuals(links: models.SdfLinks, composed: models.ModelTree) -> VisualSurfaces:
@@ -174,9 +166,7 @@ def collada_unit_of(mesh: Path) -> float:
 
 def mentions_of_element(link: Element, collision: Element) -> Mentions:
     """What is said of a `<collision>` of a link."""
-    own = _names_of(collision)
-    shown = [named for visual in link.each("visual") if (named := _names_of(visual))]
-    return collision_pieces.collect_mentions(own, shown) if own else ()
+    return collision_pieces.collect_mentions(_names_of(collision), map(_names_of, link.each("visual")))
 
 
 def _names_of(element: Element) -> collision_pieces.ShapeNames | None:

@@ -12,9 +12,8 @@ import numpy as np
 from meshforge.common import AssetError, nearest_name
 from meshforge.formats.collision_pieces import CollisionElement
 from meshforge.formats.kinematic_tree import TENSOR_NAMES, tensor_of_moments
-from meshforge.formats.meshfile.surface import FARTHEST
 from meshforge.formats.references import Resolver
-from meshforge.formats.xml import Element, parse_numbers, parse_xml
+from meshforge.formats.xml import Element, parse_xml, read_numbers
 from meshforge.geometry import Floats, Pose
 from meshforge.symbolic import Document, Inertial, Joint, JointKind, Mechanism, unit_vector
 
@@ -73,13 +72,7 @@ def read_floats(
     given = f"<{element.tag} {attribute}={text!r}>"
     if "${" in text:
         raise AssetError(f"{given} is a xacro expression", where=place, remedy="Expand the file with xacro first.")
-    values = parse_numbers(text)
-    if values is None or len(values) != count:
-        wanted = "a finite number" if count == 1 else f"{count} finite numbers"
-        raise AssetError(f"{given} does not hold {wanted}", where=place)
-    if any(abs(value) > FARTHEST for value in values):
-        raise AssetError(f"{given} is larger than anything", where=place)
-    return np.array(values)
+    return read_numbers(text, count, given, place)
 
 
 def read_origin(element: Element, where: str) -> Pose:

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import numpy as np
 
-from meshforge.common import AssetError, MeshForgeError, join_names, plain_path, pluralize
+from meshforge.common import MeshForgeError, join_names, plain_path, pluralize
 from meshforge.formats import base, collision_pieces, mesh_reader, slots
 from meshforge.formats.references import Resolver, find_companions
 from meshforge.formats.urdf import document
@@ -20,7 +20,6 @@ from meshforge.formats.xml import Element, XmlText, format_numbers
 from meshforge.geometry import Box, Capsule, Cylinder, Floats, Pose, Shape, Sphere
 from meshforge.symbolic import Asset, Body, Mentions
 
-_LEAST_SCALE = 1e-12  # a factor that is taken for zero
 _UP = (0.0, 0.0, 1.0)
 
 
@@ -60,12 +59,8 @@ def read_mesh_scale(mesh: Element, where: str, label: str) -> Floats:
     """
     single = len(mesh.attributes.get("scale", "").replace(",", " ").split()) == 1
     scale = document.read_floats(mesh, "scale", 1 if single else 3, where, (1.0, 1.0, 1.0))
-    if np.abs(scale).min() < _LEAST_SCALE:
-        raise AssetError(
-            f"collision {label!r} is scaled to nothing: scale={mesh.attributes['scale']!r}",
-            where=f"{where}:{mesh.line}",
-            remedy="Give every axis a factor that is not zero.",
-        )
+    given = f"scale={mesh.attributes.get('scale')!r}"
+    collision_pieces.refuse_zero_scale(scale, label, given, f"{where}:{mesh.line}")
     return np.broadcast_to(scale, (3,))
 
 
@@ -111,7 +106,10 @@ def read_urdf(path: Path, options: base.ReadOptions) -> Asset:
     collision_pieces.refuse_missing(use for use in uses if use)
     parts = read_parts(found, uses, links, meshes, where)
     authored = slots.name_elements(found, [len(own) for own in parts])
-    mentions = _collect_mentions(found, links, [meshes.groups(use) for use in uses], parts)
+    mentions = [
+        meshes.mention_groups(use, mentions_of_element(links.elements[link], collision), len(own))
+        for (link, collision), use, own in zip(found, uses, parts, strict=True)
+    ]
     files, missing = _find_files(robot, resolver)
     return Asset(
         path=path,
@@ -138,20 +136,6 @@ def _mesh_uses(found: LinkCollisions, resolver: Resolver, where: str) -> list[co
         place = f"{where}:{kind.line}" if kind else where
         uses.append(collision_pieces.MeshUse(element.names[0], reference, place, resolver) if is_mesh else None)
     return uses
-
-
-def _collect_mentions(
-    found: LinkCollisions,
-    links: UrdfLinks,
-    groups: Sequence[Sequence[str | None]],
-    parts: Sequence[Sequence[collision_pieces.CollisionPiece]],
-) -> list[list[Mentions]]:
-    """What else is said of each piece of each collision element."""
-    mentions = []
-    for (link, collision), named, own in zip(found, groups, parts, strict=True):
-        common = mentions_of_element(links.elements[link], collision)
-        mentions.append([(("group", group), *common) if group else common for group in named or [None] * len(own)])
-    return mentions
 
 
 def _find_files(robot: Element, resolver: Resolver) -> tuple[tuple[Path, ...], tuple[str, ...]]:
@@ -221,9 +205,7 @@ def _read_visual(link: str, element: Element, pose: Pose, resolver: Resolver, wh
 
 def mentions_of_element(link: Element, collision: Element) -> Mentions:
     """What is said of a `<collision>` of a link."""
-    own = _names_of(collision)
-    shown = [named for visual in link.each("visual") if (named := _names_of(visual))]
-    return collision_pieces.collect_mentions(own, shown) if own else ()
+    return collision_pieces.collect_mentions(_names_of(collision), map(_names_of, link.each("visual")))
 
 
 def _names_of(element: Element) -> collision_pieces.ShapeNames | None:
