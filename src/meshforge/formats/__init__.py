@@ -1,7 +1,7 @@
 """Files: a reader and a writer for each format, and the door to them all."""
 
 from meshforge.formats.base import Format, Loss, Mass, Output
-from meshforge.formats.engine_names.base import EngineName
+from meshforge.formats.engine_names.conventions import EngineName
 from meshforge.formats.mesh_reader import read_triangles, split_into_pieces
 from meshforge.formats.meshfile.surface import RawSurface
 from meshforge.formats.output_tree import SaveResult, output_path_of, save

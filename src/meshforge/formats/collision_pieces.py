@@ -18,6 +18,7 @@ from meshforge.formats.references import Resolver
 from meshforge.geometry import FLATNESS, Floats, Ints, Piece, Pose, Shape, Sphere, principal_extents
 from meshforge.symbolic import Asset, Geom, Mentions, Opaque, Surface, unique_names
 
+_LEAST_SCALE = 1e-12  # a factor that is taken for zero
 _RING = 32  # corners of each end of a tapered cylinder
 
 
@@ -68,6 +69,13 @@ def is_flat(vertices: Floats) -> bool:
     """Whether points (n, 3) span no volume to speak of; MuJoCo refuses a mesh of such points."""
     extents = principal_extents(vertices)[2]
     return bool(extents.min() <= FLATNESS * extents.max())
+
+
+def refuse_zero_scale(scale: Floats, label: str, given: str, place: str) -> None:
+    """Raise AssetError where a factor by which the mesh of a collision is scaled is zero."""
+    if np.abs(scale).min() < _LEAST_SCALE:
+        problem = f"collision {label!r} is scaled to nothing: {given}"
+        raise AssetError(problem, where=place, remedy="Give every axis a factor that is not zero.")
 
 
 def turn_z_to(normal: Floats) -> Pose:
@@ -148,18 +156,23 @@ class ShapeNames:
     material: str = ""
 
 
-def collect_mentions(own: ShapeNames, shown: Sequence[ShapeNames], more: Iterable[tuple[str, str]] = ()) -> Mentions:
-    """What a file calls a shape that collides; shown: what its body shows; more: further mentions.
+def collect_mentions(
+    own: ShapeNames | None, found: Iterable[ShapeNames | None], more: Iterable[tuple[str, str]] = ()
+) -> Mentions:
+    """What a file calls a shape that collides; found: what its body shows; more: further mentions.
 
     A visual of the same shape is the shape itself to look at. What else the body shows counts where that is one thing.
     """
+    if own is None:
+        return ()
+    shown = [named for named in found if named]
     twins = [other for other in shown if other.shape == own.shape]
     alone = shown[0] if len(shown) == 1 and not twins else None
-    found = [("visual", twin.name) for twin in twins]
-    found += [("mesh", own.mesh), *more]
-    found += [("shown", alone.name), ("shown", alone.mesh)] if alone else []
-    found += [("material", named.material) for named in (own, *twins, *([alone] if alone else []))]
-    return drop_repeats(found)
+    said = [("visual", twin.name) for twin in twins]
+    said += [("mesh", own.mesh), *more]
+    said += [("shown", alone.name), ("shown", alone.mesh)] if alone else []
+    said += [("material", named.material) for named in (own, *twins, *([alone] if alone else []))]
+    return drop_repeats(said)
 
 
 def names_to_keep(asset: Asset) -> set[str]:
@@ -223,7 +236,8 @@ def refuse_missing(uses: Iterable[MeshUse]) -> None:
             missing.append(use)
     if missing:
         first, others = missing[0], f" (and {len(missing) - 1} more like it)" if len(missing) > 1 else ""
-        problem = f"the mesh {_shorten(first.reference)!r} of collision {first.label!r} is not there{others}"
+        shown = first.reference if len(first.reference) <= _SHOWN else f"{first.reference[:_SHOWN]}..."
+        problem = f"the mesh {shown!r} of collision {first.label!r} is not there{others}"
         raise AssetError(problem, where=first.place, remedy=first.resolver.advice(first.reference))
 
 
@@ -262,12 +276,13 @@ class CollisionMeshes:
                 raise AssetError(f"collision {use.label!r}: {error.message}", where=use.place) from error
         return self._pieces[key]
 
-    def groups(self, use: MeshUse | None) -> list[str | None]:
-        """The name of the group or node of each piece of a file that was cut; none for others."""
-        if use is None or (use.path, use.part) not in self._pieces:
-            return []
-        names = [surface.name for surface in self._surfaces[use.path, use.part]]
-        return [names[piece.group] for piece in self._pieces[use.path, use.part]]
+    def mention_groups(self, use: MeshUse | None, common: Mentions, count: int) -> list[Mentions]:
+        """What is said of each piece of an element, of several of a file also the name of its group or node."""
+        pieces = self._pieces.get((use.path, use.part)) if use else None
+        if not use or not pieces:
+            return [common] * count
+        groups = [self._surfaces[use.path, use.part][piece.group].name for piece in pieces]
+        return [(("group", group), *common) if group else common for group in groups]
 
     def digests(self) -> tuple[tuple[Path, str], ...]:
         """Digests of the files that hold several pieces, which an edit may have to part."""
@@ -276,20 +291,29 @@ class CollisionMeshes:
 
 
 class SourceMeshes:
-    """The mesh files of an asset when it is written; digests: of those that may have to be parted, as they were."""
+    """The mesh files of an asset when it is written; digests: of those that may have to be parted, as they were.
 
-    def __init__(self, digests: Iterable[tuple[Path, str]], where: str) -> None:
-        self._digests, self._where = dict(digests), where
+    select: what elements use of them.
+    """
+
+    def __init__(
+        self, digests: Iterable[tuple[Path, str]], where: str, select: SurfaceSelector = lambda surfaces, _: surfaces
+    ) -> None:
+        self._digests, self._where, self._select = dict(digests), where, select
         self._surfaces: dict[Path, Sequence[RawSurface]] = {}
+        self._pieces: dict[tuple[str, Resolver, tuple[str, ...]], list[Piece]] = {}
 
-    def surfaces(self, reference: str, resolver: Resolver) -> Sequence[RawSurface]:
-        """What is in a file. Raises AssetError where it has changed since the asset was read."""
-        path = resolver.find(reference)
-        if path is None or file_digest(path) != self._digests.get(path):
-            raise change_error(f"the mesh {reference!r}", self._where)
-        if path not in self._surfaces:
-            self._surfaces[path] = read_triangles(path)
-        return self._surfaces[path]
+    def pieces(self, reference: str, resolver: Resolver, part: tuple[str, ...]) -> list[Piece]:
+        """The pieces of what an element uses of a file. Raises AssetError where it has changed since it was read."""
+        key = reference, resolver, part
+        if key not in self._pieces:
+            path = resolver.find(reference)
+            if path is None or file_digest(path) != self._digests.get(path):
+                raise change_error(f"the mesh {reference!r}", self._where)
+            if path not in self._surfaces:
+                self._surfaces[path] = read_triangles(path)
+            self._pieces[key] = split_into_pieces(self._select(self._surfaces[path], part), name=reference)
+        return self._pieces[key]
 
 
 def change_error(what: str, where: str) -> AssetError:
@@ -302,7 +326,3 @@ def refuse_changed_files(digests: Iterable[tuple[Path, str]], where: str, kind: 
     for path, digest in digests:
         if not path.is_file() or file_digest(path) != digest:
             raise change_error(f"{kind}{path.name}", where)
-
-
-def _shorten(reference: str) -> str:
-    return reference if len(reference) <= _SHOWN else f"{reference[:_SHOWN]}..."

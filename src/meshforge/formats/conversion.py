@@ -49,7 +49,7 @@ def report_conversion(
     lost = [f for f in features if f.count and f.kind not in target.holds]
     return ConversionReport(
         held=tuple(f for f in features if f.count and f.kind in target.holds),
-        lost=(*(_loss_of(f, target) for f in (*lost, *beyond)), *_merge_losses(own)),
+        lost=(*(_explain_loss(f, target) for f in (*lost, *beyond)), *_merge_losses(own)),
         remarks=(*remarks, *output.notes),
     )
 
@@ -62,17 +62,18 @@ def _subtract_losses(feature: Feature, losses: Sequence[Loss]) -> Feature:
     return Feature(feature.kind, tuple(n for n in feature.names if n not in names), unnamed, feature.reason)
 
 
-def _loss_of(feature: Feature, target: Format) -> Loss:
-    what, why = feature.kind, feature.reason or _explain_loss(feature.kind, target)
+def _explain_loss(feature: Feature, target: Format) -> Loss:
+    """The loss of a feature that a format does not hold."""
+    what = feature.kind
+    if feature.reason:
+        why = feature.reason
+    elif what is FeatureKind.MATERIALS and FeatureKind.COLORS in target.holds:
+        why = f"MeshForge converts only their plain colours to {target.title}"
+    elif what in target.could | target.holds:
+        why = f"MeshForge does not convert {what.many} to {target.title}"
+    else:
+        why = _WORDING.get(what, "{title} has no {many}").format(title=target.title, many=what.many)
     return Loss(what, feature.names, why, target.instead.get(what), feature.unnamed)
-
-
-def _explain_loss(what: FeatureKind, target: Format) -> str:
-    if what is FeatureKind.MATERIALS and FeatureKind.COLORS in target.holds:
-        return f"MeshForge converts only their plain colours to {target.title}"
-    if what in target.could | target.holds:
-        return f"MeshForge does not convert {what.many} to {target.title}"
-    return _WORDING.get(what, "{title} has no {many}").format(title=target.title, many=what.many)
 
 
 def _find_renamed(output: Output, target: Format) -> list[Loss]:
@@ -97,13 +98,10 @@ def _find_faded_materials(asset: Asset, target: Format) -> list[Loss]:
     if FeatureKind.VISUALS not in target.holds or not isinstance(asset.visuals, VisualSurfaces):
         return []
     files = dict.fromkeys(visual.what for visual in asset.visuals.visuals if isinstance(visual.what, Path))
-    faded = tuple(f.name for f in files if f.suffix.lower() not in target.shown_files and _has_materials(f))
+    unshown = [(f, (f, *find_companions(f).values())) for f in files if f.suffix.lower() not in target.shown_files]
+    faded = tuple(f.name for f, parts in unshown if any(part.suffix.lower() in _WITH_MATERIALS for part in parts))
     why = f"{target.title} gets the shapes alone"
     return [Loss(FeatureKind.MESH_MATERIALS, faded, why, "shown without these")] if faded else []
-
-
-def _has_materials(file: Path) -> bool:
-    return any(path.suffix.lower() in _WITH_MATERIALS for path in (file, *find_companions(file).values()))
 
 
 def _merge_losses(losses: Sequence[Loss]) -> list[Loss]:
@@ -140,6 +138,11 @@ def turn_upright(asset: Asset, source: Format | None, target: Format) -> tuple[A
     return turn_asset(asset, turn), (remark,)
 
 
+def _turn_opaque(piece: Opaque, turn: Pose) -> Opaque:
+    surface = _turn_surface(piece.surface, turn) if piece.surface else None
+    return replace(piece, surface=surface, plane=turn @ piece.plane if piece.plane else None)
+
+
 def turn_asset(asset: Asset, turn: Pose) -> Asset:
     """The asset in another root frame, new_T_old; frames of bodies are turned along, so that a root stays one."""
     back = turn.inverse()
@@ -151,11 +154,6 @@ def turn_asset(asset: Asset, turn: Pose) -> Asset:
         visuals=_turn_visuals(asset.visuals, turn),
         mechanism=asset.mechanism.move(turn),
     )
-
-
-def _turn_opaque(piece: Opaque, turn: Pose) -> Opaque:
-    surface = _turn_surface(piece.surface, turn) if piece.surface else None
-    return replace(piece, surface=surface, plane=turn @ piece.plane if piece.plane else None)
 
 
 def _turn_visuals(visuals: Sequence[Surface], turn: Pose) -> Sequence[Surface]:

@@ -166,7 +166,8 @@ class _ChainBuilder:
     def _add_root(self) -> str:
         """Add the root link; its name."""
         hung = [b for b in self.tree.order if self.dropped and self.tree.parent(b) == self.dropped]
-        still = hung or [body for body in self.tree.roots if _is_identity(self.poses[body])]
+        poses = [(body, self.poses[body]) for body in self.tree.roots]
+        still = hung or [b for b, p in poses if np.array_equal(p.rotation, np.eye(3)) and not p.translation.any()]
         name = still[0] if still else claim_name("base", self.links)
         if still:
             self.chain.of_body[name] = name
@@ -234,10 +235,6 @@ def perpendicular_to(axis: Floats) -> Floats:
     side = np.cross(axis, np.eye(3)[int(np.argmin(np.abs(axis)))])
     unit: Floats = side / np.linalg.norm(side)
     return unit
-
-
-def _is_identity(pose: Pose) -> bool:
-    return np.array_equal(pose.rotation, np.eye(3)) and not pose.translation.any()
 
 
 def place_inertial(inertial: Inertial, root_t_link: Pose) -> tuple[Floats, Floats]:

@@ -12,8 +12,7 @@ from pathlib import Path
 import numpy as np
 
 from meshforge.common import MeshForgeError
-from meshforge.formats.kinematic_tree import drop_rounding
-from meshforge.formats.mesh_reader import read_triangles
+from meshforge.formats import kinematic_tree, mesh_reader
 from meshforge.formats.meshfile.surface import join_surfaces, stack_triangles
 from meshforge.formats.plain.obj_text import format_obj_rows
 from meshforge.formats.references import Resolver, find_companions, placement
@@ -123,7 +122,7 @@ class VisualFiles:
         if file is None:
             self.refused.append(body)
             return None
-        return LinkVisual(file, Pose(split[0], drop_rounding(moved.offset, 1.0)), split[1], moved.rgba)
+        return LinkVisual(file, Pose(split[0], kinematic_tree.drop_rounding(moved.offset, 1.0)), split[1], moved.rgba)
 
     def _place_file(self, mesh: Path) -> str | None:
         """The reference to a mesh file in the output."""
@@ -145,7 +144,7 @@ class VisualFiles:
     def _convert(self, mesh: Path) -> str | None:
         """An OBJ of a file of another kind; None where it cannot be read."""
         try:
-            soup = join_surfaces(read_triangles(mesh))
+            soup = join_surfaces(mesh_reader.read_triangles(mesh))
         except MeshForgeError:
             return None
         return self._make_obj(f"{mesh.stem}-visual", soup.vertices, soup.faces)

@@ -8,13 +8,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from meshforge.common import AssetError
-from meshforge.formats.meshfile.dae import parse_dae
-from meshforge.formats.meshfile.gltf_scene import parse_gltf
-from meshforge.formats.meshfile.obj import parse_obj
-from meshforge.formats.meshfile.ply import parse_ply
-from meshforge.formats.meshfile.stl import parse_stl
+from meshforge.formats.meshfile import dae, gltf_scene, obj, ply, stl, vrml
 from meshforge.formats.meshfile.surface import RawSurface, join_surfaces
-from meshforge.formats.meshfile.vrml import parse_vrml
 from meshforge.geometry import Piece, split_pieces
 
 READABLE_MESH_SUFFIXES = (".obj", ".stl", ".ply", ".dae", ".glb", ".gltf", ".wrl")
@@ -113,17 +108,17 @@ def parse_surfaces(data: bytes, path: Path) -> list[RawSurface]:
     where = str(path)
     match path.suffix.lower():
         case ".obj":
-            return parse_obj(data, where).surfaces(where)
+            return obj.parse_obj(data, where).surfaces(where)
         case ".stl":
-            return parse_stl(data, where).surfaces(where)
+            return stl.parse_stl(data, where).surfaces(where)
         case ".ply":
-            return parse_ply(data, where).surfaces(where)
+            return ply.parse_ply(data, where).surfaces(where)
         case ".dae":
-            return parse_dae(data, where)
+            return dae.parse_dae(data, where)
         case ".glb" | ".gltf":
-            return parse_gltf(data, path)
+            return gltf_scene.parse_gltf(data, path)
         case ".wrl":
-            return parse_vrml(data, where)
+            return vrml.parse_vrml(data, where)
     raise _unknown_kind_error(path)
 
 
@@ -143,8 +138,7 @@ def _unknown_kind_error(path: Path) -> AssetError:
 
 def refuse_lookalike(data: bytes, path: Path) -> None:
     """Raise AssetError where the bytes of a file plainly are something else than its suffix says."""
-    suffix = path.suffix.lower()
-    problem, remedy = _check_empty(data) or _check_kind(data, suffix) or (None, None)
+    problem, remedy = _check_kind(data, path.suffix.lower()) or (None, None)
     if problem:
         raise AssetError(problem, where=str(path), remedy=remedy)
 
@@ -157,29 +151,19 @@ def is_binary_stl(data: bytes) -> bool:
     return count > 0 and len(data) == _STL_HEADER + _STL_RECORD * count
 
 
-def _check_empty(data: bytes) -> Mismatch | None:
+def _check_kind(data: bytes, suffix: str) -> Mismatch | None:
     if not data:
         return "the file is empty", None
     if not data.strip(b"\0"):
         return "the file holds nothing but zero bytes", "The copy or download broke off: fetch it again."
-    return None
-
-
-def _check_kind(data: bytes, suffix: str) -> Mismatch | None:
     if is_binary_stl(data):
         return None if suffix == ".stl" else _wrong_suffix("a binary STL file", ".stl")
-    return (
-        _check_utf16(data, suffix)
-        or _check_signature(data, suffix)
-        or _check_markup(data, suffix)
-        or _check_merge_conflict(data)
-    )
-
-
-def _check_utf16(data: bytes, suffix: str) -> Mismatch | None:
-    """Text in UTF-16, which XML files may be."""
-    if suffix in _NEVER_XML and data[:2] in (b"\xff\xfe", b"\xfe\xff"):
+    if suffix in _NEVER_XML and data[:2] in (b"\xff\xfe", b"\xfe\xff"):  # XML files may be in UTF-16
         return "this is text in UTF-16", "Save it as plain text (ASCII or UTF-8)."
+    if found := _check_signature(data, suffix) or _check_markup(data, suffix):
+        return found
+    if b"<<<<<<< " in data and _CONFLICT.search(data):
+        return "a merge of two versions of this file is not finished", "Take one of them: git checkout --ours FILE."
     return None
 
 
@@ -200,12 +184,6 @@ def _check_markup(data: bytes, suffix: str) -> Mismatch | None:
     tag = root[1].decode("ascii", "replace")
     name, right = _ROOTS.get(tag.lower(), (f"XML, its root element is <{tag}>", ""))
     return _wrong_suffix(name, right) if right else (f"this is {name}", _OTHER if tag.lower() == "x3d" else _LOADED)
-
-
-def _check_merge_conflict(data: bytes) -> Mismatch | None:
-    if b"<<<<<<< " in data and _CONFLICT.search(data):
-        return "a merge of two versions of this file is not finished", "Take one of them: git checkout --ours FILE."
-    return None
 
 
 def _wrong_suffix(name: str, suffix: str) -> Mismatch:

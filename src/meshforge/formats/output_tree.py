@@ -15,7 +15,7 @@ from pathlib import Path
 from meshforge.common import AssetError, plain_path, replace_atomically, write_atomically
 from meshforge.formats.base import Format, Mass, Output
 from meshforge.formats.conversion import ConversionReport, report_conversion, turn_upright
-from meshforge.formats.engine_names.base import EngineName
+from meshforge.formats.engine_names.conventions import EngineName
 from meshforge.formats.registry import FOLDER, FORMATS, SUFFIXES, format_for, format_with_names
 from meshforge.geometry import Pose
 from meshforge.symbolic import Asset, Body, Document, Geom, SymbolicMesh

@@ -36,7 +36,7 @@ class Resolver:
         """The places where the file may be, likeliest first; none for an address in the network."""
         reference = reference.strip()
         if package := _PACKAGE.fullmatch(reference):
-            yield from self._in_package(package[1], package[2])
+            yield from (self._join(home, package[2]) for home in self._homes(package[1]))
         elif file := _FILE.fullmatch(reference):
             yield self._join(self.folder, unquote(file[1]))
         elif reference and not is_address(reference):
@@ -47,10 +47,6 @@ class Resolver:
     def place(self, reference: str) -> str | None:
         """Where the file of a reference goes in an output: `placement`."""
         return placement(reference)
-
-    def _in_package(self, package: str, rest: str) -> Iterator[Path]:
-        for home in self._homes(package):
-            yield self._join(home, rest)
 
     def _homes(self, package: str) -> Iterator[Path]:
         """Where a package may be, in the given roots, then upwards: by a folder's name, or by its package.xml."""
@@ -87,12 +83,9 @@ class Resolver:
             )
         if odd := next((path for path in looked if os.path.lexists(path)), None):
             return f"{odd} is no file, or a link that leads nowhere."
-        return f"Looked for {' and '.join(map(_shorten_path, looked))}.{hint} Put it there, or correct the reference."
-
-
-def _shorten_path(path: Path) -> str:
-    """A path as messages show it, of long names the beginning."""
-    return str(Path(*(name if len(name) <= _LONG else f"{name[:_LONG]}..." for name in path.parts)))
+        parts = [[name if len(name) <= _LONG else f"{name[:_LONG]}..." for name in path.parts] for path in looked]
+        places = " and ".join(str(Path(*names)) for names in parts)
+        return f"Looked for {places}.{hint} Put it there, or correct the reference."
 
 
 def is_address(reference: str) -> bool:
@@ -171,17 +164,14 @@ def note_absolute(reference: str) -> str:
 def _find_references(mesh: Path) -> Iterator[str]:
     match mesh.suffix.lower():
         case ".obj":
-            yield from _find_libraries(_read_or_empty(mesh))
+            data = _read_or_empty(mesh)
+            for found in _LIBRARY.finditer(data):
+                if not data[data.rfind(b"\n", 0, found.start()) + 1 : found.start()].strip(b" \t"):
+                    yield found[1].decode("utf-8", "replace").strip()
         case ".dae":
             yield from (unquote(text.removeprefix("file://")) for text in _find_matches(_IMAGE, _read_or_empty(mesh)))
         case ".gltf" | ".glb":
             yield from map(unquote, _find_uris(mesh))
-
-
-def _find_libraries(data: bytes) -> Iterator[str]:
-    for found in _LIBRARY.finditer(data):
-        if not data[data.rfind(b"\n", 0, found.start()) + 1 : found.start()].strip(b" \t"):
-            yield found[1].decode("utf-8", "replace").strip()
 
 
 def _find_matches(pattern: re.Pattern[bytes], data: bytes) -> Iterator[str]:

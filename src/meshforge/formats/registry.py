@@ -12,15 +12,11 @@ import numpy as np
 
 from meshforge.common import AssetError, UsageError, expand_glob, nearest_name
 from meshforge.formats.base import Format, ReadOptions
-from meshforge.formats.engine_names.base import EngineName
+from meshforge.formats.engine_names.conventions import EngineName
 from meshforge.formats.gltf.format import GltfForGodot, GltfFormat, GltfForUnity, GltfForUnreal
 from meshforge.formats.meshfile.surface import FARTHEST
 from meshforge.formats.mjcf.format import MjcfFormat
-from meshforge.formats.plain.folder import FolderFormat
-from meshforge.formats.plain.obj import ObjFormat, ObjForUnreal
-from meshforge.formats.plain.ply import PlyFormat
-from meshforge.formats.plain.stl import StlFormat
-from meshforge.formats.plain.wrl import WrlFormat
+from meshforge.formats.plain import folder, obj, ply, stl
 from meshforge.formats.sdf.document import CONFIG, find_main_file
 from meshforge.formats.sdf.format import SdfFormat
 from meshforge.formats.segmentation.base import is_segmentation
@@ -31,7 +27,7 @@ from meshforge.symbolic import Asset, SymbolicMesh, read_labels, transfer_labels
 _HEAD = 4096  # bytes by which a format tells its assets from other files of its suffix
 _UNREAD = {".mjb": "is a model compiled for one version of MuJoCo: open the XML it was made from"}
 
-FOLDER = FolderFormat((ObjFormat(), StlFormat(), PlyFormat(), WrlFormat()))
+FOLDER = folder.FolderFormat((obj.ObjFormat(), stl.StlFormat(), ply.PlyFormat(), stl.WrlFormat()))
 FORMATS: tuple[Format, ...] = (
     UrdfFormat(),
     MjcfFormat(),
@@ -42,7 +38,7 @@ FORMATS: tuple[Format, ...] = (
     FOLDER,
 )
 ENGINE_FORMATS: Mapping[EngineName, tuple[Format, ...]] = {
-    "unreal": (GltfForUnreal(), ObjForUnreal()),
+    "unreal": (GltfForUnreal(), obj.ObjForUnreal()),
     "godot": (GltfForGodot(),),
     "unity": (GltfForUnity(),),
 }

@@ -4,12 +4,12 @@ of each (left alone, removed, split, joined by new ones), what they are called, 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
-from typing import Protocol
+from abc import ABC, abstractmethod
+from collections.abc import Collection, Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
 
-from meshforge.common import AssetError, nearest_name
-from meshforge.formats.collision_pieces import CollisionElement, name_pieces, names_to_keep, new_hulls
+from meshforge.common import AssetError, nearest_name, pluralize
+from meshforge.formats import collision_pieces, mesh_output
 from meshforge.formats.xml import (
     Element,
     Splice,
@@ -20,7 +20,7 @@ from meshforge.formats.xml import (
     set_attribute,
     strip_comments,
 )
-from meshforge.geometry import Pose
+from meshforge.geometry import Piece, Polytope, Pose, Shape
 from meshforge.symbolic import Asset, Geom, unique_names
 
 _TAG = re.compile(rb"<([^\s/>]+)")
@@ -51,7 +51,10 @@ class Slot:
     def to_bytes(self, data: bytes) -> bytes:
         """Its text; data: the authored document."""
         if self.source is None:
-            return apply_splices(self.text, [set_attribute(self.text, _parse_element(self.text), "name", self.name)])
+            tag = _TAG.match(self.text)
+            assert tag is not None  # a text is an element
+            element = Element(tag[1].decode(), {}, line=0, start=0, inside=tag.end())
+            return apply_splices(self.text, [set_attribute(self.text, element, "name", self.name)])
         edits = self.edits
         if self.name != self.source.attributes.get("name"):
             edits = (set_attribute(data, self.source, "name", self.name), *edits)
@@ -59,20 +62,54 @@ class Slot:
         return strip_comments(text) if self.copy else text
 
 
-class ElementMaker(Protocol):
-    """Makes elements for one document of a format; data: its text."""
+@dataclass(frozen=True, eq=False, slots=True)
+class ElementMaker(ABC):
+    """Makes elements for one file of a format; data: its text; folder: for hulls whose parent has no mesh.
+
+    meshes: the files that the document refers to, where one may have to be split.
+    """
+
+    data: bytes
+    line_end: bytes
+    files: mesh_output.HullFiles
+    folder: str = ""
+    meshes: collision_pieces.SourceMeshes | None = None
+    notes: list[str] = field(default_factory=list)
 
     @property
-    def data(self) -> bytes: ...
+    @abstractmethod
+    def title(self) -> str:
+        """The format, as notes name it."""
 
+    @abstractmethod
+    def find_mesh(self, collision: Element) -> str | None:
+        """The reference of a collision's mesh, None where it has another geometry or none."""
+
+    @abstractmethod
     def make_slot(self, geom: Geom, root_t_link: Pose, template: Element | None, lead: bytes) -> Slot:
         """The element of a hull; template: that of its parent, all but pose and geometry of which is inherited.
 
         lead: the blanks before an element without a template.
         """
 
+    @abstractmethod
     def extract_piece(self, element: Element, name: str, k: int) -> tuple[Splice, ...]:
         """The edits that leave of an element its k-th piece alone, triangles as authored; name: of that piece."""
+
+    def make_piece(self, reference: str, part: tuple[str, ...], name: str, k: int) -> tuple[Piece, str]:
+        """The k-th piece of a mesh, or of a part of it, and the reference to a file of its own, which is made."""
+        assert self.files.resolver is not None and self.meshes is not None  # only meshes have several pieces
+        piece = self.meshes.pieces(reference, self.files.resolver, part)[k]
+        return piece, self.files.add(name, self.files.folder_of(reference), piece.vertices, piece.faces)
+
+    def make_mesh(self, geom: Geom, shape: Shape, template: Element | None) -> str:
+        """The reference to the mesh file of a hull, which is made."""
+        if not isinstance(shape, Polytope):
+            corners = pluralize(len(shape.vertices), "vertex", "vertices")
+            self.notes.append(f"{self.title} has no {shape.kind}: {geom.name!r} is written as a hull of {corners}")
+        beside = self.find_mesh(template) if template else None
+        folder = self.files.folder_of(beside) if beside else self.folder
+        return self.files.add(geom.name, folder, shape.vertices, shape.faces)
 
 
 class ElementPlan:
@@ -85,7 +122,7 @@ class ElementPlan:
     def __init__(
         self,
         asset: Asset,
-        authored: Sequence[CollisionElement],
+        authored: Sequence[collision_pieces.CollisionElement],
         elements: Sequence[Element],
         links: Mapping[str, Element],
         maker: ElementMaker,
@@ -97,7 +134,8 @@ class ElementPlan:
         self._elements = elements
         self._poses = asset.body_poses
         self._place_authored()
-        for geom in new_hulls(asset, self._owner):
+        for geom in collision_pieces.new_hulls(asset, self._owner):
+            refuse_unknown_link(geom, links, str(asset.path))
             self._place_made(geom)
 
     @property
@@ -119,42 +157,38 @@ class ElementPlan:
         return edits + [append_elements(data, self.links[link], slots) for link, slots in self.ends.items()]
 
     def _place_authored(self) -> None:
-        kept = names_to_keep(self.asset)
+        kept = collision_pieces.names_to_keep(self.asset)
         for element, authored in zip(self._elements, self.authored, strict=True):
             staying = {k: name for k, name in enumerate(authored.names) if name in kept}
             if len(staying) == len(authored.names):
                 slots = [Slot(authored.link, authored.names, element.attributes.get("name"), element)]
             else:
-                slots = [self._split_element(element, authored.link, name, k) for k, name in staying.items()]
-                for slot in slots[1:]:
-                    slot.copy = True
+                slots = []  # an element for each piece, its triangles as authored in a file of their own
+                for k, name in staying.items():
+                    edits, old = self.maker.extract_piece(element, name, k), element.attributes.get("name")
+                    slots.append(Slot(authored.link, (name,), old, element, edits, copy=bool(slots)))
             self.places.append((element, slots))
-
-    def _split_element(self, element: Element, link: str, name: str, k: int) -> Slot:
-        """An element for one piece of a mesh, its triangles as authored in a file of their own."""
-        edits = self.maker.extract_piece(element, name, k)
-        return Slot(link, (name,), element.attributes.get("name"), element, edits)
 
     def _place_made(self, geom: Geom) -> None:
         """A new element after that of its parent, or else after the last one of its link."""
-        link = self._link_of(geom)
         own = [k for k, authored in enumerate(self.authored) if authored.link == geom.body]
         parent = self._owner.get(geom.parent or "")
         template = self._elements[parent] if parent is not None else None
-        lead = child_indent_of(self.maker.data, link)
+        lead = child_indent_of(self.maker.data, self.links[geom.body])
         slot = self.maker.make_slot(geom, self._poses[geom.body], template, lead)
         if not own:
             self.ends.setdefault(geom.body, []).append(slot)
         else:
             self.places[parent if parent in own else own[-1]][1].append(slot)
 
-    def _link_of(self, geom: Geom) -> Element:
-        if geom.body in self.links:
-            return self.links[geom.body]
-        like = nearest_name(geom.body, self.links)
+
+def refuse_unknown_link(geom: Geom, links: Collection[str], where: str) -> None:
+    """Raise AssetError for a hull on a link that is not there."""
+    if geom.body not in links:
+        like = nearest_name(geom.body, links)
         raise AssetError(
             f"hull {geom.name!r} is on link {geom.body!r}, which is not there",
-            where=str(self.asset.path),
+            where=where,
             remedy=f"The nearest name of a link is {like!r}." if like else None,
         )
 
@@ -198,13 +232,6 @@ def _join_slots(data: bytes, slots: Iterable[Slot], lead: bytes | None) -> bytes
     return gap.join(slot.to_bytes(data) for slot in slots)
 
 
-def _parse_element(text: bytes) -> Element:
-    """The element of a text that has no name attribute."""
-    found = _TAG.match(text)
-    assert found is not None  # a text is an element
-    return Element(found[1].decode(), {}, line=0, start=0, inside=found.end())
-
-
 def name_element_pieces(elements: Sequence[tuple[str | None, str | None, int]]) -> list[tuple[str, ...]]:
     """The names that the pieces of collision elements read as; for each element its link, own name and pieces.
 
@@ -217,14 +244,16 @@ def name_element_pieces(elements: Sequence[tuple[str | None, str | None, int]]) 
         own = name or f"geom{count.get(link, 0)}"
         bases.append(own if link is None else f"{link}/{own}")
         count[link] = count.get(link, 0) + 1
-    return name_pieces(zip(unique_names(bases), (pieces for _, _, pieces in elements), strict=True))
+    return collision_pieces.name_pieces(zip(unique_names(bases), (pieces for _, _, pieces in elements), strict=True))
 
 
-def name_elements(found: Iterable[tuple[str, Element]], pieces: Iterable[int]) -> tuple[CollisionElement, ...]:
+def name_elements(
+    found: Iterable[tuple[str, Element]], pieces: Iterable[int]
+) -> tuple[collision_pieces.CollisionElement, ...]:
     """Collisions with the names of their pieces; found: of each its link and its element; pieces: how many it has."""
     own = [(link, e.attributes.get("name"), count) for (link, e), count in zip(found, pieces, strict=True)]
     named = zip(own, name_element_pieces(own), strict=True)
-    return tuple(CollisionElement(link, names) for (link, _, _), names in named)
+    return tuple(collision_pieces.CollisionElement(link, names) for (link, _, _), names in named)
 
 
 def assign_names(slots: Sequence[Slot]) -> dict[str, str]:
@@ -248,6 +277,11 @@ def _find_misread(slots: Sequence[Slot]) -> list[tuple[Slot, tuple[str, ...]]]:
 
 
 def name_attribute_of(slot: Slot) -> str:
-    """The name attribute under which a slot's pieces have their names: that of the first, without link and `#0`."""
-    name = slot.names[0].removeprefix(f"{slot.body}/")
-    return name if len(slot.names) == 1 else name.removesuffix("#0")
+    """The name attribute under which a slot's pieces have their names."""
+    return own_name_of(slot.names, slot.body)
+
+
+def own_name_of(names: tuple[str, ...], body: str | None) -> str:
+    """The name of an element whose pieces are to have names: that of the first, without body and `#0`."""
+    name = names[0].removeprefix(f"{body}/")
+    return name if len(names) == 1 else name.removesuffix("#0")

@@ -11,9 +11,7 @@ from typing import Any, overload
 import numpy as np
 
 from meshforge.common import MeshForgeError
-from meshforge.formats.base import Loss
-from meshforge.formats.collision_pieces import place_surface
-from meshforge.formats.mesh_reader import read_triangles
+from meshforge.formats import base, collision_pieces, mesh_reader
 from meshforge.geometry import Floats, Pose, Shape
 from meshforge.symbolic import Asset, FeatureKind, Surface
 
@@ -48,10 +46,10 @@ class Visual:
         if isinstance(self.what, Shape):
             return [Surface(self.what.vertices, self.what.faces, self.body, self.rgba)]
         try:
-            read = read_triangles(self.what)
+            read = mesh_reader.read_triangles(self.what)
         except MeshForgeError:
             return []
-        found = [place_surface(s.vertices, s.faces, self.linear, self.offset, self.body) for s in read]
+        found = [collision_pieces.place_surface(s.vertices, s.faces, self.linear, self.offset, self.body) for s in read]
         return [replace(surface, rgba=self.rgba) for surface in found]
 
 
@@ -102,7 +100,7 @@ def visuals_of(asset: Asset) -> list[tuple[str, Visual | Surface]]:
     return [(visual.body or first, visual) for visual in found]
 
 
-def read_visual_surfaces(asset: Asset) -> tuple[list[tuple[str, Surface]], list[Loss]]:
+def read_visual_surfaces(asset: Asset) -> tuple[list[tuple[str, Surface]], list[base.Loss]]:
     """The surfaces of visuals with their bodies and colours, and what cannot be read."""
     found: list[tuple[str, Surface]] = []
     refused: list[str] = []
@@ -114,10 +112,10 @@ def read_visual_surfaces(asset: Asset) -> tuple[list[tuple[str, Surface]], list[
     return found, unreadable_visuals(refused)
 
 
-def unreadable_visuals(bodies: Sequence[str]) -> list[Loss]:
+def unreadable_visuals(bodies: Sequence[str]) -> list[base.Loss]:
     """The loss of the visuals of some bodies, named once each; none where there are no such bodies."""
     names = tuple(dict.fromkeys(bodies))
-    return [Loss(FeatureKind.VISUALS, names, "their files cannot be read")] if names else []
+    return [base.Loss(FeatureKind.VISUALS, names, "their files cannot be read")] if names else []
 
 
 def linear_color(rgba: Rgba) -> list[float]:

@@ -11,7 +11,11 @@ from dataclasses import dataclass, field
 from typing import NoReturn
 from xml.parsers import expat
 
+import numpy as np
+
 from meshforge.common import AssetError
+from meshforge.formats.meshfile.surface import FARTHEST
+from meshforge.geometry import Floats
 
 _TAG_END = re.compile(rb"(?:[^\"'>]++|\"[^\"]*\"|'[^']*')*+>")
 
@@ -81,7 +85,7 @@ class _TreeReader:
         self.parser = expat.ParserCreate("utf-8")
         self.parser.StartElementHandler = self._start
         self.parser.EndElementHandler = self._end
-        self.parser.CharacterDataHandler = self._characters
+        self.parser.CharacterDataHandler = lambda text: self.texts[-1].append(text)
         self.parser.buffer_text = True
         self.parser.EntityDeclHandler = self._entity
         self.parser.specified_attributes = True
@@ -104,9 +108,6 @@ class _TreeReader:
             self.open[-1].children.append(element)
         self.open.append(element)
         self.texts.append([])
-
-    def _characters(self, text: str) -> None:
-        self.texts[-1].append(text)
 
     def _end(self, tag: str) -> None:
         element = self.open.pop()
@@ -227,6 +228,21 @@ def indent_of(data: bytes, at: int) -> bytes | None:
     return blanks if not blanks.strip() else None
 
 
+def line_gap(data: bytes, at: int) -> bytes:
+    """What parts two elements where the first is at `at`: a line end and its indent, nothing where it has no line."""
+    lead = indent_of(data, at)
+    return b"" if lead is None else newline_of(data) + lead
+
+
+def replace_or_insert(data: bytes, parent: Element, tag: str, before: str, text: bytes) -> Splice:
+    """The edit that replaces a child of an element, or inserts it before another one."""
+    old, next_ = parent.first(tag), parent.first(before)
+    if old is not None:
+        return Splice(old.start, old.end, text)
+    assert next_ is not None
+    return Splice(next_.start, next_.start, text + line_gap(data, next_.start))
+
+
 def remove_element(data: bytes, element: Element) -> Splice:
     """The edit that removes an element, with its lines where it has them for itself."""
     end = data.find(b"\n", element.end) + 1 or len(data)
@@ -250,3 +266,14 @@ def parse_numbers(text: str) -> list[float] | None:
     except ValueError:
         return None
     return values if all(map(math.isfinite, values)) else None
+
+
+def read_numbers(text: str, count: int, given: str, place: str) -> Floats:
+    """The numbers (count,) of a text. Raises AssetError at a place: others, or none of a size; given: the element."""
+    values = parse_numbers(text)
+    if values is None or len(values) != count:
+        wanted = "a finite number" if count == 1 else f"{count} finite numbers"
+        raise AssetError(f"{given} does not hold {wanted}", where=place)
+    if any(abs(value) > FARTHEST for value in values):
+        raise AssetError(f"{given} is larger than anything", where=place)
+    return np.array(values)

@@ -7,8 +7,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from meshforge.formats.engine_names.base import godot_kind, strip_godot_suffix, unreal_kind, visible_mesh_of
-from meshforge.formats.gltf.json_text import rewrite_json
+from meshforge.formats.engine_names.conventions import godot_kind, strip_godot_suffix, unreal_kind, visible_mesh_of
+from meshforge.formats.gltf.document import rewrite_json
 from tests.examples import examples
 
 SCALARS = st.none() | st.booleans() | st.integers(-9, 9) | st.floats(allow_nan=False, allow_infinity=False) | st.text()

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from meshforge.formats import read, save
-from meshforge.formats.usd.document import BODY
+from meshforge.formats.usd.stage import BODY
 from meshforge.geometry import Box, Capsule, Cylinder, Sphere
 from tests.conversion_samples import SAMPLES
 from tests.usd_stages import complaints, physics_shapes, stage, written

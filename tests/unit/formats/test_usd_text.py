@@ -54,7 +54,7 @@ def test_without_an_edit_nothing_changes() -> None:
 def test_a_text_of_another_form_is_written_anew_and_its_comments_told(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    import meshforge.formats.usd.edit as writing
+    import meshforge.formats.usd.layer_text as writing
 
     monkeypatch.setattr(writing, "patch_layer", lambda text, before, after: text)  # an edit that goes amiss is noticed
     asset = read(written(tmp_path, CUP))

@@ -7,10 +7,9 @@ from dataclasses import dataclass
 from functools import partial
 
 from meshforge.common import AssetError, join_names
-from meshforge.formats.base import Loss
-from meshforge.formats.engine_names.base import CollisionNames
+from meshforge.formats import base, visuals
+from meshforge.formats.engine_names.conventions import CollisionNames
 from meshforge.formats.meshfile.surface import stack_triangles
-from meshforge.formats.visuals import read_visual_surfaces
 from meshforge.symbolic import Asset, Body, FeatureKind, Geom, Opaque, Surface
 
 _NAMELESS = "body"  # how formats without bodies call the one they have
@@ -32,7 +31,7 @@ class EngineBodies:
     """All bodies of an asset that have anything; lost: what the names cannot hold; notes: for the user."""
 
     each: tuple[EngineBody, ...]
-    lost: tuple[Loss, ...]
+    lost: tuple[base.Loss, ...]
     notes: tuple[str, ...]
 
     @property
@@ -53,7 +52,7 @@ class _Namer:
     def __init__(self, asset: Asset, engine: CollisionNames, stem: str) -> None:
         self.asset, self.engine, self.stem = asset, engine, stem
         self.taken: set[str] = set()
-        surfaces, refused = read_visual_surfaces(asset)
+        surfaces, refused = visuals.read_visual_surfaces(asset)
         self.surfaces = {body.name: [s for owner, s in surfaces if owner == body.name] for body in asset.bodies}
         self.lost = list(refused)
         self.bare: list[str] = []
@@ -63,7 +62,8 @@ class _Namer:
         collides = [piece for piece in asset.opaque if _has_triangles(piece)] if engine.takes_opaque else []
         if not asset.geoms and not collides:
             raise AssetError("there is no hull to write", where=str(asset.path))
-        names = [self._claim_name(engine.body, self._base_name(body)) for body in asset.bodies]
+        bases = [self.stem] if [body.name for body in asset.bodies] == [_NAMELESS] else [b.name for b in asset.bodies]
+        names = [self._claim_name(engine.body, name) for name in bases]
         found = [self._name_body(*pair) for pair in zip(asset.bodies, names, strict=True)]
         notes = list(engine.notes(asset.geoms))
         if self.bare:
@@ -72,9 +72,6 @@ class _Namer:
             )
         kept = tuple(one for one in found if one.surfaces or one.hulls or one.opaque)
         return EngineBodies(kept, tuple(self.lost), tuple(notes))
-
-    def _base_name(self, body: Body) -> str:
-        return self.stem if len(self.asset.bodies) == 1 and body.name == _NAMELESS else body.name
 
     def _name_body(self, body: Body, name: str) -> EngineBody:
         engine = self.engine
@@ -88,7 +85,7 @@ class _Namer:
         if opaque and not engine.takes_opaque:
             why = f"{engine.title} makes one hull of any mesh that collides; meshforge prepare makes better ones"
             instead = "written to be seen alone" if bare else None
-            self.lost.append(Loss(FeatureKind.OPAQUE, tuple(piece.name for piece in opaque), why, instead))
+            self.lost.append(base.Loss(FeatureKind.OPAQUE, tuple(piece.name for piece in opaque), why, instead))
             opaque = []
         hulls = {
             self._claim_name(partial(engine.hull, name, geom, k), self._own_name_of(geom)): geom

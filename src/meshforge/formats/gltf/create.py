@@ -12,8 +12,8 @@ import numpy as np
 
 from meshforge.common import AssetError
 from meshforge.formats.base import Output
-from meshforge.formats.engine_names.base import CollisionNames, godot_kind, unreal_kind
 from meshforge.formats.engine_names.bodies import EngineBodies, EngineBody, name_bodies
+from meshforge.formats.engine_names.conventions import CollisionNames, godot_kind, unreal_kind
 from meshforge.formats.gltf.document import BODY, Convention, GltfDocument
 from meshforge.formats.gltf.draft import SceneDraft
 from meshforge.formats.gltf.edit import assign_names
@@ -68,16 +68,12 @@ class _Creator:
             raise AssetError("there is no hull to write", where=str(self.asset.path))
         for body, surface in seen:
             self._add_visual(body, surface)
-        renamed = self._assign_names()
-        main, made = pack_new(self.draft, stem, self.is_binary)
-        return Output(main, made, names=renamed, lost=tuple(lost))
-
-    def _assign_names(self) -> dict[str, str]:
-        """The hulls that read back under other names, with these."""
         bodies = tuple((node, body) for body, node in self.nodes.items())
         names = assign_names(self.draft, GltfDocument(b"", self.convention, (), bodies), renames=True)
         hulls = {geom.name for geom in self.asset.geoms}
-        return {old: now for old, now in names.items() if old in hulls}
+        renamed = {old: now for old, now in names.items() if old in hulls}
+        main, made = pack_new(self.draft, stem, self.is_binary)
+        return Output(main, made, names=renamed, lost=tuple(lost))
 
     def _build_tree(self) -> Json:
         """A tree with a node for each body but the one that all formats without bodies have."""

@@ -11,8 +11,7 @@ from typing import Any
 import numpy as np
 
 from meshforge.common import AssetError
-from meshforge.formats.gltf.output import GeometryBuffer
-from meshforge.formats.gltf.physics import body_nodes
+from meshforge.formats.gltf import output, physics
 from meshforge.formats.meshfile.gltf_document import Json, entries, entry, extension
 from meshforge.formats.meshfile.gltf_scene import GltfScene
 from meshforge.geometry import Floats, Ints, Shape
@@ -29,10 +28,10 @@ class SceneDraft:
 
     def __init__(self, scene: GltfScene, tree: Json, before: bytes | None) -> None:
         self.scene, self.tree = scene, tree
-        self.geometry = GeometryBuffer(tree, before)
+        self.geometry = output.GeometryBuffer(tree, before)
         self.referred = SceneReferences(scene.tree)
         self.expected: dict[int, tuple[str, ...]] = {}
-        self._bodies = body_nodes(scene)
+        self._bodies = physics.body_nodes(scene)
 
     def node(self, index: int) -> Json:
         """A node of the edited tree."""
@@ -160,14 +159,10 @@ class SceneDraft:
         if source is not None:
             below = source == body or source in self.referred.animated
             holder = source if below else self.scene.placements[source].parent
-        if holder is not None and (self._bodies.get(holder) != body or self.is_degenerate(holder)):
+        if holder is None or self._bodies.get(holder) != body:
             return body
-        return holder if holder is not None else body
-
-    def is_degenerate(self, index: int) -> bool:
-        """Whether a node leaves no volume to what is below it."""
-        stretch = np.linalg.svd(self.scene.placements[index].linear, compute_uv=False)
-        return bool(stretch[-1] <= 1e-9 * stretch[0])
+        stretch = np.linalg.svd(self.scene.placements[holder].linear, compute_uv=False)
+        return body if stretch[-1] <= 1e-9 * stretch[0] else holder  # it leaves no volume to what is below it
 
     def shape_in(self, shape: Shape, holder: int | None) -> Shape:
         """A shape of the root frame in the space of a node."""
@@ -195,7 +190,7 @@ class SceneDraft:
                     del holder[key]  # an empty list is not allowed
 
 
-def unpack_draco(part: Json, attributes: dict[str, Any], tree: Json, geometry: GeometryBuffer) -> None:
+def unpack_draco(part: Json, attributes: dict[str, Any], tree: Json, geometry: output.GeometryBuffer) -> None:
     """Give a primitive that Draco compressed plain attributes, of the types that its accessors have."""
     part["attributes"] = dict(part["attributes"])
     for name, values in attributes.items():

@@ -9,20 +9,25 @@ from dataclasses import replace
 from pathlib import Path
 
 from meshforge.common import AssetError, pluralize
+from meshforge.formats import references, slots
 from meshforge.formats.base import Output, note_renames
 from meshforge.formats.collision_pieces import names_to_keep, new_hulls, refuse_changed_files
 from meshforge.formats.gltf.colliders import collision_name_of
-from meshforge.formats.gltf.document import BODY, Convention, GltfDocument, NodeRecord
+from meshforge.formats.gltf.document import BODY, Convention, GltfDocument
 from meshforge.formats.gltf.draft import SceneDraft
 from meshforge.formats.gltf.edit_physics import PhysicsStyle
 from meshforge.formats.gltf.edit_styles import EditStyle, GodotStyle, PlainStyle, UnityStyle, UnrealStyle
 from meshforge.formats.gltf.output import pack_scene, prepare_base
 from meshforge.formats.gltf.physics import body_nodes
-from meshforge.formats.meshfile.gltf_document import report_damage
-from meshforge.formats.meshfile.gltf_scene import GltfScene
-from meshforge.formats.references import find_companions
-from meshforge.formats.slots import name_element_pieces
+from meshforge.formats.meshfile import gltf_document, gltf_scene
 from meshforge.symbolic import Asset, Geom
+
+_STYLES: dict[Convention, type[EditStyle]] = {
+    "plain": PlainStyle,
+    "unreal": UnrealStyle,
+    "godot": GodotStyle,
+    "unity": UnityStyle,
+}
 
 
 def write_gltf(asset: Asset, document: GltfDocument, name: str) -> Output:
@@ -32,10 +37,10 @@ def write_gltf(asset: Asset, document: GltfDocument, name: str) -> Output:
     """
     kept, known = names_to_keep(asset), {piece for element in document.authored for piece in element.names}
     made = new_hulls(asset, known)
-    with report_damage(str(asset.path)):
-        scene = GltfScene.of(document.source, asset.path)
+    with gltf_document.report_damage(str(asset.path)):
+        scene = gltf_scene.GltfScene.of(document.source, asset.path)
         if known <= kept and not made and Path(name).suffix.lower() == asset.path.suffix.lower():
-            return Output(document.source, copies=find_companions(asset.path))
+            return Output(document.source, copies=references.find_companions(asset.path))
         refuse_changed_files(document.digests, str(asset.path), "the buffer ")
         base = prepare_base(document.source, scene, name)
         if known <= kept and not made:
@@ -43,7 +48,10 @@ def write_gltf(asset: Asset, document: GltfDocument, name: str) -> Output:
         draft = SceneDraft(scene, copy.deepcopy(base.tree), base.before)
         names = _edit_draft(draft, document, kept, made, asset.path)
         output = pack_scene(base, scene, draft.geometry, name)
-    notes = _note_hulls(style_of(document.convention, draft), made)
+    style = style_of(document.convention, draft)
+    lacking = Counter(geom.shape.kind for geom in made if geom.shape.kind not in style.holds)
+    counts = [(kind, pluralize(count, kind)) for kind, count in sorted(lacking.items())]
+    notes = [f"{many} written as hull meshes: {style.lacks} {kind}" for kind, many in counts]
     return replace(output, notes=(*notes, *note_renames(names)), names=names)
 
 
@@ -53,7 +61,13 @@ def _edit_draft(
     """Edit a draft; kept: the pieces that stay; made: the hulls that come. The names that read back otherwise."""
     style = style_of(document.convention, draft)
     for element in document.authored:
-        _edit_node(style, element, [k for k, piece in enumerate(element.names) if piece in kept])
+        staying = [k for k, piece in enumerate(element.names) if piece in kept]
+        if len(staying) == len(element.names):
+            draft.expected[element.node] = element.names
+        elif staying:
+            style.keep_pieces(element, staying)
+        else:
+            style.remove(element)
     for geom in made:
         _place_hull(style, geom, document, path)
     if not draft.expected:
@@ -67,25 +81,8 @@ def _edit_draft(
 
 def style_of(convention: Convention, draft: SceneDraft) -> EditStyle:
     """What writes edits in a convention."""
-    match convention:
-        case "plain":
-            return PlainStyle(draft)
-        case "unreal":
-            return UnrealStyle(draft)
-        case "godot":
-            return GodotStyle(draft)
-        case "unity":
-            return UnityStyle(draft)
-    return PhysicsStyle(draft, convention)
-
-
-def _edit_node(style: EditStyle, element: NodeRecord, kept: list[int]) -> None:
-    if len(kept) == len(element.names):
-        style.draft.expected[element.node] = element.names
-    elif kept:
-        style.keep_pieces(element, kept)
-    else:
-        style.remove(element)
+    made = _STYLES.get(convention)
+    return made(draft) if made else PhysicsStyle(draft, convention)
 
 
 def _place_hull(style: EditStyle, geom: Geom, document: GltfDocument, path: Path) -> None:
@@ -99,15 +96,6 @@ def _place_hull(style: EditStyle, geom: Geom, document: GltfDocument, path: Path
     style.add_hull(geom, own, nodes.get(geom.body), parent)
 
 
-def _note_hulls(style: EditStyle, made: Sequence[Geom]) -> list[str]:
-    """Notes on the round shapes that the convention of a file lacks."""
-    count = Counter(geom.shape.kind for geom in made if geom.shape.kind not in style.holds)
-    return [
-        f"{pluralize(number, kind)} written as hull meshes: {style.lacks} {kind}"
-        for kind, number in sorted(count.items())
-    ]
-
-
 def assign_names(draft: SceneDraft, document: GltfDocument, *, renames: bool) -> dict[str, str]:
     """Name the nodes whose pieces would else read back under other names, where the convention allows it.
 
@@ -116,7 +104,7 @@ def assign_names(draft: SceneDraft, document: GltfDocument, *, renames: bool) ->
     misread = _find_misread(draft, document)
     for _ in range(4 if renames and misread else 0):
         for node, (body, _) in misread.items():
-            draft.node(node)["name"] = _own_name(draft.expected[node], body)
+            draft.node(node)["name"] = slots.own_name_of(draft.expected[node], body)
         misread = _find_misread(draft, document)
     return {
         wanted: name
@@ -128,7 +116,7 @@ def assign_names(draft: SceneDraft, document: GltfDocument, *, renames: bool) ->
 
 def _find_misread(draft: SceneDraft, document: GltfDocument) -> dict[int, tuple[str | None, tuple[str, ...]]]:
     """The nodes whose pieces would read back under other names, with their body, and these names."""
-    scene = GltfScene(draft.tree, None, draft.scene.path)
+    scene = gltf_scene.GltfScene(draft.tree, None, draft.scene.path)
     owners, names = body_nodes(scene), dict(document.bodies)
     order = [node for node in scene.placements if node in draft.expected]
     bodies = [(names[owners[node]] if node in owners else BODY) if names else None for node in order]
@@ -138,12 +126,6 @@ def _find_misread(draft: SceneDraft, document: GltfDocument) -> dict[int, tuple[
     ]
     return {
         node: (body, read)
-        for node, body, read in zip(order, bodies, name_element_pieces(sources), strict=True)
+        for node, body, read in zip(order, bodies, slots.name_element_pieces(sources), strict=True)
         if read != draft.expected[node]
     }
-
-
-def _own_name(wanted: tuple[str, ...], body: str | None) -> str:
-    """The name of a node whose pieces are to have names: that of the first, without body and `#0`."""
-    name = wanted[0].removeprefix(f"{body}/")
-    return name if len(wanted) == 1 else name.removesuffix("#0")

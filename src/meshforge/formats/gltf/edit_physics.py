@@ -75,7 +75,7 @@ class PhysicsStyle(EditStyle):
         like = draft.scene.placements[parent.node].node if parent else {}
         drawn = self.drawn or is_drawn(like)
         node: Json = {"name": own}
-        if isinstance(shape, Box | Sphere | Cylinder | Capsule):
+        if isinstance(shape, ExtensionPrimitive):
             if drawn:
                 node["mesh"], _ = draft.add_shape_mesh(shape.move(node_pose_of(shape).inverse()), own)
             node |= pose_keys(node_pose_of(shape))

@@ -8,8 +8,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from meshforge.formats.engine_names.base import godot_kind, strip_godot_suffix, unreal_kind, visible_mesh_of
-from meshforge.formats.engine_names.conventions import NATIVE_SHAPES, holds_colliders, next_name
+from meshforge.formats.engine_names import conventions
 from meshforge.formats.gltf.colliders import nodes_below_colliders
 from meshforge.formats.gltf.document import NodeRecord
 from meshforge.formats.gltf.draft import SceneDraft, material_without_texture
@@ -84,7 +83,7 @@ class PlainStyle(EditStyle):
             draft.expected[element.node] = names
         else:
             node = draft.node(element.node)
-            if holds_colliders(node.get("name")):  # else what lies below would be all that collides
+            if conventions.holds_colliders(node.get("name")):  # else what lies below would be all that collides
                 node["name"] += "_"
             self.split_node(element, kept, mesh, names)
 
@@ -108,7 +107,9 @@ class UnityStyle(PlainStyle):
         """Beside the parent; without one, beside the first hull of the file."""
         holder = super().holder(body, parent)
         colliding, scene = nodes_below_colliders(self.draft.scene), self.draft.scene
-        if holder in colliding or (holder is not None and holds_colliders(self.draft.node(holder).get("name"))):
+        if holder in colliding or (
+            holder is not None and conventions.holds_colliders(self.draft.node(holder).get("name"))
+        ):
             return holder
         return scene.placements[min(colliding)].parent
 
@@ -141,22 +142,26 @@ class GodotStyle(EditStyle):
     def add_hull(self, geom: Geom, own: str, body: int | None, parent: NodeRecord | None) -> None:
         draft, holder = self.draft, self.holder(body, parent)
         base, tilde, number = own.rpartition("~")
-        name = f"{strip_godot_suffix(base)}~{number}-convcolonly" if tilde else f"{strip_godot_suffix(own)}-convcolonly"
+        name = (
+            f"{conventions.strip_godot_suffix(base)}~{number}-convcolonly"
+            if tilde
+            else f"{conventions.strip_godot_suffix(own)}-convcolonly"
+        )
         self.add_mesh_node(name, draft.add_shape_mesh(draft.shape_in(geom.shape, holder), name), holder, geom.name)
 
     def _is_visible(self, element: NodeRecord) -> bool:
         node = self.draft.scene.placements[element.node].node
         names = (node.get("name"), entry(self.draft.scene.tree, "meshes", node["mesh"]).get("name"))
-        return next((kind for kind in map(godot_kind, names) if kind), None) in ("col", "convcol")
+        return next((kind for kind in map(conventions.godot_kind, names) if kind), None) in ("col", "convcol")
 
     def _strip_suffix(self, element: NodeRecord) -> str:
         """Take the suffix from the name of a node, or of its mesh; the name without it."""
         node = self.draft.node(element.node)
-        if godot_kind(node.get("name")):
-            node["name"] = strip_godot_suffix(node["name"])
+        if conventions.godot_kind(node.get("name")):
+            node["name"] = conventions.strip_godot_suffix(node["name"])
         mesh = entry(self.draft.tree, "meshes", node["mesh"])
-        if godot_kind(mesh.get("name")):
-            renamed = {**copy.deepcopy(mesh), "name": strip_godot_suffix(mesh["name"])}
+        if conventions.godot_kind(mesh.get("name")):
+            renamed = {**copy.deepcopy(mesh), "name": conventions.strip_godot_suffix(mesh["name"])}
             node["mesh"] = self.draft.add_mesh(renamed, node["mesh"])
         return str(node.get("name") or entry(self.draft.tree, "meshes", node["mesh"]).get("name") or "collision")
 
@@ -164,7 +169,7 @@ class GodotStyle(EditStyle):
 class UnrealStyle(EditStyle):
     """A hull is a node with a mesh, called after the mesh it stands for: `UCX_table_02`."""
 
-    holds = ("polytope", *NATIVE_SHAPES)
+    holds = ("polytope", *conventions.NATIVE_SHAPES)
     lacks = "Unreal has no"
 
     def remove(self, element: NodeRecord) -> None:
@@ -182,6 +187,6 @@ class UnrealStyle(EditStyle):
         nodes, meshes = entries(self.draft.tree, "nodes"), entries(self.draft.tree, "meshes")
         names = [str(thing.get("name", "")) for thing in (*nodes, *meshes)]
         shown = [str(node["name"]) for node in nodes if node.get("name") and "mesh" in node]
-        rendered = [name for name in shown if not unreal_kind(name)]
-        base = visible_mesh_of(parent.names[0], rendered) if parent else next(iter(rendered), "hull")
-        return next_name(geom, base, names)
+        rendered = [name for name in shown if not conventions.unreal_kind(name)]
+        base = conventions.visible_mesh_of(parent.names[0], rendered) if parent else next(iter(rendered), "hull")
+        return conventions.next_name(geom, base, names)

@@ -5,17 +5,14 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
-from typing import Any, ClassVar, Literal
+from typing import Any, ClassVar
 
 from meshforge.common import AssetError
 from meshforge.formats.base import BODY_FEATURES, SCENE_FEATURES, Format, Mass, Output, ReadOptions, feature_of
-from meshforge.formats.engine_names.base import CollisionNames, fallbacks_of
-from meshforge.formats.engine_names.conventions import GodotNames, UnityNames, UnrealNames
-from meshforge.formats.gltf.create import create_for_engine, create_gltf
+from meshforge.formats.engine_names.conventions import CollisionNames, GodotNames, UnityNames, UnrealNames, fallbacks_of
+from meshforge.formats.gltf import create, edit, read
 from meshforge.formats.gltf.document import GltfDocument
-from meshforge.formats.gltf.edit import write_gltf
 from meshforge.formats.gltf.physics import explain_missing_mass, read_motion
-from meshforge.formats.gltf.read import read_gltf
 from meshforge.formats.meshfile.gltf_document import Json, entries, entry, extension, report_damage
 from meshforge.formats.meshfile.gltf_scene import GltfScene
 from meshforge.symbolic import Asset, Feature, FeatureKind
@@ -39,10 +36,10 @@ _COULD_NAMED = SCENE_FEATURES - {FeatureKind.CONTACT} | {
 class GltfFormat(Format):
     """glTF 2.0, as text with its buffers beside it, or as one GLB."""
 
-    name: ClassVar[str] = "gltf"
-    title: ClassVar[str] = "glTF"
-    suffixes: ClassVar[tuple[str, ...]] = (".glb", ".gltf")
-    up: ClassVar[Literal["y", "z"] | None] = "y"
+    name = "gltf"
+    title = "glTF"
+    suffixes = (".glb", ".gltf")
+    up = "y"
     holds = BODY_FEATURES | {FeatureKind.CAPSULES, FeatureKind.OPAQUE, FeatureKind.PLANES}
     could = _COULD_NAMED | {
         *(FeatureKind.JOINTS, FeatureKind.BALL_JOINTS, FeatureKind.FIXED_JOINTS, FeatureKind.CONTACT, FeatureKind.PAIRS)
@@ -50,15 +47,15 @@ class GltfFormat(Format):
     instead: ClassVar[Mapping[FeatureKind, str]] = {FeatureKind.ELLIPSOIDS: "written as triangles"}
 
     def read(self, path: Path, options: ReadOptions) -> Asset:
-        return read_gltf(path)
+        return read.read_gltf(path)
 
     def write(self, asset: Asset, name: str, mass: Mass = "keep") -> Output:
         if not isinstance(asset.document, GltfDocument):
             raise AssetError("this asset was not read from a glTF file", where=str(asset.path))
-        return write_gltf(asset, asset.document, name)
+        return edit.write_gltf(asset, asset.document, name)
 
     def create(self, asset: Asset, name: str) -> Output:
-        return create_gltf(asset, name)
+        return create.create_gltf(asset, name)
 
     def features(self, asset: Asset) -> Iterable[Feature]:
         return features_of(asset.document, asset) if isinstance(asset.document, GltfDocument) else ()
@@ -74,7 +71,7 @@ class EngineGltf(GltfFormat):
         return isinstance(asset.document, GltfDocument) and asset.document.convention == self.engine.engine
 
     def create(self, asset: Asset, name: str) -> Output:
-        return create_for_engine(asset, name, self.engine)
+        return create.create_for_engine(asset, name, self.engine)
 
 
 class GltfForUnreal(EngineGltf):

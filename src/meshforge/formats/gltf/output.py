@@ -15,7 +15,7 @@ import numpy as np
 import numpy.typing as npt
 
 from meshforge.formats.base import Output
-from meshforge.formats.gltf.json_text import rewrite_json
+from meshforge.formats.gltf.document import rewrite_json
 from meshforge.formats.meshfile.gltf_document import Container, Json, entries
 from meshforge.formats.meshfile.gltf_scene import GltfScene
 from meshforge.formats.references import find_companions
@@ -75,7 +75,8 @@ def pack_scene(base: EditBase, scene: GltfScene, geometry: GeometryBuffer | None
     chunk = base.chunk
     if geometry is not None and geometry.added:
         own = free_buffer_name(f"{PurePosixPath(name).stem}--hulls", {*copies, *made})
-        embedded = _is_embedded(tree)
+        uris = [buffer.get("uri", "") for buffer in entries(tree, "buffers")]
+        embedded = bool(uris) and all(uri.startswith("data:") for uri in uris)  # then one more should be, too
         geometry.finish(embed=embedded, uri=quote(own))
         if geometry.before is not None:
             chunk = geometry.chunk
@@ -100,19 +101,9 @@ def free_buffer_name(stem: str, taken: Collection[str]) -> str:
 def _list_embedded(scene: GltfScene, base: EditBase) -> set[str]:
     """The files of buffers that are inside of the written file."""
     there = {buffer.get("uri") for buffer in entries(base.tree, "buffers")}
-    files = zip(scene.buffers.files(), [b["uri"] for b in entries(scene.tree, "buffers") if _is_file(b)], strict=True)
+    uris = [uri for b in entries(scene.tree, "buffers") if isinstance(uri := b.get("uri"), str)]
+    files = zip(scene.buffers.files(), [uri for uri in uris if not uri.startswith("data:")], strict=True)
     return {Path(file).relative_to(scene.path.parent).as_posix() for file, uri in files if uri not in there}
-
-
-def _is_file(buffer: Json) -> bool:
-    uri = buffer.get("uri")
-    return isinstance(uri, str) and not uri.startswith("data:")
-
-
-def _is_embedded(tree: Json) -> bool:
-    """Whether all buffers are in the JSON itself, as one more should be then."""
-    uris = [buffer.get("uri", "") for buffer in entries(tree, "buffers")]
-    return bool(uris) and all(uri.startswith("data:") for uri in uris)
 
 
 def _json_text(source: bytes, tree: Json, is_binary: bool) -> bytes:

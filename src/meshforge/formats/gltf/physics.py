@@ -57,12 +57,6 @@ def has_collider(node: Json, kind: Convention, tree: Json) -> bool:
     return False
 
 
-def is_body(node: Json) -> bool:
-    """Whether a node is a rigid body of its own: `motion`, or a `type` in OMI's older form."""
-    own = extension(node, OMI) or {}
-    return "motion" in (extension(node, KHR) or {}) or "motion" in own or "type" in own
-
-
 def is_trigger(node: Json, tree: Json) -> bool:
     """Whether a node detects bodies without colliding."""
     older = extension(node, OMI_COLLIDER)
@@ -232,7 +226,8 @@ def body_nodes(scene: GltfScene) -> dict[int, int]:
     """For each node of the scene in a body, the node that is that body: itself, or the nearest one above."""
     found: dict[int, int] = {}
     for index, placement in scene.placements.items():
-        if is_body(placement.node):
+        own = extension(placement.node, OMI) or {}
+        if "motion" in (extension(placement.node, KHR) or {}) or "motion" in own or "type" in own:  # OMI's older form
             found[index] = index
         elif placement.parent in found:
             found[index] = found[placement.parent]

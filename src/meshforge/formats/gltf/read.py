@@ -10,20 +10,18 @@ from urllib.parse import unquote
 import numpy as np
 
 from meshforge.common import AssetError, MeshForgeError, file_digest, pluralize
+from meshforge.formats import mesh_reader, references, slots
 from meshforge.formats.collision_pieces import CollisionElement, drop_repeats, geoms_of, opaque_of, place_surface
-from meshforge.formats.engine_names.base import godot_kind, unreal_kind
+from meshforge.formats.engine_names.conventions import godot_kind, unreal_kind
 from meshforge.formats.gltf.colliders import CollisionReader, NodeCollision, convention_of, nodes_below_colliders
 from meshforge.formats.gltf.document import BODY, Convention, GltfDocument, NodeRecord
 from meshforge.formats.gltf.physics import body_nodes, is_trigger, read_inertial, rigid_pose_of
-from meshforge.formats.mesh_reader import read_content
 from meshforge.formats.meshfile.gltf_document import Json, entries, entry, report_damage
 from meshforge.formats.meshfile.gltf_meshes import GltfMesh
 from meshforge.formats.meshfile.gltf_scene import GltfScene
-from meshforge.formats.references import find_companions
-from meshforge.formats.slots import name_element_pieces
 from meshforge.formats.visuals import GAMMA, LazySurfaces, Rgba
 from meshforge.geometry import Pose
-from meshforge.symbolic import Asset, Body, Geom, Inertial, Mechanism, Mentions, Surface, unique_names
+from meshforge.symbolic import Asset, Body, Mechanism, Mentions, Surface, unique_names
 
 _DAMAGE = (ValueError, LookupError, TypeError, AttributeError)
 
@@ -45,13 +43,14 @@ def read_gltf(path: Path) -> Asset:
 
     Raises AssetError: damaged, compressed in a way that is not read, a buffer is missing, or there is nothing in it.
     """
-    source = read_content(path)
+    source = mesh_reader.read_content(path)
     with report_damage(str(path)):
         scene = GltfScene.of(source, path)
         reader = CollisionReader(scene)
         sources = reader.read()
         bodies = name_bodies(scene)
-        fixed = _has_fixed_parts(scene, reader.convention, sources, bodies)
+        nodes = [*(source.node for source in sources), *visible_nodes(scene, reader.convention)]
+        fixed = not bodies or any(node not in bodies for node in nodes)  # something is part of no rigid body
         notes = [*collect_notes(scene, reader.convention), *reader.notes]
         authored = record_nodes(sources, bodies)
         mentions = [mentions_of_node(scene, source) for source in sources]
@@ -61,7 +60,9 @@ def read_gltf(path: Path) -> Asset:
             mentions,
         )
         geoms = geoms_of(*pieces)
-        masses = tuple(_read_masses(scene, bodies, geoms))
+        hulls = {name: [geom.shape for geom in geoms if geom.body == name] for _, name in _nodes_of(bodies)}
+        found = (read_inertial(scene.placements[node], name, hulls[name]) for node, name in _nodes_of(bodies))
+        masses = tuple(inertial for inertial in found if inertial is not None)
         digests = tuple((file, file_digest(file)) for file in scene.buffers.files() if file.is_file())
     if not sources:
         raise AssetError("there is no mesh and no collider in its scene", where=str(path))
@@ -102,7 +103,7 @@ def record_nodes(sources: Sequence[NodeCollision], bodies: Mapping[int, tuple[in
     ]
     return tuple(
         NodeRecord(source.node, body, names, source.owner)
-        for source, body, names in zip(sources, own, name_element_pieces(named), strict=True)
+        for source, body, names in zip(sources, own, slots.name_element_pieces(named), strict=True)
     )
 
 
@@ -110,25 +111,9 @@ def _nodes_of(bodies: Mapping[int, tuple[int, str]]) -> tuple[tuple[int, str], .
     return tuple(dict.fromkeys(bodies.values()))
 
 
-def _has_fixed_parts(
-    scene: GltfScene, convention: Convention, sources: Sequence[NodeCollision], bodies: Mapping[int, tuple[int, str]]
-) -> bool:
-    """Whether something that collides or is seen is part of no rigid body."""
-    nodes = [*(source.node for source in sources), *visible_nodes(scene, convention)]
-    return not bodies or any(node not in bodies for node in nodes)
-
-
-def _read_masses(scene: GltfScene, bodies: Mapping[int, tuple[int, str]], geoms: Sequence[Geom]) -> Iterator[Inertial]:
-    for node, name in _nodes_of(bodies):
-        hulls = [geom.shape for geom in geoms if geom.body == name]
-        inertial = read_inertial(scene.placements[node], name, hulls)
-        if inertial is not None:
-            yield inertial
-
-
 def _find_files(scene: GltfScene, path: Path) -> tuple[tuple[Path, ...], tuple[str, ...]]:
     """The files beside it that are there, and the references that lead nowhere."""
-    found = find_companions(path)
+    found = references.find_companions(path)
     uris = [e.get("uri") for key in ("buffers", "images") for e in entries(scene.tree, key) if isinstance(e, dict)]
     named = [uri for uri in uris if isinstance(uri, str) and not uri.startswith("data:")]
     there = {(path.parent / key).resolve() for key in found}

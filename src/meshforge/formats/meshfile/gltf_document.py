@@ -6,7 +6,7 @@ from __future__ import annotations
 import json
 import re
 import struct
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import Any
@@ -70,7 +70,13 @@ class Container:
 
     def as_bytes(self) -> bytes:
         """The bytes of the file; chunks are padded to multiples of four, as the format asks for."""
-        return _pack_glb([(_JSON, self.text), *self.chunks]) + self.rest if self.is_binary else self.text
+        if not self.is_binary:
+            return self.text
+        body = b""
+        for kind, content in ((_JSON, self.text), *self.chunks):
+            padded = content + (b" " if kind == _JSON else b"\0") * (-len(content) % 4)
+            body += struct.pack("<II", len(padded), kind) + padded
+        return struct.pack("<4sII", MAGIC, 2, _HEADER + len(body)) + body + self.rest
 
 
 def _split_chunks(data: bytes, length: int) -> tuple[list[tuple[int, bytes]], int]:
@@ -84,14 +90,6 @@ def _split_chunks(data: bytes, length: int) -> tuple[list[tuple[int, bytes]], in
         chunks.append((kind, data[at + 8 : at + 8 + size]))
         at += 8 + size
     return chunks, at
-
-
-def _pack_glb(chunks: Sequence[tuple[int, bytes]]) -> bytes:
-    body = b""
-    for kind, content in chunks:
-        padded = content + (b" " if kind == _JSON else b"\0") * (-len(content) % 4)
-        body += struct.pack("<II", len(padded), kind) + padded
-    return struct.pack("<4sII", MAGIC, 2, _HEADER + len(body)) + body
 
 
 def entries(owner: Any, key: str) -> list[Any]:

@@ -9,9 +9,8 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from meshforge.formats.meshfile.gltf_buffers import Buffers
+from meshforge.formats.meshfile import gltf_buffers, surface
 from meshforge.formats.meshfile.gltf_document import Json, entries, extension
-from meshforge.formats.meshfile.surface import stack_triangles
 from meshforge.geometry import Floats, Ints
 
 _TRIANGLES, _STRIP, _FAN = 4, 5, 6
@@ -44,14 +43,14 @@ class GltfMesh:
     patches: tuple[GltfPrimitive, ...]
 
 
-def read_mesh(mesh: Json, buffers: Buffers) -> GltfMesh:
+def read_mesh(mesh: Json, buffers: gltf_buffers.Buffers) -> GltfMesh:
     """The triangles of a mesh; points and lines are passed over. Raises ValueError: damaged."""
     found = [_read_primitive(k, part, buffers) for k, part in enumerate(entries(mesh, "primitives"))]
     patches = tuple(patch for patch in found if patch is not None)
-    return GltfMesh(*stack_triangles((patch.points, patch.faces) for patch in patches), patches)
+    return GltfMesh(*surface.stack_triangles((patch.points, patch.faces) for patch in patches), patches)
 
 
-def _read_primitive(index: int, part: Json, buffers: Buffers) -> GltfPrimitive | None:
+def _read_primitive(index: int, part: Json, buffers: gltf_buffers.Buffers) -> GltfPrimitive | None:
     mode, attributes = part.get("mode", _TRIANGLES), part.get("attributes", {})
     if mode not in (_TRIANGLES, _STRIP, _FAN) or "POSITION" not in attributes:
         return None
@@ -127,10 +126,14 @@ def is_instanced(node: Json) -> bool:
     return extension(node, INSTANCING) is not None
 
 
-def read_instances(node: Json, buffers: Buffers) -> Floats:
+def read_instances(node: Json, buffers: gltf_buffers.Buffers) -> Floats:
     """The places (k, 4, 4) of the instances of a node, in its space. Raises ValueError: they are damaged."""
     accessors = (extension(node, INSTANCING) or {}).get("attributes", {})
-    found = {name: _check_rows(buffers.accessor(accessors[name]), name) for name in _WIDTHS if name in accessors}
+    found: dict[str, Floats] = {}
+    for name in (name for name in _WIDTHS if name in accessors):
+        found[name] = rows = np.asarray(buffers.accessor(accessors[name]), dtype=np.float64)
+        if rows.shape[1] != _WIDTHS[name] or not np.isfinite(rows).all():
+            raise ValueError(f"the {name} of its instances should be {_WIDTHS[name]} finite numbers each")
     counts = {len(rows) for rows in found.values()} or {1}
     if len(counts) > 1 or max(counts) > _MOST_VERTICES:
         raise ValueError(f"the attributes of its instances have {' and '.join(map(str, sorted(counts)))} values")
@@ -166,13 +169,6 @@ def repeat_mesh(mesh: GltfMesh, places: Floats) -> GltfMesh:
         for patch, start in zip(mesh.patches, starts, strict=False)
     ]
     return GltfMesh(vertices, faces, tuple(patches))
-
-
-def _check_rows(values: Any, name: str) -> Floats:
-    rows = np.asarray(values, dtype=np.float64)
-    if rows.shape[1] != _WIDTHS[name] or not np.isfinite(rows).all():
-        raise ValueError(f"the {name} of its instances should be {_WIDTHS[name]} finite numbers each")
-    return rows
 
 
 def _is_reflection(places: Floats) -> Any:

@@ -11,8 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from meshforge.formats.meshfile import gltf_meshes
-from meshforge.formats.meshfile.gltf_buffers import Buffers
+from meshforge.formats.meshfile import gltf_buffers, gltf_meshes
 from meshforge.formats.meshfile.gltf_document import Container, Json, entries, entry, numbers, parse_json, report_damage
 from meshforge.formats.meshfile.surface import RawSurface, check_surfaces
 from meshforge.geometry import Floats
@@ -65,7 +64,7 @@ class GltfScene:
 
     def __init__(self, tree: Json, binary: bytes | None, path: Path) -> None:
         self.tree, self.path = tree, path
-        self.buffers = Buffers(tree, binary, path)
+        self.buffers = gltf_buffers.Buffers(tree, binary, path)
         self._meshes: dict[int, gltf_meshes.GltfMesh] = {}
 
     @staticmethod

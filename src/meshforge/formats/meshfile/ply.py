@@ -44,10 +44,6 @@ class PlyElement:
     rows: int
     properties: tuple[PlyProperty, ...]
 
-    @property
-    def has_lists(self) -> bool:
-        return any(p.count for p in self.properties)
-
 
 @dataclass(frozen=True, slots=True)
 class PlyHeader:
@@ -122,8 +118,10 @@ def parse_header(data: bytes, where: str) -> PlyHeader:
             match words:
                 case ["format", kind, _]:
                     order = _ORDERS[kind]
-                case ["element", name, rows]:
-                    elements.append(PlyElement(name, _parse_count(rows), ()))
+                case ["element", name, rows] if rows.isdecimal():
+                    elements.append(PlyElement(name, int(rows), ()))
+                case ["element", _, rows]:
+                    raise ValueError(rows)
                 case ["property", *rest]:
                     last, made = elements.pop(), _parse_property(rest)
                     if any(p.name == made.name for p in last.properties):
@@ -135,12 +133,6 @@ def parse_header(data: bytes, where: str) -> PlyHeader:
     if order is None:
         raise AssetError("the header names no format", where=where)
     return PlyHeader(end.end(), order, tuple(elements))
-
-
-def _parse_count(text: str) -> int:
-    if not text.isdecimal():
-        raise ValueError(text)
-    return int(text)
 
 
 def _parse_property(words: list[str]) -> PlyProperty:
@@ -210,7 +202,7 @@ def _to_whole(values: Sequence[float]) -> int:
 
 
 def _read_binary(data: bytes, at: int, element: PlyElement, order: str) -> PlyRows:
-    if not element.has_lists:
+    if not any(p.count for p in element.properties):
         return _read_table(data, at, element, np.dtype([(p.name, order + p.type) for p in element.properties]))
     return _read_triangle_rows(data, at, element, order) or _read_one_by_one(data, at, element, order)
 

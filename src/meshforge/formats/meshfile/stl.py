@@ -63,30 +63,18 @@ def parse_stl(data: bytes, where: str) -> StlText:
     """An STL file taken apart. Raises AssetError: cut short, or not an STL file."""
     count = int.from_bytes(data[80:HEADER], "little") if len(data) >= HEADER else -1
     room = (len(data) - HEADER) // RECORD.itemsize
-    text = _is_text(data)
+    # the title of a binary file may say `solid` too, the numbers behind it are no text
+    text = data.removeprefix(codecs.BOM_UTF8).lstrip()[:5].lower() == b"solid" and b"\0" not in data[:_TEXT]
     if 0 <= count <= room and (not text or len(data) == HEADER + count * RECORD.itemsize):
         if count == 0 and room > 0:
             raise AssetError(f"it says it has no triangle, yet {room} may follow", where=where, remedy=_AGAIN)
-        return _parse_binary(data, count)
+        corners = to_doubles(np.frombuffer(data, RECORD, count, HEADER)["corners"])
+        return StlText(corners, np.zeros(count, dtype=np.int64), ("",), True)
     if text:
         return _plain_ascii(data) or _any_ascii(data, where)
-    if count < 0 or _is_prose(data[:HEADER]):
+    if count < 0 or all(byte in b"\t\n\r" or 32 <= byte < 127 for byte in data[:HEADER]):
         raise AssetError("this is no STL file", where=where, remedy=_AGAIN)
     raise AssetError(f"the file is cut short: it says {count} triangles and holds {room}", where=where, remedy=_AGAIN)
-
-
-def _is_text(data: bytes) -> bool:
-    """Whether a file begins as a text; the title of a binary one may say `solid` too, the numbers behind it do not."""
-    return data.removeprefix(codecs.BOM_UTF8).lstrip()[:5].lower() == b"solid" and b"\0" not in data[:_TEXT]
-
-
-def _is_prose(head: bytes) -> bool:
-    return all(byte in b"\t\n\r" or 32 <= byte < 127 for byte in head)
-
-
-def _parse_binary(data: bytes, count: int) -> StlText:
-    corners = to_doubles(np.frombuffer(data, RECORD, count, HEADER)["corners"])
-    return StlText(corners, np.zeros(count, dtype=np.int64), ("",), True)
 
 
 def facet_spans(data: bytes) -> Ints:

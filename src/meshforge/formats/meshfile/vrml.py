@@ -176,7 +176,10 @@ class _Parser:
         if word in ("PROTO", "EXTERNPROTO"):
             raise AssetError("prototypes are not read", where=self.where, remedy=_OTHER)
         if word == "USE":
-            return self.look_up(self.take())
+            name = self.take()
+            if name not in self.known:
+                raise AssetError(f"USE {name}: no node of this name comes ahead of it", where=self.where, remedy=_OTHER)
+            return self.known[name]
         if word == "DEF":
             name, word = self.take(), self.take()
         if self.depth > _DEPTH:
@@ -195,11 +198,6 @@ class _Parser:
         if name:
             self.known[name] = made
         return made
-
-    def look_up(self, name: str) -> VrmlNode:
-        if name not in self.known:
-            raise AssetError(f"USE {name}: no node of this name comes ahead of it", where=self.where, remedy=_OTHER)
-        return self.known[name]
 
     def parse_value(self) -> list[Any]:
         if self.peek() == "[":

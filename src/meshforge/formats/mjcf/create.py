@@ -9,14 +9,10 @@ from pathlib import Path
 import numpy as np
 
 from meshforge.common import join_names, pluralize
+from meshforge.formats import mesh_output, visuals, xml
 from meshforge.formats.base import Loss, Output
 from meshforge.formats.kinematic_tree import BodyTree, claim_name
-from meshforge.formats.mesh_output import VisualFiles
-from meshforge.formats.mjcf import elements
-from meshforge.formats.mjcf.document import geom_names
-from meshforge.formats.mjcf.references import is_shown_whole
-from meshforge.formats.visuals import Rgba, unreadable_visuals, visuals_of
-from meshforge.formats.xml import format_numbers
+from meshforge.formats.mjcf import document, elements, references
 from meshforge.geometry import Pose
 from meshforge.symbolic import Asset, FeatureKind, Geom, Joint, Opaque, Surface
 
@@ -166,9 +162,9 @@ class NewGeomMaker:
 
     def __init__(self, asset: Asset, stem: str, tree: BodyTree, names: dict[str, str]) -> None:
         self.tree, self.poses, self.names = tree, asset.body_poses, names
-        self.shown = visuals_of(asset)
+        self.shown = visuals.visuals_of(asset)
         self.meshes = elements.MeshAssets(stem)
-        self.files = VisualFiles(self.meshes.files, is_shown_whole)
+        self.files = mesh_output.VisualFiles(self.meshes.files, references.is_shown_whole)
         self.files.gather(self.shown)
         self.lost: list[Loss] = []
 
@@ -224,11 +220,11 @@ class NewGeomMaker:
 
     def losses(self) -> tuple[Loss, ...]:
         """What is lost, visuals without a file that can be read included."""
-        return (*unreadable_visuals(self.files.refused), *self.lost)
+        return (*visuals.unreadable_visuals(self.files.refused), *self.lost)
 
 
-def _visual_tag(attributes: dict[str, str], rgba: Rgba | None) -> bytes:
-    color = {"rgba": format_numbers(rgba)} if rgba else {}
+def _visual_tag(attributes: dict[str, str], rgba: visuals.Rgba | None) -> bytes:
+    color = {"rgba": xml.format_numbers(rgba)} if rgba else {}
     return elements.tag("geom", {"class": "visual", **attributes, **color})
 
 
@@ -252,8 +248,8 @@ def name_geoms(asset: Asset, tree: BodyTree, bodies: dict[str, str]) -> dict[str
     shared = Counter(plain)
     taken: set[str] = set()
     attributes = []
-    for unnamed, holder, name in zip(geom_names([(h, "") for h in holders]), holders, plain, strict=True):
+    for unnamed, holder, name in zip(document.geom_names([(h, "") for h in holders]), holders, plain, strict=True):
         wanted = f"{holder}/{name}" if shared[name] > 1 else name
         attributes.append("" if unnamed == f"{holder}/{name}" else claim_name(wanted, taken))
-    back = geom_names(list(zip(holders, attributes, strict=True)))
+    back = document.geom_names(list(zip(holders, attributes, strict=True)))
     return {name: pair for (name, _), pair in zip(ordered, zip(attributes, back, strict=True), strict=True)}

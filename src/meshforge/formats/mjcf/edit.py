@@ -8,14 +8,12 @@ from pathlib import Path
 
 from meshforge.common import AssetError, join_names
 from meshforge.formats.base import Mass, Output
-from meshforge.formats.mjcf import elements
+from meshforge.formats.mjcf import edit_check, elements, references
 from meshforge.formats.mjcf.document import MjcfDocument, MjcfNode, MjcfTree, read_tree
-from meshforge.formats.mjcf.edit_check import find_changed_masses, find_differences
 from meshforge.formats.mjcf.edit_geoms import ElementContext, HullGeomMaker, HullMeshes
 from meshforge.formats.mjcf.edit_plan import MjcfPlan, NewGeom, OldGeom, is_edited
 from meshforge.formats.mjcf.model import MjcfModel
 from meshforge.formats.mjcf.reduce import read_model, read_partial_model, read_unscaled_model, read_whole_model
-from meshforge.formats.mjcf.references import list_copies, output_places
 from meshforge.formats.references import note_absolute
 from meshforge.formats.slots import Slot, append_elements, child_indent_of
 from meshforge.formats.xml import Splice, XmlText, apply_splices, newline_of, parse_xml
@@ -32,7 +30,7 @@ def write_mjcf(asset: Asset, document: MjcfDocument, name: str, mass: Mass) -> O
     refuses.
     """
     tree = document.tree
-    copies, notes = list_copies(asset, tree)
+    copies, notes = references.list_copies(asset, tree)
     if not is_edited(asset, document):
         return _build_output(tree, [source.raw for source in tree.sources], {}, copies, notes, {})
     before = read_whole_model(tree) if document.refusal else read_model(tree, is_whole=True)
@@ -66,7 +64,7 @@ def _check(edit: MjcfEdit, before: MjcfModel, mass: Mass) -> dict[str, str]:
         raise AssetError(
             f"of the edited file: {error.problem}", where=str(edit.tree.main.path), remedy=remedy
         ) from None
-    wrong = next(find_differences(before, after, edit.expected, mass == "keep", edit.is_whole), None)
+    wrong = next(edit_check.find_differences(before, after, edit.expected, mass == "keep", edit.is_whole), None)
     if wrong is not None:
         raise AssetError(
             f"the edited file would differ from the authored one in more than the edit says: {wrong}",
@@ -85,7 +83,7 @@ def _build_output(
     names: dict[str, str],
 ) -> Output:
     """The output of all files; the included ones go where they were, from the main one."""
-    included = zip(output_places(tree)[1:], texts[1:], tree.sources[1:], strict=True)
+    included = zip(references.output_places(tree)[1:], texts[1:], tree.sources[1:], strict=True)
     files = dict(made)
     for place, text, source in included:
         if place is None:
@@ -167,7 +165,7 @@ class MjcfEdit:
     def _find_reweighed(self) -> list[int]:
         """The bodies that have to say their masses, besides those that do."""
         try:
-            found = find_changed_masses(self.authored, self.read_back_unscaled())
+            found = edit_check.find_changed_masses(self.authored, self.read_back_unscaled())
         except AssetError:  # perhaps for a body that has lost the geoms that it has its mass from
             names = self.authored.body_names
             found = [names.index(body) for body in self.plan.bodies_to_change]

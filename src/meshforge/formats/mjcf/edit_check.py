@@ -3,17 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from meshforge.formats.lazy import mujoco
 from meshforge.formats.mjcf.edit_plan import NewGeom, OldGeom
 from meshforge.formats.mjcf.model import MjcfModel
 from meshforge.formats.mjcf.shapes import MjcfShapes
 from meshforge.geometry import Floats, Shape
-
-if TYPE_CHECKING:
-    import mujoco
 
 _OF_BODY = tuple(
     f"body_{name}"
@@ -119,8 +116,6 @@ def _compare_kept(before: MjcfModel, after: MjcfModel, number: dict[int, int]) -
 
 def _compare_references(one: mujoco.MjModel, other: mujoco.MjModel, number: dict[int, int]) -> Iterator[str]:
     """Numbers of geoms, where other elements refer to them."""
-    import mujoco  # lazy: 0.2 s, only MJCF needs it
-
     geom, wraps = mujoco.mjtObj.mjOBJ_GEOM, (mujoco.mjtWrap.mjWRAP_SPHERE, mujoco.mjtWrap.mjWRAP_CYLINDER)
     kinds = {
         "pair_geom1": np.ones(one.npair, bool),
@@ -139,8 +134,6 @@ def _compare_references(one: mujoco.MjModel, other: mujoco.MjModel, number: dict
 
 def _data_name(model: mujoco.MjModel, geom: int) -> str:
     """The mesh of a geom, or that it has none."""
-    import mujoco  # lazy: 0.2 s, only MJCF needs it
-
     data = int(model.geom_dataid[geom])
     of_mesh = model.geom_type[geom] != mujoco.mjtGeom.mjGEOM_HFIELD
     return "" if data < 0 else str(model.mesh(data).name if of_mesh else model.hfield(data).name)

@@ -12,14 +12,12 @@ from pathlib import Path
 import numpy as np
 
 from meshforge.common import AssetError, relative_name
-from meshforge.formats.mesh_output import HullFiles
+from meshforge.formats import mesh_output, xml
+from meshforge.formats.mjcf import engine, references
 from meshforge.formats.mjcf.document import MjcfNode, MjcfTree
-from meshforge.formats.mjcf.elements import geom_attributes, mesh_geom_attributes, tag
-from meshforge.formats.mjcf.engine import compile_model
-from meshforge.formats.mjcf.references import AssetFolders
+from meshforge.formats.mjcf.elements import MjcfShape, geom_attributes, mesh_geom_attributes, tag
 from meshforge.formats.slots import Slot
-from meshforge.formats.xml import format_numbers, set_attribute
-from meshforge.geometry import Box, Capsule, Cylinder, Ellipsoid, Pose, Shape, Sphere, rotation_of_quaternion
+from meshforge.geometry import Pose, Shape, rotation_of_quaternion
 from meshforge.symbolic import Asset, Geom
 
 _TURNS = ("quat", "axisangle", "xyaxes", "zaxis", "euler")
@@ -57,7 +55,7 @@ class HullGeomMaker:
         )
         data = self.context.tree.sources[parent.source].text.data
         changed = [key for key in _NOT_INHERITED if attributes.get(key) != parent.attributes.get(key)]
-        edits = tuple(set_attribute(data, parent.element, key, attributes.get(key), last=True) for key in changed)
+        edits = tuple(xml.set_attribute(data, parent.element, key, attributes.get(key), last=True) for key in changed)
         return Slot(geom.body, (geom.name,), None, parent.element, edits, copy=True)
 
     def make_apart(
@@ -81,7 +79,7 @@ class HullGeomMaker:
         """The geometry of a hull in the frame in which its element stands."""
         frame_t_body, body_t_root = body_t_frame.inverse(), root_t_body.inverse()
         shape = geom.shape
-        if isinstance(shape, Box | Capsule | Cylinder | Ellipsoid | Sphere):
+        if isinstance(shape, MjcfShape):
             return geom_attributes(replace(shape, pose=frame_t_body @ body_t_root @ shape.pose))
         shape = shape.move(body_t_root)
         own = _own_attributes(parent) if parent else {}
@@ -113,7 +111,7 @@ class HullGeomMaker:
             given = found["size"].split()
             found["size"] = " ".join(given + ["0"] * (count - len(given)))
         if "mass" in inherited and parent_volume > 0:
-            found["mass"] = format_numbers([float(inherited["mass"]) * geom.shape.volume / parent_volume])
+            found["mass"] = xml.format_numbers([float(inherited["mass"]) * geom.shape.volume / parent_volume])
         if attributes["type"] != "mesh" and "shellinertia" in inherited:
             found["shellinertia"] = inherited["shellinertia"]
         if attributes["type"] == "mesh" and set_by_class.get("shellinertia") == "true":  # the mesh says so
@@ -158,8 +156,8 @@ class HullMeshes:
 
     def __init__(self, asset: Asset, context: ElementContext, stem: str) -> None:
         self.context, self.tree = context, context.tree
-        self.folders = AssetFolders.of(self.tree)
-        self.files = HullFiles(stem)
+        self.folders = references.AssetFolders.of(self.tree)
+        self.files = mesh_output.HullFiles(stem)
         self.elements: list[bytes] = []
         self.main = self.tree.main.path.parent
         self._meshes = dict(_meshes_by_name(self.tree.root))
@@ -175,12 +173,13 @@ class HullMeshes:
         inside = self._folder_inside(self._meshes[parent_mesh]) if parent_mesh in self._meshes else None
         folder = self._usual if inside is None else inside
         place = self._place_of(folder)
-        self.files.taken |= self._stems_in(place)
+        beside = Path(os.path.normpath(self.main / place))
+        self.files.taken |= {entry.stem.lower() for entry in beside.iterdir()} if beside.is_dir() else set()
         file = posixpath.basename(self.files.add(name, place, shape.vertices, shape.faces))
         attributes = {"name": posixpath.splitext(file)[0], "file": f"{folder}{file}"}
         if Path(self.folders.mesh).is_absolute():  # a file of the output has no name from there
             self.files.made.popitem()
-            attributes = {"name": attributes["name"], "vertex": format_numbers(shape.vertices.ravel())}
+            attributes = {"name": attributes["name"], "vertex": xml.format_numbers(shape.vertices.ravel())}
         set_by_default = self.context.defaults_of(MAIN_CLASS, "mesh")
         attributes |= {key: value for key, value in _NEUTRAL.items() if key in set_by_default}
         if shell or shape.volume < _LEAST_VOLUME:
@@ -214,10 +213,6 @@ class HullMeshes:
         place = posixpath.normpath(posixpath.join(self.folders.mesh.replace("\\", "/"), folder))
         return "" if place == "." else f"{place}/"
 
-    def _stems_in(self, place: str) -> set[str]:
-        folder = Path(os.path.normpath(self.main / place))
-        return {entry.stem.lower() for entry in folder.iterdir()} if folder.is_dir() else set()
-
 
 def _meshes_by_name(root: MjcfNode) -> Iterator[tuple[str, MjcfNode]]:
     """The `<mesh>` assets by name; one without a name is called like its file."""
@@ -249,8 +244,8 @@ class ElementContext:
 
     def class_of(self, node: MjcfNode) -> str:
         """The default class of a geom: its own, or that of the children of what is around it."""
-        classes = [node.attributes.get("class"), *(n.attributes.get("childclass") for n in self.ancestors_of(node))]
-        return next((name for name in classes if name), MAIN_CLASS)
+        outer = next(self.ancestors_of(node), None)
+        return node.attributes.get("class") or (self.class_inside(outer) if outer else MAIN_CLASS)
 
     def class_inside(self, node: MjcfNode) -> str:
         """The default class of what stands in an element without a class of its own."""
@@ -288,7 +283,7 @@ class ElementContext:
         inside = tag("compiler", units), opened, b"</frame>" * len(attributes)
         main = Path("frames.xml")
         text = b"<mujoco>%s<worldbody>%s<geom size='1'/>%s</worldbody></mujoco>" % inside
-        model = compile_model(main, {main: text})
+        model = engine.compile_model(main, {main: text})
         return Pose(rotation_of_quaternion(model.geom_quat[0]), model.geom_pos[0])
 
     def _add_classes(self, default: MjcfNode, chain: tuple[MjcfNode, ...] = ()) -> None:

@@ -14,7 +14,7 @@ from meshforge.formats.kinematic_tree import claim_name, drop_rounding, perpendi
 from meshforge.formats.mesh_output import HullFiles
 from meshforge.formats.mjcf.document import MjcfNode, MjcfTree
 from meshforge.formats.mjcf.model import MjcfModel
-from meshforge.formats.xml import Splice, escape, format_numbers, indent_of, newline_of, remove_element, set_attribute
+from meshforge.formats.xml import Splice, escape, format_numbers, line_gap, remove_element, set_attribute
 from meshforge.geometry import Box, Capsule, Cylinder, Ellipsoid, Floats, Polytope, Pose, Sphere, principal_axes
 from meshforge.symbolic import Inertial, Joint, JointKind
 
@@ -222,9 +222,8 @@ def insert_inertial(tree: MjcfTree, node: MjcfNode, text: bytes) -> list[tuple[i
     data = tree.sources[node.source].text.data
     texts = [source.text.data for source in tree.sources]
     gone = [(old.source, remove_element(texts[old.source], old.element)) for old in _inertials_of(node)]
-    at = node.element.inside
-    lead = indent_of(data, node.element.children[0].start)
-    return [*gone, (node.source, Splice(at, at, (b"" if lead is None else newline_of(data) + lead) + text))]
+    at, gap = node.element.inside, line_gap(data, node.element.children[0].start)
+    return [*gone, (node.source, Splice(at, at, gap + text))]
 
 
 def has_inertial(node: MjcfNode | None, tree: MjcfTree) -> bool:

@@ -12,16 +12,13 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from meshforge.common import AssetError
+from meshforge.formats.lazy import mujoco
 from meshforge.formats.meshfile.surface import FARTHEST
 from meshforge.formats.mjcf.document import MjcfNode, MjcfTree, read_tree
 from meshforge.formats.mjcf.references import AssetFolders, read_submodels
 from meshforge.formats.xml import escape
-
-if TYPE_CHECKING:
-    import mujoco
 
 _LOCK = threading.RLock()  # where MuJoCo's messages go is a setting of the whole process
 _LINE = re.compile(r"\bline (?:number=)?(\d+)", re.I)
@@ -65,8 +62,6 @@ def compile_text(tree: MjcfTree, flat: FlatText) -> EngineModel:
 
 def parse_text(tree: MjcfTree, flat: FlatText, warnings: list[str] | None = None) -> mujoco.MjSpec:
     """The spec of a tree's text, assets not yet read; warnings: gets those of MuJoCo. Raises AssetError."""
-    import mujoco  # lazy: 0.2 s, only MJCF needs it
-
     with _collect_warnings([] if warnings is None else warnings), _provide_files(tree, flat) as vfs:
         try:
             return mujoco.MjSpec.from_file(str(tree.main.path), vfs=vfs)
@@ -117,16 +112,12 @@ def _describe_bad_pose(thing: mujoco.MjsBody | mujoco.MjsGeom) -> str | None:
 
 
 def _failure_types() -> tuple[type[Exception], ...]:
-    import mujoco  # lazy: 0.2 s, only MJCF needs it
-
     return (ValueError, RuntimeError, mujoco.FatalError, mujoco.UnexpectedError)
 
 
 @contextmanager
 def _provide_files(tree: MjcfTree, flat: FlatText) -> Iterator[mujoco.MjVfs]:
     """The files that MuJoCo shall see instead of those on disk."""
-    import mujoco  # lazy: 0.2 s, only MJCF needs it
-
     with mujoco.MjVfs() as vfs:
         included = {source.path for source in tree.sources}
         seen = {path: data for path, data in tree.files.items() if path not in included}
@@ -139,8 +130,6 @@ def _provide_files(tree: MjcfTree, flat: FlatText) -> Iterator[mujoco.MjVfs]:
 @contextmanager
 def _collect_warnings(warnings: list[str]) -> Iterator[None]:
     """Warnings go into a list, neither to the console nor to a MUJOCO_LOG.TXT in the current folder."""
-    import mujoco  # lazy: 0.2 s, only MJCF needs it
-
     with _LOCK, python_warnings.catch_warnings(record=True) as raised:
         python_warnings.simplefilter("always")
         handler, config = mujoco.get_mju_user_warning(), mujoco.MjLogConfig.get()

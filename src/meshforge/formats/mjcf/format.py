@@ -6,15 +6,12 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
-from typing import ClassVar, Literal
+from typing import ClassVar
 
 from meshforge.common import AssetError
 from meshforge.formats.base import BODY_FEATURES, SCENE_FEATURES, Format, Mass, Output, ReadOptions, feature_of
-from meshforge.formats.mjcf.create import create_mjcf
+from meshforge.formats.mjcf import create, edit, read, references
 from meshforge.formats.mjcf.document import MjcfDocument, MjcfNode
-from meshforge.formats.mjcf.edit import write_mjcf
-from meshforge.formats.mjcf.read import read_mjcf
-from meshforge.formats.mjcf.references import top_folder
 from meshforge.symbolic import Asset, Feature, FeatureKind
 
 _ROOT = re.compile(r"[^<]*+(?:<(?>\?.*?\?>|!--.*?-->|![^-][^>]*>)[^<]*+)*+<([\w:.-]+)", re.S)
@@ -44,11 +41,11 @@ _DYNAMICS = ("stiffness", "springref", "springdamper", "springlength", "armature
 class MjcfFormat(Format):
     """MuJoCo's own format for models."""
 
-    name: ClassVar[str] = "mjcf"
-    suffixes: ClassVar[tuple[str, ...]] = (".xml", ".mjcf")
-    is_description: ClassVar[bool] = True
-    title: ClassVar[str] = "MJCF"
-    up: ClassVar[Literal["y", "z"] | None] = "z"
+    name = "mjcf"
+    suffixes = (".xml", ".mjcf")
+    is_description = True
+    title = "MJCF"
+    up = "z"
     holds = BODY_FEATURES | {
         *(FeatureKind.CAPSULES, FeatureKind.ELLIPSOIDS, FeatureKind.PLANES, FeatureKind.JOINTS, FeatureKind.BALL_JOINTS)
     }
@@ -63,18 +60,18 @@ class MjcfFormat(Format):
         return root is None or root[1].lower() == "mujoco"
 
     def read(self, path: Path, options: ReadOptions) -> Asset:
-        return read_mjcf(path)
+        return read.read_mjcf(path)
 
     def write(self, asset: Asset, name: str, mass: Mass = "keep") -> Output:
         if not isinstance(asset.document, MjcfDocument):
             raise AssetError("this asset was not read from an MJCF", where=str(asset.path))
-        return write_mjcf(asset, asset.document, name, mass)
+        return edit.write_mjcf(asset, asset.document, name, mass)
 
     def create(self, asset: Asset, name: str) -> Output:
-        return create_mjcf(asset, name)
+        return create.create_mjcf(asset, name)
 
     def top(self, asset: Asset) -> Path:
-        return top_folder(asset.document) if isinstance(asset.document, MjcfDocument) else super().top(asset)
+        return references.top_folder(asset.document) if isinstance(asset.document, MjcfDocument) else super().top(asset)
 
     def features(self, asset: Asset) -> Iterable[Feature]:
         return features_of(asset.document) if isinstance(asset.document, MjcfDocument) else ()

@@ -5,19 +5,16 @@ from __future__ import annotations
 
 from collections.abc import Hashable, Sequence
 from functools import cached_property
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from meshforge.formats.collision_pieces import ShapeNames, collect_mentions
+from meshforge.formats.lazy import mujoco
 from meshforge.formats.mjcf.document import GeomRecord, MjcfBody, MjcfTree, body_names, geom_names
 from meshforge.formats.mjcf.engine import EngineModel, FlatText
 from meshforge.formats.mjcf.shapes import MjcfShapes, body_poses, geom_poses
 from meshforge.geometry import Pose, rotation_of_quaternion
 from meshforge.symbolic import Geom, Inertial, Joint, JointKind, Mechanism, Mentions, Opaque
-
-if TYPE_CHECKING:
-    import mujoco
 
 _INSIDE = {
     "replicate": "it is inside a <replicate>, which makes several geoms of one element",
@@ -51,14 +48,14 @@ class MjcfModel:
         self.body_of = [self.body_names[k] for k in self.model.geom_bodyid]
         self.names = geom_names([(b, geom.name) for b, geom in zip(self.body_of, made.geoms, strict=True)])
         self.elements = [flat.node_at(geom.info) for geom in made.geoms]
-        self.collides = self._find_colliding()
+        touching = (self.model.geom_contype != 0) | (self.model.geom_conaffinity != 0)
+        touching[np.concatenate([self.model.pair_geom1, self.model.pair_geom2])] = True
+        self.collides: list[bool] = touching.tolist()
         self.body_poses = body_poses(self.model)
         self.geom_poses = geom_poses(self.model, self.body_poses)
 
     def read_pieces(self) -> tuple[tuple[Geom, ...], tuple[Opaque, ...]]:
         """The hulls, and the collision geometry that is none."""
-        import mujoco  # lazy: 0.2 s, only MJCF needs it
-
         geoms, opaque = [], []
         shapes, mentions = MjcfShapes(self.model), GeomMentions(self.spec_geoms, self.body_of, self.collides)
         for k, (name, body, pose) in enumerate(zip(self.names, self.body_of, self.geom_poses, strict=True)):
@@ -122,12 +119,6 @@ class MjcfModel:
             fixed=fixed,
         )
 
-    def _find_colliding(self) -> list[bool]:
-        touching = (self.model.geom_contype != 0) | (self.model.geom_conaffinity != 0)
-        touching[self.model.pair_geom1] = True
-        touching[self.model.pair_geom2] = True
-        return [bool(t) for t in touching]
-
 
 def read_mechanism(reading: MjcfModel) -> Mechanism:
     """The mechanism of a model, `<exclude>` and `<pair>` too; a body without a joint is fixed to its parent."""
@@ -182,12 +173,8 @@ def _read_inertial(reading: MjcfModel, k: int) -> Inertial | None:
 
 def contact_attributes(model: mujoco.MjModel, geom: int) -> tuple[tuple[str, str], ...]:
     """Names and values of what decides how a geom collides, defaults and classes included."""
-    return tuple((name, _value_text(getattr(model, f"geom_{name}")[geom])) for name in _ATTRIBUTES)
-
-
-def _value_text(value: object) -> str:
-    numbers = np.atleast_1d(np.asarray(value)).tolist()
-    return " ".join(str(number) if isinstance(number, int) else f"{number:g}" for number in numbers)
+    numbers = {name: np.atleast_1d(getattr(model, f"geom_{name}")[geom]).tolist() for name in _ATTRIBUTES}
+    return tuple((k, " ".join(str(n) if isinstance(n, int) else f"{n:g}" for n in own)) for k, own in numbers.items())
 
 
 class GeomMentions:

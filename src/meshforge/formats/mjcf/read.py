@@ -4,26 +4,23 @@ an asset with its visuals."""
 from __future__ import annotations
 
 import math
+from contextlib import suppress
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from meshforge.common import AssetError, MeshForgeError, join_names, plain_path, pluralize
+from meshforge.formats.lazy import mujoco
 from meshforge.formats.mesh_reader import READABLE_MESH_SUFFIXES, read_content
+from meshforge.formats.mjcf import reduce, references
 from meshforge.formats.mjcf.document import MjcfDocument, MjcfNode, MjcfTree, read_tree
 from meshforge.formats.mjcf.engine import EngineModel, FlatText, compile_text, flatten
 from meshforge.formats.mjcf.model import MjcfModel, read_mechanism
-from meshforge.formats.mjcf.reduce import reduce_model
-from meshforge.formats.mjcf.references import AssetFolders, find_files
 from meshforge.formats.mjcf.shapes import MjcfShapes, mesh_frame, mesh_surface
-from meshforge.formats.visuals import Rgba, Visual, VisualSurfaces
+from meshforge.formats.visuals import Visual, VisualSurfaces
 from meshforge.formats.xml import Element, XmlText, parse_xml
 from meshforge.geometry import Polytope, rotation_of_quaternion
 from meshforge.symbolic import Asset, Body
-
-if TYPE_CHECKING:
-    import mujoco
 
 _LEVELS = 3  # folders above a fragment in which a file that includes it may lie
 _MOST_FILES, _MOST_BYTES = 200, 2_000_000  # looked at in each folder, and read of each file
@@ -51,7 +48,7 @@ def read_mjcf(path: Path) -> Asset:
     flat, made, stand_ins, refusal = _compile_or_reduce(tree)
     reading = MjcfModel(tree, flat, made)
     geoms, opaque = reading.read_pieces()
-    files, missing = find_files(tree)
+    files, missing = references.find_files(tree)
     return Asset(
         path=path,
         format="mjcf",
@@ -73,15 +70,11 @@ def _compile_or_reduce(tree: MjcfTree) -> tuple[FlatText, EngineModel, frozenset
     try:
         made = compile_text(tree, flat)
     except AssetError as error:
-        part = reduce_model(tree, error)
-        return part.flat, part.made, part.stand_ins, _describe_refusal(error)
+        part = reduce.reduce_model(tree, error)
+        place = Path(error.where or "").name
+        refusal = f"{error.problem} ({place})" if ":" in place else error.problem
+        return part.flat, part.made, part.stand_ins, refusal
     return flat, made, frozenset(), ""
-
-
-def _describe_refusal(error: AssetError) -> str:
-    """What is wrong, with the name and line of the file where they are known."""
-    place = Path(error.where or "").name
-    return f"{error.problem} ({place})" if ":" in place else error.problem
 
 
 def _collect_notes(tree: MjcfTree, made: EngineModel, refusal: str) -> tuple[str, ...]:
@@ -109,7 +102,10 @@ def _refuse_fragment(path: Path, root: Element) -> None:
     tag, where = root.tag, f"{path}:{root.line}"
     if tag.lower() == "mujoco":
         return
-    homes = _find_models(path)
+    homes = []
+    for folder in [path.parent, *path.parent.parents[:_LEVELS]]:
+        with suppress(OSError):
+            homes += [near for near in sorted(folder.glob("*.xml"))[:_MOST_FILES] if _has_include_of(near, path)]
     if homes or tag == "mujocoinclude":
         remedy = f"Open the file that includes it; none was found in its folder or the {_LEVELS} above."
         if homes:
@@ -118,19 +114,6 @@ def _refuse_fragment(path: Path, root: Element) -> None:
         raise AssetError(f"is a part of a model, to be included by another file: <{tag}>", where=where, remedy=remedy)
     problem = f"is no MJCF: its root element is <{tag}>, not <mujoco>"
     raise AssetError(problem, where=where, remedy="It is a URDF: name it .urdf." if tag == "robot" else None)
-
-
-def _find_models(fragment: Path) -> list[Path]:
-    """The models near a fragment that include it."""
-    folders = [fragment.parent, *fragment.parent.parents[:_LEVELS]]
-    return [path for folder in folders for path in _list_candidates(folder) if _has_include_of(path, fragment)]
-
-
-def _list_candidates(folder: Path) -> list[Path]:
-    try:
-        return sorted(folder.glob("*.xml"))[:_MOST_FILES]
-    except OSError:
-        return []
 
 
 def _has_include_of(path: Path, fragment: Path) -> bool:
@@ -199,20 +182,20 @@ class _Visuals:
     """The visuals of the geoms of one model."""
 
     def __init__(self, reading: MjcfModel, spec: mujoco.MjSpec) -> None:
-        import mujoco  # lazy: 0.2 s, only MJCF needs it
-
         self.reading, self.model = reading, reading.model
         self.shapes = MjcfShapes(reading.model)
         self.meshes = {mesh.id: mesh for mesh in spec.meshes}
-        self.folders = AssetFolders.of(reading.tree)
+        self.folders = references.AssetFolders.of(reading.tree)
         self.field = mujoco.mjtGeom.mjGEOM_HFIELD
 
     def of(self, k: int) -> Visual | None:
         """What a geom shows, None where it is hidden; height fields and planes are non-convex pieces already."""
         model, body, pose = self.model, self.reading.body_of[k], self.reading.geom_poses[k]
-        rgba, mesh = self._rgba(k), int(model.geom_dataid[k])
+        material, mesh = int(model.geom_matid[k]), int(model.geom_dataid[k])
+        red, green, blue, alpha = map(float, model.mat_rgba[material] if material >= 0 else model.geom_rgba[k])
+        rgba = red, green, blue, alpha
         is_mesh = mesh >= 0 and model.geom_type[k] != self.field
-        if rgba[3] <= 0 or (self.reading.collides[k] and not (is_mesh and model.geom_group[k] < _SHOWN_GROUPS)):
+        if alpha <= 0 or (self.reading.collides[k] and not (is_mesh and model.geom_group[k] < _SHOWN_GROUPS)):
             return None
         if (shape := self.shapes.primitive_of(k, pose)) is not None:
             return Visual(body, shape, np.eye(3), np.zeros(3), rgba)
@@ -225,12 +208,6 @@ class _Visuals:
             return Visual(body, path, linear, placed.translation - linear @ np.asarray(first.refpos), rgba)
         surface = mesh_surface(model, mesh, pose)  # of the model itself, or of a kind of file that only MuJoCo reads
         return Visual(body, Polytope(surface.vertices, surface.faces), np.eye(3), np.zeros(3), rgba)
-
-    def _rgba(self, k: int) -> Rgba:
-        material = int(self.model.geom_matid[k])
-        colour = self.model.mat_rgba[material] if material >= 0 else self.model.geom_rgba[k]
-        red, green, blue, alpha = (float(share) for share in colour)
-        return red, green, blue, alpha
 
     def _find_file(self, mesh: int) -> Path | None:
         """The file of a mesh that can be read again, None where there is none."""

@@ -5,10 +5,12 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from math import isnan
-from typing import TYPE_CHECKING, Literal
+from pathlib import Path
+from typing import Literal
 
 from meshforge.common import AssetError, is_file
-from meshforge.formats.mesh_reader import read_content
+from meshforge.formats import mesh_reader, references
+from meshforge.formats.lazy import mujoco
 from meshforge.formats.mjcf.document import MjcfNode, MjcfTree
 from meshforge.formats.mjcf.engine import (
     EngineModel,
@@ -21,10 +23,6 @@ from meshforge.formats.mjcf.engine import (
 )
 from meshforge.formats.mjcf.model import MjcfModel
 from meshforge.formats.mjcf.references import AssetFolders
-from meshforge.formats.references import Resolver
-
-if TYPE_CHECKING:
-    import mujoco
 
 _ORIENTATION = "pos quat axisangle xyaxes zaxis euler"
 _NEEDED = {
@@ -109,7 +107,9 @@ def reduce_model(tree: MjcfTree, refusal: AssetError, masses: Literal["fixed", "
             continue
         _refuse_missing(tree, flat, spec)
         _refuse_lookalikes(tree, flat, spec)
-        _drop_loose_pairs(spec)
+        names = {geom.name for geom in geoms_of(spec.bodies)}
+        for pair in [pair for pair in spec.pairs if not names >= {pair.geomname1, pair.geomname2}]:
+            spec.delete(pair)
         infos = _replace_visuals(tree, flat, spec, attempt.all_visuals)
         spec.compiler.boundmass = max(spec.compiler.boundmass, _LEAST_MASS)
         spec.compiler.boundinertia = max(spec.compiler.boundinertia, _LEAST_INERTIA)
@@ -144,38 +144,29 @@ def _refuse_missing(tree: MjcfTree, flat: FlatText, spec: mujoco.MjSpec) -> None
         raise AssetError(
             f"the mesh {mesh.attributes['file']!r} of {called} of body {first.parent.name!r} is not there{others}",
             where=tree.where(mesh),
-            remedy=Resolver(tree.main.path.parent).advice(str(AssetFolders.of(tree).find(tree, mesh))),
+            remedy=references.Resolver(tree.main.path.parent).advice(str(AssetFolders.of(tree).find(tree, mesh))),
         )
 
 
 def _refuse_lookalikes(tree: MjcfTree, flat: FlatText, spec: mujoco.MjSpec) -> None:
     """Raise AssetError where the mesh of a collision geom plainly is a file of another kind, such as a pointer."""
-    folders = AssetFolders.of(tree)
-    nodes = {mesh.name: flat.node_at(mesh.info) for mesh in spec.meshes}
+    meshes = _locate_meshes(tree, flat, spec)
     for name in dict.fromkeys(geom.meshname for geom in geoms_of(spec.bodies) if _can_collide(geom, spec)):
-        node = nodes.get(name)
-        path = folders.find(tree, node) if node is not None and node.attributes.get("file") else None
-        if path is not None and is_file(path):
-            read_content(path)
+        if name in meshes and is_file(meshes[name][1]):
+            mesh_reader.read_content(meshes[name][1])
+
+
+def _locate_meshes(tree: MjcfTree, flat: FlatText, spec: mujoco.MjSpec) -> dict[str, tuple[MjcfNode, Path]]:
+    """The elements of meshes that have a file, by name, and where it is or would be."""
+    folders, nodes = AssetFolders.of(tree), {mesh.name: flat.node_at(mesh.info) for mesh in spec.meshes}
+    return {
+        name: (node, folders.find(tree, node)) for name, node in nodes.items() if node and node.attributes.get("file")
+    }
 
 
 def _find_missing_meshes(tree: MjcfTree, flat: FlatText, spec: mujoco.MjSpec) -> dict[str, MjcfNode]:
     """The meshes whose files are not there, by name."""
-    folders = AssetFolders.of(tree)
-    nodes = {mesh.name: flat.node_at(mesh.info) for mesh in spec.meshes}
-    return {
-        name: node
-        for name, node in nodes.items()
-        if node is not None and node.attributes.get("file") and not tree.has(folders.find(tree, node))
-    }
-
-
-def _drop_loose_pairs(spec: mujoco.MjSpec) -> None:
-    """Take away the pairs of geoms that are not there."""
-    names = {geom.name for geom in geoms_of(spec.bodies)}
-    for pair in list(spec.pairs):
-        if not names >= {pair.geomname1, pair.geomname2}:
-            spec.delete(pair)
+    return {name: node for name, (node, path) in _locate_meshes(tree, flat, spec).items() if not tree.has(path)}
 
 
 def _replace_visuals(tree: MjcfTree, flat: FlatText, spec: mujoco.MjSpec, all_visuals: bool) -> dict[str, bool]:
@@ -183,8 +174,6 @@ def _replace_visuals(tree: MjcfTree, flat: FlatText, spec: mujoco.MjSpec, all_vi
 
     Returns the lines of these geoms, and whether they had a mass. Meshes that no geom is left to use go.
     """
-    import mujoco  # lazy: 0.2 s, only MJCF needs it
-
     lost = _find_missing_meshes(tree, flat, spec)
     infos = {}
     geoms = geoms_of(spec.bodies)
@@ -237,7 +226,8 @@ def read_model(tree: MjcfTree, is_whole: bool) -> MjcfModel:
 
 def read_unscaled_model(tree: MjcfTree, reading: MjcfModel) -> MjcfModel:
     """A whole reading with masses before they are scaled to a total, and free bodies in their authored frames."""
-    if not any(map(_scales_masses, tree.root.walk())):
+    changing = {"compiler": {"settotalmass", "alignfree"}} | {tag: {"align"} for tag in _FREE}
+    if not any(changing.get(node.tag, set()) & node.attributes.keys() for node in tree.root.walk()):
         return reading
     flat = flatten(tree)
     spec = parse_text(tree, flat)
@@ -246,10 +236,3 @@ def read_unscaled_model(tree: MjcfTree, reading: MjcfModel) -> MjcfModel:
     for joint in spec.joints:
         joint.align = 0
     return MjcfModel(tree, flat, compile_spec(tree, flat, spec))
-
-
-def _scales_masses(node: MjcfNode) -> bool:
-    """Whether an element changes masses or the frames of free bodies."""
-    if node.tag == "compiler":
-        return bool({"settotalmass", "alignfree"} & node.attributes.keys())
-    return node.tag in _FREE and "align" in node.attributes

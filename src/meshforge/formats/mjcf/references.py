@@ -200,14 +200,8 @@ def top_folder(document: MjcfDocument) -> Path:
     tree = document.tree
     meshes = posixpath.normpath(posixpath.join(AssetFolders.of(tree).mesh.replace("\\", "/"), "hull.obj"))
     named = [meshes, *output_places(tree), *(place for place, _, _ in _locate_references(tree))]
-    ups = max(_count_parents(place) for place in named if place)
+    ups = max(place.split("/").count("..") for place in named if place)
     return [tree.main.path.parent, *tree.main.path.parent.parents][ups]
-
-
-def _count_parents(place: str) -> int:
-    """How many folders a place is above."""
-    parts = place.split("/")
-    return next((k for k, part in enumerate(parts) if part != ".."), len(parts))
 
 
 def _locate_references(tree: MjcfTree) -> Iterator[tuple[str | None, Path, str]]:

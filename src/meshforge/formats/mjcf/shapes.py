@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
 from meshforge.common import GeometryError
 from meshforge.formats.collision_pieces import CollisionPiece
+from meshforge.formats.lazy import mujoco
 from meshforge.geometry import (
     Box,
     Capsule,
@@ -23,9 +22,6 @@ from meshforge.geometry import (
 )
 from meshforge.symbolic import Surface
 
-if TYPE_CHECKING:
-    import mujoco
-
 
 class MjcfShapes:
     """The shapes of one model; the hull of a mesh that several geoms share is made once."""
@@ -36,8 +32,6 @@ class MjcfShapes:
 
     def part_of(self, geom: int, pose: Pose) -> CollisionPiece:
         """The shape of a geom; pose: root_T_geom. Of a mesh it is the convex hull, with which MuJoCo collides."""
-        import mujoco  # lazy: 0.2 s, only MJCF needs it
-
         kinds = mujoco.mjtGeom
         kind = kinds(int(self.model.geom_type[geom]))
         data = int(self.model.geom_dataid[geom])
@@ -56,8 +50,6 @@ class MjcfShapes:
 
     def primitive_of(self, geom: int, pose: Pose) -> Shape | None:
         """The shape of a geom that is no mesh; MuJoCo's sizes are half sizes."""
-        import mujoco  # lazy: 0.2 s, only MJCF needs it
-
         kinds = mujoco.mjtGeom
         size = self.model.geom_size[geom].astype(np.float64)
         match kinds(int(self.model.geom_type[geom])):

@@ -17,10 +17,9 @@ import numpy as np
 import numpy.typing as npt
 
 from meshforge.common import AssetError, GeometryError
+from meshforge.formats import collision_pieces, mesh_reader, references
 from meshforge.formats.base import Format, Mass, Output, ReadOptions, note_renames
-from meshforge.formats.collision_pieces import drop_repeats
 from meshforge.formats.engine_names.conventions import NATIVE_SHAPES
-from meshforge.formats.mesh_reader import read_content
 from meshforge.formats.meshfile.surface import Soup
 from meshforge.formats.plain.parts import (
     VISUAL_ONLY,
@@ -34,7 +33,6 @@ from meshforge.formats.plain.parts import (
     owners_of,
     to_parts,
 )
-from meshforge.formats.references import find_companions
 from meshforge.geometry import Ints, Piece, Pose, Shape, convex_hull, split_pieces
 from meshforge.symbolic import PRIMITIVE_FEATURES, Asset, Body, FeatureKind, Geom, Mentions, Opaque, Surface
 
@@ -88,7 +86,7 @@ class PlainFormat(Format):
         """The bytes of a new file of these parts."""
 
     def read(self, path: Path, options: ReadOptions) -> Asset:
-        document, found, soup = self._parse(read_content(path), path)
+        document, found, soup = self._parse(mesh_reader.read_content(path), path)
         named = [(name, piece, _mentions_of(soup, piece)) for name, piece in zip(document.names, found, strict=True)]
         shapes, notes = self.interpret_hulls(document, found)
         return Asset(
@@ -103,7 +101,7 @@ class PlainFormat(Format):
                 if not piece.shape
             ),
             visuals=_visual_surface(soup),
-            files=tuple(dict.fromkeys(find_companions(path).values())),
+            files=tuple(dict.fromkeys(references.find_companions(path).values())),
             notes=notes,
         )
 
@@ -146,7 +144,7 @@ class PlainFormat(Format):
         kept = {geom.name for geom in asset.geoms if geom.parent is None} & set(document.names)
         gone = frozenset(n for n in document.names if n not in kept and n not in opaque)
         new = [geom for geom in asset.geoms if geom.name not in kept]
-        beside = find_companions(asset.path)
+        beside = references.find_companions(asset.path)
         if not gone and not new:
             return Output(document.data, copies=beside)
         parts, notes = to_parts(new, NATIVE_SHAPES if document.marked else ())
@@ -194,7 +192,7 @@ class PlainFormat(Format):
 
 def _mentions_of(soup: Soup, piece: Piece) -> Mentions:
     """What else the file says of the triangles of a piece."""
-    return drop_repeats(
+    return collision_pieces.drop_repeats(
         (kind, names[k]) for kind, owner, names in soup.mentions for k in np.unique(owner[piece.face_indices]).tolist()
     )
 

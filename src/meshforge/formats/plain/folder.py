@@ -68,10 +68,9 @@ class FolderFormat(Format):
     def mesh_files(self, folder: Path) -> list[Path]:
         """The mesh files of a folder, in natural order."""
         files = [f for f in folder.iterdir() if f.is_file() and not f.name.startswith(".")]
-        return sorted((f for f in files if self._knows(f)), key=lambda f: natural_key(f.name))
-
-    def _knows(self, path: Path) -> bool:
-        return not is_segmentation(path) and any(path.suffix.lower() in member.suffixes for member in self.members)
+        known = tuple(suffix for member in self.members for suffix in member.suffixes)
+        found = (f for f in files if f.suffix.lower() in known and not is_segmentation(f))
+        return sorted(found, key=lambda f: natural_key(f.name))
 
     def format_of(self, path: Path) -> PlainFormat:
         """The format of a member. Raises StopIteration for a file of another kind."""
@@ -88,17 +87,13 @@ class FolderFormat(Format):
             raise AssetError("the edit leaves nothing in this folder", where=str(asset.path))
         for member in document.members:
             tree.keep(member, kept)
-        suffix = self._usual_suffix(document)
+        counts = Counter(Path(m.file).suffix for m in document.members if self.format_of(Path(m.file)).writable)
+        suffix = counts.most_common(1)[0][0] if counts else ".obj"
         parts, notes = to_parts(g for g in asset.geoms if g.name not in kept)
         for part in parts:
             tree.add(part, suffix)
         output = tree.to_output({g.name for g in asset.geoms})
         return replace(output, notes=(*notes, *note_renames(output.names)))
-
-    def _usual_suffix(self, document: FolderDocument) -> str:
-        """The suffix of most files that can be written, as they write it."""
-        counts = Counter(Path(m.file).suffix for m in document.members if self.format_of(Path(m.file)).writable)
-        return counts.most_common(1)[0][0] if counts else ".obj"
 
     def create(self, asset: Asset, name: str) -> Output:
         tree = FolderWriter(self.format_of)

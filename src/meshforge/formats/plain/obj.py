@@ -12,10 +12,8 @@ from typing import ClassVar
 import numpy as np
 
 from meshforge.formats.base import Output
-from meshforge.formats.engine_names.base import fallbacks_of, unreal_kind, visible_mesh_of
-from meshforge.formats.engine_names.bodies import EngineBody, name_bodies
-from meshforge.formats.engine_names.conventions import UnrealNames, interpret_unreal_shape, next_name
-from meshforge.formats.meshfile.obj import ObjGroup, ObjText, parse_obj
+from meshforge.formats.engine_names import bodies, conventions
+from meshforge.formats.meshfile.obj import ObjText, parse_obj
 from meshforge.formats.meshfile.surface import Soup
 from meshforge.formats.plain.base import MeshFileEdit, PlainFormat
 from meshforge.formats.plain.obj_text import edit_obj, format_obj
@@ -30,7 +28,7 @@ _COMMENT = re.compile(rb"^[ \t]*#", re.M)
 _OTHER = re.compile(rb"^[ \t]*([lp])[ \t]", re.M)
 _KINDS = {b"l": "line", b"p": "point"}
 
-_UNREAL = UnrealNames()
+_UNREAL = conventions.UnrealNames()
 _SCALE = (
     "numbers are metres: Unreal's importers of OBJ take them for centimetres, so import it with a uniform scale of 100"
 )
@@ -65,7 +63,7 @@ class ObjFormat(PlainFormat):
         shapes, _ = super().interpret_hulls(document, found)
         if not document.marked:
             return shapes, ()
-        readings = {name: interpret_unreal_shape(name, hull) for name, hull in shapes.items()}
+        readings = {name: conventions.interpret_unreal_shape(name, hull) for name, hull in shapes.items()}
         notes = (MARKED_NOTE, *(note for _, note in readings.values() if note))
         return {name: shape for name, (shape, _) in readings.items()}, notes
 
@@ -78,7 +76,9 @@ class ObjFormat(PlainFormat):
         return edit_obj(parse_obj(edit.document.data, str(edit.path)), edit)
 
     def format_parts(self, parts: Sequence[MeshPart]) -> bytes:
-        return format_obj([replace(part, name="_" * bool(unreal_kind(part.name)) + part.name) for part in parts])
+        return format_obj(
+            [replace(part, name="_" * bool(conventions.unreal_kind(part.name)) + part.name) for part in parts]
+        )
 
     def features(self, asset: Asset) -> Iterator[Feature]:
         if isinstance(asset.document, PlainDocument):
@@ -99,13 +99,16 @@ class ObjForUnreal(ObjFormat):
     title = "OBJ for Unreal"
     up = "z"  # Interchange's translator of OBJ turns nothing, and Unreal is z-up
     holds = _UNREAL.holds - {FeatureKind.COLORS}
-    instead: ClassVar[Mapping[FeatureKind, str]] = {**fallbacks_of(_UNREAL), FeatureKind.BODIES: "written as groups"}
+    instead: ClassVar[Mapping[FeatureKind, str]] = {
+        **conventions.fallbacks_of(_UNREAL),
+        FeatureKind.BODIES: "written as groups",
+    }
 
     def can_write_back(self, asset: Asset) -> bool:
         return isinstance(asset.document, PlainDocument) and asset.document.marked and super().can_write_back(asset)
 
     def create(self, asset: Asset, name: str) -> Output:
-        found = name_bodies(asset, _UNREAL, PurePosixPath(name).stem)
+        found = bodies.name_bodies(asset, _UNREAL, PurePosixPath(name).stem)
         parts = [part for family in found.each for part in _parts_of(family)]
         hulls = set(found.names.values())
         whose = [part.name if part.name in hulls else VISUAL_ONLY for part in parts for _ in part.surface.faces]
@@ -115,21 +118,16 @@ class ObjForUnreal(ObjFormat):
         return Output(data, names=names, lost=found.lost, notes=(_SCALE, *found.notes))
 
 
-def _parts_of(family: EngineBody) -> Sequence[MeshPart]:
+def _parts_of(family: bodies.EngineBody) -> Sequence[MeshPart]:
     """What is seen of a body, and its hulls."""
     seen = [MeshPart(family.name, surface) for surface in family.surfaces]
     hulls = {name: geom.shape.tessellate() for name, geom in family.hulls.items()}
     return [*seen, *(MeshPart(name, Surface(hull.vertices, hull.faces)) for name, hull in hulls.items())]
 
 
-def marks_of(groups: Sequence[ObjGroup]) -> list[str | None]:
-    """For each group, the name by which Unreal takes it for a hull: its object's, or its own; None for others."""
-    return [next((name for name in group if unreal_kind(name)), None) for group in groups]
-
-
 def regroup_by_marks(text: ObjText, soup: Soup) -> Soup:
     """The triangles of a file with a group for each hull, and -1 for what is only seen; as they are without marks."""
-    marks = marks_of(text.groups)
+    marks = [next((name for name in group if conventions.unreal_kind(name)), None) for group in text.groups]
     names = list(dict.fromkeys(name for name in marks if name is not None))
     if not names:
         return soup
@@ -140,9 +138,9 @@ def regroup_by_marks(text: ObjText, soup: Soup) -> Soup:
 def next_hull_names(text: ObjText, geoms: Sequence[Geom]) -> list[str]:
     """The names of made hulls in a file with marks, each after the mesh that its parent stands for."""
     names = [name for group in text.groups for name in group if name]
-    rendered = [name for name in names if not unreal_kind(name)]
+    rendered = [name for name in names if not conventions.unreal_kind(name)]
     made: list[str] = []
     for geom in geoms:
-        base = visible_mesh_of(geom.parent, rendered) if geom.parent else next(iter(rendered), "hull")
-        made.append(next_name(geom, base, [*names, *made]))
+        base = conventions.visible_mesh_of(geom.parent, rendered) if geom.parent else next(iter(rendered), "hull")
+        made.append(conventions.next_name(geom, base, [*names, *made]))
     return made

@@ -37,7 +37,8 @@ class _ObjEditor:
             k for k, word in enumerate(self.words) if word in _OTHERS or (word in _FACES and k not in self.stays)
         }
         self.wanted = self._target_groups()
-        self.end = line_end_of(text.statements)
+        first = text.statements[0] if text.statements else b"\n"
+        self.end = first[len(first.rstrip(b"\r\n")) :] or b"\n"
         self._number_vertices()
 
     def to_bytes(self) -> bytes:
@@ -170,9 +171,3 @@ def format_group_line(word: bytes, name: str) -> bytes:
     """An `o` or `g` statement without its line end; a line break in the name becomes a blank, a last backslash goes."""
     clean = re.sub(r"[\r\n]+", " ", name).rstrip("\\")
     return word + b" " + clean.encode("utf-8", "surrogateescape")
-
-
-def line_end_of(statements: Sequence[bytes]) -> bytes:
-    """The line end that a text uses."""
-    first = statements[0] if statements else b"\n"
-    return first[len(first.rstrip(b"\r\n")) :] or b"\n"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import re
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
@@ -122,23 +123,16 @@ class _PlyEditor:
         data, order, properties = self.edit.document.data, self.text.header.order, rows.element.properties
         cut = [data[start:stop] for start, stop in rows.spans.tolist()]
         if rows.element.name == "vertex":
-            yield from (end_row(row, order) for row, keep in zip(cut, self.kept.tolist(), strict=True) if keep)
+            kept = itertools.compress(cut, self.kept.tolist())
+            yield from (row if order or row.endswith(b"\n") else row + b"\n" for row in kept)  # the last may lack it
             yield from (make_row({"x": x, "y": y, "z": z}, properties, order) for x, y, z in self.vertices.tolist())
         elif rows.element.name == "face":
-            yield from (
-                renumber_row(row, properties, order, self.number) for k, row in enumerate(cut) if k not in self.gone
-            )
+            for row in (row for k, row in enumerate(cut) if k not in self.gone):
+                if order:
+                    yield _renumber_bytes(row, properties, order, self.number)
+                else:
+                    yield _renumber_text(row, properties, self.number)
             yield from (make_row(dict.fromkeys(INDEX_NAMES, face), properties, order) for face in self.faces.tolist())
-
-
-def end_row(row: bytes, order: str) -> bytes:
-    """A row with a line end, which the last of an ASCII file may lack."""
-    return row if order or row.endswith(b"\n") else row + b"\n"
-
-
-def renumber_row(row: bytes, properties: Sequence[PlyProperty], order: str, number: Ints) -> bytes:
-    """The row of a face with the new numbers of its corners; all else is as it was."""
-    return _renumber_bytes(row, properties, order, number) if order else _renumber_text(row, properties, number)
 
 
 def _renumber_text(row: bytes, properties: Sequence[PlyProperty], number: Ints) -> bytes:
@@ -179,16 +173,13 @@ def find_misfits(kind: PlyProperty, values: npt.NDArray[Any]) -> npt.NDArray[Any
 
 def make_row(values: Mapping[str, Any], properties: Sequence[PlyProperty], order: str) -> bytes:
     """A new row; colours that are not given are full, the rest is zero."""
-    cells = [
-        _format_cell(kind, values.get(kind.name, [] if kind.count else _default_of(kind)), order) for kind in properties
-    ]
+    cells = []
+    for kind in properties:
+        default: Any = [] if kind.count else 0
+        if not kind.count and _COLOR_NAME.fullmatch(kind.name):
+            default = int(np.iinfo(kind.type).max) if kind.type[0] in "iu" else 1.0
+        cells.append(_format_cell(kind, values.get(kind.name, default), order))
     return b"".join(cells) if order else b" ".join(cells) + b"\n"
-
-
-def _default_of(kind: PlyProperty) -> float:
-    if not _COLOR_NAME.fullmatch(kind.name):
-        return 0
-    return int(np.iinfo(kind.type).max) if kind.type[0] in "iu" else 1.0
 
 
 def _format_cell(kind: PlyProperty, value: Any, order: str) -> bytes:

@@ -1,4 +1,6 @@
-"""STL: the pieces of a soup of triangles are the hulls, counted in file order, since the format has no names."""
+"""The formats of triangles that only list them: STL, whose pieces are the hulls, counted in file order since it has no
+names; and VRML 2.0, which CoACD writes, a shape a hull: only read, and written back as it is.
+"""
 
 from __future__ import annotations
 
@@ -8,11 +10,15 @@ from pathlib import Path
 import numpy as np
 import numpy.typing as npt
 
+from meshforge.common import AssetError
+from meshforge.formats.base import Output
 from meshforge.formats.meshfile.stl import HEADER, RECORD, StlText, facet_spans, parse_stl
-from meshforge.formats.meshfile.surface import Soup
+from meshforge.formats.meshfile.surface import Soup, join_surfaces
+from meshforge.formats.meshfile.vrml import parse_vrml
 from meshforge.formats.plain.base import MeshFileEdit, PlainFormat
 from meshforge.formats.plain.parts import MeshPart, corners_of
 from meshforge.geometry import Floats
+from meshforge.symbolic import Asset
 
 _TITLE = b"MeshForge".ljust(80, b" ")  # must not begin with "solid", the mark of ASCII files
 
@@ -71,25 +77,17 @@ def _edit_ascii(data: bytes, text: StlText, edit: MeshFileEdit) -> bytes:
         at = stop
     if len(text.solids) > 1:
         end = len(data)
-        made = b"".join(
-            b"solid %s\n%sendsolid %s\n" % (n, _format_facets(p), n) for p in edit.parts for n in [_clean_name(p.name)]
-        )
+        names = [" ".join(part.name.split()).encode("utf-8", "surrogateescape") for part in edit.parts]
+        named = zip(names, map(_format_facets, edit.parts), names, strict=True)
+        made = b"".join(b"solid %s\n%sendsolid %s\n" % solid for solid in named)
     else:
-        end = _find_end_of_solid(data, int(spans[-1, 1]))
+        last = int(spans[-1, 1])
+        found = data[last:].lower().find(b"endsolid")
+        end = len(data) if found < 0 else last + found
         made = b"".join(map(_format_facets, edit.parts))
     body = b"".join([*kept, data[at:end]])
     gap = b"\n" if made and not body.rstrip(b" \t").endswith((b"\n", b"\r")) else b""
     return body + gap + made + data[end:]
-
-
-def _find_end_of_solid(data: bytes, at: int) -> int:
-    """Where the last solid ends, whose last facet ends at `at`."""
-    found = data[at:].lower().find(b"endsolid")
-    return len(data) if found < 0 else at + found
-
-
-def _clean_name(name: str) -> bytes:
-    return " ".join(name.split()).encode("utf-8", "surrogateescape")
 
 
 def _format_facets(part: MeshPart) -> bytes:
@@ -100,3 +98,28 @@ def _format_facets(part: MeshPart) -> bytes:
         lines += ["    vertex {!r} {!r} {!r}".format(*corner) for corner in triangle]
         lines.append("  endloop\nendfacet")
     return "".join(line + "\n" for line in lines).encode()
+
+
+class WrlFormat(PlainFormat):
+    """VRML files, to be read only."""
+
+    name = "wrl"
+    title = "VRML"
+    suffixes = (".wrl",)
+    writable = False
+
+    def parse_soup(self, data: bytes, path: Path) -> Soup:
+        return join_surfaces(parse_vrml(data, str(path)))
+
+    def apply_edit(self, edit: MeshFileEdit) -> bytes:
+        raise _read_only_error(str(edit.path))
+
+    def format_parts(self, parts: Sequence[MeshPart]) -> bytes:
+        raise _read_only_error(None)
+
+    def create(self, asset: Asset, name: str) -> Output:
+        raise _read_only_error(str(asset.path))
+
+
+def _read_only_error(where: str | None) -> AssetError:
+    return AssetError("VRML files are read, not written", where=where, remedy="Write an .obj, which keeps the names.")

@@ -8,82 +8,55 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
-from meshforge.common import AssetError, join_names, nearest_name, pluralize
+from meshforge.common import AssetError, join_names
+from meshforge.formats import collision_pieces, mesh_output
 from meshforge.formats.base import Mass, Output
-from meshforge.formats.collision_pieces import SourceMeshes
-from meshforge.formats.mesh_output import HullFiles
-from meshforge.formats.mesh_reader import split_into_pieces
 from meshforge.formats.references import add_copy, note_absolute
-from meshforge.formats.sdf.document import (
-    CONFIG,
-    ROUND_SHAPES,
-    SdfDocument,
-    SdfSource,
-    Version,
-    find_scripts,
-    geometry_of,
-    mesh_uri,
-    parse_root,
-    references,
+from meshforge.formats.sdf import document, elements, shapes
+from meshforge.formats.slots import (
+    ElementMaker,
+    ElementPlan,
+    Slot,
+    assign_names,
+    name_attribute_of,
+    refuse_unknown_link,
 )
-from meshforge.formats.sdf.elements import (
-    SdfShape,
-    build_collision,
-    inertial_lines,
-    mesh_lines,
-    native_lines,
-    replace_geometry,
-    replace_mesh_file,
-)
-from meshforge.formats.sdf.shapes import read_submesh, select_submesh
-from meshforge.formats.slots import ElementPlan, Slot, assign_names, name_attribute_of
 from meshforge.formats.xml import Element, Splice, XmlText, apply_splices, indent_of, newline_of
-from meshforge.geometry import Capsule, Ellipsoid, Piece, Polytope, Pose, Shape
+from meshforge.geometry import Capsule, Ellipsoid, Pose
 from meshforge.symbolic import Asset, Geom
 
 _REMEDY = "Rename one of them, or put both under one folder."
 
 
-def write_sdf(asset: Asset, document: SdfDocument, name: str, mass: Mass) -> Output:
+def write_sdf(asset: Asset, origin: document.SdfDocument, name: str, mass: Mass) -> Output:
     """The files of an asset that was read from an SDF; without an edit, their own bytes.
 
     Raises AssetError: an edit of a world or of a model that is included several times, a hull on a link that is not
     there, a mesh file that changed since the asset was read, or a mass of which a part is not known.
     """
-    _refuse_unknown_links(asset, document)
-    edit = _FileEdits(asset, document, Path(name).stem)
+    for geom in asset.geoms:
+        refuse_unknown_link(geom, origin.links, str(asset.path))
+    edit = _FileEdits(asset, origin, Path(name).stem)
     names = assign_names([slot for plan in edit.plans for slot in plan.slots])
-    texts = [edit.build_text(number, mass) for number in range(len(document.sources))]
-    copies, notes = list_copies(document.sources, texts, name)
+    texts = [edit.build_text(number, mass) for number in range(len(origin.sources))]
+    copies, notes = list_copies(origin.sources, texts, name)
     made = edit.mesh_files
-    for source, text in zip(document.sources[1:], texts[1:], strict=True):
+    for source, text in zip(origin.sources[1:], texts[1:], strict=True):
         if source.place is not None:
             made[source.place] = text
     return Output(texts[0], made, copies, (*edit.notes, *notes), names)
 
 
-def _refuse_unknown_links(asset: Asset, document: SdfDocument) -> None:
-    """Raise AssetError for a hull on a link that no file has."""
-    for geom in asset.geoms:
-        if geom.body not in document.links:
-            like = nearest_name(geom.body, document.links)
-            raise AssetError(
-                f"hull {geom.name!r} is on link {geom.body!r}, which is not there",
-                where=str(asset.path),
-                remedy=f"The nearest name of a link is {like!r}." if like else None,
-            )
-
-
 class _FileEdits:
     """The plans of all files."""
 
-    def __init__(self, asset: Asset, document: SdfDocument, stem: str) -> None:
-        self.asset, self.document, self.stem = asset, document, stem
-        self.kept = SourceMeshes(document.digests, str(asset.path))
+    def __init__(self, asset: Asset, origin: document.SdfDocument, stem: str) -> None:
+        self.asset, self.document, self.stem = asset, origin, stem
+        self.kept = collision_pieces.SourceMeshes(origin.digests, str(asset.path), shapes.select_submesh)
         self.taken: set[str] = set()
         self.plans: list[ElementPlan] = []
         self.makers: list[SdfElementMaker] = []
-        for number in range(len(document.sources)):
+        for number in range(len(origin.sources)):
             self._plan_source(number)
 
     @property
@@ -114,22 +87,23 @@ class _FileEdits:
     def _plan_source(self, number: int) -> None:
         source = self.document.sources[number]
         data = source.text.data
-        root, version = parse_root(data, str(source.path))
+        root, version = document.parse_root(data, str(source.path))
         at = {element.start: element for element in root.walk()}
         own = [k for k, place in enumerate(self.document.at) if place.source == number]
         links = {body: at[place.start] for body, place in self.document.links.items() if place.source == number}
-        files = HullFiles(self.stem, source.resolver, self.taken)
-        files.avoid(references(root))
-        maker = SdfElementMaker(data, newline_of(data), version, files, _first_mesh_folder(root, files), self.kept)
+        files = mesh_output.HullFiles(self.stem, source.resolver, self.taken)
+        files.avoid(document.references(root))
+        folder = _first_mesh_folder(root, files)
+        maker = SdfElementMaker(data, newline_of(data), files, folder, self.kept, version=version)
         asset = replace(self.asset, geoms=tuple(geom for geom in self.asset.geoms if geom.body in links))
-        elements = [at[self.document.at[k].start] for k in own]
-        self.plans.append(ElementPlan(asset, [self.document.authored[k] for k in own], elements, links, maker))
+        authored, at_own = [self.document.authored[k] for k in own], [at[self.document.at[k].start] for k in own]
+        self.plans.append(ElementPlan(asset, authored, at_own, links, maker))
         self.makers.append(maker)
 
-    def _refuse_fixed(self, source: SdfSource) -> None:
-        document, where = self.document, str(self.asset.path)
-        if document.worlds:
-            worlds = join_names(document.worlds, 2)
+    def _refuse_fixed(self, source: document.SdfSource) -> None:
+        origin, where = self.document, str(self.asset.path)
+        if origin.worlds:
+            worlds = join_names(origin.worlds, 2)
             remedy = "Put its <model> into a file of its own (<sdf><model>), and edit that."
             raise AssetError(f"this is a world ({worlds}), which is only read", where=where, remedy=remedy)
         if source.count > 1 or source.place is None:
@@ -138,72 +112,55 @@ class _FileEdits:
             raise AssetError(problem, where=where, remedy=f"Edit {source.path} itself.")
 
 
-def _first_mesh_folder(root: Element, files: HullFiles) -> str:
+def _first_mesh_folder(root: Element, files: mesh_output.HullFiles) -> str:
     """The folder of the first collision mesh, as its reference has it, where hulls of no mesh's kin go."""
-    kinds = (geometry_of(element) for element in root.walk() if element.tag == "collision")
-    return files.folder_of(next((mesh_uri(kind) for kind in kinds if kind is not None and kind.tag == "mesh"), None))
+    kinds = (document.geometry_of(element) for element in root.walk() if element.tag == "collision")
+    return files.folder_of(
+        next((document.mesh_uri(kind) for kind in kinds if kind is not None and kind.tag == "mesh"), None)
+    )
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class SdfElementMaker:
-    """Makes elements for one file; folder: a reference's folder for hulls whose parent has no mesh.
+class SdfElementMaker(ElementMaker):
+    """Makes elements for one file."""
 
-    meshes: the files that the document refers to, where one may have to be split.
-    """
+    version: document.Version = field(kw_only=True)
 
-    data: bytes
-    line_end: bytes
-    version: Version
-    files: HullFiles
-    folder: str = ""
-    meshes: SourceMeshes | None = None
-    notes: list[str] = field(default_factory=list)
-    _pieces: dict[tuple[str, tuple[str, ...]], list[Piece]] = field(default_factory=dict)
+    @property
+    def title(self) -> str:
+        return f"SDF {'.'.join(map(str, self.version))}"
+
+    def find_mesh(self, collision: Element) -> str | None:
+        mesh = document.geometry_of(collision)
+        return document.mesh_uri(mesh) if mesh is not None and mesh.tag == "mesh" else None
 
     def make_slot(self, geom: Geom, root_t_link: Pose, template: Element | None, lead: bytes) -> Slot:
         shape = geom.shape.move(root_t_link.inverse())
-        if isinstance(shape, SdfShape) and (self.version >= ROUND_SHAPES or not isinstance(shape, Capsule | Ellipsoid)):
-            pose, kind = shape.pose, native_lines(shape)
+        is_known = self.version >= document.ROUND_SHAPES or not isinstance(shape, Capsule | Ellipsoid)
+        if isinstance(shape, elements.SdfShape) and is_known:
+            pose, kind = shape.pose, elements.native_lines(shape)
         else:
-            pose, kind = Pose.identity(), mesh_lines(self._add_mesh(geom, shape, template))
+            pose, kind = Pose.identity(), elements.mesh_lines(self.make_mesh(geom, shape, template))
         if template is None:
-            slot = Slot(geom.body, (geom.name,), text=build_collision(pose, kind, lead, self.line_end))
+            slot = Slot(geom.body, (geom.name,), text=elements.build_collision(pose, kind, lead, self.line_end))
         else:
-            edits = replace_geometry(self.data, template, pose, self._fit_lines(kind, template))
+            old = document.geometry_of(template)
+            assert old is not None  # only elements with pieces are copied
+            if b"\n" not in self.data[old.start : old.end]:  # all in one line
+                kind = [b"".join(line.strip() for line in kind)]
+            edits = elements.replace_geometry(self.data, template, pose, kind)
             slot = Slot(geom.body, (geom.name,), None, template, edits, copy=True)
         slot.name = name_attribute_of(slot)  # SDF asks for one
         return slot
 
     def extract_piece(self, element: Element, name: str, k: int) -> tuple[Splice, ...]:
-        mesh, resolver = geometry_of(element), self.files.resolver
-        assert mesh is not None and resolver is not None and self.meshes is not None  # only meshes have several pieces
-        reference, part = mesh_uri(mesh), read_submesh(mesh)
-        if (reference, part) not in self._pieces:
-            surfaces = select_submesh(self.meshes.surfaces(reference, resolver), part)
-            self._pieces[reference, part] = split_into_pieces(surfaces, name=reference)
-        piece = self._pieces[reference, part][k]
-        made = self.files.add(name, self.files.folder_of(reference), piece.vertices, piece.faces)
-        return replace_mesh_file(self.data, mesh, made)
-
-    def _fit_lines(self, kind: Sequence[bytes], template: Element) -> Sequence[bytes]:
-        """The lines of a shape; all in one where the template has its own in one."""
-        old = geometry_of(template)
-        assert old is not None  # only elements with pieces are copied
-        return kind if b"\n" in self.data[old.start : old.end] else [b"".join(line.strip() for line in kind)]
-
-    def _add_mesh(self, geom: Geom, shape: Shape, template: Element | None) -> str:
-        """The reference to the mesh file of a hull, which is made."""
-        if not isinstance(shape, Polytope):
-            version = ".".join(map(str, self.version))
-            corners = pluralize(len(shape.vertices), "vertex", "vertices")
-            self.notes.append(f"SDF {version} has no {shape.kind}: {geom.name!r} is written as a hull of {corners}")
-        mesh = geometry_of(template) if template else None
-        beside = mesh_uri(mesh) if mesh is not None and mesh.tag == "mesh" else None
-        folder = self.files.folder_of(beside) if beside else self.folder
-        return self.files.add(geom.name, folder, shape.vertices, shape.faces)
+        mesh = document.geometry_of(element)
+        assert mesh is not None  # only meshes have several pieces
+        _, made = self.make_piece(document.mesh_uri(mesh), shapes.read_submesh(mesh), name, k)
+        return elements.replace_mesh_file(self.data, mesh, made)
 
 
-def keep_masses(asset: Asset, document: SdfDocument, plan: ElementPlan) -> list[Splice]:
+def keep_masses(asset: Asset, origin: document.SdfDocument, plan: ElementPlan) -> list[Splice]:
     """The edits that make computed masses of the links that are edited explicit.
 
     Raises AssetError for a link of which a collision is no hull, so that its mass is not known.
@@ -213,7 +170,7 @@ def keep_masses(asset: Asset, document: SdfDocument, plan: ElementPlan) -> list[
     edited |= plan.ends.keys()
     known = {inertial.body: inertial for inertial in asset.mechanism.inertials}
     edits = []
-    for body in sorted(edited & set(document.computed)):
+    for body in sorted(edited & set(origin.computed)):
         element = plan.links[body].first("inertial")
         assert element is not None  # it says that the mass is computed
         if body not in known:
@@ -223,12 +180,14 @@ def keep_masses(asset: Asset, document: SdfDocument, plan: ElementPlan) -> list[
                 remedy="Leave it to the new collisions (--mass recompute), or say it in the file.",
             )
         lead = indent_of(plan.maker.data, element.start) or b""
-        lines = inertial_lines(known[body], asset.body_poses[body])
+        lines = elements.inertial_lines(known[body], asset.body_poses[body])
         edits.append(Splice(element.start, element.end, (newline_of(plan.maker.data) + lead).join(lines)))
     return edits
 
 
-def list_copies(sources: Sequence[SdfSource], texts: Sequence[bytes], name: str) -> tuple[dict[str, Path], list[str]]:
+def list_copies(
+    sources: Sequence[document.SdfSource], texts: Sequence[bytes], name: str
+) -> tuple[dict[str, Path], list[str]]:
     """The files, and notes on those that stay where they are; texts: of the sources as they are written; name: of the
     main one, whose `model.config` goes along where that names a file of that name.
 
@@ -241,9 +200,9 @@ def list_copies(sources: Sequence[SdfSource], texts: Sequence[bytes], name: str)
             notes.append(note_absolute(source.reference))
             continue
         folder = posixpath.dirname(source.place)
-        config = source.path.parent / CONFIG
+        config = source.path.parent / document.CONFIG
         if config.is_file() and (number or source.path.name == name) and not folder.startswith(".."):
-            add_copy(copies, posixpath.join(folder, CONFIG), config, _REMEDY)
+            add_copy(copies, posixpath.join(folder, document.CONFIG), config, _REMEDY)
         for reference, path in _find_references(source, text):
             place = source.resolver.place(reference)
             if place is None:
@@ -253,8 +212,8 @@ def list_copies(sources: Sequence[SdfSource], texts: Sequence[bytes], name: str)
     return copies, notes
 
 
-def _find_references(source: SdfSource, text: bytes) -> list[tuple[str, Path]]:
+def _find_references(source: document.SdfSource, text: bytes) -> list[tuple[str, Path]]:
     """What a file refers to that is there."""
-    root, _ = parse_root(XmlText.of(text).data, str(source.path))
-    found = [(reference, source.resolver.find(reference)) for reference in references(root)]
-    return [(reference, path) for reference, path in found if path is not None] + list(find_scripts(source))
+    root, _ = document.parse_root(XmlText.of(text).data, str(source.path))
+    found = [(reference, source.resolver.find(reference)) for reference in document.references(root)]
+    return [(reference, path) for reference, path in found if path is not None] + list(document.find_scripts(source))

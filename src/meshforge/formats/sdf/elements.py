@@ -10,7 +10,7 @@ import numpy as np
 from meshforge.formats.kinematic_tree import LinkJoint, drop_rounding, name_moments, place_inertial
 from meshforge.formats.mesh_output import LinkVisual
 from meshforge.formats.sdf.document import geometry_of
-from meshforge.formats.xml import Element, Splice, escape, format_numbers, indent_of, newline_of, remove_element
+from meshforge.formats.xml import Element, Splice, escape, format_numbers, line_gap, remove_element, replace_or_insert
 from meshforge.geometry import Box, Capsule, Cylinder, Ellipsoid, Floats, Pose, Sphere
 from meshforge.symbolic import Inertial
 
@@ -72,12 +72,12 @@ def replace_geometry(data: bytes, collision: Element, pose: Pose, kind: Sequence
     """The edits that give a copy of a collision another pose and geometry, all else of it being inherited."""
     geometry, old = collision.first("geometry"), geometry_of(collision)
     assert geometry is not None and old is not None  # only elements with pieces are copied
-    lead = indent_of(data, old.start)
-    gap = newline_of(data) + lead if lead is not None else b""
+    gap = line_gap(data, old.start)
     others = (
         remove_element(data, child) for child in geometry.children if child.tag == "polyline" and child is not old
     )
-    return (_replace_pose(data, collision, geometry, pose), Splice(old.start, old.end, gap.join(kind)), *others)
+    placed = replace_or_insert(data, collision, "pose", "geometry", pose_leaf(pose))
+    return (placed, Splice(old.start, old.end, gap.join(kind)), *others)
 
 
 def replace_mesh_file(data: bytes, mesh: Element, reference: str) -> tuple[Splice, ...]:
@@ -86,16 +86,6 @@ def replace_mesh_file(data: bytes, mesh: Element, reference: str) -> tuple[Splic
     assert uri is not None  # only meshes have several pieces
     new = Splice(uri.start, uri.end, leaf(uri.tag, reference))
     return (new, remove_element(data, submesh)) if submesh else (new,)
-
-
-def _replace_pose(data: bytes, collision: Element, geometry: Element, pose: Pose) -> Splice:
-    """The edit that gives a collision another pose in its link."""
-    old = collision.first("pose")
-    if old is not None:
-        return Splice(old.start, old.end, pose_leaf(pose))
-    lead = indent_of(data, geometry.start)
-    gap = newline_of(data) + lead if lead is not None else b""
-    return Splice(geometry.start, geometry.start, pose_leaf(pose) + gap)
 
 
 def nest_with_name(tag: str, name: str, *inside: bytes, more: bytes = b"") -> list[bytes]:

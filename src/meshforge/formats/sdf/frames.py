@@ -8,9 +8,8 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from meshforge.common import AssetError, nearest_name
-from meshforge.formats.meshfile.surface import FARTHEST
 from meshforge.formats.sdf.document import Version
-from meshforge.formats.xml import Element, parse_numbers
+from meshforge.formats.xml import Element, read_numbers
 from meshforge.geometry import Floats, Pose, rotation_of_quaternion
 
 MODEL = "__model__"
@@ -67,7 +66,12 @@ class ModelScope:
         found: list[SdfFrame] = []
         scope, rest = self, name
         while rest and rest != MODEL and not (scope.is_world and rest in (WORLD, "__root__")):
-            frame, rest, scope = scope._take_step(rest) or _refuse_unknown_name(self, name, where)
+            step = scope._take_step(rest)
+            if step is None:
+                like = nearest_name(name, [*self.frames, *self.through])
+                remedy = f"The nearest name of a frame is {like!r}." if like else None
+                raise AssetError(f"there is no frame {name!r} in this model", where=where, remedy=remedy)
+            frame, rest, scope = step
             found.append(frame)
         return found
 
@@ -90,12 +94,6 @@ class ModelScope:
             return inner.frame, name, inner
         inside = self.frames[head].inside if tail and head in self.frames else None
         return (self.frames[head], tail, inside) if inside else None
-
-
-def _refuse_unknown_name(scope: ModelScope, name: str, where: str) -> tuple[SdfFrame, str, ModelScope]:
-    like = nearest_name(name, [*scope.frames, *scope.through])
-    remedy = f"The nearest name of a frame is {like!r}." if like else None
-    raise AssetError(f"there is no frame {name!r} in this model", where=where, remedy=remedy)
 
 
 class FramePlaces:
@@ -173,15 +171,8 @@ def read_floats(parent: Element, tag: str, where: str, default: tuple[float, ...
 
 def read_values(element: Element, count: int, where: str) -> Floats:
     """The numbers (count,) that an element holds. Raises AssetError with `where:line`."""
-    found = parse_numbers(element.text)
     text = element.text if len(element.text) <= _LONGEST else f"{element.text[:_LONGEST]}..."
-    given, place = f"<{element.tag}>{text}</{element.tag}>", f"{where}:{element.line}"
-    if found is None or len(found) != count:
-        wanted = "a finite number" if count == 1 else f"{count} finite numbers"
-        raise AssetError(f"{given} does not hold {wanted}", where=place)
-    if any(abs(value) > FARTHEST for value in found):
-        raise AssetError(f"{given} is larger than anything", where=place)
-    return np.array(found)
+    return read_numbers(element.text, count, f"<{element.tag}>{text}</{element.tag}>", f"{where}:{element.line}")
 
 
 @dataclass(frozen=True, eq=False, slots=True)

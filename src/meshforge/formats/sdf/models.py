@@ -9,8 +9,7 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from meshforge.common import AssetError
-from meshforge.formats.mesh_reader import read_content
-from meshforge.formats.references import is_address
+from meshforge.formats import mesh_reader, references
 from meshforge.formats.sdf.document import RELATIVE_TO, ModelResolver, SdfSource, Version, parse_root
 from meshforge.formats.sdf.frames import MODEL, WORLD, FramePlaces, ModelScope, SdfFrame, is_true, pose_of, text_of
 from meshforge.formats.xml import Element, XmlText
@@ -87,7 +86,7 @@ class _Composer:
             number = self.files[path].number
             self.sources[number] = replace(self.sources[number], count=self.sources[number].count + 1)
             return self.files[path]
-        raw = read_content(path)
+        raw = mesh_reader.read_content(path)
         root, version = parse_root(XmlText.of(raw).data, str(path))
         self.sources.append(SdfSource(path, place, reference, raw, ModelResolver(path.parent, self.roots)))
         self.files[path] = _File(len(self.sources) - 1, root, version)
@@ -153,7 +152,7 @@ class _Composer:
         if not uri:
             raise AssetError("this <include> names no model: it has no <uri>", where=where)
         outer = self.sources[around.source]
-        path = None if is_address(uri) else outer.resolver.find_model_file(uri)
+        path = None if references.is_address(uri) else outer.resolver.find_model_file(uri)
         if path is None:
             problem = f"the included model {uri!r} is not there"
             raise AssetError(problem, where=where, remedy=outer.resolver.advise_on_model(uri))
@@ -221,11 +220,10 @@ def _output_place(outer: SdfSource, uri: str, path: Path) -> str | None:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class SdfLink:
-    """A `<link>` as a body: its name in the asset, its scope and own name there, and root_T_link."""
+    """A `<link>` as a body: its name in the asset, its scope, and root_T_link."""
 
     body: str
     scope: ModelScope
-    name: str
     element: Element
     pose: Pose
 
@@ -259,11 +257,13 @@ def place_links(composed: ModelTree) -> SdfLinks:
     """
     places = FramePlaces()
     found: dict[str, SdfLink] = {}
-    for link in _iterate_links(composed, places):
-        if link.body in found:
-            problem = f"link {link.body!r} is there twice, in two models that are merged or of one name"
-            raise AssetError(problem, where=f"{link.where}:{link.element.line}", remedy="Rename one of them.")
-        found[link.body] = link
+    for scope, name, link in ((within, *named) for within in composed.scopes() for named in within.links.items()):
+        body, place = f"{scope.prefix}{name}", f"{scope.where}:{link.line}"
+        pose = places.pose_of(scope, name, place)
+        if body in found:
+            problem = f"link {body!r} is there twice, in two models that are merged or of one name"
+            raise AssetError(problem, where=place, remedy="Rename one of them.")
+        found[body] = SdfLink(body, scope, link, pose)
     if not found:
         raise AssetError("there is no <link> in it", where=composed.root.where)
     collisions = tuple(
@@ -283,10 +283,3 @@ def pose_in_link(places: FramePlaces, link: SdfLink, element: Element) -> Pose:
     while at.base == MODEL and scope.merged and scope.frame is not None:  # as libsdformat has it
         scope = scope.frame.scope
     return places.pose_of(scope, at.base, f"{link.where}:{at.line}") @ at.pose
-
-
-def _iterate_links(composed: ModelTree, places: FramePlaces) -> Iterator[SdfLink]:
-    for scope in composed.scopes():
-        for name, element in scope.links.items():
-            pose = places.pose_of(scope, name, f"{scope.where}:{element.line}")
-            yield SdfLink(f"{scope.prefix}{name}", scope, name, element, pose)

@@ -11,13 +11,10 @@ from pathlib import Path
 import numpy as np
 
 from meshforge.common import MeshForgeError, join_names, plain_path, pluralize
-from meshforge.formats import collision_pieces
-from meshforge.formats.base import ReadOptions
-from meshforge.formats.references import find_companions
+from meshforge.formats import base, collision_pieces, references, slots
 from meshforge.formats.sdf import document, models, shapes
 from meshforge.formats.sdf.frames import text_of
 from meshforge.formats.sdf.mechanism import compute_masses, has_computed_mass, read_joints, read_masses
-from meshforge.formats.slots import name_elements
 from meshforge.formats.visuals import Rgba, Visual, VisualSurfaces
 from meshforge.formats.xml import Element, parse_numbers
 from meshforge.symbolic import Asset, Body, Mechanism, Mentions
@@ -26,7 +23,7 @@ _UNIT = re.compile(rb"<unit\b[^>]*?\bmeter\s*=\s*[\"']\s*([0-9.eE+-]+)\s*[\"']")
 _HEAD_BYTES = 100_000  # bytes within which a file says its unit
 
 
-def read_sdf(path: Path, options: ReadOptions) -> Asset:
+def read_sdf(path: Path, options: base.ReadOptions) -> Asset:
     """The asset in an SDF file with all that it includes; the root frame is that of the world around the model.
 
     Raises AssetError naming file, line, link and element: text that is not understood, a frame, an included model or a
@@ -38,9 +35,9 @@ def read_sdf(path: Path, options: ReadOptions) -> Asset:
     collision_pieces.refuse_missing(use for use in uses if use)
     meshes = collision_pieces.CollisionMeshes(shapes.select_submesh)
     parts = [shapes.read_parts(one, use, meshes) for one, use in zip(links.collisions, uses, strict=True)]
-    authored = name_elements(_by_link(links), [len(own) for own in parts])
+    authored = slots.name_elements(_by_link(links), [len(own) for own in parts])
     mentions = [
-        _collect_mentions(one, meshes.groups(use), own)
+        meshes.mention_groups(use, mentions_of_element(one.link.element, one.element), len(own))
         for one, use, own in zip(links.collisions, uses, parts, strict=True)
     ]
     geoms = collision_pieces.geoms_of(authored, parts, mentions)
@@ -89,7 +86,7 @@ def _by_link(links: models.SdfLinks) -> list[tuple[str, Element]]:
 def _mesh_uses(links: models.SdfLinks, composed: models.ModelTree) -> list[collision_pieces.MeshUse | None]:
     """The mesh file of each collision, None where it has another geometry or none."""
     uses: list[collision_pieces.MeshUse | None] = []
-    labels = name_elements(_by_link(links), [1] * len(links.collisions))
+    labels = slots.name_elements(_by_link(links), [1] * len(links.collisions))
     for one, named in zip(links.collisions, labels, strict=True):
         kind = document.geometry_of(one.element)
         if kind is None or kind.tag != "mesh":
@@ -103,14 +100,6 @@ def _mesh_uses(links: models.SdfLinks, composed: models.ModelTree) -> list[colli
             )
         )
     return uses
-
-
-def _collect_mentions(
-    collision: models.SdfCollision, groups: Sequence[str | None], parts: Sequence[collision_pieces.CollisionPiece]
-) -> list[Mentions]:
-    """What else is said of each piece of a collision."""
-    common = mentions_of_element(collision.link.element, collision.element)
-    return [(("group", group), *common) if group else common for group in groups or [None] * len(parts)]
 
 
 def read_visuals(links: models.SdfLinks, composed: models.ModelTree) -> VisualSurfaces:
@@ -177,9 +166,7 @@ def collada_unit_of(mesh: Path) -> float:
 
 def mentions_of_element(link: Element, collision: Element) -> Mentions:
     """What is said of a `<collision>` of a link."""
-    own = _names_of(collision)
-    shown = [named for visual in link.each("visual") if (named := _names_of(visual))]
-    return collision_pieces.collect_mentions(own, shown) if own else ()
+    return collision_pieces.collect_mentions(_names_of(collision), map(_names_of, link.each("visual")))
 
 
 def _names_of(element: Element) -> collision_pieces.ShapeNames | None:
@@ -231,6 +218,6 @@ def find_files(sources: Sequence[document.SdfSource]) -> tuple[tuple[Path, ...],
             if path is None:
                 missing[reference] = None
             else:
-                files |= dict.fromkeys([path, *find_companions(path).values()])
+                files |= dict.fromkeys([path, *references.find_companions(path).values()])
         files |= dict.fromkeys(path for _, path in document.find_scripts(source))
     return tuple(files), tuple(missing)

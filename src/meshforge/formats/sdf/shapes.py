@@ -8,15 +8,20 @@ from dataclasses import replace
 import numpy as np
 
 from meshforge.common import AssetError, GeometryError, join_names
-from meshforge.formats.collision_pieces import CollisionMeshes, CollisionPiece, MeshUse, place_pieces, turn_z_to
+from meshforge.formats.collision_pieces import (
+    CollisionMeshes,
+    CollisionPiece,
+    MeshUse,
+    place_pieces,
+    refuse_zero_scale,
+    turn_z_to,
+)
 from meshforge.formats.meshfile.surface import RawSurface
-from meshforge.formats.sdf.document import geometry_of
+from meshforge.formats.sdf import document, models
 from meshforge.formats.sdf.frames import is_true, read_floats, read_values, text_of
-from meshforge.formats.sdf.models import SdfCollision
 from meshforge.formats.xml import Element, format_numbers
 from meshforge.geometry import Box, Capsule, Cylinder, Ellipsoid, Floats, Pose, Shape, Sphere, convex_hull
 
-_LEAST_SCALE = 1e-12  # a factor that is taken for zero
 _AROUND = 32  # corners of the base of a cone
 _MOST_POINTS = 10_000  # points of a polyline
 _NO_HULLS = {"heightmap": "a height map is no hull", "image": "an image is no hull", "empty": "it is empty"}
@@ -107,12 +112,8 @@ def _hull_part(points: Floats, pose: Pose, reason: str) -> CollisionPiece:
 def read_mesh_scale(mesh: Element, where: str, label: str) -> Floats:
     """The factors (3,) by which a `<mesh>` is scaled. Raises AssetError naming `label`: a factor is zero."""
     scale = read_floats(mesh, "scale", where, (1.0, 1.0, 1.0))
-    if np.abs(scale).min() < _LEAST_SCALE:
-        raise AssetError(
-            f"collision {label!r} is scaled to nothing: <scale>{text_of(mesh, 'scale')}</scale>",
-            where=f"{where}:{mesh.line}",
-            remedy="Give every axis a factor that is not zero.",
-        )
+    given = f"<scale>{text_of(mesh, 'scale')}</scale>"
+    refuse_zero_scale(scale, label, given, f"{where}:{mesh.line}")
     return scale
 
 
@@ -152,9 +153,9 @@ def hull_of(surfaces: Sequence[RawSurface], linear: Floats, offset: Floats) -> C
         return CollisionPiece(None, error.problem)
 
 
-def read_parts(collision: SdfCollision, use: MeshUse | None, meshes: CollisionMeshes) -> list[CollisionPiece]:
+def read_parts(collision: models.SdfCollision, use: MeshUse | None, meshes: CollisionMeshes) -> list[CollisionPiece]:
     """The pieces of a collision, in the root frame; none where it has no geometry."""
-    kind, pose, where = geometry_of(collision.element), collision.pose, collision.link.where
+    kind, pose, where = document.geometry_of(collision.element), collision.pose, collision.link.where
     if kind is None:
         return []
     if use is not None:

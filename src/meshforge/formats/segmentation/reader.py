@@ -17,18 +17,9 @@ import numpy.typing as npt
 
 from meshforge.common import AssetError
 from meshforge.formats.mesh_reader import read_content, read_triangles
-from meshforge.formats.meshfile.obj import parse_obj
+from meshforge.formats.meshfile import obj, surface
 from meshforge.formats.meshfile.ply import PlyRows, PlyText, parse_ply
-from meshforge.formats.meshfile.surface import join_surfaces
-from meshforge.formats.segmentation.base import (
-    POINTS_SUFFIXES,
-    Segmentation,
-    check_segmentation,
-    label_rank_of,
-    number_names,
-    parse_comments,
-    to_whole_numbers,
-)
+from meshforge.formats.segmentation import base
 from meshforge.geometry import Floats, Ints
 
 _MESHES = (".obj", ".ply", ".stl", ".glb", ".gltf")
@@ -49,7 +40,7 @@ _DAMAGED = (
 _ARRAY_REMEDY = 'Write it so: np.savez("NAME.points.npz", points=xyz, labels=classes, names=["drawer", "handle"])'
 
 
-def read_segmentation(path: Path) -> Segmentation:
+def read_segmentation(path: Path) -> base.Segmentation:
     """The points or faces in a `.ply`, `.npz` or `.npy` file, with the class of each.
 
     Raises AssetError naming the file: unreadable, of another kind, without classes, with wrong lengths, not finite.
@@ -60,32 +51,34 @@ def read_segmentation(path: Path) -> Segmentation:
         case ".npz" | ".npy":
             return read_arrays(path)
     problem = f"{path.suffix or 'a file without suffix'} is no kind of segmented points"
-    raise AssetError(problem, where=str(path), remedy=f"It is one of {', '.join(POINTS_SUFFIXES)}.")
+    raise AssetError(problem, where=str(path), remedy=f"It is one of {', '.join(base.POINTS_SUFFIXES)}.")
 
 
-def read_ply(path: Path) -> Segmentation:
+def read_ply(path: Path) -> base.Segmentation:
     """The points or faces of a PLY file with their classes; those of faces count where both have some.
 
     Raises AssetError: damaged, or nothing in it is a class by its name.
     """
     where, data = str(path), read_content(path)
     text = parse_ply(data, where)
-    names = parse_comments(data[: text.header.size].decode("utf-8", "replace").splitlines())
+    names = base.parse_comments(data[: text.header.size].decode("utf-8", "replace").splitlines())
     own = [rows for kind in ("face", "vertex") for rows in text.rows if rows.element.name == kind]
     found = [(rows, key) for rows in own if (key := _find_property(rows))]
     if not found:
         raise _no_classes_error(text, where)
     rows, key = next((pair for pair in found if pair[0].element.rows), found[0])
-    classes = to_whole_numbers(rows.values[key], where)
+    classes = base.to_whole_numbers(rows.values[key], where)
     of_faces = rows.element.name == "face"
     classes = classes[text.face_at] if of_faces else classes
-    return check_segmentation(Segmentation(classes, text.vertices, text.faces, names, of_faces), where)
+    return base.check_segmentation(base.Segmentation(classes, text.vertices, text.faces, names, of_faces), where)
 
 
 def _find_property(rows: PlyRows) -> str | None:
     """The property that is most plainly one of classes."""
     ranks = [
-        (rank, p.name) for p in rows.element.properties if not p.count and (rank := label_rank_of(p.name)) is not None
+        (rank, p.name)
+        for p in rows.element.properties
+        if not p.count and (rank := base.label_rank_of(p.name)) is not None
     ]
     return min(ranks)[1] if ranks else None
 
@@ -97,11 +90,11 @@ def _no_classes_error(text: PlyText, where: str) -> AssetError:
     return AssetError(f"no property of this file is a class by its name: {holds}", where=where, remedy=remedy)
 
 
-def read_arrays(path: Path) -> Segmentation:
+def read_arrays(path: Path) -> base.Segmentation:
     """The points or faces in an `.npz` or `.npy` file with their classes. Raises AssetError."""
     where, found = str(path), _load_arrays(path)
     read = _from_archive(found, where) if isinstance(found, dict) else _from_array(found, where)
-    return check_segmentation(read, where)
+    return base.check_segmentation(read, where)
 
 
 def _load_arrays(path: Path) -> Array | dict[str, Array]:
@@ -127,12 +120,12 @@ def _unpack_archive(archive: np.lib.npyio.NpzFile, path: Path) -> dict[str, Arra
     return {key.lower(): archive[key] for key in archive.files}
 
 
-def _from_archive(arrays: Mapping[str, Array], where: str) -> Segmentation:
+def _from_archive(arrays: Mapping[str, Array], where: str) -> base.Segmentation:
     names = next((arrays[key] for key in _NAMES if key in arrays and arrays[key].dtype.kind in "US"), None)
     ranks = [
         (rank, key)
         for key, array in arrays.items()
-        if array.ndim and array.dtype.kind in "iufb" and (rank := label_rank_of(key)) is not None
+        if array.ndim and array.dtype.kind in "iufb" and (rank := base.label_rank_of(key)) is not None
     ]
     points = next((arrays[key] for key in _POINTS if key in arrays), None)
     if points is None or not ranks:
@@ -140,27 +133,31 @@ def _from_archive(arrays: Mapping[str, Array], where: str) -> Segmentation:
         holds = ", ".join(sorted(arrays)) or "nothing"
         raise AssetError(f"it has no array {lacks}, but {holds}", where=where, remedy=_ARRAY_REMEDY)
     faces = next((arrays[key] for key in _FACES if key in arrays), np.zeros((0, 3), dtype=np.int64))
-    classes, vertices = to_whole_numbers(arrays[min(ranks)[1]], where), _to_points(points, where)
+    classes, vertices = base.to_whole_numbers(arrays[min(ranks)[1]], where), _to_points(points, where)
     if 0 < len(classes) == len(vertices) == len(faces):
         problem = f"it has {len(faces):,} vertices and as many faces, so that it is open whose the classes are"
         raise AssetError(problem, where=where, remedy="Leave the faces out if the classes are of vertices.")
     of_faces = len(classes) == len(faces)
-    return Segmentation(classes, vertices, _to_faces(faces, where), _name_classes(names), of_faces=of_faces)
+    texts = [
+        str(n, "utf-8", "replace") if isinstance(n, bytes) else str(n) for n in ([] if names is None else names.flat)
+    ]
+    called = base.number_names(texts)
+    return base.Segmentation(classes, vertices, _to_faces(faces, where), called, of_faces=of_faces)
 
 
-def _from_array(array: Array, where: str) -> Segmentation:
+def _from_array(array: Array, where: str) -> base.Segmentation:
     if array.dtype.names:
-        ranks = [(rank, key) for key in array.dtype.names if (rank := label_rank_of(key)) is not None]
+        ranks = [(rank, key) for key in array.dtype.names if (rank := base.label_rank_of(key)) is not None]
         if not ranks or not {"x", "y", "z"} <= set(array.dtype.names):
             holds = ", ".join(array.dtype.names)
             problem = f"it needs the fields x, y, z and label, it has {holds}"
             raise AssetError(problem, where=where, remedy=_ARRAY_REMEDY)
         points = np.column_stack([array[axis].reshape(-1) for axis in "xyz"])
-        return Segmentation(to_whole_numbers(array[min(ranks)[1]], where), _to_points(points, where))
+        return base.Segmentation(base.to_whole_numbers(array[min(ranks)[1]], where), _to_points(points, where))
     if array.ndim == 2 and array.shape[1] == 4:
-        return Segmentation(to_whole_numbers(array[:, 3], where), _to_points(array[:, :3], where))
+        return base.Segmentation(base.to_whole_numbers(array[:, 3], where), _to_points(array[:, :3], where))
     if array.ndim == 1 or 1 in array.shape:
-        return Segmentation(to_whole_numbers(array, where))
+        return base.Segmentation(base.to_whole_numbers(array, where))
     shape = " x ".join(map(str, array.shape)) or "no"
     problem = f"it has {shape} numbers, where a class each is expected, or x, y, z and a class each"
     raise AssetError(problem, where=where, remedy=_ARRAY_REMEDY)
@@ -181,12 +178,7 @@ def _to_faces(array: Array, where: str) -> Ints:
     return array.astype(np.int64)
 
 
-def _name_classes(names: Array | None) -> dict[int, str]:
-    known = names.ravel() if names is not None else ()
-    return number_names([str(name, "utf-8", "replace") if isinstance(name, bytes) else str(name) for name in known])
-
-
-def attach_own_mesh(found: Segmentation, asset: Path, where: str) -> Segmentation:
+def attach_own_mesh(found: base.Segmentation, asset: Path, where: str) -> base.Segmentation:
     """Classes with the mesh that they are of; where: their file.
 
     Raises AssetError: the asset is no single mesh, or has another number of faces, or polygons that tools cut up
@@ -209,7 +201,7 @@ def attach_own_mesh(found: Segmentation, asset: Path, where: str) -> Segmentatio
 def _read_mesh(asset: Path, where: str) -> tuple[Floats, Ints, Ints]:
     """The vertices (n, 3) and triangles (m, 3) of a mesh file in its order, and the polygon (m,) of each triangle."""
     if asset.suffix.lower() == ".obj":
-        text = parse_obj(read_content(asset), str(asset))
+        text = obj.parse_obj(read_content(asset), str(asset))
         return text.vertices, text.faces, np.unique(text.face_at, return_inverse=True)[1].reshape(-1)
     if asset.suffix.lower() == ".ply":
         rows = parse_ply(read_content(asset), str(asset))
@@ -218,5 +210,5 @@ def _read_mesh(asset: Path, where: str) -> tuple[Floats, Ints, Ints]:
     if len(surfaces) > 1:
         problem = f"it has classes without points, and {asset.name} has {len(surfaces)} meshes"
         raise AssetError(problem, where=where, remedy=_MESH_REMEDY)
-    soup = join_surfaces(surfaces)
+    soup = surface.join_surfaces(surfaces)
     return soup.vertices, soup.faces, np.arange(len(soup.faces))

@@ -1,21 +1,21 @@
-"""What is kept of a URDF to write it back, and how its XML is read: the robot, its collisions and references,
-numbers and poses."""
+"""What is kept of a URDF to write it back, and how its XML is read: the robot, its collisions and references, numbers
+and poses; where each link is with all joints at zero, and how it moves and weighs."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
-from meshforge.common import AssetError
+from meshforge.common import AssetError, nearest_name
 from meshforge.formats.collision_pieces import CollisionElement
-from meshforge.formats.meshfile.surface import FARTHEST
+from meshforge.formats.kinematic_tree import TENSOR_NAMES, tensor_of_moments
 from meshforge.formats.references import Resolver
-from meshforge.formats.xml import Element, parse_numbers, parse_xml
+from meshforge.formats.xml import Element, parse_xml, read_numbers
 from meshforge.geometry import Floats, Pose
-from meshforge.symbolic import Document
+from meshforge.symbolic import Document, Inertial, Joint, JointKind, Mechanism, unit_vector
 
 GEOMETRY_TAGS = ("box", "sphere", "cylinder", "capsule", "plane", "mesh")
 """The elements of a `<geometry>` that engines know."""
@@ -72,13 +72,7 @@ def read_floats(
     given = f"<{element.tag} {attribute}={text!r}>"
     if "${" in text:
         raise AssetError(f"{given} is a xacro expression", where=place, remedy="Expand the file with xacro first.")
-    values = parse_numbers(text)
-    if values is None or len(values) != count:
-        wanted = "a finite number" if count == 1 else f"{count} finite numbers"
-        raise AssetError(f"{given} does not hold {wanted}", where=place)
-    if any(abs(value) > FARTHEST for value in values):
-        raise AssetError(f"{given} is larger than anything", where=place)
-    return np.array(values)
+    return read_numbers(text, count, given, place)
 
 
 def read_origin(element: Element, where: str) -> Pose:
@@ -97,3 +91,170 @@ def geometry_of(element: Element) -> Element | None:
     if geometry is None or not geometry.children:
         return None
     return next((child for child in geometry.children if child.tag in GEOMETRY_TAGS), geometry.children[0])
+
+
+_KINDS: dict[str, JointKind] = {
+    "fixed": "fixed",
+    "revolute": "revolute",
+    "continuous": "revolute",
+    "prismatic": "prismatic",
+    "floating": "floating",
+    "planar": "planar",
+    "spherical": "ball",  # of Bullet
+}
+_X = (1.0, 0.0, 0.0)
+
+
+@dataclass(frozen=True, slots=True)
+class UrdfLinks:
+    """The links by name in the order of the file, the pose root_T_link of each, and the links without a parent."""
+
+    elements: Mapping[str, Element]
+    poses: Mapping[str, Pose]
+    roots: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class _JointEnds:
+    name: str
+    parent: str
+    child: str
+    pose: Pose
+    line: int
+
+
+def read_links(robot: Element, where: str) -> UrdfLinks:
+    """The links of a `<robot>`, placed.
+
+    Raises AssetError with `where:line`: no link, a link without name or named twice, a joint that names a link
+    which is not there, a link with two parents, a cycle.
+    """
+    elements = _collect_links(robot, where)
+    parents: dict[str, _JointEnds] = {}
+    for element in robot.each("joint"):
+        joint = _read_joint_ends(element, elements, where)
+        if joint.child in parents:
+            first = parents[joint.child]
+            problem = f"link {joint.child!r} has two parents: joint {first.name!r} of line {first.line}, and this one"
+            raise AssetError(f"joint {joint.name!r}: {problem}", where=f"{where}:{joint.line}")
+        parents[joint.child] = joint
+    poses = _place_links(elements, parents, where)
+    return UrdfLinks(elements, {name: poses[name] for name in elements}, tuple(n for n in elements if n not in parents))
+
+
+def _collect_links(robot: Element, where: str) -> dict[str, Element]:
+    found: dict[str, Element] = {}
+    for element in robot.each("link"):
+        name = element.attributes.get("name")
+        if not name:
+            raise AssetError("a <link> has no name", where=f"{where}:{element.line}")
+        if name in found:
+            problem = f"link {name!r} is there twice, first on line {found[name].line}"
+            raise AssetError(problem, where=f"{where}:{element.line}", remedy="Rename one of them.")
+        found[name] = element
+    if not found:
+        raise AssetError("there is no <link> in it", where=where)
+    return found
+
+
+def _read_joint_ends(element: Element, links: Mapping[str, Element], where: str) -> _JointEnds:
+    name = element.attributes.get("name", "")
+    place = f"{where}:{element.line}"
+    ends = []
+    for role in ("parent", "child"):
+        end = element.first(role)
+        link = end.attributes.get("link") if end else None
+        if link is None:
+            raise AssetError(f"joint {name!r} names no {role} link", where=place)
+        if link not in links:
+            like = nearest_name(link, links)
+            remedy = f"The nearest name of a link is {like!r}." if like else None
+            raise AssetError(f"joint {name!r}: its {role} link {link!r} is not there", where=place, remedy=remedy)
+        ends.append(link)
+    return _JointEnds(name, ends[0], ends[1], read_origin(element, where), element.line)
+
+
+def _place_links(links: Mapping[str, Element], parents: Mapping[str, _JointEnds], where: str) -> dict[str, Pose]:
+    """root_T_link of all links, each after its parent."""
+    poses: dict[str, Pose] = {}
+    for name in links:
+        chain: dict[str, None] = {}
+        at = name
+        while at not in poses and at in parents and at not in chain:
+            chain[at] = None
+            at = parents[at].parent
+        if at in chain:
+            ring = list(chain)[list(chain).index(at) :]
+            path = " -> ".join([ring[0], *reversed(ring)])
+            raise AssetError(f"the joints form a cycle: {path}", where=f"{where}:{parents[at].line}")
+        poses.setdefault(at, Pose.identity())
+        for link in reversed(chain):
+            poses[link] = poses[parents[link].parent] @ parents[link].pose
+    return poses
+
+
+def read_mechanism(robot: Element, links: UrdfLinks) -> Mechanism:
+    """The mechanism of a `<robot>` whose links are placed; a joint of unknown type counts as fixed."""
+    joints = tuple(_read_joint(element, links) for element in robot.each("joint"))
+    inertials = (_read_inertial(name, link, links.poses[name]) for name, link in links.elements.items())
+    return Mechanism(joints, tuple(i for i in inertials if i is not None))
+
+
+def _read_joint(element: Element, links: UrdfLinks) -> Joint:
+    """A `<joint>`; its frame is that of its child link."""
+    parent, child = (end.attributes["link"] for role in ("parent", "child") if (end := element.first(role)))
+    type_ = element.attributes.get("type", "fixed")
+    pose = links.poses[child]
+    limit, dynamics = element.first("limit"), element.first("dynamics")
+    return Joint(
+        element.attributes.get("name", ""),
+        _KINDS.get(type_, "fixed"),
+        parent,
+        child,
+        pose.translation,
+        pose.rotation @ _read_axis(element.first("axis")),
+        _read_limits(limit) if type_ in ("revolute", "prismatic") else None,
+        damping=_read_number(dynamics, "damping") or 0.0,
+        friction=_read_number(dynamics, "friction") or 0.0,
+        effort=_read_number(limit, "effort") or None,
+        velocity=_read_number(limit, "velocity") or None,
+    )
+
+
+def _read_limits(limit: Element | None) -> tuple[float, float] | None:
+    """The range; none where it is empty, as MuJoCo reads that."""
+    lower, upper = _read_number(limit, "lower") or 0.0, _read_number(limit, "upper") or 0.0
+    return (lower, upper) if lower < upper else None
+
+
+def _read_inertial(name: str, link: Element, root_t_link: Pose) -> Inertial | None:
+    element = link.first("inertial")
+    mass = _read_number(element.first("mass"), "value") if element else None
+    if element is None or mass is None or mass <= 0:
+        return None
+    try:
+        pose = root_t_link @ read_origin(element, "")
+    except AssetError:
+        pose = root_t_link
+    tensor = element.first("inertia")
+    inertia = tensor_of_moments(_read_number(tensor, name) or 0.0 for name in TENSOR_NAMES)
+    return Inertial(name, mass, pose.translation, pose.rotation @ inertia @ pose.rotation.T)
+
+
+def _read_number(element: Element | None, attribute: str) -> float | None:
+    """A number, None where there is none that can be read."""
+    if element is None or attribute not in element.attributes:
+        return None
+    try:
+        return float(read_floats(element, attribute, 1, "")[0])
+    except AssetError:
+        return None
+
+
+def _read_axis(axis: Element | None) -> Floats:
+    """The unit direction (3,) of an `<axis>`; X where there is none that can be read."""
+    try:
+        direction = unit_vector(read_floats(axis, "xyz", 3, "", _X)) if axis else None
+    except AssetError:
+        direction = None
+    return np.array(_X) if direction is None else direction

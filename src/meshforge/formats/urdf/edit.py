@@ -1,33 +1,164 @@
-"""Writing an edited URDF: the authored text with other collision elements, all else byte for byte as it was."""
+"""Writing an edited URDF: the authored text with other collision elements, all else byte for byte as it was; and the
+XML text of elements: collisions new or edited, joints, masses and visuals."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
 from pathlib import Path
+from typing import assert_never
 
-from meshforge.formats.base import Output
-from meshforge.formats.collision_pieces import SourceMeshes, is_flat
-from meshforge.formats.mesh_output import HullFiles
-from meshforge.formats.mesh_reader import split_into_pieces
+import numpy as np
+
+from meshforge.formats import base, collision_pieces, mesh_output
+from meshforge.formats.kinematic_tree import LinkJoint, drop_rounding, name_moments, place_inertial
 from meshforge.formats.references import Resolver, add_copy, note_absolute, placement
-from meshforge.formats.slots import ElementPlan, Slot, assign_names
-from meshforge.formats.urdf import elements
+from meshforge.formats.slots import ElementMaker, ElementPlan, Slot, assign_names
 from meshforge.formats.urdf.document import UrdfDocument, collisions, geometry_of, parse_robot, references
-from meshforge.formats.xml import Element, Splice, XmlText, apply_splices, newline_of
-from meshforge.geometry import Box, Cylinder, Piece, Polytope, Pose, Shape, Sphere
-from meshforge.symbolic import Asset, Geom
+from meshforge.formats.xml import (
+    Element,
+    Splice,
+    XmlText,
+    apply_splices,
+    escape,
+    format_numbers,
+    newline_of,
+    replace_or_insert,
+    set_attribute,
+)
+from meshforge.geometry import Box, Cylinder, Pose, Sphere
+from meshforge.symbolic import Asset, Geom, Inertial
+
+UrdfShape = Box | Cylinder | Sphere
+"""The shapes that every reader of URDF knows."""
+
+UNLIMITED_TRAVEL = 1000.0  # [m] either way, for a prismatic joint without limits, which URDF does not know
+_UNKNOWN_MAXIMUM = 1000.0  # [N, Nm, m/s, rad/s], for joints of which no largest effort or velocity is known
 
 
-def write_urdf(asset: Asset, document: UrdfDocument, name: str) -> Output:
+def native_tag(shape: UrdfShape) -> bytes:
+    """The element of a native shape, without its pose."""
+    match shape:
+        case Box():
+            return b'<box size="%s"/>' % _text_of(*2 * shape.half)
+        case Cylinder():
+            return b'<cylinder radius="%s" length="%s"/>' % (_text_of(shape.radius), _text_of(2 * shape.half_length))
+        case Sphere():
+            return b'<sphere radius="%s"/>' % _text_of(shape.radius)
+        case _:
+            assert_never(shape)
+
+
+def mesh_tag(reference: str) -> bytes:
+    """The element of a mesh file in metres."""
+    return b'<mesh filename="%s"/>' % escape(reference)
+
+
+def origin_tag(pose: Pose) -> bytes:
+    """The element of a pose, its numbers in full precision."""
+    return b'<origin xyz="%s" rpy="%s"/>' % (_text_of(*pose.translation), _text_of(*pose.to_rpy()))
+
+
+def build_collision(pose: Pose, tag: bytes, lead: bytes, line_end: bytes) -> bytes:
+    """A `<collision>` without a name, whose lines but the first are indented by `lead`."""
+    return (line_end + lead).join(
+        [b"<collision>", *(b"  " + line for line in _place_lines(pose, tag)), b"</collision>"]
+    )
+
+
+def _place_lines(pose: Pose, tag: bytes) -> list[bytes]:
+    """The lines of what collisions and visuals hold."""
+    return [origin_tag(pose), b"<geometry>", b"  " + tag, b"</geometry>"]
+
+
+def replace_geometry(data: bytes, collision: Element, pose: Pose, tag: bytes) -> tuple[Splice, ...]:
+    """The edits that give a copy of a collision element another pose and geometry, all else of it being inherited."""
+    kind = geometry_of(collision)
+    assert kind is not None  # only elements with pieces are copied
+    return _replace_origin(data, collision, pose), Splice(kind.start, kind.end, tag)
+
+
+def replace_mesh(data: bytes, collision: Element, pose: Pose, reference: str) -> tuple[Splice, ...]:
+    """The edits that give a copy a mesh file in metres: where the element has a mesh, its other attributes stay."""
+    kind = geometry_of(collision)
+    if kind is None or kind.tag != "mesh":
+        return replace_geometry(data, collision, pose, mesh_tag(reference))
+    scale = [set_attribute(data, kind, "scale", None)] if "scale" in kind.attributes else []
+    return (_replace_origin(data, collision, pose), set_attribute(data, kind, "filename", reference), *scale)
+
+
+def _replace_origin(data: bytes, collision: Element, pose: Pose) -> Splice:
+    """The edit that gives an element another origin."""
+    return replace_or_insert(data, collision, "origin", "geometry", origin_tag(pose))
+
+
+def joint_lines(made: LinkJoint) -> list[bytes]:
+    """The lines of a `<joint>`."""
+    joint = made.joint
+    kind = joint.kind if joint else "fixed"
+    type_ = "continuous" if joint and kind == "revolute" and joint.limits is None else kind
+    lines = [
+        b'  <joint name="%s" type="%s">' % (escape(made.name), type_.encode()),
+        b"    " + origin_tag(made.pose),
+        b'    <parent link="%s"/>' % escape(made.parent),
+        b'    <child link="%s"/>' % escape(made.child),
+    ]
+    if kind in ("revolute", "prismatic", "planar"):
+        lines.append(b'    <axis xyz="%s"/>' % _text_of(*drop_rounding(made.axis)))
+    if joint and kind in ("revolute", "prismatic"):
+        lower, upper = joint.limits or (-UNLIMITED_TRAVEL, UNLIMITED_TRAVEL)
+        range_ = b"" if type_ == "continuous" else b'lower="%s" upper="%s" ' % (_text_of(lower), _text_of(upper))
+        most = _text_of(joint.effort or _UNKNOWN_MAXIMUM), _text_of(joint.velocity or _UNKNOWN_MAXIMUM)
+        if range_ or joint.effort or joint.velocity:
+            lines.append(b'    <limit %seffort="%s" velocity="%s"/>' % (range_, *most))
+    if joint and (joint.damping or joint.friction):
+        losses = _text_of(joint.damping), _text_of(joint.friction)
+        lines.append(b'    <dynamics damping="%s" friction="%s"/>' % losses)
+    return [*lines, b"  </joint>"]
+
+
+def inertial_lines(inertial: Inertial, root_t_link: Pose) -> list[bytes]:
+    """The lines of an `<inertial>`, its axes those of the link."""
+    centre, tensor = place_inertial(inertial, root_t_link)
+    moments = b" ".join(b'%s="%s"' % (name.encode(), _text_of(value)) for name, value in name_moments(tensor))
+    return [
+        b"    <inertial>",
+        b"      " + origin_tag(Pose.of_translation(centre)),
+        b'      <mass value="%s"/>' % _text_of(inertial.mass),
+        b"      <inertia %s/>" % moments,
+        b"    </inertial>",
+    ]
+
+
+def visual_lines(visual: mesh_output.LinkVisual, reference: str | None = None) -> list[bytes]:
+    """The lines of a `<visual>`; reference: the mesh file of a shape that URDF lacks."""
+    if isinstance(visual.what, Box | Cylinder | Sphere):
+        pose, tag = visual.what.pose, native_tag(visual.what)
+    else:
+        file = visual.what if isinstance(visual.what, str) else reference
+        assert file is not None  # made for every shape that is not native
+        pose, tag = visual.pose, mesh_tag(file)
+        if not np.array_equal(visual.scale, np.ones(3)):
+            tag = tag[:-2] + b' scale="%s"/>' % _text_of(*visual.scale)
+    inside = _place_lines(pose, tag)
+    if visual.rgba:  # a material named by its numbers: equal names must be equal colours
+        color = _text_of(*visual.rgba)
+        inside.append(b'<material name="rgba %s"><color rgba="%s"/></material>' % (color, color))
+    return [b"    <visual>", *(b"      " + line for line in inside), b"    </visual>"]
+
+
+def _text_of(*values: float) -> bytes:
+    return format_numbers(values).encode()
+
+
+def write_urdf(asset: Asset, document: UrdfDocument, name: str) -> base.Output:
     """The files of an asset that was read from a URDF; without an edit, its own bytes.
 
     Raises AssetError: a hull on a link that is not there, or a mesh file that changed since the asset was read.
     """
     text = XmlText.of(document.source)
     robot = parse_robot(text.data, str(asset.path))
-    files = HullFiles(Path(name).stem, document.resolver)
+    files = mesh_output.HullFiles(Path(name).stem, document.resolver)
     files.avoid(references(robot))
-    meshes = SourceMeshes(document.digests, str(asset.path))
+    meshes = collision_pieces.SourceMeshes(document.digests, str(asset.path))
     maker = UrdfElementMaker(text.data, newline_of(text.data), files, files.folder_of(_find_first_mesh(robot)), meshes)
     links = {link.attributes["name"]: link for link in robot.each("link")}
     plan = ElementPlan(asset, document.authored, [element for _, element in collisions(robot)], links, maker)
@@ -35,7 +166,7 @@ def write_urdf(asset: Asset, document: UrdfDocument, name: str) -> Output:
     data = apply_splices(text.data, plan.splices)
     main = document.source if data == text.data else text.encode(data)
     copies, far = _list_copies(parse_robot(data, str(asset.path)), document.resolver)
-    return Output(main, dict(files.made), copies, (*maker.notes, *far), names)
+    return base.Output(main, dict(files.made), copies, (*maker.notes, *far), names)
 
 
 def _find_first_mesh(robot: Element) -> str | None:
@@ -60,57 +191,33 @@ def _list_copies(robot: Element, resolver: Resolver) -> tuple[dict[str, Path], l
     return copies, notes
 
 
-@dataclass(frozen=True, eq=False, slots=True)
-class UrdfElementMaker:
-    """Makes elements for one document; folder: a reference's folder for hulls whose parent has no mesh.
+class UrdfElementMaker(ElementMaker):
+    """Makes elements for one document."""
 
-    meshes: the files that the document refers to, where one may have to be split.
-    """
+    __slots__ = ()
+    title = "URDF"
 
-    data: bytes
-    line_end: bytes
-    files: HullFiles
-    folder: str = ""
-    meshes: SourceMeshes | None = None
-    notes: list[str] = field(default_factory=list)
-    _pieces: dict[str, list[Piece]] = field(default_factory=dict)
+    def find_mesh(self, collision: Element) -> str | None:
+        mesh = geometry_of(collision)
+        return mesh.attributes.get("filename") if mesh is not None and mesh.tag == "mesh" else None
 
     def make_slot(self, geom: Geom, root_t_link: Pose, template: Element | None, lead: bytes) -> Slot:
-        """The element of a hull; template: that of its parent, all but pose and geometry of which is inherited.
-
-        lead: the blanks before an element without a template.
-        """
         shape = geom.shape.move(root_t_link.inverse())
-        if isinstance(shape, Box | Cylinder | Sphere):
-            pose, tag = shape.pose, elements.native_tag(shape)
-            edits = elements.replace_geometry(self.data, template, pose, tag) if template else ()
+        if isinstance(shape, UrdfShape):
+            pose, tag = shape.pose, native_tag(shape)
+            edits = replace_geometry(self.data, template, pose, tag) if template else ()
         else:
-            pose, reference = Pose.identity(), self._add_mesh(geom, shape, template)
-            tag = elements.mesh_tag(reference)
-            edits = elements.replace_mesh(self.data, template, pose, reference) if template else ()
+            pose, reference = Pose.identity(), self.make_mesh(geom, shape, template)
+            tag = mesh_tag(reference)
+            edits = replace_mesh(self.data, template, pose, reference) if template else ()
         if template:
             return Slot(geom.body, (geom.name,), None, template, edits, copy=True)
-        return Slot(geom.body, (geom.name,), text=elements.build_collision(pose, tag, lead, self.line_end))
+        return Slot(geom.body, (geom.name,), text=build_collision(pose, tag, lead, self.line_end))
 
     def extract_piece(self, element: Element, name: str, k: int) -> tuple[Splice, ...]:
-        mesh, resolver = geometry_of(element), self.files.resolver
-        assert mesh is not None and resolver is not None and self.meshes is not None  # only meshes have several pieces
-        reference = mesh.attributes["filename"]
-        if reference not in self._pieces:
-            self._pieces[reference] = split_into_pieces(self.meshes.surfaces(reference, resolver), name=reference)
-        piece = self._pieces[reference][k]
-        made = self.files.add(name, self.files.folder_of(reference), piece.vertices, piece.faces)
-        if piece.shape is None and is_flat(piece.vertices):
+        mesh = geometry_of(element)
+        assert mesh is not None  # only meshes have several pieces
+        piece, made = self.make_piece(mesh.attributes["filename"], (), name, k)
+        if piece.shape is None and collision_pieces.is_flat(piece.vertices):
             self.notes.append(f"flat piece {name!r} stays, now in a file of its own, which MuJoCo refuses")
-        return elements.replace_mesh_file(self.data, element, made)
-
-    def _add_mesh(self, geom: Geom, shape: Shape, template: Element | None) -> str:
-        """The reference to the mesh file of a hull, which is made."""
-        if not isinstance(shape, Polytope):
-            self.notes.append(
-                f"URDF has no {shape.kind}: {geom.name!r} is written as a hull of {len(shape.vertices)} vertices"
-            )
-        mesh = geometry_of(template) if template else None
-        beside = mesh.attributes.get("filename") if mesh is not None and mesh.tag == "mesh" else None
-        folder = self.files.folder_of(beside) if beside else self.folder
-        return self.files.add(geom.name, folder, shape.vertices, shape.faces)
+        return (set_attribute(self.data, mesh, "filename", made),)

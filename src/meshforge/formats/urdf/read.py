@@ -10,20 +10,16 @@ from pathlib import Path
 
 import numpy as np
 
-from meshforge.common import AssetError, MeshForgeError, join_names, plain_path, pluralize
-from meshforge.formats import collision_pieces
-from meshforge.formats.base import ReadOptions
-from meshforge.formats.mesh_reader import read_content
+from meshforge.common import MeshForgeError, join_names, plain_path, pluralize
+from meshforge.formats import base, collision_pieces, mesh_reader, slots
 from meshforge.formats.references import Resolver, find_companions
-from meshforge.formats.slots import name_elements
 from meshforge.formats.urdf import document
-from meshforge.formats.urdf.mechanism import UrdfLinks, read_links, read_mechanism
+from meshforge.formats.urdf.document import UrdfLinks, read_links, read_mechanism
 from meshforge.formats.visuals import Rgba, Visual, VisualSurfaces
 from meshforge.formats.xml import Element, XmlText, format_numbers
 from meshforge.geometry import Box, Capsule, Cylinder, Floats, Pose, Shape, Sphere
 from meshforge.symbolic import Asset, Body, Mentions
 
-_LEAST_SCALE = 1e-12  # a factor that is taken for zero
 _UP = (0.0, 0.0, 1.0)
 
 
@@ -63,12 +59,8 @@ def read_mesh_scale(mesh: Element, where: str, label: str) -> Floats:
     """
     single = len(mesh.attributes.get("scale", "").replace(",", " ").split()) == 1
     scale = document.read_floats(mesh, "scale", 1 if single else 3, where, (1.0, 1.0, 1.0))
-    if np.abs(scale).min() < _LEAST_SCALE:
-        raise AssetError(
-            f"collision {label!r} is scaled to nothing: scale={mesh.attributes['scale']!r}",
-            where=f"{where}:{mesh.line}",
-            remedy="Give every axis a factor that is not zero.",
-        )
+    given = f"scale={mesh.attributes.get('scale')!r}"
+    collision_pieces.refuse_zero_scale(scale, label, given, f"{where}:{mesh.line}")
     return np.broadcast_to(scale, (3,))
 
 
@@ -97,14 +89,14 @@ def read_parts(
 LinkCollisions = Sequence[tuple[str, Element]]  # of each `<collision>` the name of its link, and the element
 
 
-def read_urdf(path: Path, options: ReadOptions) -> Asset:
+def read_urdf(path: Path, options: base.ReadOptions) -> Asset:
     """The asset in a URDF file, its collision meshes included.
 
     Raises AssetError naming file, line, link and element: text that is not understood, links and joints that make no
     tree, a collision mesh that is not there.
     """
     where = str(path)
-    source = read_content(path)
+    source = mesh_reader.read_content(path)
     robot = document.parse_robot(XmlText.of(source).data, where)
     links = read_links(robot, where)
     resolver = Resolver(plain_path(path).parent, tuple(map(plain_path, options.package_roots)))
@@ -113,8 +105,11 @@ def read_urdf(path: Path, options: ReadOptions) -> Asset:
     uses = _mesh_uses(found, resolver, where)
     collision_pieces.refuse_missing(use for use in uses if use)
     parts = read_parts(found, uses, links, meshes, where)
-    authored = name_elements(found, [len(own) for own in parts])
-    mentions = _collect_mentions(found, links, [meshes.groups(use) for use in uses], parts)
+    authored = slots.name_elements(found, [len(own) for own in parts])
+    mentions = [
+        meshes.mention_groups(use, mentions_of_element(links.elements[link], collision), len(own))
+        for (link, collision), use, own in zip(found, uses, parts, strict=True)
+    ]
     files, missing = _find_files(robot, resolver)
     return Asset(
         path=path,
@@ -134,27 +129,13 @@ def read_urdf(path: Path, options: ReadOptions) -> Asset:
 def _mesh_uses(found: LinkCollisions, resolver: Resolver, where: str) -> list[collision_pieces.MeshUse | None]:
     """The mesh file of each collision element, None where it has another geometry or none."""
     uses: list[collision_pieces.MeshUse | None] = []
-    for element, (_, collision) in zip(name_elements(found, [1] * len(found)), found, strict=True):
+    for element, (_, collision) in zip(slots.name_elements(found, [1] * len(found)), found, strict=True):
         kind = document.geometry_of(collision)
         is_mesh = kind is not None and kind.tag == "mesh"
         reference = kind.attributes.get("filename", "").strip() if kind else ""
         place = f"{where}:{kind.line}" if kind else where
         uses.append(collision_pieces.MeshUse(element.names[0], reference, place, resolver) if is_mesh else None)
     return uses
-
-
-def _collect_mentions(
-    found: LinkCollisions,
-    links: UrdfLinks,
-    groups: Sequence[Sequence[str | None]],
-    parts: Sequence[Sequence[collision_pieces.CollisionPiece]],
-) -> list[list[Mentions]]:
-    """What else is said of each piece of each collision element."""
-    mentions = []
-    for (link, collision), named, own in zip(found, groups, parts, strict=True):
-        common = mentions_of_element(links.elements[link], collision)
-        mentions.append([(("group", group), *common) if group else common for group in named or [None] * len(own)])
-    return mentions
 
 
 def _find_files(robot: Element, resolver: Resolver) -> tuple[tuple[Path, ...], tuple[str, ...]]:
@@ -224,9 +205,7 @@ def _read_visual(link: str, element: Element, pose: Pose, resolver: Resolver, wh
 
 def mentions_of_element(link: Element, collision: Element) -> Mentions:
     """What is said of a `<collision>` of a link."""
-    own = _names_of(collision)
-    shown = [named for visual in link.each("visual") if (named := _names_of(visual))]
-    return collision_pieces.collect_mentions(own, shown) if own else ()
+    return collision_pieces.collect_mentions(_names_of(collision), map(_names_of, link.each("visual")))
 
 
 def _names_of(element: Element) -> collision_pieces.ShapeNames | None:

@@ -6,8 +6,8 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import Any
 
-from meshforge.formats.usd.document import BODY
-from meshforge.formats.usd.stage import UsdStage
+from meshforge.formats.lazy import pxr
+from meshforge.formats.usd.stage import BODY, UsdStage
 from meshforge.geometry import Pose
 from meshforge.symbolic import Body, unique_names
 
@@ -55,11 +55,9 @@ def is_drawn(prim: Any) -> bool:
 
 def is_seen(scene: UsdStage, prim: Any) -> bool:
     """Whether a prim is geometry that renders: visible, and of the default or the render purpose."""
-    from pxr import UsdGeom  # lazy: an optional package, and 0.3 s
-
-    if not prim.IsA(UsdGeom.Gprim) or is_drawn(prim):
+    if not prim.IsA(pxr.UsdGeom.Gprim) or is_drawn(prim):
         return False
-    image = UsdGeom.Imageable(prim)
+    image = pxr.UsdGeom.Imageable(prim)
     return image.ComputePurpose() in ("default", "render") and image.ComputeVisibility(scene.time) != "invisible"
 
 
@@ -88,7 +86,7 @@ class StageBodies:
 
     def __init__(self, scene: UsdStage, physics: bool) -> None:
         self.scene = scene
-        found = [prim for prim in scene.prims() if physics and _is_body(scene, prim)]
+        found = [prim for prim in scene.prims() if physics and prim == body_of(scene, prim)]
         self.prims: dict[str, Any] = {str(prim.GetPath()): prim for prim in found}
         names = unique_names([BODY, *(scene.shorten_path(path) for path in self.prims)])[1:]
         self.names = dict(zip(self.prims, names, strict=True))
@@ -118,11 +116,6 @@ class StageBodies:
         return f"{body}/{own}" if self.names else own
 
 
-def _is_body(scene: UsdStage, prim: Any) -> bool:
-    own = body_of(scene, prim)
-    return own is not None and own == prim
-
-
 def contact_attributes(prim: Any) -> tuple[tuple[str, str], ...]:
     """Names and values of what is authored on a prim, its physics material by path, in order of name."""
     found = {}
@@ -138,9 +131,7 @@ def contact_attributes(prim: Any) -> tuple[tuple[str, str], ...]:
 
 def physics_material(prim: Any) -> Any:
     """The material that a prim is bound to for physics, itself or from above; None where it is bound to none."""
-    from pxr import UsdShade  # lazy: an optional package, and 0.3 s
-
-    material, relationship = UsdShade.MaterialBindingAPI(prim).ComputeBoundMaterial("physics")
+    material, relationship = pxr.UsdShade.MaterialBindingAPI(prim).ComputeBoundMaterial("physics")
     return material.GetPrim() if material and relationship else None
 
 
@@ -169,22 +160,18 @@ def _has_physics_material(prim: Any) -> bool:
 
 
 def _copy_property(spec: Any, source: Any) -> None:
-    from pxr import Sdf, Usd  # lazy: an optional package, and 0.3 s
-
-    if isinstance(source, Usd.Relationship):
-        made = Sdf.RelationshipSpec(spec, source.GetName(), source.IsCustom())
+    if isinstance(source, pxr.Usd.Relationship):
+        made = pxr.Sdf.RelationshipSpec(spec, source.GetName(), source.IsCustom())
         made.targetPathList.explicitItems = source.GetTargets()
     elif source.Get() is not None:
         kind = source.GetTypeName()
-        made = Sdf.AttributeSpec(spec, source.GetName(), kind, source.GetVariability(), source.IsCustom())
+        made = pxr.Sdf.AttributeSpec(spec, source.GetName(), kind, source.GetVariability(), source.IsCustom())
         made.default = source.Get()
 
 
 def apply_schemas(spec: Any, names: Iterable[str]) -> None:
     """Put applied schemas before those that a spec prepends already."""
-    from pxr import Sdf  # lazy: an optional package, and 0.3 s
-
-    old = spec.GetInfo("apiSchemas") if spec.HasInfo("apiSchemas") else Sdf.TokenListOp()
+    old = spec.GetInfo("apiSchemas") if spec.HasInfo("apiSchemas") else pxr.Sdf.TokenListOp()
     wanted = [name for name in dict.fromkeys(names) if name not in old.GetAddedOrExplicitItems()]
     if old.isExplicit:
         old.explicitItems = [*old.explicitItems, *wanted]

@@ -39,7 +39,9 @@ def refuse_harmful_crate(data: bytes, where: str) -> None:
             _check_paths(sections[b"PATHS"])
         for name in (b"FIELDSETS", b"SPECS"):
             if name in sections:
-                _check_numbers(sections[name], 3 if name == b"SPECS" else 1)
+                count = sections[name].read_number()
+                for _ in range(3 if name == b"SPECS" else 1):
+                    sections[name].skip_integers(count)
         if b"STRINGS" in sections:
             sections[b"STRINGS"].skip(sections[b"STRINGS"].read_number(), 4)
         if b"FIELDS" in sections:
@@ -124,12 +126,6 @@ def _measure_depth(jumps: NDArray[np.int32]) -> int:
         if jump > 0:
             place(at + jump, deep)
     return max(depths)
-
-
-def _check_numbers(section: CrateBytes, tables: int) -> None:
-    count = section.read_number()
-    for _ in range(tables):
-        section.skip_integers(count)
 
 
 def _read_fields(section: CrateBytes, names: bytes) -> NDArray[np.uint64]:

@@ -12,8 +12,8 @@ import numpy as np
 from meshforge.common import join_names, pluralize
 from meshforge.formats.base import Loss, Output
 from meshforge.formats.kinematic_tree import BodyTree, claim_name
+from meshforge.formats.lazy import pxr
 from meshforge.formats.usd.colliders import apply_schemas
-from meshforge.formats.usd.document import BODY, export_layer, is_crate_wanted, pack_usdz
 from meshforge.formats.usd.prims import (
     PrimSpace,
     add_joint,
@@ -26,7 +26,7 @@ from meshforge.formats.usd.prims import (
     set_value,
     write_mass,
 )
-from meshforge.formats.usd.stage import usd
+from meshforge.formats.usd.stage import BODY, export_layer, is_crate_wanted, pack_usdz, usd
 from meshforge.formats.visuals import Rgba, Visual, linear_color, unreadable_visuals, visuals_of
 from meshforge.geometry import Pose
 from meshforge.symbolic import Asset, Geom, Inertial, Joint, Opaque, Surface
@@ -48,11 +48,9 @@ def create_usd(asset: Asset, name: str) -> Output:
 
 class _Creator:
     def __init__(self, asset: Asset, name: PurePosixPath) -> None:
-        from pxr import Sdf  # lazy: an optional package, and 0.3 s
-
         self.asset, self.name = asset, name
         self.links = StageLinks.of(asset)
-        self.layer = Sdf.Layer.CreateAnonymous(".usda")
+        self.layer = pxr.Sdf.Layer.CreateAnonymous(".usda")
         self.root = add_prim(self.layer.pseudoRoot, free_prim_name(name.stem, ()), "Xform")
         self.bodies: dict[str, Any] = {}
         self.names: dict[str, str] = {}
@@ -218,12 +216,10 @@ class StageLinks:
 
 def add_visual(holder: Any, name: str, surface: Surface, rgba: Rgba | None, space: PrimSpace) -> None:
     """A mesh that is seen and does not collide, with its display colour."""
-    from pxr import Gf, Vt  # lazy: an optional package, and 0.3 s
-
     spec = add_mesh(holder, name, np.asarray(surface.vertices), surface.faces, space)
     color = rgba or surface.rgba
     if color is None:
         return
-    set_value(spec, "primvars:displayColor", "Color3fArray", Vt.Vec3fArray([Gf.Vec3f(*linear_color(color))]))
+    set_value(spec, "primvars:displayColor", "Color3fArray", pxr.Vt.Vec3fArray([pxr.Gf.Vec3f(*linear_color(color))]))
     if color[3] < 1:
-        set_value(spec, "primvars:displayOpacity", "FloatArray", Vt.FloatArray([float(color[3])]))
+        set_value(spec, "primvars:displayOpacity", "FloatArray", pxr.Vt.FloatArray([float(color[3])]))

@@ -13,14 +13,20 @@ import numpy as np
 from meshforge.common import AssetError
 from meshforge.formats import collision_pieces
 from meshforge.formats.base import Mass, Output, note_renames
-from meshforge.formats.usd.colliders import StageBodies, physics_material
-from meshforge.formats.usd.document import UsdDocument, export_layer, is_crate, is_crate_wanted, pack_usdz, unpack_usdz
-from meshforge.formats.usd.edit_stage import UsdEdit
-from meshforge.formats.usd.layer_text import has_comments, patch_layer
+from meshforge.formats.lazy import pxr
+from meshforge.formats.usd import colliders, edit_stage, layer_text, prims
 from meshforge.formats.usd.mechanism import centre_of, moments_of, read_number
-from meshforge.formats.usd.prims import PrimSpace, write_mass
 from meshforge.formats.usd.read import PrimCollision, read_collisions
-from meshforge.formats.usd.stage import UsdStage, usd
+from meshforge.formats.usd.stage import (
+    UsdDocument,
+    UsdStage,
+    export_layer,
+    is_crate,
+    is_crate_wanted,
+    pack_usdz,
+    unpack_usdz,
+    usd,
+)
 from meshforge.geometry import Floats, Polytope, Shape, inertia, is_closed
 from meshforge.symbolic import Asset, Inertial
 
@@ -41,18 +47,18 @@ def write_usd(asset: Asset, document: UsdDocument, name: str, mass: Mass) -> Out
     copies, far = _list_copies(asset)
     if not edited and suffix == asset.path.suffix.lower():
         return Output(document.source, copies=copies, notes=tuple(far))
-    _refuse_changed(asset, document)
+    collision_pieces.refuse_changed_files(document.digests, str(asset.path))
+    if not asset.path.is_file() or asset.path.read_bytes() != document.source:
+        raise collision_pieces.change_error(asset.path.name, str(asset.path))
     with usd(str(asset.path)):
-        from pxr import Sdf  # lazy: an optional package, and 0.3 s
-
         scene = UsdStage.open(asset.path)
-        layer = Sdf.Layer.CreateAnonymous(".usda")
+        layer = pxr.Sdf.Layer.CreateAnonymous(".usda")
         layer.TransferContent(scene.stage.GetRootLayer())
         notes, names = list(far), dict[str, str]()
         if edited:
-            bodies = StageBodies(scene, document.physics)
+            bodies = colliders.StageBodies(scene, document.physics)
             sources = list(read_collisions(scene, bodies, document.physics, []))
-            edit = UsdEdit(scene, bodies, document, layer)
+            edit = edit_stage.UsdEdit(scene, bodies, document, layer)
             edit.run(asset, sources)
             if mass == "keep":
                 notes += keep_masses(edit, sources)
@@ -63,21 +69,19 @@ def write_usd(asset: Asset, document: UsdDocument, name: str, mass: Mass) -> Out
 
 def _layer_text(layer: Any, original: Any, source: bytes, notes: list[str]) -> bytes:
     """A layer as text: the authored one with the edit where that can be done, else as the library writes it."""
-    from pxr import Sdf, Tf  # lazy: an optional package, and 0.3 s
-
     after = layer.ExportToString()
     if is_crate(source):
         return bytes(after.encode())
     text = source.decode("utf-8", "replace")
-    made = patch_layer(text, original.ExportToString(), after)
+    made = layer_text.patch_layer(text, original.ExportToString(), after)
     if made is not None and "\ufffd" not in text:
-        check = Sdf.Layer.CreateAnonymous(".usda")
+        check = pxr.Sdf.Layer.CreateAnonymous(".usda")
         try:
             if check.ImportFromString(made) and check.ExportToString() == after:
                 return made.encode()
-        except Tf.ErrorException:
+        except pxr.Tf.ErrorException:
             pass
-    if has_comments(text):
+    if layer_text.has_comments(text):
         notes.append("comments in its text are not kept")
     return bytes(after.encode())
 
@@ -138,35 +142,29 @@ def _list_copies(asset: Asset) -> tuple[dict[str, Path], list[str]]:
 def _find_absolute_references(asset: Asset) -> frozenset[Path]:
     """The files that the layers of an asset refer to by absolute paths."""
     with usd(str(asset.path)):
-        from pxr import UsdUtils  # lazy: an optional package, and 0.3 s
-
         layers = [asset.path, *(file for file in asset.files if file.suffix.lower() in LAYER_SUFFIXES)]
-        texts = [text for layer in layers for kind in UsdUtils.ExtractExternalReferences(str(layer)) for text in kind]
+        texts = [
+            text for layer in layers for kind in pxr.UsdUtils.ExtractExternalReferences(str(layer)) for text in kind
+        ]
     return frozenset(Path(os.path.normpath(text)) for text in texts if Path(text).is_absolute())
 
 
-def _refuse_changed(asset: Asset, document: UsdDocument) -> None:
-    """Raise AssetError where the root layer, or one beside it, is not what it was when the asset was read."""
-    collision_pieces.refuse_changed_files(document.digests, str(asset.path))
-    if not asset.path.is_file() or asset.path.read_bytes() != document.source:
-        raise collision_pieces.change_error(asset.path.name, str(asset.path))
-
-
-def keep_masses(edit: UsdEdit, sources: Sequence[PrimCollision]) -> list[str]:
+def keep_masses(edit: edit_stage.UsdEdit, sources: Sequence[PrimCollision]) -> list[str]:
     """Author the masses of the bodies that an edit changed, where they came from colliders; notes on those unknown."""
-    from pxr import Sdf  # lazy: an optional package, and 0.3 s
-
     notes = []
     for path, name in edit.bodies.names.items():
         prim = edit.bodies.prims[path]
-        if name not in edit.changed or _has_full_mass(edit.scene, prim):
+        if name not in edit.changed:
             continue
+        own = read_number(edit.scene, prim, "physics:mass") or 0.0
+        if own > 0 and centre_of(edit.scene, prim) is not None and moments_of(edit.scene, prim) is not None:
+            continue  # it says all of its mass itself
         found = weigh(edit.scene, prim, name, [source for source in sources if source.body == name])
         if found is None:
             notes.append(f"the mass of {name!r} is left to its colliders: of one of them the volume is not known")
         else:
-            spec, space = Sdf.CreatePrimInLayer(edit.layer, path), PrimSpace(*edit.scene.placement(prim))
-            write_mass(spec, found, space, edit.scene.metres, edit.scene.kilograms)
+            spec, space = pxr.Sdf.CreatePrimInLayer(edit.layer, path), prims.PrimSpace(*edit.scene.placement(prim))
+            prims.write_mass(spec, found, space, edit.scene.metres, edit.scene.kilograms)
     return notes
 
 
@@ -187,14 +185,10 @@ def weigh(scene: UsdStage, prim: Any, body: str, sources: Sequence[PrimCollision
     if centre is None:
         centre = middle
     if moments is None:
-        moments = factor * sum((_shift_inertia(own, mass, at - centre) for at, own, mass in weights), np.zeros((3, 3)))
+        ways = [(own, mass, at - centre) for at, own, mass in weights]
+        moved = [own + mass * (by @ by * np.eye(3) - np.outer(by, by)) for own, mass, by in ways]
+        moments = factor * sum(moved, np.zeros((3, 3)))
     return Inertial(body, mass, centre, moments)
-
-
-def _has_full_mass(scene: UsdStage, prim: Any) -> bool:
-    """Whether a body says its mass, centre and inertia itself."""
-    mass = read_number(scene, prim, "physics:mass") or 0.0
-    return mass > 0 and centre_of(scene, prim) is not None and moments_of(scene, prim) is not None
 
 
 def _solids_of(parts: Sequence[collision_pieces.CollisionPiece]) -> list[Shape] | None:
@@ -216,15 +210,9 @@ def _mass_of(scene: UsdStage, body: Any, source: PrimCollision, shapes: Sequence
     own = read_number(scene, source.prim, "physics:mass") if source.prim != body else None
     if own is not None and own > 0:
         return own * scene.kilograms
-    material = physics_material(source.prim)
+    material = colliders.physics_material(source.prim)
     for prim in (source.prim, body, *([material] if material else [])):
         density = read_number(scene, prim, "physics:density")
         if density is not None and density > 0:
             return volume * density * scene.kilograms / scene.metres**3
     return volume * _DENSITY
-
-
-def _shift_inertia(own: Floats, mass: float, by: Floats) -> Floats:
-    """An inertia (3, 3) about a point that is so far (3,) from the centre."""
-    moved: Floats = own + mass * (by @ by * np.eye(3) - np.outer(by, by))
-    return moved

@@ -11,11 +11,11 @@ import numpy as np
 
 from meshforge.common import AssetError, pluralize
 from meshforge.formats.collision_pieces import CollisionPiece, names_to_keep, new_hulls
+from meshforge.formats.lazy import pxr
 from meshforge.formats.usd import colliders
-from meshforge.formats.usd.document import BODY, PrimRecord, UsdDocument
 from meshforge.formats.usd.prims import PrimSpace, add_mesh, add_native, free_prim_name, mark_collider
 from meshforge.formats.usd.read import PrimCollision
-from meshforge.formats.usd.stage import UsdStage
+from meshforge.formats.usd.stage import BODY, PrimRecord, UsdDocument, UsdStage
 from meshforge.symbolic import Asset, Geom
 
 _GROUP_PREFIX = "collection:colliders:"
@@ -112,8 +112,6 @@ class UsdEdit:
 
     def _find_holder(self, parent: PrimCollision | None, body: str) -> tuple[Any, PrimSpace]:
         """The spec below which a new prim goes, and the space that it is put in."""
-        from pxr import Sdf  # lazy: an optional package, and 0.3 s
-
         prim = self._find_holding_prim(parent, body)
         while not prim.IsPseudoRoot() and not _is_regular(self.scene, prim):
             prim = prim.GetParent()
@@ -122,8 +120,8 @@ class UsdEdit:
         if prim.IsInstanceProxy() or prim.IsInstance():
             make_instances_editable(self.layer, prim)
             if prim.IsInstance():
-                Sdf.CreatePrimInLayer(self.layer, prim.GetPath()).SetInfo("instanceable", False)
-        return Sdf.CreatePrimInLayer(self.layer, prim.GetPath()), PrimSpace(*self.scene.placement(prim))
+                pxr.Sdf.CreatePrimInLayer(self.layer, prim.GetPath()).SetInfo("instanceable", False)
+        return pxr.Sdf.CreatePrimInLayer(self.layer, prim.GetPath()), PrimSpace(*self.scene.placement(prim))
 
     def _find_holding_prim(self, parent: PrimCollision | None, body: str) -> Any:
         own = next((path for path, name in self.bodies.names.items() if name == body), None)
@@ -144,14 +142,14 @@ class UsdEdit:
 
     def _join_groups(self, parent: str, made: Any) -> None:
         """Make a new prim a member of the collision groups that name its parent."""
-        from pxr import Sdf  # lazy: an optional package, and 0.3 s
-
         for group in self.scene.stage.Traverse():
             if group.GetTypeName() == "PhysicsCollisionGroup":
                 targets = [str(target) for target in group.GetRelationship(_GROUP_MEMBERS).GetTargets()]
                 if parent in targets:
-                    spec = Sdf.CreatePrimInLayer(self.layer, group.GetPath())
-                    own = spec.relationships.get(_GROUP_MEMBERS) or Sdf.RelationshipSpec(spec, _GROUP_MEMBERS, False)
+                    spec = pxr.Sdf.CreatePrimInLayer(self.layer, group.GetPath())
+                    own = spec.relationships.get(_GROUP_MEMBERS) or pxr.Sdf.RelationshipSpec(
+                        spec, _GROUP_MEMBERS, False
+                    )
                     own.targetPathList.Append(made)
 
     @property
@@ -173,8 +171,6 @@ def remove_collision(scene: UsdStage, layer: Any, prim: Any, physics: bool) -> s
 
     Raises AssetError: something else refers to the prim that would go.
     """
-    from pxr import Sdf  # lazy: an optional package, and 0.3 s
-
     make_instances_editable(layer, prim)
     if physics and (colliders.is_seen(scene, prim) or has_other_content(prim)):
         _remove_schemas(layer, prim)
@@ -186,30 +182,24 @@ def remove_collision(scene: UsdStage, layer: Any, prim: Any, physics: bool) -> s
         spec = layer.GetPrimAtPath(path)
         del spec.nameParent.nameChildren[spec.name]
         return "removed"
-    Sdf.CreatePrimInLayer(layer, path).SetInfo("active", False)
+    pxr.Sdf.CreatePrimInLayer(layer, path).SetInfo("active", False)
     return "deactivated"
 
 
 def make_instances_editable(layer: Any, prim: Any) -> None:
     """Make the instances around a prim their own, so that it can be edited alone."""
-    from pxr import Sdf  # lazy: an optional package, and 0.3 s
-
     for instance in colliders.instances_around(prim):
-        Sdf.CreatePrimInLayer(layer, instance.GetPath()).SetInfo("instanceable", False)
+        pxr.Sdf.CreatePrimInLayer(layer, instance.GetPath()).SetInfo("instanceable", False)
 
 
 def has_other_content(prim: Any) -> bool:
     """Whether a prim is a body, or has others below it besides parts of its own surface."""
-    from pxr import UsdPhysics  # lazy: an optional package, and 0.3 s
-
     children = [child.GetTypeName() for child in prim.GetAllChildren()]
-    return prim.HasAPI(UsdPhysics.RigidBodyAPI) or any(kind != "GeomSubset" for kind in children)
+    return prim.HasAPI(pxr.UsdPhysics.RigidBodyAPI) or any(kind != "GeomSubset" for kind in children)
 
 
 def _remove_schemas(layer: Any, prim: Any) -> None:
     """Take the collision schemas from a prim, and what they say."""
-    from pxr import Sdf  # lazy: an optional package, and 0.3 s
-
     applied = prim.GetPrimTypeInfo().GetAppliedAPISchemas()
     gone = [
         n
@@ -217,17 +207,18 @@ def _remove_schemas(layer: Any, prim: Any) -> None:
         if n in (colliders.COLLISION, colliders.MESH_COLLISION) or (n.startswith("Physx") and "Collision" in n)
     ]
     path = prim.GetPath()
-    spec = Sdf.CreatePrimInLayer(layer, path)
-    old = spec.GetInfo("apiSchemas") if spec.HasInfo("apiSchemas") else Sdf.TokenListOp()
+    spec = pxr.Sdf.CreatePrimInLayer(layer, path)
+    old = spec.GetInfo("apiSchemas") if spec.HasInfo("apiSchemas") else pxr.Sdf.TokenListOp()
     others = prim.GetPrimStack()[_count_own_specs(prim, layer) :]
-    elsewhere = {name for other in others for name in _schemas_added_by(other)}
+    lists = [other.GetInfo("apiSchemas") for other in others if other.HasInfo("apiSchemas")]
+    elsewhere = {name for listed in lists for name in listed.GetAddedOrExplicitItems()}
     for name in ("explicitItems", "prependedItems", "appendedItems", "addedItems"):
         left = [item for item in getattr(old, name) if item not in gone]
         if left != list(getattr(old, name)):
             setattr(old, name, left)
     if not old.isExplicit:
         old.deletedItems = [*old.deletedItems, *(n for n in gone if n in elsewhere and n not in old.deletedItems)]
-    if old == Sdf.TokenListOp():
+    if old == pxr.Sdf.TokenListOp():
         spec.ClearInfo("apiSchemas")
     else:
         spec.SetInfo("apiSchemas", old)
@@ -241,12 +232,6 @@ def _count_own_specs(prim: Any, layer: Any) -> int:
     stack = prim.GetPrimStack()
     own = layer.GetPrimAtPath(prim.GetPath())
     return int(bool(stack) and own is not None and stack[0].path == prim.GetPath())
-
-
-def _schemas_added_by(spec: Any) -> list[str]:
-    if not spec.HasInfo("apiSchemas"):
-        return []
-    return list(spec.GetInfo("apiSchemas").GetAddedOrExplicitItems())
 
 
 def _refuse_referenced(scene: UsdStage, prim: Any) -> None:

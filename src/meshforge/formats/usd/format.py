@@ -6,15 +6,12 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
-from typing import Any, ClassVar, Literal
+from typing import Any, ClassVar
 
 from meshforge.common import AssetError
 from meshforge.formats.base import BODY_FEATURES, SCENE_FEATURES, Format, Mass, Output, ReadOptions, feature_of_tags
-from meshforge.formats.usd.create import create_usd
-from meshforge.formats.usd.document import UsdDocument
-from meshforge.formats.usd.edit import write_usd
-from meshforge.formats.usd.read import read_usd
-from meshforge.formats.usd.stage import UsdStage, usd
+from meshforge.formats.usd import create, edit, read
+from meshforge.formats.usd.stage import UsdDocument, UsdStage, usd
 from meshforge.symbolic import Asset, Feature, FeatureKind
 
 _TYPES = {
@@ -31,10 +28,10 @@ _LIGHTS = "Light"
 class UsdFormat(Format):
     """Universal Scene Description, as text (.usda), crate (.usdc), either (.usd) or a package (.usdz)."""
 
-    name: ClassVar[str] = "usd"
-    title: ClassVar[str] = "USD"
-    suffixes: ClassVar[tuple[str, ...]] = (".usda", ".usd", ".usdc", ".usdz")
-    up: ClassVar[Literal["y", "z"] | None] = "z"
+    name = "usd"
+    title = "USD"
+    suffixes = (".usda", ".usd", ".usdc", ".usdz")
+    up = "z"
     holds = BODY_FEATURES | {
         *(FeatureKind.CAPSULES, FeatureKind.OPAQUE, FeatureKind.PLANES),
         *(FeatureKind.JOINTS, FeatureKind.BALL_JOINTS, FeatureKind.FIXED_JOINTS),
@@ -46,15 +43,15 @@ class UsdFormat(Format):
     instead: ClassVar[Mapping[FeatureKind, str]] = {FeatureKind.ELLIPSOIDS: "written as triangles"}
 
     def read(self, path: Path, options: ReadOptions) -> Asset:
-        return read_usd(path)
+        return read.read_usd(path)
 
     def write(self, asset: Asset, name: str, mass: Mass = "keep") -> Output:
         if not isinstance(asset.document, UsdDocument):
             raise AssetError("this asset was not read from a USD file", where=str(asset.path))
-        return write_usd(asset, asset.document, name, mass)
+        return edit.write_usd(asset, asset.document, name, mass)
 
     def create(self, asset: Asset, name: str) -> Output:
-        return create_usd(asset, name)
+        return create.create_usd(asset, name)
 
     def features(self, asset: Asset) -> Iterable[Feature]:
         return features_of(asset) if isinstance(asset.document, UsdDocument) else ()

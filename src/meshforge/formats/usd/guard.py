@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from meshforge.common import AssetError
+from meshforge.formats.lazy import pxr
 from meshforge.formats.usd.crate import CRATE_MARK, refuse_harmful_crate
 from meshforge.formats.usd.crate_values import DEEPEST, NEEDLESS, REMEDY, bracket_depth
 
@@ -42,8 +43,6 @@ def refuse_harmful_layers(path: Path, data: bytes) -> None:
 
     To be used within `usd`.
     """
-    from pxr import Sdf  # lazy: an optional package, and 0.3 s
-
     layers: dict[str, Any] = {}
     waiting = [(path, data)]
     while waiting:
@@ -52,7 +51,7 @@ def refuse_harmful_layers(path: Path, data: bytes) -> None:
         if key in layers:
             continue
         refuse_harmful(content, str(file))
-        layers[key] = Sdf.Layer.FindOrOpen(str(file))
+        layers[key] = pxr.Sdf.Layer.FindOrOpen(str(file))
         if not content.lstrip().startswith(TEXT_MARK):
             _refuse_broken(layers[key], str(file))
         if len(layers) > _MOST_LAYERS:

@@ -43,16 +43,11 @@ def patch_layer(text: str, before: str, after: str) -> str | None:
     for start, end, instead in splices:
         if start < at:
             return None
+        if "\r\n" in text:
+            instead = instead.replace("\r\n", "\n").replace("\n", "\r\n")
         parts += [text[at:start], instead]
         at = end
-    line_end = "\r\n" if "\r\n" in text else "\n"
-    return "".join([*_convert_line_ends(parts, line_end), text[at:]])
-
-
-def _convert_line_ends(parts: list[str], line_end: str) -> Iterator[str]:
-    """The parts, of which each second one is new."""
-    for k, part in enumerate(parts):
-        yield part if k % 2 == 0 or line_end == "\n" else part.replace("\r\n", "\n").replace("\n", line_end)
+    return "".join([*parts, text[at:]])
 
 
 class _Patcher:

@@ -8,9 +8,9 @@ from typing import Any
 
 import numpy as np
 
+from meshforge.formats.lazy import pxr
 from meshforge.formats.usd.colliders import StageBodies
-from meshforge.formats.usd.document import BODY
-from meshforge.formats.usd.stage import UsdStage, rotation_of
+from meshforge.formats.usd.stage import BODY, UsdStage, rotation_of
 from meshforge.geometry import Floats, Pose, Shape, inertia, rotation_of_quaternion
 from meshforge.symbolic import Geom, Inertial, Joint, JointKind, Mechanism
 
@@ -54,9 +54,7 @@ def _read_filtered_pairs(bodies: StageBodies) -> tuple[tuple[str, str], ...]:
 
 def joint_prims(scene: UsdStage) -> list[Any]:
     """The prims that are joints and switched on."""
-    from pxr import UsdPhysics  # lazy: an optional package, and 0.3 s
-
-    found = [prim for prim in scene.prims() if prim.IsA(UsdPhysics.Joint)]
+    found = [prim for prim in scene.prims() if prim.IsA(pxr.UsdPhysics.Joint)]
     return [prim for prim in found if scene.get(prim.GetAttribute("physics:jointEnabled")) is not False]
 
 

@@ -9,7 +9,8 @@ from typing import Any
 
 import numpy as np
 
-from meshforge.formats.kinematic_tree import drop_rounding, perpendicular_to
+from meshforge.formats.kinematic_tree import claim_name, drop_rounding, perpendicular_to
+from meshforge.formats.lazy import pxr
 from meshforge.formats.usd.colliders import COLLISION, DRAWN, MESH_COLLISION, apply_schemas
 from meshforge.formats.usd.stage import rotation_of
 from meshforge.geometry import Box, Capsule, Cylinder, Floats, Ints, Pose, Shape, Sphere, principal_axes
@@ -55,9 +56,7 @@ class PrimSpace:
 
 def add_prim(holder: Any, name: str, kind: str) -> Any:
     """A new prim in a layer below the spec of another one, under a name that no child of it has."""
-    from pxr import Sdf  # lazy: an optional package, and 0.3 s
-
-    return Sdf.PrimSpec(holder, name, Sdf.SpecifierDef, kind)
+    return pxr.Sdf.PrimSpec(holder, name, pxr.Sdf.SpecifierDef, kind)
 
 
 def free_prim_name(wanted: str, taken: Iterable[str]) -> str:
@@ -65,37 +64,30 @@ def free_prim_name(wanted: str, taken: Iterable[str]) -> str:
     plain = _NOT_IN_NAMES.sub("_", wanted).strip("_") or "hull"
     if plain[0].isdigit():
         plain = f"_{plain}"
-    used, name, number = set(taken), plain, 2
-    while name in used:
-        name, number = f"{plain}_{number}", number + 1
-    return name
+    return claim_name(plain, set(taken))
 
 
 def set_value(spec: Any, name: str, kind: str, default: Any, *, uniform: bool = False) -> None:
     """Author an attribute of a type of `Sdf.ValueTypeNames`."""
-    from pxr import Sdf  # lazy: an optional package, and 0.3 s
-
-    variability = Sdf.VariabilityUniform if uniform else Sdf.VariabilityVarying
-    value_type = getattr(Sdf.ValueTypeNames, kind)
-    attribute = spec.attributes.get(name) or Sdf.AttributeSpec(spec, name, value_type, variability)
+    variability = pxr.Sdf.VariabilityUniform if uniform else pxr.Sdf.VariabilityVarying
+    value_type = getattr(pxr.Sdf.ValueTypeNames, kind)
+    attribute = spec.attributes.get(name) or pxr.Sdf.AttributeSpec(spec, name, value_type, variability)
     attribute.default = default
 
 
 def set_place(spec: Any, translation: Floats, rotation: Floats | None = None, scales: Floats | None = None) -> None:
     """Author where a prim is, in the order translate, orient, scale; what is none is left out."""
-    from pxr import Gf  # lazy: an optional package, and 0.3 s
-
     order = []
     at = drop_rounding(translation)
     if at.any():
-        set_value(spec, "xformOp:translate", "Double3", Gf.Vec3d(*at.tolist()))
+        set_value(spec, "xformOp:translate", "Double3", pxr.Gf.Vec3d(*at.tolist()))
         order.append("xformOp:translate")
     if rotation is not None and not np.array_equal(drop_rounding(rotation), np.eye(3)):
         w, x, y, z = Pose(rotation, np.zeros(3)).to_quaternion().tolist()
-        set_value(spec, "xformOp:orient", "Quatd", Gf.Quatd(w, x, y, z))
+        set_value(spec, "xformOp:orient", "Quatd", pxr.Gf.Quatd(w, x, y, z))
         order.append("xformOp:orient")
     if scales is not None and not np.array_equal(scales, np.ones(3)):
-        set_value(spec, "xformOp:scale", "Double3", Gf.Vec3d(*scales.tolist()))
+        set_value(spec, "xformOp:scale", "Double3", pxr.Gf.Vec3d(*scales.tolist()))
         order.append("xformOp:scale")
     if order:
         set_value(spec, "xformOpOrder", "TokenArray", order, uniform=True)
@@ -130,8 +122,6 @@ def add_native(holder: Any, name: str, shape: Shape, space: PrimSpace) -> Any | 
 
 def add_mesh(holder: Any, name: str, points: Floats, faces: Ints, space: PrimSpace) -> Any:
     """The prim of triangles (m, 3) on points (n, 3) of the root frame, about their middle, where floats are finest."""
-    from pxr import Vt  # lazy: an optional package, and 0.3 s
-
     local = space.to_local(points)
     middle = (local.min(axis=0) + local.max(axis=0)) / 2
     spec = add_prim(holder, name, "Mesh")
@@ -140,9 +130,9 @@ def add_mesh(holder: Any, name: str, points: Floats, faces: Ints, space: PrimSpa
     flipped = np.linalg.det(space.linear) < 0
     corners = np.ascontiguousarray(faces[:, ::-1] if flipped else faces, dtype=np.int32)
     floats = np.ascontiguousarray(local - middle, dtype=np.float32)
-    set_value(spec, "points", "Point3fArray", Vt.Vec3fArray.FromNumpy(floats))
-    set_value(spec, "faceVertexCounts", "IntArray", Vt.IntArray.FromNumpy(np.full(len(corners), 3, dtype=np.int32)))
-    set_value(spec, "faceVertexIndices", "IntArray", Vt.IntArray.FromNumpy(corners.reshape(-1)))
+    set_value(spec, "points", "Point3fArray", pxr.Vt.Vec3fArray.FromNumpy(floats))
+    set_value(spec, "faceVertexCounts", "IntArray", pxr.Vt.IntArray.FromNumpy(np.full(len(corners), 3, dtype=np.int32)))
+    set_value(spec, "faceVertexIndices", "IntArray", pxr.Vt.IntArray.FromNumpy(corners.reshape(-1)))
     set_value(spec, "subdivisionScheme", "Token", "none", uniform=True)
     _set_extent(spec, floats.min(axis=0), floats.max(axis=0))
     return spec
@@ -169,9 +159,12 @@ def _add_cube(spec: Any, at: Floats, turn: Floats, sides: Floats) -> Any:
 
 
 def _set_extent(spec: Any, low: Floats, high: Floats) -> None:
-    from pxr import Gf, Vt  # lazy: an optional package, and 0.3 s
-
-    set_value(spec, "extent", "Float3Array", Vt.Vec3fArray([Gf.Vec3f(*map(float, low)), Gf.Vec3f(*map(float, high))]))
+    set_value(
+        spec,
+        "extent",
+        "Float3Array",
+        pxr.Vt.Vec3fArray([pxr.Gf.Vec3f(*map(float, low)), pxr.Gf.Vec3f(*map(float, high))]),
+    )
 
 
 def add_joint(holder: Any, name: str, joint: Joint, paths: dict[str, str], poses: dict[str, Pose]) -> Any:
@@ -208,14 +201,12 @@ def _joint_frame(joint: Joint, child: Pose) -> tuple[str, Pose]:
 
 def _add_end(spec: Any, side: int, path: str | None, pose: Pose) -> None:
     """One end of a joint: the body, none for the world, and the frame of the joint there."""
-    from pxr import Gf, Sdf  # lazy: an optional package, and 0.3 s
-
     if path is not None:
-        target = Sdf.RelationshipSpec(spec, f"physics:body{side}", False)
-        target.targetPathList.explicitItems = [Sdf.Path(path)]
+        target = pxr.Sdf.RelationshipSpec(spec, f"physics:body{side}", False)
+        target.targetPathList.explicitItems = [pxr.Sdf.Path(path)]
     w, x, y, z = pose.to_quaternion().tolist()
-    set_value(spec, f"physics:localPos{side}", "Point3f", Gf.Vec3f(*drop_rounding(pose.translation, 1.0).tolist()))
-    set_value(spec, f"physics:localRot{side}", "Quatf", Gf.Quatf(w, x, y, z))
+    set_value(spec, f"physics:localPos{side}", "Point3f", pxr.Gf.Vec3f(*drop_rounding(pose.translation, 1.0).tolist()))
+    set_value(spec, f"physics:localRot{side}", "Quatf", pxr.Gf.Quatf(w, x, y, z))
 
 
 def _add_drive(spec: Any, joint: Joint) -> None:
@@ -233,16 +224,14 @@ def _add_drive(spec: Any, joint: Joint) -> None:
 
 def write_mass(spec: Any, inertial: Inertial, body: PrimSpace, metres: float = 1.0, kilograms: float = 1.0) -> None:
     """Write a mass on the prim of a body, in its own space and in the units of the stage: so many [m], [kg]."""
-    from pxr import Gf  # lazy: an optional package, and 0.3 s
-
     centre = drop_rounding(body.to_local(inertial.centre[None])[0], 1.0)
     turn = rotation_of(body.linear).T
     moments, axes = principal_axes(drop_rounding(turn @ inertial.inertia @ turn.T))
     moments = moments / (kilograms * metres**2)
     apply_schemas(spec, ["PhysicsMassAPI"])
     set_value(spec, "physics:mass", "Float", inertial.mass / kilograms)
-    set_value(spec, "physics:centerOfMass", "Point3f", Gf.Vec3f(*centre.tolist()))
+    set_value(spec, "physics:centerOfMass", "Point3f", pxr.Gf.Vec3f(*centre.tolist()))
     if moments.min() > 0:
         w, x, y, z = Pose(axes, np.zeros(3)).to_quaternion().tolist()
-        set_value(spec, "physics:diagonalInertia", "Float3", Gf.Vec3f(*moments.tolist()))
-        set_value(spec, "physics:principalAxes", "Quatf", Gf.Quatf(w, x, y, z))
+        set_value(spec, "physics:diagonalInertia", "Float3", pxr.Gf.Vec3f(*moments.tolist()))
+        set_value(spec, "physics:principalAxes", "Quatf", pxr.Gf.Quatf(w, x, y, z))

@@ -10,14 +10,12 @@ from typing import Any
 import numpy as np
 
 from meshforge.common import AssetError, GeometryError, MeshForgeError, file_digest, is_file, join_names, pluralize
-from meshforge.formats import collision_pieces
-from meshforge.formats.mesh_reader import read_content
-from meshforge.formats.usd import colliders
-from meshforge.formats.usd.document import PrimRecord, UsdDocument
-from meshforge.formats.usd.guard import refuse_harmful_layers
+from meshforge.formats import collision_pieces, mesh_reader
+from meshforge.formats.lazy import pxr
+from meshforge.formats.usd import colliders, guard
 from meshforge.formats.usd.mechanism import read_mechanism
 from meshforge.formats.usd.shapes import read_instances, read_mesh, read_parts
-from meshforge.formats.usd.stage import UsdStage, usd
+from meshforge.formats.usd.stage import PrimRecord, UsdDocument, UsdStage, usd
 from meshforge.formats.visuals import GAMMA, LazySurfaces, Rgba
 from meshforge.symbolic import Asset, Geom, Mentions, Surface
 
@@ -44,15 +42,18 @@ def read_usd(path: Path) -> Asset:
 
     Raises AssetError: damaged, more than memory holds, or there is nothing in it.
     """
-    source = read_content(path)
+    source = mesh_reader.read_content(path)
     with usd(str(path)) as complaints:
-        refuse_harmful_layers(path, source)
+        guard.refuse_harmful_layers(path, source)
         scene = UsdStage.open(path)
         asset = _build_asset(scene, source)
     with usd(str(path)):  # which complains about missing files once more
         files, missing = find_files(path)
-    asset = replace(asset, files=files, missing=missing)
-    return _with_complaints(asset, complaints)
+    if complaints and not asset.geoms and not asset.opaque:
+        raise AssetError(f"nothing in it collides; USD says: {complaints[0]}", where=str(path))
+    more = [f"and {len(complaints) - 3} complaints more of USD"] if len(complaints) > 3 else []
+    notes = (*asset.notes, *(f"USD says: {text}" for text in complaints[:3]), *more)
+    return replace(asset, files=files, missing=missing, notes=notes)
 
 
 def _build_asset(scene: UsdStage, source: bytes) -> Asset:
@@ -88,10 +89,8 @@ def read_collisions(
     scene: UsdStage, bodies: colliders.StageBodies, physics: bool, notes: list[str]
 ) -> Iterator[PrimCollision]:
     """All prims with collision, in the order of the stage."""
-    from pxr import UsdGeom  # lazy: an optional package, and 0.3 s
-
     for prim in scene.prims():
-        if prim.IsA(UsdGeom.PointInstancer):
+        if prim.IsA(pxr.UsdGeom.PointInstancer):
             if part := read_instances(scene, prim, physics, notes):
                 yield PrimCollision(prim, bodies.of(prim), [part], "is made many times by a point instancer")
         elif (colliders.is_collider if physics else colliders.is_seen)(scene, prim) and (
@@ -119,19 +118,9 @@ def _build_geoms(
                 yield Geom(name, element.body, part.shape, contact=contact, mentions=own)
 
 
-def _with_complaints(asset: Asset, complaints: Sequence[str]) -> Asset:
-    """The asset with what the library complained about; an asset of nothing with complaints is refused."""
-    if complaints and not asset.geoms and not asset.opaque:
-        raise AssetError(f"nothing in it collides; USD says: {complaints[0]}", where=str(asset.path))
-    more = [f"and {len(complaints) - 3} complaints more of USD"] if len(complaints) > 3 else []
-    return replace(asset, notes=(*asset.notes, *(f"USD says: {text}" for text in complaints[:3]), *more))
-
-
 def find_files(path: Path) -> tuple[tuple[Path, ...], tuple[str, ...]]:
     """The files beside the main one that are there, in order of mention, and the references that lead nowhere."""
-    from pxr import UsdUtils  # lazy: an optional package, and 0.3 s
-
-    layers, assets, unresolved = UsdUtils.ComputeAllDependencies(str(path))
+    layers, assets, unresolved = pxr.UsdUtils.ComputeAllDependencies(str(path))
     places = [*(layer.realPath for layer in layers), *assets]
     own = path.resolve()
     found = [file for file in map(_file_of, places) if file is not None and file.resolve() != own]
@@ -156,11 +145,9 @@ def _file_of(place: Any) -> Path | None:
 
 def mentions_of_prim(prim: Any) -> Mentions:
     """What is said of a prim with collision."""
-    from pxr import UsdShade  # lazy: an optional package, and 0.3 s
-
     found = [("class", label) for each in (prim, prim.GetParent()) for label in _labels_of(each)]
     found += [("node", prim.GetName()), ("node", prim.GetParent().GetName())]
-    material, _ = UsdShade.MaterialBindingAPI(prim).ComputeBoundMaterial()
+    material, _ = pxr.UsdShade.MaterialBindingAPI(prim).ComputeBoundMaterial()
     if material:
         found.append(("material", material.GetPrim().GetName()))
     return collision_pieces.drop_repeats(found)
@@ -242,16 +229,14 @@ def _read_surfaces(scene: UsdStage, path: str, body: str) -> Iterator[Surface]:
 
 def _read_color(scene: UsdStage, prim: Any) -> Rgba | None:
     """The colour of a prim as screens show it: of its preview surface, else its display colour where that is one."""
-    from pxr import UsdGeom, UsdShade  # lazy: an optional package, and 0.3 s
-
-    material, _ = UsdShade.MaterialBindingAPI(prim).ComputeBoundMaterial()
+    material, _ = pxr.UsdShade.MaterialBindingAPI(prim).ComputeBoundMaterial()
     surface = material.ComputeSurfaceSource()[0] if material else None
     if surface and surface.GetIdAttr().Get() == "UsdPreviewSurface":
         color, opacity = surface.GetInput("diffuseColor"), surface.GetInput("opacity")
         if color and not color.HasConnectedSource() and color.Get() is not None:
             alpha = opacity.Get() if opacity and not opacity.HasConnectedSource() else None
             return _to_rgba(color.Get(), 1.0 if alpha is None else alpha)
-    gprim = UsdGeom.Gprim(prim)
+    gprim = pxr.UsdGeom.Gprim(prim)
     colors, alphas = scene.get(gprim.GetDisplayColorAttr()), scene.get(gprim.GetDisplayOpacityAttr())
     if colors and len(colors) == 1:
         return _to_rgba(colors[0], alphas[0] if alphas and len(alphas) == 1 else 1.0)

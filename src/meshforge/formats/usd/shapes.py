@@ -9,6 +9,7 @@ import numpy as np
 
 from meshforge.common import GeometryError
 from meshforge.formats.collision_pieces import CollisionPiece, build_solid, end_points, place_pieces, place_surface
+from meshforge.formats.lazy import pxr
 from meshforge.formats.meshfile.surface import FARTHEST, RawSurface, join_surfaces
 from meshforge.formats.usd.colliders import COLLISION, has_schema
 from meshforge.formats.usd.stage import UsdStage, rotation_of
@@ -160,9 +161,7 @@ def read_mesh(scene: UsdStage, prim: Any) -> RawSurface:
 
     Raises GeometryError: its counts and indices do not fit together, or a coordinate is not finite.
     """
-    from pxr import UsdGeom  # lazy: an optional package, and 0.3 s
-
-    mesh = UsdGeom.Mesh(prim)
+    mesh = pxr.UsdGeom.Mesh(prim)
     points = np.asarray(scene.get(mesh.GetPointsAttr()) or [], dtype=np.float64).reshape(-1, 3)
     corners = np.asarray(scene.get(mesh.GetFaceVertexIndicesAttr()) or [], dtype=np.int64)
     counts = np.asarray(scene.get(mesh.GetFaceVertexCountsAttr()) or [], dtype=np.int64)
@@ -172,7 +171,7 @@ def read_mesh(scene: UsdStage, prim: Any) -> RawSurface:
         raise GeometryError("a face names a vertex that is not there", where=where)
     if not np.isfinite(points[np.unique(faces)]).all():
         raise GeometryError("a coordinate is not a finite number", where=where)
-    if scene.get(mesh.GetOrientationAttr()) == UsdGeom.Tokens.leftHanded:
+    if scene.get(mesh.GetOrientationAttr()) == pxr.UsdGeom.Tokens.leftHanded:
         faces = faces[:, ::-1]
     return RawSurface(None, points, faces)
 
@@ -193,12 +192,10 @@ def triangulate(corners: Ints, counts: Ints, holes: Ints) -> Ints:
 
 def read_instances(scene: UsdStage, instancer: Any, physics: bool, notes: list[str]) -> CollisionPiece | None:
     """All instances of the prototypes that collide; None where none does."""
-    from pxr import Usd, UsdGeom  # lazy: an optional package, and 0.3 s
-
-    kinds = UsdGeom.PointInstancer(instancer)
+    kinds = pxr.UsdGeom.PointInstancer(instancer)
     roots = [scene.stage.GetPrimAtPath(path) for path in kinds.GetPrototypesRel().GetForwardedTargets()]
-    predicate = Usd.TraverseInstanceProxies(Usd.PrimDefaultPredicate)
-    below = [Usd.PrimRange(root, predicate) if root else () for root in roots]
+    predicate = pxr.Usd.TraverseInstanceProxies(pxr.Usd.PrimDefaultPredicate)
+    below = [pxr.Usd.PrimRange(root, predicate) if root else () for root in roots]
     shapes = [_prototype_surface(scene, *prototype, physics, notes) for prototype in zip(roots, below, strict=True)]
     if all(shape is None for shape in shapes):
         return None
@@ -217,16 +214,14 @@ def read_instances(scene: UsdStage, instancer: Any, physics: bool, notes: list[s
 
 def _prototype_surface(scene: UsdStage, root: Any, below: Any, physics: bool, notes: list[str]) -> RawSurface | None:
     """What collides of a prototype, where the instancer puts it, in units of the stage."""
-    from pxr import UsdGeom  # lazy: an optional package, and 0.3 s
-
     if not root:
         return None
     linear, offset = scene.placement(root)
-    own = np.array(UsdGeom.Xformable(root).GetLocalTransformation(scene.time), dtype=np.float64)
+    own = np.array(pxr.UsdGeom.Xformable(root).GetLocalTransformation(scene.time), dtype=np.float64)
     inverse = np.linalg.pinv(linear)
     surfaces = []
     for prim in below:
-        if prim.IsA(UsdGeom.Gprim) and (has_schema(prim, COLLISION) or not physics):
+        if prim.IsA(pxr.UsdGeom.Gprim) and (has_schema(prim, COLLISION) or not physics):
             for part in read_parts(scene, prim, notes):
                 if shape := part.shape or part.surface:
                     local = (np.asarray(shape.vertices) - offset) @ inverse.T

@@ -1,11 +1,16 @@
-"""OpenUSD, the library, used by one asset at a time, and an open stage: its prims in order, and where they are in
-metres."""
+"""OpenUSD, the library, used by one asset at a time; what is kept of a stage to write it back; layers as bytes: text,
+crate, or a package of them; and an open stage: its prims in order, and where they are in metres.
+"""
 
 from __future__ import annotations
 
+import io
 import re
+import struct
+import tempfile
 import threading
-from collections.abc import Iterator
+import zipfile
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import cached_property
@@ -15,7 +20,97 @@ from typing import Any, Literal
 import numpy as np
 
 from meshforge.common import AssetError
+from meshforge.formats.lazy import pxr
+from meshforge.formats.usd.crate import CRATE_MARK
 from meshforge.geometry import Floats, Pose
+from meshforge.symbolic import Document
+
+BODY = "body"
+"""The name of the body of all collision that is part of no rigid body."""
+
+_ALIGNMENT = 64
+_HEADER = 30  # bytes of a local header before the name
+_PADDING = 0x1986  # the id of the extra field that holds nothing
+
+
+@dataclass(frozen=True, slots=True)
+class PrimRecord:
+    """A prim with collision: its path, its body, and the names of its pieces in order, hulls and non-convex ones.
+
+    fixed: why no edit can change it, empty where one can.
+    """
+
+    path: str
+    body: str
+    names: tuple[str, ...]
+    fixed: str = ""
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class UsdDocument(Document):
+    """The source of an asset read from a USD file.
+
+    source: the bytes of the file; physics: whether prims say that they collide, else all meshes count;
+    bodies: the prims that are bodies, with the names of those; digests: of the layers besides the root layer.
+    """
+
+    source: bytes
+    physics: bool
+    authored: tuple[PrimRecord, ...]
+    bodies: tuple[tuple[str, str], ...] = ()
+    digests: tuple[tuple[Path, str], ...] = ()
+
+
+def is_crate(data: bytes) -> bool:
+    """Whether bytes are a layer in the binary form."""
+    return data.startswith(CRATE_MARK)
+
+
+def export_layer(layer: Any, *, crate: bool) -> bytes:
+    """A layer as a file of its own."""
+    if not crate:
+        text: str = layer.ExportToString()
+        return text.encode()
+    with tempfile.TemporaryDirectory(prefix="meshforge-") as folder:
+        path = Path(folder) / "layer.usdc"
+        layer.Export(str(path))
+        return path.read_bytes()
+
+
+def is_crate_wanted(suffix: str, source: bytes | None) -> bool:
+    """Whether a file of a suffix is binary; `.usd` is what its source was, and binary where it is new."""
+    if suffix == ".usd":
+        return source is None or is_crate(source)
+    return suffix != ".usda"
+
+
+def pack_usdz(files: Mapping[str, bytes]) -> bytes:
+    """A package of files by their names, in that order."""
+    stream = io.BytesIO()
+    with zipfile.ZipFile(stream, "w", zipfile.ZIP_STORED) as archive:
+        for name, data in files.items():
+            info = zipfile.ZipInfo(name, (1980, 1, 1, 0, 0, 0))
+            info.external_attr = 0o644 << 16
+            info.extra = _padding(stream.tell() + _HEADER + len(name.encode()))
+            archive.writestr(info, data)
+    return stream.getvalue()
+
+
+def unpack_usdz(data: bytes) -> dict[str, bytes]:
+    """The files of a package by their names, in their order."""
+    with zipfile.ZipFile(io.BytesIO(data)) as archive:
+        return {info.filename: archive.read(info) for info in archive.infolist() if not info.is_dir()}
+
+
+def _padding(start: int) -> bytes:
+    """The extra field after which the data begins on a multiple of 64; start: where that field begins."""
+    missing = -start % _ALIGNMENT
+    if missing == 0:
+        return b""
+    if missing < 4:  # a field is four bytes at least
+        missing += _ALIGNMENT
+    return struct.pack("<HH", _PADDING, missing - 4) + bytes(missing - 4)
+
 
 _LOCK = threading.RLock()
 """Layers are shared in a process: while one asset is edited in memory, nobody may read it."""
@@ -45,16 +140,15 @@ def usd(where: str) -> Iterator[list[str]]:
     Raises AssetError at `where`, with its first complaint, where it gives up.
     """
     require_usd(where)
-    from pxr import Tf, UsdUtils  # lazy: an optional package, and 0.3 s
-
     complaints: list[str] = []
     with _LOCK:
-        delegate = UsdUtils.CoalescingDiagnosticDelegate()
+        delegate = pxr.UsdUtils.CoalescingDiagnosticDelegate()
         try:
             with np.errstate(over="ignore", invalid="ignore"):  # numbers beyond all bounds are found and reported
                 yield complaints
-        except Tf.ErrorException as error:
-            problem = f"USD cannot read it: {_first_comment(error.args, where)}"
+        except pxr.Tf.ErrorException as error:
+            comment = next(filter(None, map(_text_of, error.args)), "it gives no reason")
+            problem = f"USD cannot read it: {shorten(comment, where)}"
             raise AssetError(problem, where=where, remedy=_REMEDY) from None
         except _DAMAGE as error:  # names that are no text, values of types that their schema does not know
             problem = f"this USD file is damaged: {shorten(str(error), where)}"
@@ -69,12 +163,6 @@ def shorten(text: str, where: str) -> str:
     """A complaint in one line, of a long one the beginning; paths count from the folder of the asset."""
     line = " ".join(_INSIDE.sub("", _STAGE.sub("", text)).replace(f"{Path(where).absolute().parent}/", "").split())
     return line if len(line) <= _LONGEST else f"{line[:_LONGEST]} ..."
-
-
-def _first_comment(errors: tuple[object, ...], where: str) -> str:
-    """The commentary of the first of the library's errors."""
-    texts = (_text_of(error) for error in errors)
-    return shorten(next((text for text in texts if text), "it gives no reason"), where)
 
 
 def _text_of(complaint: object) -> str:
@@ -95,9 +183,7 @@ class UsdStage:
     @staticmethod
     def open(path: Path) -> UsdStage:
         """The stage of a file. Raises AssetError: it holds no prim, or its unit is none."""
-        from pxr import Usd  # lazy: an optional package, and 0.3 s
-
-        scene = UsdStage(Usd.Stage.Open(str(path)), path)
+        scene = UsdStage(pxr.Usd.Stage.Open(str(path)), path)
         if not np.isfinite(scene.metres) or scene.metres <= 0:
             raise AssetError(f"its metersPerUnit is {scene.metres:g}", where=str(path), remedy="Give it a unit.")
         return scene
@@ -105,45 +191,33 @@ class UsdStage:
     @cached_property
     def metres(self) -> float:
         """The metres of the stage's unit."""
-        from pxr import UsdGeom  # lazy: an optional package, and 0.3 s
-
-        said = UsdGeom.StageHasAuthoredMetersPerUnit(self.stage)
-        return float(UsdGeom.GetStageMetersPerUnit(self.stage)) if said else _CENTIMETRES
+        said = pxr.UsdGeom.StageHasAuthoredMetersPerUnit(self.stage)
+        return float(pxr.UsdGeom.GetStageMetersPerUnit(self.stage)) if said else _CENTIMETRES
 
     @cached_property
     def kilograms(self) -> float:
         """The kilograms of the stage's unit of mass."""
-        from pxr import UsdPhysics  # lazy: an optional package, and 0.3 s
-
-        return float(UsdPhysics.GetStageKilogramsPerUnit(self.stage))
+        return float(pxr.UsdPhysics.GetStageKilogramsPerUnit(self.stage))
 
     @property
     def up(self) -> Literal["y", "z"]:
-        from pxr import UsdGeom  # lazy: an optional package, and 0.3 s
-
-        return "z" if UsdGeom.GetStageUpAxis(self.stage) == UsdGeom.Tokens.z else "y"
+        return "z" if pxr.UsdGeom.GetStageUpAxis(self.stage) == pxr.UsdGeom.Tokens.z else "y"
 
     @cached_property
     def time(self) -> Any:
-        from pxr import Usd  # lazy: an optional package, and 0.3 s
-
-        return Usd.TimeCode.EarliestTime()
+        return pxr.Usd.TimeCode.EarliestTime()
 
     @cached_property
     def _cache(self) -> Any:
-        from pxr import UsdGeom  # lazy: an optional package, and 0.3 s
-
-        return UsdGeom.XformCache(self.time)
+        return pxr.UsdGeom.XformCache(self.time)
 
     def prims(self) -> Iterator[Any]:
         """All prims in the order of the stage, those of instances too; of point instancers, nothing below."""
-        from pxr import Usd, UsdGeom  # lazy: an optional package, and 0.3 s
-
-        predicate = Usd.TraverseInstanceProxies(Usd.PrimDefaultPredicate)
-        below = iter(Usd.PrimRange(self.stage.GetPseudoRoot(), predicate))
+        predicate = pxr.Usd.TraverseInstanceProxies(pxr.Usd.PrimDefaultPredicate)
+        below = iter(pxr.Usd.PrimRange(self.stage.GetPseudoRoot(), predicate))
         for prim in below:
             yield prim
-            if prim.IsA(UsdGeom.PointInstancer):
+            if prim.IsA(pxr.UsdGeom.PointInstancer):
                 below.PruneChildren()
 
     def placement(self, prim: Any) -> tuple[Floats, Floats]:

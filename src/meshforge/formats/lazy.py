@@ -1,0 +1,27 @@
+"""Libraries that are loaded when something of them is first used: they take long, or are optional."""
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    import mujoco as mujoco
+    import pxr as pxr
+else:
+
+    class _LazyLibrary:
+        """Stands for a library, and for its modules."""
+
+        def __init__(self, name: str) -> None:
+            self._name = name
+
+        def __getattr__(self, name: str) -> Any:
+            try:
+                found = getattr(import_module(self._name), name)
+            except AttributeError:
+                found = import_module(f"{self._name}.{name}")
+            setattr(self, name, found)
+            return found
+
+    mujoco, pxr = _LazyLibrary("mujoco"), _LazyLibrary("pxr")  # 0.2 s, only MJCF needs it; 0.3 s, and optional

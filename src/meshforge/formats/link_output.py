@@ -1,0 +1,83 @@
+"""The links of a new URDF or SDF, with what an asset of another format has on each: collisions, visuals and a mass."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from types import UnionType
+
+from meshforge.formats import base, kinematic_tree, mesh_output
+from meshforge.formats.slots import ElementMaker, Slot
+from meshforge.formats.visuals import unreadable_visuals, visuals_of
+from meshforge.geometry import Pose, Shape
+from meshforge.symbolic import Asset, Inertial, Opaque
+
+
+class LinkCreator(ABC):
+    """Collects what the links of a new file hold; native: the shapes that the format has of its own.
+
+    links: what each link of the chain is called in the file; slots: its collisions; shown: its visuals, each with the
+    mesh file of a shape that the format lacks.
+    """
+
+    native: UnionType
+    rules: kinematic_tree.JointRules
+    visual_suffixes: tuple[str, ...]
+    lead: bytes
+
+    def __init__(self, asset: Asset, maker: ElementMaker) -> None:
+        self.asset, self.maker = asset, maker
+        self.visuals = mesh_output.VisualFiles(maker.files, lambda mesh: mesh.suffix.lower() in self.visual_suffixes)
+        self.inertials = {inertial.body: inertial for inertial in asset.mechanism.inertials}
+        self.lost: list[base.Loss] = []
+        visuals = visuals_of(asset)
+        self.visuals.gather(visuals)
+        used = {g.body for g in asset.geoms} | {o.body for o in asset.opaque} | {body for body, _ in visuals}
+        bare = {body.name for body in asset.bodies} - used - set(self.inertials)
+        self.chain = kinematic_tree.build_chain(asset, bare, self.rules)
+        self.links = self.name_links(bare)
+        self.slots = self._build_slots()
+        self.shown = {link: self._build_visuals(link) for link in self.links}
+
+    def name_links(self, bare: set[str]) -> dict[str, str]:
+        """The name of each link in the file; bare: bodies that have nothing."""
+        return {link: link for link in self.chain.frames}
+
+    @abstractmethod
+    def build_opaque(self, piece: Opaque, root_t_link: Pose) -> list[Slot]:
+        """The collision of a non-convex piece; none where it has no surface."""
+
+    def inertial_of(self, link: str) -> tuple[Inertial | None, Pose]:
+        """The mass of a link, and the frame of the link as the mass has it."""
+        body = next((body for body, own in self.chain.of_body.items() if own == link), None)
+        if body:
+            return self.inertials.get(body), self.chain.frames[link]
+        return kinematic_tree.LIGHT_INERTIAL if link in self.chain.light else None, Pose.identity()
+
+    def collect_losses(self) -> tuple[base.Loss, ...]:
+        """What the file does not hold."""
+        return (*self.chain.lost, *self.lost, *unreadable_visuals(self.visuals.refused))
+
+    def _build_slots(self) -> dict[str, list[Slot]]:
+        slots: dict[str, list[Slot]] = {link: [] for link in self.links}
+        for geom in self.asset.geoms:
+            link = self.chain.of_body[geom.body]
+            slots[link].append(self.maker.make_slot(geom, self.chain.frames[link], None, self.lead))
+        for piece in self.asset.opaque:
+            link = self.chain.of_body[piece.body]
+            slots[link] += self.build_opaque(piece, self.chain.frames[link])
+        return slots
+
+    def _build_visuals(self, link: str) -> list[tuple[mesh_output.LinkVisual, str | None]]:
+        shown = []
+        for body, visual in visuals_of(self.asset):
+            if self.chain.of_body[body] == link:
+                placed = self.visuals.add_visual(body, visual, self.chain.frames[link])
+                if placed is not None:
+                    shown.append((placed, self._add_mesh(body, placed.what)))
+        return shown
+
+    def _add_mesh(self, body: str, shape: Shape | str) -> str | None:
+        """The file of a visual shape that the format lacks."""
+        if not isinstance(shape, Shape) or isinstance(shape, self.native):
+            return None
+        return self.maker.files.add(f"{body}-visual", "", shape.vertices, shape.faces)
