@@ -7,16 +7,8 @@ from typing import Any, Literal
 
 import numpy as np
 
-from meshforge.checks.grid import (
-    Grid,
-    Mask,
-    cells_to_surface,
-    find_pockets,
-    flood_from_outside,
-    grid_around,
-    voxelize_hulls,
-    voxelize_surface,
-)
+from meshforge.checks import grid as voxels
+from meshforge.checks.grid import Grid, Mask, flood_from_outside, grid_around, voxelize_hulls, voxelize_surface
 from meshforge.checks.legality import Finding
 from meshforge.common import join_names
 from meshforge.geometry import Aabb, Floats
@@ -136,7 +128,7 @@ def _measure(mesh: SymbolicMesh, before: SymbolicMesh | None, corners: Floats, g
     regions, sums, layers = [], [], []
     masks: tuple[tuple[RegionKind, Mask], ...] = (("closed", closed), ("opened", opened))
     for kind, mask in masks:
-        numbers, count = find_pockets(mask)
+        numbers, count = voxels.find_pockets(mask)
         found: list[Mask] = [numbers == k + 1 for k in range(min(count, _REGIONS))]
         regions += [_build_region(kind, part, grid, mesh) for part in found]
         sums.append(grid.litres(numbers > 0))
@@ -155,7 +147,7 @@ def _build_region(kind: RegionKind, part: Mask, grid: Grid, mesh: SymbolicMesh) 
     hulls = (
         _find_fillers(part, grid, [h for h in mesh.hulls if _is_touching(h.aabb, bounds)]) if kind == "closed" else ()
     )
-    return ClearanceRegion(kind, grid.litres(part), bounds, hulls, cells_to_surface(grid, part))
+    return ClearanceRegion(kind, grid.litres(part), bounds, hulls, voxels.cells_to_surface(grid, part))
 
 
 def _find_fillers(part: Mask, grid: Grid, hulls: list[Hull]) -> tuple[str, ...]:

@@ -4,16 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
+from meshforge import geometry
 from meshforge.common import ProgramError, join_names
-from meshforge.geometry import (
-    Floats,
-    Pose,
-    nearest_aligned_rotation,
-    nearest_aligned_rotation_between,
-    rotation_about,
-    smallest_rotation,
-    snap_rotation,
-)
+from meshforge.geometry import Floats, Pose
 from meshforge.language.print import show
 from meshforge.language.syntax import SLACK, BaseExtractor, Direction, LandmarkPair, Orient, select_mask
 from meshforge.symbolic import SymbolicMesh, bits_of
@@ -31,7 +24,7 @@ def orient_mesh(mesh: SymbolicMesh, orient: Orient | None) -> tuple[SymbolicMesh
     None, and a turn by nothing, give the mesh itself. Raises ProgramError naming a landmark that selects nothing,
     or landmarks that give no direction.
     """
-    rotation = snap_rotation(_find_rotation(mesh, orient)) if orient else np.eye(3)
+    rotation = geometry.snap_rotation(_find_rotation(mesh, orient)) if orient else np.eye(3)
     pose = Pose(rotation, np.zeros(3))
     if np.array_equal(rotation, np.eye(3)):
         return mesh, pose
@@ -44,17 +37,17 @@ def _find_rotation(mesh: SymbolicMesh, orient: Orient) -> Floats:
     if len(directions) == 2:
         frame = _frame_of(directions[0], _perpendicular_part(directions, orient))
         rotation: Floats = _frame_of(axes[0], axes[1]).T @ frame
-        return nearest_aligned_rotation(rotation) if orient.snap else rotation
+        return geometry.nearest_aligned_rotation(rotation) if orient.snap else rotation
     if orient.snap:
-        return nearest_aligned_rotation_between(directions[0], axes[0])
-    return _square_up(mesh, smallest_rotation(directions[0], axes[0]), "XYZ".index(orient.pairs[0].axis[1]))
+        return geometry.nearest_aligned_rotation_between(directions[0], axes[0])
+    return _square_up(mesh, geometry.smallest_rotation(directions[0], axes[0]), "XYZ".index(orient.pairs[0].axis[1]))
 
 
 def _square_up(mesh: SymbolicMesh, upright: Floats, axis: int) -> Floats:
     """The rotation `upright`, then the turn about the coordinate axis that squares up the footprint."""
     plane = [(axis + 1) % 3, (axis + 2) % 3]
     points = np.concatenate([hull.vertices for hull in mesh.hulls]) @ upright.T
-    turned: Floats = rotation_about(np.eye(3)[axis], square_up_angle(points[:, plane])) @ upright
+    turned: Floats = geometry.rotation_about(np.eye(3)[axis], square_up_angle(points[:, plane])) @ upright
     return turned
 
 

@@ -8,31 +8,19 @@ from typing import ClassVar, Literal
 
 import numpy as np
 
-from meshforge.geometry import (
-    Aabb,
-    Floats,
-    Shape,
-    aabb_box,
-    aabb_capsule,
-    aabb_cylinder,
-    aabb_sphere,
-    longest_axis,
-    map_to_box,
-    tight_box,
-    tight_capsule,
-    tight_cylinder,
-)
+from meshforge import geometry
+from meshforge.geometry import Aabb, Floats, Shape
 from meshforge.language.actions import base
 from meshforge.language.actions.edit import GroupEdit, HullGroup
 from meshforge.language.syntax import Direction
 
 _FILL_SHAPES: Mapping[str, Callable[[Aabb], Shape]] = {
-    "box": aabb_box,
-    "cylinder": aabb_cylinder,
-    "capsule": aabb_capsule,
-    "sphere": aabb_sphere,
+    "box": geometry.aabb_box,
+    "cylinder": geometry.aabb_cylinder,
+    "capsule": geometry.aabb_capsule,
+    "sphere": geometry.aabb_sphere,
 }
-_TIGHT_FITS = {"box": tight_box, "cylinder": tight_cylinder, "capsule": tight_capsule}
+_TIGHT_FITS = {"box": geometry.tight_box, "cylinder": geometry.tight_cylinder, "capsule": geometry.tight_capsule}
 
 
 @dataclass(frozen=True, slots=True)
@@ -81,10 +69,10 @@ def fit_template(group: HullGroup, name: str, *, turned: bool) -> tuple[Shape, .
     """
     template = group.template(name)
     if not turned:
-        return map_to_box(template.shapes, template.aabb, group.bounds)
-    turn = _quarter_turn(longest_axis(template.aabb), longest_axis(group.bounds))
+        return geometry.map_to_box(template.shapes, template.aabb, group.bounds)
+    turn = _quarter_turn(geometry.longest_axis(template.aabb), geometry.longest_axis(group.bounds))
     shapes = [shape.transform(turn, np.zeros(3)) for shape in template.shapes]
-    return map_to_box(shapes, Aabb.union(shape.aabb for shape in shapes), group.bounds)
+    return geometry.map_to_box(shapes, Aabb.union(shape.aabb for shape in shapes), group.bounds)
 
 
 def _quarter_turn(start: int, end: int) -> Floats:
