@@ -75,8 +75,7 @@ def measure_extents(points: Floats) -> Floats:
     middle, axes, _ = principal_extents(points)
     local = (points - middle) @ axes.T
     found = [_measure_box(local, k) for k in range(3)]
-    best: Floats = np.sort(min(found, key=lambda sides: float(np.prod(sides))))[::-1]
-    return best
+    return np.sort(min(found, key=lambda sides: float(np.prod(sides))))[::-1]
 
 
 def _measure_box(local: Floats, axis: int) -> Floats:
@@ -208,8 +207,7 @@ def hull_by_manifold(points: Floats) -> HullIndices | None:
 
 def _bytes_of_rows(points: Floats) -> list[bytes]:
     """The bytes of each of points (n, 3)."""
-    rows: list[bytes] = np.ascontiguousarray(points).view("V24").ravel().tolist()
-    return rows
+    return np.ascontiguousarray(points).view("V24").ravel().tolist()
 
 
 def hull_by_qhull(points: Floats) -> HullIndices | None:

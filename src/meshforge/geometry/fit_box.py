@@ -115,8 +115,7 @@ def _turn_least(rotation: Floats) -> Floats:
     orders = [rotation[list(order)] * np.array(signs)[:, None] for order in itertools.permutations(range(3))
               for signs in itertools.product((1.0, -1.0), repeat=3)]  # fmt: skip
     proper = [axes for axes in orders if np.linalg.det(axes) > 0]
-    nearest: Floats = max(proper, key=lambda axes: round(float(np.trace(axes)), 9))
-    return nearest
+    return max(proper, key=lambda axes: round(float(np.trace(axes)), 9))
 
 
 def descend(objective: Callable[[Floats], Floats], starts: Floats, step: float) -> Floats:

@@ -47,8 +47,7 @@ def _square_up(mesh: SymbolicMesh, upright: Floats, axis: int) -> Floats:
     """The rotation `upright`, then the turn about the coordinate axis that squares up the footprint."""
     plane = [(axis + 1) % 3, (axis + 2) % 3]
     points = np.concatenate([hull.vertices for hull in mesh.hulls]) @ upright.T
-    turned: Floats = geometry.rotation_about(np.eye(3)[axis], square_up_angle(points[:, plane])) @ upright
-    return turned
+    return geometry.rotation_about(np.eye(3)[axis], square_up_angle(points[:, plane])) @ upright
 
 
 def _frame_of(first: Floats, second: Floats) -> Floats:
@@ -67,8 +66,7 @@ def _perpendicular_part(directions: list[Floats], orient: Orient) -> Floats:
             f"orient: {pairs} run along one line, so they give no frame",
             remedy="Choose a second pair of landmarks that lies across the first, or leave it out.",
         )
-    unit: Floats = part / norm
-    return unit
+    return part / norm
 
 
 def _landmark_direction(mesh: SymbolicMesh, pair: LandmarkPair) -> Floats:
@@ -125,8 +123,7 @@ def _fold_angles(angles: Floats) -> Floats:
     """The angles up to quarter turns, in (-pi/4, pi/4]; what is -pi/4 but for rounding counts as pi/4."""
     quarter = np.pi / 2
     low = -quarter / 2 + _EQUAL
-    folded: Floats = (angles - low) % quarter + low
-    return folded
+    return (angles - low) % quarter + low
 
 
 def _rectangle_area(outline: Floats, turn: float) -> float:

@@ -168,8 +168,7 @@ def find_label_anchors(items: Ints, wanted: Collection[int] | None = None, least
 
 def count_pixels(items: Ints, count: int = 0) -> Ints:
     """How many pixels (h, w) show each item, for `count` items at least; -1 is none."""
-    counts: Ints = np.bincount(items.ravel() + 1, minlength=count + 1)[1:]
-    return counts
+    return np.bincount(items.ravel() + 1, minlength=count + 1)[1:]
 
 
 def _find_anchor(part: Ints, item: int, where: tuple[slice, slice]) -> LabelAnchor:

@@ -140,8 +140,7 @@ def draw_heat_map(
     colors = np.array([rgb(color) for color in BANDS])
 
     def tint(points: Floats, items: Ints) -> Floats:
-        tinted: Floats = colors[np.searchsorted(edges, measure(points, items))]
-        return tinted
+        return colors[np.searchsorted(edges, measure(points, items))]
 
     render_meshes = [to_render_mesh(thing) for thing in things]
     layer = DrawLayer(render_meshes, np.tile(colors[0], (len(render_meshes), 1)), tint=tint)

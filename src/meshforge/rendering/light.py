@@ -42,8 +42,7 @@ def shade(colors: Floats, normals: Floats, camera: Camera, upright: Floats) -> F
 def _compress_highlights(linear: Floats) -> Floats:
     """Values above 0.8 are bent towards one, so that light faces keep their colour."""
     over = np.clip(linear - 0.8, 0, None)
-    limited: Floats = np.minimum(linear, 0.8) + 0.2 * (1 - np.exp(-over / 0.2))
-    return limited
+    return np.minimum(linear, 0.8) + 0.2 * (1 - np.exp(-over / 0.2))
 
 
 def measure_open_sky(scene: RayScene, points: Floats, normals: Floats, turn: Floats) -> Floats32:
@@ -102,8 +101,7 @@ def compute_openness(hits: RayHits, camera: Camera, rows: Ints, columns: Ints) -
 def dither_turns(rows: Ints, columns: Ints) -> Floats:
     """A turn in 0..1 for each cell: sixteen different ones in every block of four by four."""
     order = np.array([[0, 8, 2, 10], [12, 4, 14, 6], [3, 11, 1, 9], [15, 7, 13, 5]])
-    turns: Floats = order[rows % 4, columns % 4] / 16
-    return turns
+    return order[rows % 4, columns % 4] / 16
 
 
 def _smooth(grid: Floats32, facet: Ints) -> Floats32:
@@ -179,8 +177,7 @@ def _ground_points(frame: ViewFrame, camera: Camera, rows: Floats, columns: Floa
     origins, directions = camera.pixel_rays(columns, rows)
     fall = directions @ frame.upright
     depth = (frame.ground_height - origins @ frame.upright) / np.where(fall < -1e-3, fall, 1e-3)
-    points: Floats = origins + directions * depth[:, None]
-    return points
+    return origins + directions * depth[:, None]
 
 
 def _shadow_from_above(scene: RayScene, frame: ViewFrame) -> tuple[Floats32, Floats, float]:

@@ -180,8 +180,7 @@ def _item_centers(scene: RayScene) -> Floats:
     """The middle (m, 3) of the thing that each triangle belongs to."""
     count = np.maximum(np.bincount(scene.item), 1)
     sums = [np.bincount(scene.item, part) for part in scene.corners.mean(axis=1).T]
-    middles: Floats = (np.stack(sums, axis=1) / count[:, None])[scene.item]
-    return middles
+    return (np.stack(sums, axis=1) / count[:, None])[scene.item]
 
 
 def _corners_of(render_mesh: RenderMesh, center: Floats, unit: float) -> tuple[Floats, Floats]:

@@ -76,8 +76,7 @@ def _fit_box(points: Floats, box: Aabb) -> Floats:
     """Points scaled evenly and moved so that their box has the diagonal and the middle of another."""
     own = _box_of(points)
     scale = box.diagonal / own.diagonal if own.diagonal > 0 else 1.0
-    moved: Floats = (points - own.center) * scale + box.center
-    return moved
+    return (points - own.center) * scale + box.center
 
 
 def _box_distance(points: Floats, boxes: Sequence[Aabb]) -> float:

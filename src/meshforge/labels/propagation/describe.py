@@ -35,8 +35,7 @@ def find_up(mesh: SymbolicMesh) -> Floats:
     found = np.concatenate([axis[None], _flat_sides(mesh)])
     worth = _score(mesh, found) * np.exp(-((_to_degrees(found @ axis) / _FAR) ** 2))
     worth[0] += _STAYS
-    best: Floats = found[first_greatest(worth)]
-    return best
+    return found[first_greatest(worth)]
 
 
 def find_other_sides(mesh: SymbolicMesh, up: Floats, most: int) -> list[Floats]:
@@ -58,13 +57,11 @@ def _score(mesh: SymbolicMesh, directions: Floats) -> Floats:
     shares = areas / (areas.sum() or 1.0)
     lean = _to_degrees(np.abs(directions @ normals.T))
     level, plumb = (np.exp(-((angle / _SOFT) ** 2)) @ shares for angle in (lean, 90.0 - lean))
-    worth: Floats = level + _PLUMB * plumb
-    return worth
+    return level + _PLUMB * plumb
 
 
 def _to_degrees(cosines: Floats) -> Floats:
-    angles: Floats = np.degrees(np.arccos(np.clip(cosines, -1.0, 1.0)))
-    return angles
+    return np.degrees(np.arccos(np.clip(cosines, -1.0, 1.0)))
 
 
 def rotation_to_z(up: Floats) -> Floats:

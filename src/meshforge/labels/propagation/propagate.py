@@ -86,8 +86,7 @@ def correct_upright(family: FamilyTable, closer: Iterable[tuple[int, Sequence[Fl
 
 
 def _rows_with_labels(family: FamilyTable, metric: Floats) -> Floats:
-    found: Floats = family.rows[pick_evenly(family.labelled, _MOST_ROWS)] * metric
-    return found
+    return family.rows[pick_evenly(family.labelled, _MOST_ROWS)] * metric
 
 
 def _spans_of(family: FamilyTable) -> Iterator[tuple[int, slice]]:

@@ -103,8 +103,7 @@ class Landmarks:
 
     def directions(self, start: BaseExtractor, end: BaseExtractor) -> Floats:
         """From the centre of one landmark to that of another on each mesh (n, 3) [m]; NaN where one is missing."""
-        gap: Floats = self._centres[:, self.place(end)] - self._centres[:, self.place(start)]
-        return gap
+        return self._centres[:, self.place(end)] - self._centres[:, self.place(start)]
 
     def apart(self, start: BaseExtractor, end: BaseExtractor) -> Bools:
         """On which meshes both landmarks are present, and apart (n,)."""
@@ -137,8 +136,7 @@ def _centres(mesh: SymbolicMesh, vocabulary: Sequence[str]) -> Floats:
 
 def _centre(volumes: Floats, moments: Floats) -> Floats:
     total = float(volumes.sum())
-    centre: Floats = moments.sum(axis=0) / total if total > 0 else np.full(3, np.nan)
-    return centre
+    return moments.sum(axis=0) / total if total > 0 else np.full(3, np.nan)
 
 
 MIN_SAVING = 3

@@ -165,8 +165,7 @@ def _strangeness(field: ObservationTable, selections: Sequence[int]) -> Floats:
     far = cKDTree(rows[shown]).query(rows[first:])[0]
     known = {hulls[place].label for place in shown}
     foreign = np.array([hull.label not in known for hull in hulls[first:]])
-    squared: Floats = np.where(foreign, np.maximum(far, STRANGE_LABEL), far) ** 2
-    return squared
+    return np.where(foreign, np.maximum(far, STRANGE_LABEL), far) ** 2
 
 
 def _unpack(readings: Sequence[int], width: int) -> npt.NDArray[np.bool_]:

@@ -277,8 +277,7 @@ class QuestionValue:
 
 def _wrong_costs(differs: Floats) -> Floats:
     """What it costs to have one reading where another is meant, in demonstrations; differs: shares of assets."""
-    costs: Floats = np.where(differs > 0, 1 + UNSEEN_COST * (1 - differs) ** SAMPLE_SEEN, 0.0)
-    return costs
+    return np.where(differs > 0, 1 + UNSEEN_COST * (1 - differs) ** SAMPLE_SEEN, 0.0)
 
 
 def _number(column: Sequence[object]) -> list[int]:
