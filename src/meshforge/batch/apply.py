@@ -137,8 +137,7 @@ def _run_program(
     mesh, flags = replay_corrections(job.corrections, source, result.mesh, task.program, task.templates)
     draft = outputs.plan_draft(task, job, asset)
     if not task.options.dry_run:
-        known = labels.vocabulary or task.program.labels
-        draft = outputs.write_draft(draft, mesh, known, task.options)
+        draft = outputs.write_draft(draft, mesh, labels.vocabulary or task.program.labels, task.options)
     outcome = (Unchanged if _has_same_hulls(source, mesh) and not job.preparation else Edited)(
         asset=job.id,
         out=str(task.out / draft.main),
@@ -163,9 +162,8 @@ def _opaque_notes(asset: Asset) -> tuple[str, ...]:
 
 def _label_notes(followed: LabelTransfer) -> tuple[str, ...]:
     """What a person should know about labels that were given to another state of the asset."""
-    renamed = [f"{old} to {new}" for old, new in followed.renamed]
     kinds = (
-        ("labels followed renamed hulls", renamed),
+        ("labels followed renamed hulls", [f"{old} to {new}" for old, new in followed.renamed]),
         ("hulls changed since they were labelled", followed.changed),
         ("labels of hulls that are gone were left out", followed.gone),
     )

@@ -109,8 +109,7 @@ def _run_chunk(
 ) -> list[Result | WorkerFailure]:
     """Runs on a node, in a process of Ray's; the workers that it starts need not load Ray's main module first."""
     vars(sys.modules["__main__"]).pop("__file__", None)
-    options = ExecutionOptions(workers, timeout, memory or memory_share(workers))
-    return list(run_isolated(function, items, options))
+    return list(run_isolated(function, items, ExecutionOptions(workers, timeout, memory or memory_share(workers))))
 
 
 def _collect_chunk(ray: Any, task: Any, count: int) -> list[Any]:

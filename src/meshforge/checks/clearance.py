@@ -70,16 +70,6 @@ class Clearance:
 
     def to_json(self) -> dict[str, Any]:
         """The clearance as JSON-able data; volumes in litres, lengths in metres."""
-        regions = [
-            {
-                "kind": region.kind,
-                "litres": region.litres,
-                "min": region.bounds.min.tolist(),
-                "max": region.bounds.max.tolist(),
-                "hulls": list(region.hulls),
-            }
-            for region in self.regions
-        ]
         return {
             "reference": self.reference,
             "cell": self.cell,
@@ -87,7 +77,16 @@ class Clearance:
             "opened": self.opened,
             "layers": {"closed": self.layers[0], "opened": self.layers[1]},
             "with_doubled_cells": {"closed": self.doubled[0], "opened": self.doubled[1]},
-            "regions": regions,
+            "regions": [
+                {
+                    "kind": region.kind,
+                    "litres": region.litres,
+                    "min": region.bounds.min.tolist(),
+                    "max": region.bounds.max.tolist(),
+                    "hulls": list(region.hulls),
+                }
+                for region in self.regions
+            ],
         }
 
 
@@ -142,8 +141,7 @@ def _measure(mesh: SymbolicMesh, before: SymbolicMesh | None, corners: Floats, g
 def _build_region(kind: RegionKind, part: Mask, grid: Grid, mesh: SymbolicMesh) -> ClearanceRegion:
     cells = np.argwhere(part)
     low = grid.origin + cells.min(axis=0) * grid.cell
-    high = grid.origin + (cells.max(axis=0) + 1) * grid.cell
-    bounds = Aabb(low, high)
+    bounds = Aabb(low, grid.origin + (cells.max(axis=0) + 1) * grid.cell)
     hulls = (
         _find_fillers(part, grid, [h for h in mesh.hulls if _is_touching(h.aabb, bounds)]) if kind == "closed" else ()
     )

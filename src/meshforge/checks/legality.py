@@ -97,12 +97,11 @@ def check_legality(mesh: SymbolicMesh) -> tuple[frozenset[str], tuple[Finding, .
         if (names := faults[rule.name])
     ]
     faulty = frozenset(name for names in faults.values() for name in names)
-    sound = [hull for hull in mesh.hulls if hull.name not in faulty]
     return faulty, (
         *findings,
         *_check_names(mesh),
         *_check_bodies(mesh),
-        *_check_duplicates(sound),
+        *_check_duplicates([hull for hull in mesh.hulls if hull.name not in faulty]),
         *_report_opaque(mesh),
     )
 

@@ -76,6 +76,5 @@ def near_boxes(low: Floats, high: Floats, reach: float) -> list[tuple[int, int]]
         rows = slice(start, start + _ROWS_AT_ONCE)
         near = (low[:, rows, None] <= high[:, None, start:]) & (high[:, rows, None] >= low[:, None, start:])
         first, second = np.nonzero(near[0] & near[1] & near[2])
-        found = zip(first.tolist(), second.tolist(), strict=True)
-        pairs += [(i + start, j + start) for i, j in found if i < j]
+        pairs += [(i + start, j + start) for i, j in zip(first.tolist(), second.tolist(), strict=True) if i < j]
     return pairs

@@ -92,14 +92,12 @@ def _measure_box(local: Floats, axis: int) -> Floats:
     along = edges / np.maximum(np.linalg.norm(edges, axis=1, keepdims=True), np.finfo(float).tiny)
     across = np.column_stack([-along[:, 1], along[:, 0]])
     sides = np.stack([np.ptp(ring @ along.T, axis=0), np.ptp(ring @ across.T, axis=0)], axis=1)
-    best = sides[sides.prod(axis=1).argmin()]
-    return np.array([float(np.ptp(local[:, axis])), *best])
+    return np.array([float(np.ptp(local[:, axis])), *sides[sides.prod(axis=1).argmin()]])
 
 
 def _least_extent(points: Floats, extents: Floats) -> float:
     """Extents of the points that are no larger count as none [m]."""
-    rounding = 8 * np.finfo(float).eps * float(np.abs(points).max())
-    return max(_RANK * float(extents.max()), rounding, _SMALLEST)
+    return max(_RANK * float(extents.max()), 8 * np.finfo(float).eps * float(np.abs(points).max()), _SMALLEST)
 
 
 def _thicken(points: Floats, center: Floats, axes: Floats, thickness: float) -> Floats:

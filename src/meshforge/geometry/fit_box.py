@@ -129,8 +129,7 @@ def descend(objective: Callable[[Floats], Floats], starts: Floats, step: float) 
     steps = np.full(len(points), step)
     each = np.arange(len(points))
     for _ in range(_ROUNDS):
-        ways = scatter.normal(size=(_DIRECTIONS_TRIED, points.shape[1]))
-        tried = points[:, None] + steps[:, None, None] * ways
+        tried = points[:, None] + steps[:, None, None] * scatter.normal(size=(_DIRECTIONS_TRIED, points.shape[1]))
         found = objective(tried.reshape(-1, points.shape[1])).reshape(len(points), -1)
         best = np.argmin(found, axis=1)
         better = found[each, best] < values

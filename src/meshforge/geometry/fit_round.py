@@ -48,8 +48,7 @@ def tight_capsule(points: Floats, *, name: str = "points", thicken: float | None
     _, radii, lows, highs = _measure_capsules(everything, line[None])
     radius, low, high = float(radii[0]), float(lows[0]), float(highs[0])
     frame, along = _frame_of_axis(line[:3]), line[:3] / np.linalg.norm(line[:3])
-    foot = line[3:6] - along * (line[3:6] @ along)
-    origin = middle + size * (foot + along * ((low + high) / 2))
+    origin = middle + size * (line[3:6] - along * (line[3:6] @ along) + along * ((low + high) / 2))
     if high - low <= 1e-9:
         return Sphere(Pose.of_translation(origin), size * (radius + (high - low) / 2))
     return Capsule(Pose(frame.T, origin), size * radius, size * (high - low) / 2)
@@ -64,8 +63,7 @@ def _prepare(points: Floats, name: str, thicken: float | None) -> tuple[Floats, 
     middle = hull.aabb.center
     corners = hull.vertices - middle
     size = float(np.abs(corners).max())
-    everything = np.concatenate([points - middle, corners])
-    return corners / size, everything / size, middle, size, _candidate_axes(hull)
+    return corners / size, np.concatenate([points - middle, corners]) / size, middle, size, _candidate_axes(hull)
 
 
 def _candidate_axes(hull: Polytope) -> Floats:
@@ -84,8 +82,7 @@ def _minimize_volume(volumes: Callable[[Floats], Floats], corners: Floats, axes:
     """The arguments (count,) of the smallest volume: axis (3), a point on it (3), and what else there is."""
     lines = np.zeros((len(axes), count))
     lines[:, :3], lines[:, 3:6] = axes, _estimate_centers(corners, axes)
-    starts = lines[np.argsort(volumes(lines), kind="stable")[:_STARTS]]
-    return descend(volumes, starts, 0.03)
+    return descend(volumes, lines[np.argsort(volumes(lines), kind="stable")[:_STARTS]], 0.03)
 
 
 def _estimate_centers(corners: Floats, axes: Floats) -> Floats:
@@ -105,8 +102,7 @@ def _project_on_lines(corners: Floats, axes: Floats, centers: Floats) -> tuple[F
     units = axes / np.linalg.norm(axes, axis=1, keepdims=True)
     heights = units @ corners.T
     across = heights - np.einsum("ij,ij->i", units, centers)[:, None]
-    squares = np.square(corners[None] - centers[:, None]).sum(axis=2) - across**2
-    return heights, squares.clip(0.0)
+    return heights, (np.square(corners[None] - centers[:, None]).sum(axis=2) - across**2).clip(0.0)
 
 
 def _cylinder_volumes(corners: Floats, lines: Floats) -> Floats:

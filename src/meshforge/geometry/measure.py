@@ -26,8 +26,7 @@ def overlap_volume(a: Shape, b: Shape) -> float:
     if not a.aabb.intersects(b.aabb):
         return 0.0
     bounds = Aabb.union([a.aabb, b.aabb])
-    common = to_manifold(a, bounds) ^ to_manifold(b, bounds)
-    return max(0.0, float(common.volume())) * bounds.diagonal**3
+    return max(0.0, float((to_manifold(a, bounds) ^ to_manifold(b, bounds)).volume())) * bounds.diagonal**3
 
 
 def volume_of_union(shapes: Sequence[Shape]) -> float:
@@ -35,8 +34,7 @@ def volume_of_union(shapes: Sequence[Shape]) -> float:
     if not shapes:
         return 0.0
     bounds = Aabb.union(shape.aabb for shape in shapes)
-    solids = [to_manifold(shape, bounds) for shape in shapes]
-    whole = manifold3d.Manifold.batch_boolean(solids, manifold3d.OpType.Add)
+    whole = manifold3d.Manifold.batch_boolean([to_manifold(shape, bounds) for shape in shapes], manifold3d.OpType.Add)
     return float(whole.volume()) * bounds.diagonal**3
 
 
@@ -50,8 +48,7 @@ def to_manifold(shape: Shape, bounds: Aabb) -> Any:
             fine = _tessellate(shape)
             grown = np.cbrt(shape.volume / fine.volume())  # of equal volume, it errs to both sides of the surface
             linear = shape.pose.rotation * (grown / bounds.diagonal)
-            offset = (shape.pose.translation - bounds.center) / bounds.diagonal
-            return fine.transform(np.column_stack([linear, offset]))
+            return fine.transform(np.column_stack([linear, (shape.pose.translation - bounds.center) / bounds.diagonal]))
         case _:
             raise TypeError(f"no solid of a shape of kind {shape.kind}")
 
@@ -84,8 +81,7 @@ def _revolve_capsule(radius: float, half_length: float) -> Any:
     angle = np.linspace(0.0, np.pi / 2, _SEGMENTS // 4 + 1)
     dome = np.column_stack([radius * np.cos(angle), radius * np.sin(angle) + half_length])
     dome[-1, 0] = 0.0
-    outline = np.concatenate([dome[::-1] * [1.0, -1.0], dome])
-    return manifold3d.CrossSection([outline]).revolve(_SEGMENTS)
+    return manifold3d.CrossSection([np.concatenate([dome[::-1] * [1.0, -1.0], dome])]).revolve(_SEGMENTS)
 
 
 def inertia(shapes: Sequence[Shape], mass: float, centre: Floats | None = None) -> tuple[Floats, Floats]:
@@ -136,8 +132,7 @@ def _moment_of_rod(radius: float, half: float) -> Floats:
 
 def _moment_of_capsule(radius: float, half: float) -> Floats:
     """The moments of a cylinder and the halves of a ball on its ends, their centroids 3/8 of the radius above these."""
-    along = half**2 + 3 / 4 * half * radius + radius**2 / 5
-    ends = np.array([radius**2 / 5, radius**2 / 5, along])
+    ends = np.array([radius**2 / 5, radius**2 / 5, half**2 + 3 / 4 * half * radius + radius**2 / 5])
     share = half / (half + 2 / 3 * radius)  # of the volume, that of the cylinder
     return np.asarray(share * _moment_of_rod(radius, half) + (1 - share) * ends)
 

@@ -64,8 +64,7 @@ def group_evidence(
     groups: dict[tuple[str | None, str, bool], list[LabelEvidence]] = {}
     for one in found:
         unsure = one.label is not None and one.label.confidence < UNSURE
-        name = one.label.name if one.label else None
-        groups.setdefault((name, one.kind, unsure), []).append(one)
+        groups.setdefault((one.label.name if one.label else None, one.kind, unsure), []).append(one)
     rows = [_summarize_group(key[0], key[1], group) for key, group in groups.items()]
     order = {label: k for k, label in enumerate(vocabulary)}
     rows.sort(key=lambda row: (order.get(row.label or "", len(order)), row.is_unsure, -row.hulls, row.kind))
@@ -81,8 +80,7 @@ def _summarize_group(label: str | None, kind: str, group: Sequence[LabelEvidence
     names = Counter(one.name for one in group)
     sure = list(_confidences(group)) or [0.0]
     ordered = sorted(names, key=lambda name: (-names[name], name))
-    assets = len({one.asset for one in group})
-    return Proposal(label, kind, tuple(ordered), len(group), assets, min(sure), max(sure))
+    return Proposal(label, kind, tuple(ordered), len(group), len({one.asset for one in group}), min(sure), max(sure))
 
 
 def _confidences(group: Iterable[LabelEvidence]) -> Iterator[float]:

@@ -128,5 +128,4 @@ def _fold_angles(angles: Floats) -> Floats:
 
 def _rectangle_area(outline: Floats, turn: float) -> float:
     cosine, sine = np.cos(turn), np.sin(turn)
-    turned = outline @ np.array([[cosine, sine], [-sine, cosine]])
-    return float(np.prod(np.ptp(turned, axis=0)))
+    return float(np.prod(np.ptp(outline @ np.array([[cosine, sine], [-sine, cosine]]), axis=0)))

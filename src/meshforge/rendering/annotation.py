@@ -138,8 +138,7 @@ def _draw_scale(draw: Any, size: tuple[int, int], top: int) -> None:
     draw.text((x, top + high / 2), "unsure", fill=FAINT, font=font(small), anchor="lm")
     x += round(52 * u)
     for k in range(length):
-        color = hexadecimal(confidence_color(k / max(length - 1, 1)))
-        draw.line((x + k, top, x + k, top + high), fill=color)
+        draw.line((x + k, top, x + k, top + high), fill=hexadecimal(confidence_color(k / max(length - 1, 1))))
     draw.text((x + length + 8 * u, top + high / 2), "certain", fill=FAINT, font=font(small), anchor="lm")
 
 

@@ -30,8 +30,7 @@ _SOFTNESS = 1.2  # blur in cells, enough to hide the pattern of turns
 
 def shade(colors: Floats, normals: Floats, camera: Camera, upright: Floats) -> Floats32:
     """The colours (n, 3), sRGB in 0..1, of surfaces with such normals (n, 3); double-sided."""
-    facing = np.where(normals @ camera.axes[2] < 0, -1.0, 1.0)
-    normals = normals * facing[:, None]
+    normals = normals * np.where(normals @ camera.axes[2] < 0, -1.0, 1.0)[:, None]
     key, fill = (np.clip(normals @ (d @ camera.axes / np.linalg.norm(d)), 0, None) for d in (_KEY, _FILL))
     sky = 0.5 + 0.5 * normals @ upright
     strength = 0.52 + 0.28 * sky + 0.44 * key + 0.14 * fill
@@ -78,8 +77,7 @@ def _measure_free_share(
 
 def _tangents(normals: Floats) -> tuple[Any, Any]:
     """Two unit vectors square to each normal (n, 3) and to each other."""
-    helper = np.where(np.abs(normals[:, :1]) < 0.7, [[1.0, 0.0, 0.0]], [[0.0, 1.0, 0.0]])
-    first = np.cross(normals, helper)
+    first = np.cross(normals, np.where(np.abs(normals[:, :1]) < 0.7, [[1.0, 0.0, 0.0]], [[0.0, 1.0, 0.0]]))
     first /= np.linalg.norm(first, axis=1, keepdims=True)
     return first, np.cross(normals, first)
 
@@ -128,8 +126,7 @@ def _upsample(grid: Floats32, coarse: Ints, hits: RayHits, rows: Ints, columns: 
     for r, rw in _interpolation_taps(rows, grid.shape[0]):
         for c, cw in _interpolation_taps(columns, grid.shape[1]):
             cell = r * grid.shape[1] + c
-            alike = (facets.take(cell) == facet) + np.float32(0.02) * (items.take(cell) == item)
-            weight = alike * rw * cw
+            weight = ((facets.take(cell) == facet) + np.float32(0.02) * (items.take(cell) == item)) * rw * cw
             total += weight * grid.take(cell)
             weights += weight
     return np.where(weights > 1e-5, total / weights, np.float32(1.0))

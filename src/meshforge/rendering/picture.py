@@ -142,8 +142,7 @@ def _split_room(room: tuple[int, int, int, int], count: int) -> list[tuple[int, 
 
     def unfit(columns: int) -> float:
         rows = -(-count // columns)
-        shape = (right - left) / columns / ((bottom - top) / rows)
-        return abs(math.log(shape / 1.25)) + 0.3 * (rows * columns - count)
+        return abs(math.log((right - left) / columns / ((bottom - top) / rows) / 1.25)) + 0.3 * (rows * columns - count)
 
     columns = min(range(1, count + 1), key=unfit)
     rows = -(-count // columns)

@@ -171,11 +171,10 @@ class LearningRun:
         nearest, repairs = _to_nearest(spec.number, miss.nearest), self._repairs.repairs
         if repairs:
             return outcome.NeedsRepair(repairs=repairs, nearest=nearest, **self._common_fields())
-        answered = self._replays.assets_with_answers(spec.number)
         return outcome.NoProgram(
             why=miss.why,
             nearest=nearest,
-            advice=give_advice(miss.nearest, examples, answered),
+            advice=give_advice(miss.nearest, examples, self._replays.assets_with_answers(spec.number)),
             suggested=self._suggest_orientation(),
             **self._common_fields(),
         )
@@ -197,14 +196,12 @@ class LearningRun:
             return None
 
     def _program(self) -> Program:
-        rules = tuple(learned.rule for learned in self._learned)
-        return replace(self._task.frame, rules=rules)
+        return replace(self._task.frame, rules=tuple(learned.rule for learned in self._learned))
 
     def _record_effort(self, spec: RuleSpec, tried: SearchEffort) -> None:
         self._tried = [*self._tried[: spec.number - 1], tried]
 
     def _common_fields(self) -> _OutcomeFields:
-        elapsed = self._budget.elapsed
         return {
             "rules": tuple(learned.rule for learned in self._learned),
             "readings": tuple(
@@ -213,7 +210,7 @@ class LearningRun:
                 for reading in _list_readings(number, learned.readings, learned.names)
             ),
             "tried": tuple(self._tried),
-            "seconds": {"search": self._searching, "replay": elapsed - self._searching},
+            "seconds": {"search": self._searching, "replay": self._budget.elapsed - self._searching},
             "stale": self._replays.stale,
             "followed": tuple(self._followed),
         }

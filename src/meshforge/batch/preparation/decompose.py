@@ -94,8 +94,7 @@ def _decompose_source(
 ) -> tuple[record.Replacement, list[Polytope]]:
     notes: list[str] = []
     hulls = decompose_surface(source.surface, settings, source.what, hollow=hollow, cache=cache, note=notes.append)
-    names = record.free_names(source.base, len(hulls), taken)
-    made = dict(zip(names, map(record.hull_digest, hulls), strict=True))
+    made = dict(zip(record.free_names(source.base, len(hulls), taken), map(record.hull_digest, hulls), strict=True))
     remarks = "; ".join([describe_fit(source.surface, hulls, solid=source.kind == "opaque" and not hollow), *notes])
     return record.Replacement(source.what, source.kind, record.surface_digest(source.surface), made, remarks), hulls
 

@@ -106,8 +106,7 @@ def _add_step(
     notes: Sequence[str],
 ) -> record.Preparation:
     taken = {*(g.name for g in asset.geoms), *(o.name for o in asset.opaque), *before.hull_digests}
-    names = record.free_names(geom.name, len(parts), taken)
-    made = dict(zip(names, map(record.hull_digest, parts), strict=True))
+    made = dict(zip(record.free_names(geom.name, len(parts), taken), map(record.hull_digest, parts), strict=True))
     description = "; ".join([pluralize(len(parts), "hull"), *notes])
     entry = record.Replacement(geom.name, "hull", digest(geom.shape), made, description)
     return before.with_step(record.PreparationStep(step.do, step.settings, step.software, (entry,)), parts)

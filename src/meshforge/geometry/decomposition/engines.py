@@ -222,8 +222,7 @@ def unpack_pieces(content: bytes) -> list[EnginePiece]:
     ends = np.cumsum(counts.reshape(-1, 2), axis=0)
     if (len(vertices), len(faces)) != tuple(ends[-1] if len(ends) else (0, 0)):
         raise ValueError("counts do not add up")
-    starts = ends - counts
     return [
         (vertices[v0:v1].astype(np.float64), faces[f0:f1].astype(np.int64))
-        for (v0, f0), (v1, f1) in zip(starts, ends, strict=True)
+        for (v0, f0), (v1, f1) in zip(ends - counts, ends, strict=True)
     ]

@@ -80,11 +80,9 @@ def _count_open_edges(faces: Ints) -> int:
 def cap_holes(mesh: TriangleMesh) -> tuple[TriangleMesh, int]:
     """The mesh with caps on its holes, and how many these were; 0 where caps on planar holes alone do not close it."""
     loops = _find_loops(mesh.faces) if mesh.open_edges else []
-    level = _LEVEL * mesh.diagonal
-    groups = _group_by_plane([mesh.vertices[loop] for loop in loops], level)
+    groups = _group_by_plane([mesh.vertices[loop] for loop in loops], _LEVEL * mesh.diagonal)
     if loops and groups:
-        caps = [_make_cap(mesh.vertices, [loops[k] for k in group]) for group in groups]
-        faces = np.concatenate([mesh.faces, *caps])
+        faces = np.concatenate([mesh.faces, *[_make_cap(mesh.vertices, [loops[k] for k in group]) for group in groups]])
         if is_closed(faces):
             return TriangleMesh(mesh.vertices, faces, 0), len(loops)
     return mesh, 0

@@ -207,6 +207,5 @@ def _to_file_labels(
         if meaning is None:
             odd[name] += 1
         elif meaning.label and vote:
-            sure = round(vote.confidence * meaning.sure, _DIGITS)
-            labels[hull.name] = Label(meaning.label, sure, "file")
+            labels[hull.name] = Label(meaning.label, round(vote.confidence * meaning.sure, _DIGITS), "file")
     return FileLabels(labels, names, [describe_unknown_class(name, count, vocabulary) for name, count in odd.items()])

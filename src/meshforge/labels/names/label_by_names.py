@@ -174,8 +174,7 @@ def label_from_names(
 def require_patterns(store: Store, vocabulary: Sequence[str], meanings: PatternPairs) -> tuple[NamePattern, ...]:
     """The patterns that say what names mean. Raises ProjectError: no vocabulary; UsageError: a wrong pattern."""
     if not vocabulary:
-        remedy = "Say first what hulls can be."
-        raise ProjectError("the vocabulary is empty", where=str(store.folder), remedy=remedy)
+        raise ProjectError("the vocabulary is empty", where=str(store.folder), remedy="Say first what hulls can be.")
     return name_patterns(store.folder, store.settings, vocabulary, meanings)
 
 

@@ -73,8 +73,7 @@ def places() -> frozenset[str]:
 
 @cache
 def _read_words(file: str) -> frozenset[str]:
-    text = files("meshforge.labels.names").joinpath(file).read_text(encoding="utf-8")
-    return frozenset(text.split())
+    return frozenset(files("meshforge.labels.names").joinpath(file).read_text(encoding="utf-8").split())
 
 
 def split_joined_word(word: str, more: Collection[str]) -> Words:

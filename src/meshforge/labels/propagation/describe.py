@@ -141,7 +141,6 @@ def describe_shapes(whole: WholeShape, volumes: Floats) -> Floats:
     away = np.linalg.norm(aside, axis=1)
     outward = aside / np.maximum(away, _LEAST * size)[:, None]
     outward = axes_along(np.pad(outward, ((0, 0), (0, 1))), spread, axes)
-    upward = axes_along(np.broadcast_to([0.0, 0.0, 1.0], outward.shape), spread, axes)
     return np.column_stack(
         [
             np.log(volumes / size**3) / 3,
@@ -150,7 +149,7 @@ def describe_shapes(whole: WholeShape, volumes: Floats) -> Floats:
             np.log(np.maximum(high - low, _LEAST * size) / size),
             ((low + high) / 2 - whole.foot) / whole.tall,
             away / size,
-            upward,
+            axes_along(np.broadcast_to([0.0, 0.0, 1.0], outward.shape), spread, axes),
             (spread[:, 0] - spread[:, 1]) / spread[:, 0],
             (spread[:, 1] - spread[:, 2]) / spread[:, 0],
             spread[:, 2] / spread[:, 0],
@@ -211,14 +210,13 @@ def _describe_counts(own: Floats, touching: Floats, volumes: Floats) -> Floats:
     look = own[:, _LOOK_COLUMNS]
     alike = np.exp(-cdist(look, look, "sqeuclidean") / _ALIKE**2).sum(axis=1) - 1
     shares = np.maximum(volumes, 1e-12 * volumes.max() + 1e-300)
-    rank = share_ranks(volumes) / max(1, count - 1)
     columns = [
         np.log1p(alike),
         np.log1p(touching.sum(axis=1)),
         np.full(count, np.log(count)),
         np.log(shares / shares.max()),
         np.log(shares / shares.sum()),
-        rank,
+        share_ranks(volumes) / max(1, count - 1),
     ]
     return np.stack(columns, axis=1)
 

@@ -181,8 +181,7 @@ class _Findings:
 
     def labels_of(self, asset: str) -> dict[str, Label]:
         """The labels of an asset, by hull."""
-        rows = zip(self.hulls[asset], self.found.labels(asset), strict=True)
-        return {name: label for name, label in rows if label}
+        return {name: label for name, label in zip(self.hulls[asset], self.found.labels(asset), strict=True) if label}
 
 
 def _compare_assets(store: Store, vocabulary: Sequence[str], execution: ExecutionOptions, stage: Stage) -> _Findings:

@@ -203,8 +203,7 @@ def build_family(seen: Sequence[tuple[Floats, Ints]]) -> FamilyTable:
     """A family without any label yet; seen: `rows` and `touching` of the descriptor of each mesh."""
     rows = np.concatenate([np.zeros((0, ROW_WIDTH)), *(own for own, _ in seen)])
     sizes = np.array([len(own) for own, _ in seen], dtype=np.int64)
-    starts = np.cumsum(sizes) - sizes
-    pairs = (touching + start for (_, touching), start in zip(seen, starts, strict=True))
+    pairs = (touching + start for (_, touching), start in zip(seen, np.cumsum(sizes) - sizes, strict=True))
     scale = label_model.ColumnScale.of(rows)
     return FamilyTable(
         scale(rows),

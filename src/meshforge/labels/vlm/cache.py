@@ -128,8 +128,7 @@ def write_page(folder: Path, name: str, answers: VlmAnswers) -> Path:
     pictures = relative_name(folder / "pictures", path.parent)
     body = [f"<h1>{escape(name)}</h1>", *_label_rows(answers)]
     for number, digest in enumerate(answers.asked, 1):
-        file = folder / "answers" / f"{digest}.json"
-        body += [f"<h2>Question {number}</h2>", *_format_question(file, pictures)]
+        body += [f"<h2>Question {number}</h2>", *_format_question(folder / "answers" / f"{digest}.json", pictures)]
     head = f'<meta charset="utf-8"><title>{escape(name)}</title><style>{_STYLE}</style>'
     write_atomically(path, f'<!doctype html>\n<html lang="en">{head}\n' + "\n".join(body) + "\n</html>\n")
     return path

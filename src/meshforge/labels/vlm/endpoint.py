@@ -146,5 +146,4 @@ class TokenCount:
     estimated: bool = False
 
     def __add__(self, other: TokenCount) -> TokenCount:
-        estimated = self.estimated or other.estimated
-        return TokenCount(self.input + other.input, self.output + other.output, estimated)
+        return TokenCount(self.input + other.input, self.output + other.output, self.estimated or other.estimated)

@@ -42,8 +42,7 @@ def draw_assets(
 ) -> Generator[tuple[str, AssetQuestions], None, None]:
     """All assets of a project, in their order, as soon as they are drawn; some are drawn ahead of the others."""
     assets = store.assets()
-    items = list(zip(assets, store.asset_files(assets), strict=True))
-    work = execute(partial(_draw, config), items, execution)
+    work = execute(partial(_draw, config), list(zip(assets, store.asset_files(assets), strict=True)), execution)
     try:
         for asset, found in zip(assets, work, strict=True):
             yield (

@@ -215,8 +215,7 @@ def build_questions(
     name: that of the asset, which the model is given where the config says so.
     """
     mode = config.picture_mode
-    names = [hull.name for hull in mesh.hulls]
-    for group in _group_names(names, mode.hulls):
+    for group in _group_names([hull.name for hull in mesh.hulls], mode.hulls):
         if set(group).isdisjoint(wanted):
             continue
         pictures = draw_labeling_pictures(mesh, hulls=group, most=mode.pictures, size=mode.size)

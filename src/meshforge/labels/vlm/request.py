@@ -177,10 +177,9 @@ def probe_features(send: Callable[[VlmQuestion, ServerFeatures], Reply]) -> Serv
 @cache
 def probe_question(with_picture: bool) -> VlmQuestion:
     """Which colour is this? Asked so that only a schema makes the answer JSON."""
-    colour = {"type": "string", "enum": list(_COLOURS)}
     schema = {
         "type": "object",
-        "properties": {"colour": colour},
+        "properties": {"colour": {"type": "string", "enum": list(_COLOURS)}},
         "required": ["colour"],
         "additionalProperties": False,
     }

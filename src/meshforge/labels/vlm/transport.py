@@ -102,8 +102,7 @@ def _parse_tokens(data: Any) -> tuple[Token, ...] | None:
     """The tokens with their chances, None where there are none or one is not of the usual form."""
     match data:
         case {"content": [_, *_] as rows}:
-            made = [_parse_token(row) for row in rows]
-            tokens = tuple(token for token in made if token)
+            tokens = tuple(token for token in [_parse_token(row) for row in rows] if token)
             return tokens if len(tokens) == len(rows) else None
     return None
 
@@ -217,8 +216,7 @@ def _make_client(endpoint: Endpoint, key: str) -> OpenAI:
 
 def _error_text(error: APIStatusError) -> str:
     """The server's own words, in one line."""
-    found = _error_message(error.body)
-    words = " ".join((found or str(error.body or error.message)).split())
+    words = " ".join((_error_message(error.body) or str(error.body or error.message)).split())
     return words if len(words) <= _LONG else f"{words[:_LONG]} ..."
 
 

@@ -86,12 +86,11 @@ class LabelingCanvas:
         if plain is None:
             plain = self._draw_page(arrangement, hits, np.tile(NEUTRAL, (len(colors), 1)), camera, drawing, faint)
         hulls = subject.mesh.hulls
-        counts = count_pixels(items, len(hulls)).tolist()
         return LabelingPicture(
             arrangement.describe(view),
             marked,
             to_square_image(plain, self.size, top),
-            {hull.name: n for hull, n in zip(hulls, counts, strict=True)},
+            {hull.name: n for hull, n in zip(hulls, count_pixels(items, len(hulls)).tolist(), strict=True)},
             frozenset(hulls[k].name for k in numbered),
         )
 

@@ -143,8 +143,7 @@ class Arrangement:
     @staticmethod
     def explode(subject: LabelingSubject, push: float) -> Arrangement:
         """All hulls, pushed away from the middle of all."""
-        every = tuple(range(len(subject.render_meshes)))
-        moved = Arrangement(subject, every, subject.points, push)
+        moved = Arrangement(subject, tuple(range(len(subject.render_meshes))), subject.points, push)
         return replace(moved, frame=np.concatenate([s.vertices for s in moved.render_meshes]))
 
     def describe(self, view: View) -> str:

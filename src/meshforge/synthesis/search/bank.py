@@ -141,5 +141,4 @@ def _transpose(rows: Sequence[int], width: int) -> list[int]:
     size = (width + 7) // 8
     packed = np.frombuffer(b"".join(row.to_bytes(size, "little") for row in rows), np.uint8).reshape(len(rows), size)
     table = np.unpackbits(packed, axis=1, count=width, bitorder="little")
-    columns = np.packbits(table.T, axis=1, bitorder="little")
-    return [int.from_bytes(column.tobytes(), "little") for column in columns]
+    return [int.from_bytes(column.tobytes(), "little") for column in np.packbits(table.T, axis=1, bitorder="little")]

@@ -120,8 +120,7 @@ class Search:
             wrong = (self.field.bits(extractor) ^ self.need) & ((1 << self.width) - 1)
             if not wrong:
                 return Hit(extractor, self.tried)
-            refuting = list(positions(wrong))[:_MAX_COUNTEREXAMPLES]
-            self.decisive = tuple(sorted({*self.decisive, *refuting}))
+            self.decisive = tuple(sorted({*self.decisive, *list(positions(wrong))[:_MAX_COUNTEREXAMPLES]}))
 
     def _find_smallest(self) -> Extractor | None:
         """The first extractor that is right on the decisive groups."""
