@@ -1,6 +1,5 @@
 """What a check finds; what every hull and every mesh must be, whatever the engine; and what is legal but odd: slivers,
-oblong hulls, hulls inside of others, pairs that overlap or gape.
-"""
+oblong hulls, hulls inside of others, pairs that overlap or gape."""
 
 from __future__ import annotations
 

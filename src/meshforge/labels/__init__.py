@@ -8,10 +8,9 @@ from meshforge.labels.label_store import LabelStore
 from meshforge.labels.merge import LabelOutcome, OutcomeCallback, label_new_hulls
 from meshforge.labels.names.label_by_names import PatternPairs
 from meshforge.labels.offers import LabelOffers, OfferCache
-from meshforge.labels.progress import SourceTally, Tally
 from meshforge.labels.propagation.label_by_propagation import PropagationResult, Stage
 from meshforge.labels.propagation.propagate import FamilyPosterior, Propagator, propagate
-from meshforge.labels.propose import Proposal, Proposals
+from meshforge.labels.summary import Proposal, Proposals, SourceTally, Tally
 from meshforge.labels.vlm.endpoint import Endpoint, endpoint_of
 from meshforge.labels.vlm.label_by_vlm import VlmForecast, VlmResult, check_vlm_settings
 from meshforge.labels.vlm.limits import Usage

@@ -13,10 +13,9 @@ from meshforge.labels.from_files.read import LabelFileOptions
 from meshforge.labels.merge import LabelOutcome, OutcomeCallback, ignore_report, set_labels
 from meshforge.labels.names.label_by_names import PatternPairs, label_from_names, propose_from_names
 from meshforge.labels.offers import LabelOffers, OfferCache
-from meshforge.labels.progress import Tally, describe_label_plan, tally, write_contact_sheets
 from meshforge.labels.propagation import label_by_propagation
 from meshforge.labels.propagation.label_by_propagation import PropagationResult, Stage, WriteBlock, ignore_stage
-from meshforge.labels.propose import Proposals
+from meshforge.labels.summary import Proposals, Tally, describe_label_plan, tally, write_contact_sheets
 from meshforge.labels.vlm.label_by_vlm import VlmForecast, VlmResult, forecast_vlm, label_with_vlm
 from meshforge.labels.vlm.limits import Usage
 from meshforge.store import Store, VlmSettings

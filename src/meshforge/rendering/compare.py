@@ -1,6 +1,5 @@
 """Pictures of an edit, before and after under one camera; and of measurements: surfaces in bands of colour, and
-parts of space within pale hulls.
-"""
+parts of space within pale hulls."""
 
 from __future__ import annotations
 

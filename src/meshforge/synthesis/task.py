@@ -1,6 +1,5 @@
 """All that a program is learned from, and its demonstrations replayed: the mesh as each rule meets it, after all rules
-before it.
-"""
+before it."""
 
 from __future__ import annotations
 
@@ -13,8 +12,7 @@ from meshforge import language
 from meshforge.common import DemonstrationError, MeshForgeError, nearest_name
 from meshforge.symbolic import Label, SymbolicMesh, mask_of, split_by_contact
 from meshforge.synthesis.demonstration import Demonstration, Example, RuleSpec, name_demonstrations
-from meshforge.synthesis.options import Options
-from meshforge.synthesis.questions import Answer, LabelCorrection
+from meshforge.synthesis.options import Answer, LabelCorrection, Options
 
 Batch = Mapping[str, SymbolicMesh]
 """Meshes by the names that questions and readings call them."""

@@ -1,6 +1,5 @@
 """The mechanism of a mesh: which body hangs on which as MuJoCo takes it, which hulls may touch and how they rub, and
-whether the masses and inertias in its file can be those of its bodies.
-"""
+whether the masses and inertias in its file can be those of its bodies."""
 
 from __future__ import annotations
 

@@ -1,6 +1,5 @@
 """Decomposition engines: the settings of each, one field an option, and each run in a process of its own: it can be
-stopped at once, and a crash in C++ becomes an error.
-"""
+stopped at once, and a crash in C++ becomes an error."""
 
 from __future__ import annotations
 

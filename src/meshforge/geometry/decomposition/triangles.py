@@ -14,12 +14,11 @@ import manifold3d
 import numpy as np
 
 from meshforge.common import GeometryError
-from meshforge.geometry.aabb import Aabb
-from meshforge.geometry.arrays import Floats, Ints, freeze_floats, freeze_ints
+from meshforge.geometry.arrays import Aabb, Floats, Ints, freeze_floats, freeze_ints
 from meshforge.geometry.connectivity import edges_of
 from meshforge.geometry.convex import FLATNESS, convex_hull, principal_extents, spans_volume
-from meshforge.geometry.cut import intersect
 from meshforge.geometry.shape import Box, Polytope, volume_and_centroid
+from meshforge.geometry.solids import intersect
 from meshforge.geometry.surface import is_closed
 
 _FLAT = 1e-7  # an extent below this share of the largest spans no volume

@@ -12,7 +12,7 @@ from meshforge.labels import merge
 from meshforge.labels.from_files import read
 from meshforge.labels.from_files.points import class_names_in_file
 from meshforge.labels.names.label_by_names import name_patterns
-from meshforge.labels.propose import LabelEvidence, Proposals, group_evidence
+from meshforge.labels.summary import LabelEvidence, Proposals, group_evidence
 from meshforge.store import Store
 from meshforge.symbolic import Label, match_labels, read_labels
 

@@ -1,6 +1,5 @@
 """Labels out of segmented points and meshes: what the classes of other tools and datasets mean in the vocabulary of a
-project, and each hull as what most of the points are that it holds.
-"""
+project, and each hull as what most of the points are that it holds."""
 
 from __future__ import annotations
 

@@ -13,7 +13,7 @@ from meshforge.batch import SETTINGS, ExecutionOptions
 from meshforge.common import MeshForgeError, ProjectError, UsageError, nearest_name
 from meshforge.labels.merge import LabelOutcome, LabelWriter, OutcomeCallback, can_fill_gap
 from meshforge.labels.names.words import UNSURE, match_label
-from meshforge.labels.propose import LabelEvidence, Proposals, group_evidence
+from meshforge.labels.summary import LabelEvidence, Proposals, group_evidence
 from meshforge.store import AssetFacts, Settings, Store, iterate_survey
 from meshforge.symbolic import Label, Mentions, SymbolicMesh, match_labels
 

@@ -14,7 +14,7 @@ from meshforge.label_model import FamilyTable, reference_label
 from meshforge.labels.merge import LabelOutcome, LabelWriter, OutcomeCallback, can_replace_less_certain
 from meshforge.labels.propagation import propagate
 from meshforge.labels.propagation.descriptor_cache import DescriptorCache
-from meshforge.labels.propose import LabelEvidence, Proposals, group_evidence
+from meshforge.labels.summary import LabelEvidence, Proposals, group_evidence
 from meshforge.store import AssetFacts, Store, survey
 from meshforge.symbolic import Label, LabelFile, match_labels
 

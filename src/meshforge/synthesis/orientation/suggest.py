@@ -1,6 +1,5 @@
 """Looks for the orientation under which every rule has an extractor, and the extractors are smallest, among the
-directives that a person would rather have first.
-"""
+directives that a person would rather have first."""
 
 from __future__ import annotations
 

@@ -12,8 +12,7 @@ from meshforge.language import Extractor
 from meshforge.symbolic import SymbolicMesh, mask_of
 from meshforge.synthesis.demonstration import Example
 from meshforge.synthesis.options import Options, OutOfTime, TimeBudget
-from meshforge.synthesis.search.bank import Bank, positions
-from meshforge.synthesis.search.completion import Completion, Goal
+from meshforge.synthesis.search.bank import Bank, Completion, Goal, positions
 from meshforge.synthesis.search.observation_table import ObservationTable
 from meshforge.synthesis.search.terms import Term
 
