@@ -4,7 +4,6 @@ from meshforge.checks.engines import ENGINES, find_engine
 from meshforge.checks.examination import CheckOptions, Examination, check, draw_examination, examine_mesh
 from meshforge.checks.fix import FixResult, fix
 from meshforge.checks.legality import Finding, Severity
-from meshforge.checks.physics.simulation import Physics
 
 __all__ = [
     "ENGINES",
@@ -12,7 +11,6 @@ __all__ = [
     "Examination",
     "Finding",
     "FixResult",
-    "Physics",
     "Severity",
     "check",
     "draw_examination",

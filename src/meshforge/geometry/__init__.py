@@ -21,15 +21,7 @@ from meshforge.geometry.pose import (
 from meshforge.geometry.round_shapes import Capsule, Cylinder, Ellipsoid, Sphere
 from meshforge.geometry.shape import Box, Polytope, Shape, digest, is_same_shape
 from meshforge.geometry.simplify import Enclosure, HullBudget, enclose
-from meshforge.geometry.solids import (
-    cut,
-    inertia,
-    intersect,
-    overlap_volume,
-    partition,
-    principal_axes,
-    volume_of_union,
-)
+from meshforge.geometry.solids import cut, inertia, overlap_volume, partition, principal_axes, volume_of_union
 from meshforge.geometry.surface import (
     LEVEL,
     is_closed,
@@ -79,7 +71,6 @@ __all__ = [
     "freeze_floats",
     "freeze_ints",
     "inertia",
-    "intersect",
     "is_closed",
     "is_convex",
     "is_line",

@@ -17,6 +17,7 @@ from meshforge.symbolic.asset import (
 )
 from meshforge.symbolic.descriptor import DESCRIPTOR_NAMES, descriptors
 from meshforge.symbolic.features import PRIMITIVE_FEATURES, Feature, FeatureKind, features_of
+from meshforge.symbolic.hull import GIVEN_SOURCES, HUMAN_SOURCES, LABEL_SOURCES, Hull, Label, LabelSource
 from meshforge.symbolic.label_file import (
     LabelFile,
     LabelTransfer,
@@ -26,21 +27,7 @@ from meshforge.symbolic.label_file import (
     transfer_labels,
     write_labels,
 )
-from meshforge.symbolic.mesh import (
-    EPSILON,
-    GIVEN_SOURCES,
-    HUMAN_SOURCES,
-    LABEL_SOURCES,
-    NEAR_MISS,
-    Hull,
-    Label,
-    LabelSource,
-    SymbolicMesh,
-    bits_of,
-    mask_of,
-    split_by_body,
-    split_by_contact,
-)
+from meshforge.symbolic.mesh import EPSILON, NEAR_MISS, SymbolicMesh, bits_of, mask_of, split_by_body, split_by_contact
 
 __all__ = [
     "DESCRIPTOR_NAMES",

@@ -13,7 +13,8 @@ from typing import Any
 
 from meshforge.common import AssetError, nearest_name, write_atomically
 from meshforge.geometry import digest
-from meshforge.symbolic.mesh import LABEL_SOURCES, Label, SymbolicMesh
+from meshforge.symbolic.hull import LABEL_SOURCES, Label
+from meshforge.symbolic.mesh import SymbolicMesh
 
 _REMEDY = 'Expected {"vocabulary": [label, …], "hulls": {name: {"label", "confidence", "source", "digest"}}}.'
 

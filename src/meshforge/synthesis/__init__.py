@@ -16,7 +16,7 @@ from meshforge.synthesis.outcome import (
     outcome_to_json,
 )
 from meshforge.synthesis.readings.rank import BELIEVABLE
-from meshforge.synthesis.task import Replay, advance, begin_replay, memoize
+from meshforge.synthesis.task import advance, begin_replay, memoize
 
 __all__ = [
     "BELIEVABLE",
@@ -37,7 +37,6 @@ __all__ = [
     "Question",
     "Reading",
     "Repair",
-    "Replay",
     "Step",
     "TimedOut",
     "advance",

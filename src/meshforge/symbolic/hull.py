@@ -1,0 +1,78 @@
+"""The symbolic hull, a convex shape with a name, a body and a label; and the label, with its confidence and source."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import Literal, get_args
+
+from meshforge.geometry import Aabb, Floats, Ints, Pose, Shape
+
+LabelSource = Literal["vlm", "propagated", "name", "file", "user", "repair", "edit"]
+LABEL_SOURCES: tuple[str, ...] = get_args(LabelSource)
+HUMAN_SOURCES = frozenset({"user", "repair"})
+GIVEN_SOURCES = HUMAN_SOURCES | {"file"}
+"""Sources of labels that are not guessed: a person, or a file that somebody made."""
+
+
+@dataclass(frozen=True, slots=True)
+class Label:
+    """A label with its confidence in 0..1 and its source."""
+
+    name: str
+    confidence: float = 1.0
+    source: LabelSource = "user"
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Hull:
+    """One node of the symbolic mesh (paper, definition of the symbolic collision mesh).
+
+    shape: in the mesh's frame; parent: see `Geom`, None for a hull of the file.
+    """
+
+    name: str
+    body: str
+    shape: Shape
+    annotation: Label | None = None
+    parent: str | None = None
+
+    @property
+    def label(self) -> str | None:
+        return self.annotation.name if self.annotation else None
+
+    @property
+    def confidence(self) -> float | None:
+        return self.annotation.confidence if self.annotation else None
+
+    @property
+    def source(self) -> str | None:
+        return self.annotation.source if self.annotation else None
+
+    @property
+    def vertices(self) -> Floats:
+        """Vertices (n, 3) [m]; of a primitive, those of its tessellation."""
+        return self.shape.vertices
+
+    @property
+    def faces(self) -> Ints:
+        """Outward triangles (m, 3); of a primitive, those of its tessellation."""
+        return self.shape.faces
+
+    @property
+    def aabb(self) -> Aabb:
+        return self.shape.aabb
+
+    @property
+    def volume(self) -> float:
+        return self.shape.volume
+
+    @property
+    def primitive(self) -> Shape | None:
+        """The native primitive, or None for a polytope."""
+        return self.shape if self.shape.is_primitive else None
+
+    def with_label(self, annotation: Label | None) -> Hull:
+        return replace(self, annotation=annotation)
+
+    def move(self, pose: Pose) -> Hull:
+        return replace(self, shape=self.shape.move(pose))
