@@ -4,8 +4,9 @@ project is labelled, counted by source and confidence, planned in words, and dra
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
+from functools import partial
 from io import BytesIO
 from itertools import islice
 from pathlib import Path
@@ -85,13 +86,9 @@ def group_evidence(
 
 def _summarize_group(label: str | None, kind: str, group: Sequence[LabelEvidence]) -> Proposal:
     names = Counter(one.name for one in group)
-    sure = list(_confidences(group)) or [0.0]
+    sure = [one.label.confidence for one in group if one.label] or [0.0]
     ordered = sorted(names, key=lambda name: (-names[name], name))
     return Proposal(label, kind, tuple(ordered), len(group), len({one.asset for one in group}), min(sure), max(sure))
-
-
-def _confidences(group: Iterable[LabelEvidence]) -> Iterator[float]:
-    return (one.label.confidence for one in group if one.label)
 
 
 SURE = 0.9
@@ -175,19 +172,13 @@ def _has_human_label(store: Store, asset: str) -> bool:
         return False
 
 
-@dataclass(frozen=True, slots=True)
-class _Work:
-    place: AssetFiles
-    vocabulary: tuple[str, ...]
-
-
 def write_contact_sheets(
     store: Store, folder: Path, assets: Sequence[str], progress: Callable[[], None] | None = None
 ) -> tuple[Path, ...]:
     """Write `labels-001.png` and so on, in place of earlier ones; what cannot be drawn is left out."""
     vocabulary = store.vocabulary
-    works = [_Work(place, vocabulary) for place in store.asset_files(assets)]
-    images = run_isolated(_draw, works, ExecutionOptions(timeout=_TIMEOUT, progress=progress))
+    draw = partial(_draw, vocabulary)
+    images = run_isolated(draw, store.asset_files(assets), ExecutionOptions(timeout=_TIMEOUT, progress=progress))
     cells = iter([(asset, image) for asset, image in zip(assets, images, strict=True) if isinstance(image, bytes)])
     written = list[Path]()
     while batch := tuple(islice(cells, PER_SHEET)):
@@ -199,12 +190,12 @@ def write_contact_sheets(
     return tuple(written)
 
 
-def _draw(work: _Work) -> bytes | None:
+def _draw(vocabulary: tuple[str, ...], place: AssetFiles) -> bytes | None:
     try:
-        mesh = work.place.read_mesh()
+        mesh = place.read_mesh()
     except MeshForgeError:
         return None
-    return encode_png(render(mesh, color_by="label", size=_CELL, legend=False, vocabulary=work.vocabulary))
+    return encode_png(render(mesh, color_by="label", size=_CELL, legend=False, vocabulary=vocabulary))
 
 
 def _write_sheet(path: Path, batch: Sequence[tuple[str, bytes]], vocabulary: Sequence[str]) -> None:

@@ -53,16 +53,13 @@ def class_names_of(
     names = (
         dict(enumerate(vocabulary if tuple(given) == (VOCABULARY,) else given))
         or found.names
-        or _read_classes_beside(path)
+        or next((read_class_names(file) for file in _class_files(path) if file.is_file()), {})
     )
     kinds = [int(k) for k in np.unique(found.classes) if k >= 0]
     bare = [str(number) for number in kinds if not names.get(number)]
     if bare:
-        problem = (
-            f"class {join_names(bare)} has no name" if names else "its classes are numbers, and nothing names them"
-        )
         raise AssetError(
-            problem,
+            f"class {join_names(bare)} has no name" if names else "its classes are numbers, and nothing names them",
             where=str(path),
             remedy="Name them in order: --classes drawer,handle,leg, or --classes vocabulary where they are those of "
             f"the vocabulary; or put them beside it, a name a line, in {_class_files(path)[0].name} or classes.txt.",
@@ -74,11 +71,6 @@ def class_names_in_file(path: Path, given: Sequence[str]) -> list[str]:
     """The names of the classes in a file, in their order. Raises AssetError."""
     names = class_names_of(read_segmentation(path), path, given, ())
     return list(dict.fromkeys(names[number] for number in sorted(names)))
-
-
-def _read_classes_beside(path: Path) -> dict[int, str]:
-    file = next((place for place in _class_files(path) if place.is_file()), None)
-    return read_class_names(file) if file else {}
 
 
 def _class_files(path: Path) -> tuple[Path, Path]:

@@ -182,12 +182,9 @@ def read_label_files(
                 yield asset, _read_by_facts(next(facts)[1], file)
             else:
                 content = next(others)
-                yield (
-                    asset,
-                    LabelFileContent(error=f"{store.path(asset)}: {content.why}")
-                    if isinstance(content, WorkerFailure)
-                    else content,
-                )
+                if isinstance(content, WorkerFailure):
+                    content = LabelFileContent(error=f"{store.path(asset)}: {content.why}")
+                yield asset, content
 
 
 def _read_by_facts(facts: AssetFacts, file: Path) -> LabelFileContent:

@@ -54,7 +54,7 @@ def align_points(points: Floats, boxes: Sequence[Aabb], placing: PointAlignment,
     apart = {way: _box_distance(_move(points, boxes, way, up), boxes) for way in ways}
     best = min(apart, key=lambda way: apart[way])
     raise GeometryError(
-        f"its points do not lie where the asset does: they are in a box {_describe_box(_box_of(own))}, "
+        f"its points do not lie where the asset does: they are in a box {_describe_box(Aabb.of_points(own))}, "
         f"the hulls in a box {_describe_box(boxes[0])}",
         remedy=f"They would fit with {_describe_options(best)}."
         if apart[best] <= _SLACK
@@ -72,21 +72,17 @@ def _move(points: Floats, boxes: Sequence[Aabb], placing: PointAlignment, up: Up
 
 def _fit_box(points: Floats, box: Aabb) -> Floats:
     """Points scaled evenly and moved so that their box has the diagonal and the middle of another."""
-    own = _box_of(points)
+    own = Aabb.of_points(points)
     scale = box.diagonal / own.diagonal if own.diagonal > 0 else 1.0
     return (points - own.center) * scale + box.center
 
 
 def _box_distance(points: Floats, boxes: Sequence[Aabb]) -> float:
     """How far the box of points is from the nearest of some, as a share of its diagonal."""
-    own = _box_of(points)
+    own = Aabb.of_points(points)
     return min(
         float(max(np.abs(own.min - box.min).max(), np.abs(own.max - box.max).max())) / box.diagonal for box in boxes
     )
-
-
-def _box_of(points: Floats) -> Aabb:
-    return Aabb.of_points(points)
 
 
 def _describe_box(box: Aabb) -> str:

@@ -102,14 +102,10 @@ def match_names(names: HullNames, vocabulary: Sequence[str], patterns: Sequence[
 
     Patterns come first, then words; each name of the hull is asked in turn, its own first.
     """
-    return _match_patterns(names, patterns) or _match_words(names, vocabulary)
-
-
-def _match_patterns(names: HullNames, patterns: Sequence[NamePattern]) -> NameMatch | None:
     for kind, name in (*names.all_names(), (_HULL, names.hull)):
         if pattern := find_pattern(name, patterns):
             return NameMatch(pattern.label or None, _PATTERN, kind, name, "pattern")
-    return None
+    return _match_words(names, vocabulary)
 
 
 def _match_words(names: HullNames, vocabulary: Sequence[str]) -> NameMatch | None:

@@ -169,7 +169,9 @@ class HullDescriber:
         self._volumes = np.array([hull.volume for hull in mesh.hulls])
         triangles = tuple(hull.vertices[hull.faces] for hull in mesh.hulls)
         self._whole = whole_of(tuple(hull.vertices for hull in mesh.hulls), triangles)
-        self._touching = _contact_matrix(mesh)
+        self._touching = np.zeros((len(mesh.hulls), len(mesh.hulls)))  # symmetric, of 0 and 1
+        for a, b in mesh.contacts:
+            self._touching[a, b] = self._touching[b, a] = 1.0
 
     def describe_shapes(self, up: Floats) -> Floats:
         """What each hull is itself, and how it lies: `SHAPE_COLUMNS` of its row, which is quick. up: (3,)."""
@@ -193,14 +195,6 @@ class HullDescriber:
         return np.concatenate(
             [surroundings.describe_surroundings(whole), own, mean - own, largest - own, counts], axis=1
         )
-
-
-def _contact_matrix(mesh: SymbolicMesh) -> Floats:
-    """Which hulls touch, as a symmetric matrix of 0 and 1 (n, n)."""
-    touching = np.zeros((len(mesh.hulls), len(mesh.hulls)))
-    for a, b in mesh.contacts:
-        touching[a, b] = touching[b, a] = 1.0
-    return touching
 
 
 def _describe_counts(own: Floats, touching: Floats, volumes: Floats) -> Floats:

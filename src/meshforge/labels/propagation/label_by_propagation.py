@@ -63,7 +63,6 @@ def compare_family(
     cache: DescriptorCache, known: Mapping[str, Sequence[str | None]], execution: ExecutionOptions, stage: Stage
 ) -> FamilyComparison:
     """Compare all hulls. known: of each asset the labels of its hulls, None where there is none."""
-
     seen = {asset: cache.read_rows(asset) for asset in known}
     missing = [asset for asset, own in seen.items() if own is None]
     with stage(len(missing), "describing") as advance:
@@ -88,7 +87,6 @@ def _find_doubtful(
     family: FamilyTable, assets: Sequence[str], cache: DescriptorCache, stop: Callable[[], bool] | None
 ) -> Iterator[tuple[str, tuple[int, ...]]]:
     """The assets that may lie on another side, and on which."""
-
     for place, sides in propagate.find_doubtful_sides(
         family, lambda place: cache.read_sides(assets[place]), propagate.metric_weights()
     ):
@@ -110,7 +108,6 @@ def _collect_sides(
 
 def _compute_isolated(family: FamilyTable, stop: Callable[[], bool] | None) -> propagate.FamilyPosterior:
     """What labels say, in a process of its own where that may have to be stopped in the midst."""
-
     (found,) = run_isolated(propagate.compute_posterior, [family], ExecutionOptions(1 if stop else 0, None, stop=stop))
     if isinstance(found, WorkerFailure):
         raise MeshForgeError(f"the labels could not be propagated: {found.why}")
@@ -211,7 +208,6 @@ def _compare_assets(store: Store, vocabulary: Sequence[str], execution: Executio
 
 def _reference_labels(file: LabelFile, facts: AssetFacts, vocabulary: Sequence[str]) -> list[str | None]:
     """The labels of the hulls of an asset that others may be taken from."""
-
     labels = match_labels(file, facts.hulls).labels
     found = (reference_label(labels.get(name)) for name in facts.hulls)
     return [name if name in vocabulary else None for name in found]

@@ -146,26 +146,22 @@ class Labeller:
 
     def _ask_about(self, hull_question: HullQuestion) -> _Response:
         """The votes of one question; what its answer leaves open is asked once more."""
-        asked: tuple[str, ...] = (self._digest(hull_question.question),)
+        endpoint = self._client.endpoint
+        asked: tuple[str, ...] = (hull_question.question.digest(endpoint),)
         try:
             votes, left, second = self._collect_votes(hull_question, hull_question.question)
         except QuestionError as error:
-            return _Response(
-                open=dict.fromkeys(hull_question.hulls.values(), "the question got no answer"), failed=error.sentence
-            )
+            gaps = dict.fromkeys(hull_question.hulls.values(), "the question got no answer")
+            return _Response(open=gaps, failed=error.sentence)
         failed = None
         if second:
             try:
-                more, left, _ = self._collect_votes(
-                    replace(hull_question, hulls={n: hull_question.hulls[n] for n in left}), second
-                )
-                votes, asked = votes | more, (*asked, self._digest(second))
+                rest = replace(hull_question, hulls={n: hull_question.hulls[n] for n in left})
+                more, left, _ = self._collect_votes(rest, second)
+                votes, asked = votes | more, (*asked, second.digest(endpoint))
             except QuestionError as error:
                 failed = error.sentence
         return _Response(votes, {hull_question.hulls[n]: why for n, why in left.items()}, failed, asked)
-
-    def _digest(self, question: VlmQuestion) -> str:
-        return question.digest(self._client.endpoint)
 
     def _collect_votes(
         self, hull_question: HullQuestion, question: VlmQuestion
@@ -176,9 +172,7 @@ class Labeller:
         answer = read_answer(reply.text, hull_question.hulls.keys(), vocabulary, unknown)
         sure = label_chances(reply, answer, vocabulary, unknown)
         votes = {
-            hull_question.hulls[number]: LabelVote(
-                label, hull_question.weights[hull_question.hulls[number]], sure.get(number)
-            )
+            (hull := hull_question.hulls[number]): LabelVote(label, hull_question.weights[hull], sure.get(number))
             for number, label in answer.said.items()
         }
         if not answer.open:
