@@ -144,11 +144,8 @@ def make_jobs(found: AssetSet, labels: Path | None = None) -> tuple[AssetJob, ..
     Raises UsageError: no such file or folder, or one file for several assets.
     """
     if labels is not None and labels.is_file() and len(found) > 1:
-        raise UsageError(
-            f"one labels file cannot serve {len(found)} assets",
-            where=str(labels),
-            remedy="Give a folder that mirrors theirs.",
-        )
+        remedy = "Give a folder that mirrors theirs."
+        raise UsageError(f"one labels file cannot serve {len(found)} assets", where=str(labels), remedy=remedy)
     return tuple(
         AssetJob(key, path, found.base, find_labels_file(path, labels, found.base)) for key, path in found.ids.items()
     )
@@ -191,11 +188,9 @@ def read_template(path: Path, name: str) -> Template:
     asset = read(path)
     if asset.opaque:
         out = path.with_name(f"{path.stem}_hulls{path.suffix}")
-        raise ProgramError(
-            f'the template "{name}" is no convex hull: {asset.opaque[0].reason}',
-            where=str(path),
-            remedy=f"Split it into convex hulls first: meshforge decompose {path} -o {out}",
-        )
+        problem = f'the template "{name}" is no convex hull: {asset.opaque[0].reason}'
+        remedy = f"Split it into convex hulls first: meshforge decompose {path} -o {out}"
+        raise ProgramError(problem, where=str(path), remedy=remedy)
     if not asset.geoms:
         raise ProgramError(f'the template "{name}" holds no hull', where=str(path))
     return Template(tuple(geom.shape for geom in asset.geoms), name)

@@ -62,10 +62,8 @@ def _perpendicular_part(directions: list[Floats], orient: Orient) -> Floats:
     norm = float(np.linalg.norm(part))
     if norm < _PARALLEL:
         pairs = " and ".join(f"{show(pair.start)} -> {show(pair.end)}" for pair in orient.pairs)
-        raise ProgramError(
-            f"orient: {pairs} run along one line, so they give no frame",
-            remedy="Choose a second pair of landmarks that lies across the first, or leave it out.",
-        )
+        remedy = "Choose a second pair of landmarks that lies across the first, or leave it out."
+        raise ProgramError(f"orient: {pairs} run along one line, so they give no frame", remedy=remedy)
     return part / norm
 
 

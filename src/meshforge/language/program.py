@@ -121,10 +121,8 @@ class Program:
 
     def _check_has_labels(self, mesh: SymbolicMesh) -> None:
         if self.labels_asked and mesh.hulls and not any(hull.label for hull in mesh.hulls):
-            raise ProgramError(
-                "no labels: the program asks for labels, and no hull has one",
-                remedy="Label the asset first (meshforge label), or give its labels with --labels FILE.",
-            )
+            remedy = "Label the asset first (meshforge label), or give its labels with --labels FILE."
+            raise ProgramError("no labels: the program asks for labels, and no hull has one", remedy=remedy)
 
     def _run_rules(self, mesh: SymbolicMesh, templates: Mapping[str, Template]) -> RunResult:
         current, pose = to_canonical_frame(mesh, self.orient, self.contact)

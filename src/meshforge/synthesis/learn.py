@@ -135,8 +135,5 @@ def _check_label(label: str, vocabulary: Sequence[str], where: str) -> None:
     if label not in vocabulary:
         like = nearest_name(label, vocabulary)
         hint = f"Did you mean {like!r}? " if like else ""
-        raise DemonstrationError(
-            f"the label {label!r} is not in the vocabulary",
-            where=where,
-            remedy=f"{hint}The vocabulary is {', '.join(vocabulary) or 'empty'}.",
-        )
+        remedy = f"{hint}The vocabulary is {', '.join(vocabulary) or 'empty'}."
+        raise DemonstrationError(f"the label {label!r} is not in the vocabulary", where=where, remedy=remedy)

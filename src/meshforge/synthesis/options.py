@@ -84,10 +84,8 @@ class Answer:
         self, rule: int, asset: str, select: Iterable[str] | None, refused: Iterable[Iterable[str]] = ()
     ) -> None:
         if isinstance(select, str):
-            raise DemonstrationError(
-                f"rule {rule}: an answer is a set of hull names, not the text {select!r}",
-                remedy=f"Write {{{select!r}}}.",
-            )
+            problem = f"rule {rule}: an answer is a set of hull names, not the text {select!r}"
+            raise DemonstrationError(problem, remedy=f"Write {{{select!r}}}.")
         object.__setattr__(self, "rule", rule)
         object.__setattr__(self, "asset", asset)
         object.__setattr__(self, "select", None if select is None else frozenset(select))

@@ -185,11 +185,9 @@ def apply_preparation(asset: Asset, preparation: Preparation) -> Asset:
     """
     fit = replay_preparation(asset, preparation)
     if fit.lost:
-        raise AssetError(
-            f"its preparation is out of date: {join_names([f'{lost.what} {lost.why}' for lost in fit.lost], 3)}",
-            where=str(asset.path),
-            remedy="Do it again with `meshforge prepare`, or take it away with `meshforge prepare --remove`.",
-        )
+        problem = f"its preparation is out of date: {join_names([f'{lost.what} {lost.why}' for lost in fit.lost], 3)}"
+        remedy = "Do it again with `meshforge prepare`, or take it away with `meshforge prepare --remove`."
+        raise AssetError(problem, where=str(asset.path), remedy=remedy)
     return fit.asset
 
 

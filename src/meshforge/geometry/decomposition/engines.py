@@ -142,10 +142,8 @@ def run_engine(mesh: TriangleMesh, settings: DecomposeSettings, control: EngineC
         with log.open("wb") as errors:
             code = _supervise(command, errors.fileno(), control)
         if code != 0 or not target.exists():
-            raise GeometryError(
-                f"{settings.engine} crashed ({_last_message(log, code)})",
-                remedy="Try other settings (preprocess_mode, threshold), the other engine, or fix the mesh.",
-            )
+            remedy = "Try other settings (preprocess_mode, threshold), the other engine, or fix the mesh."
+            raise GeometryError(f"{settings.engine} crashed ({_last_message(log, code)})", remedy=remedy)
         return unpack_pieces(target.read_bytes())
 
 

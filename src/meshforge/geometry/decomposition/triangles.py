@@ -65,10 +65,8 @@ def clean_triangles(vertices: Any, faces: Any) -> TriangleMesh:
 def _refuse_flat(points: Floats, any_triangle: bool) -> None:
     extents = np.linalg.svd(points - points.mean(axis=0), compute_uv=False)
     if not any_triangle or len(extents) < 3 or extents[2] <= _FLAT * extents[0]:
-        raise GeometryError(
-            "the mesh is flat: it spans no volume",
-            remedy="Give it a thickness; for a single flat piece, a convex hull with a thickness is enough.",
-        )
+        remedy = "Give it a thickness; for a single flat piece, a convex hull with a thickness is enough."
+        raise GeometryError("the mesh is flat: it spans no volume", remedy=remedy)
 
 
 def _count_open_edges(faces: Ints) -> int:

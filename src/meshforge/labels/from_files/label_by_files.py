@@ -86,11 +86,8 @@ def _require_files(store: Store, source: Path | None) -> dict[str, Path]:
     """The file of each asset that has one. Raises ProjectError where no asset has one."""
     files = read.find_label_files(store.found, source)
     if not files:
-        raise ProjectError(
-            "there is no labels file for any asset",
-            where=str(store.folder),
-            remedy="Put a labels file beside each asset, or name a folder of them that mirrors the assets.",
-        )
+        remedy = "Put a labels file beside each asset, or name a folder of them that mirrors the assets."
+        raise ProjectError("there is no labels file for any asset", where=str(store.folder), remedy=remedy)
     return files
 
 

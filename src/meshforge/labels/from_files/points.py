@@ -178,11 +178,9 @@ def _visual_box(mesh: SymbolicMesh) -> Aabb | None:
 def _refuse_points_outside(said: segments.HullVotes, path: Path, placing: segments.PointAlignment) -> None:
     """Raise AssetError where most points are in no hull, unless they are to be taken as they are."""
     if placing.align != "off" and said.of_hulls and said.held < _HELD:
-        raise AssetError(
-            f"only {said.held:.0%} of its points are in hulls: it may be turned, or of another asset",
-            where=str(path),
-            remedy="If it is right, and only part of the asset has hulls, say --align off.",
-        )
+        problem = f"only {said.held:.0%} of its points are in hulls: it may be turned, or of another asset"
+        remedy = "If it is right, and only part of the asset has hulls, say --align off."
+        raise AssetError(problem, where=str(path), remedy=remedy)
 
 
 def _to_file_labels(
