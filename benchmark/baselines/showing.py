@@ -82,7 +82,8 @@ def named(hulls: Sequence[Hull]) -> str:
 def _pair(
     first: SymbolicMesh, second: SymbolicMesh, frame: Program, titles: tuple[str, str] = ("before", "after")
 ) -> Image:
-    from meshforge.rendering import joint_bounds, make_contact_sheet, render
+    from meshforge.rendering import make_contact_sheet, render
+    from meshforge.rendering.compare import joint_bounds
 
     box = joint_bounds(first, second)
     images = [

@@ -10,7 +10,8 @@ from benchmark.report import Table
 from benchmark.study import CONDITIONS, Bench, Session
 from benchmark.tasks import Edited, task
 from meshforge.language import Program, Rule, show, size_of
-from meshforge.rendering import joint_bounds, make_contact_sheet, render
+from meshforge.rendering import make_contact_sheet, render
+from meshforge.rendering.compare import joint_bounds
 from meshforge.symbolic import SymbolicMesh
 
 if TYPE_CHECKING:

@@ -14,7 +14,8 @@ from benchmark.evaluation.sessions import QUICK
 from benchmark.report import Result, Table, Tell
 from benchmark.tasks import Edited, Task, task, tasks
 from meshforge.common import write_atomically
-from meshforge.rendering import encode_webp, joint_bounds, render
+from meshforge.rendering import encode_webp, render
+from meshforge.rendering.compare import joint_bounds
 from meshforge.symbolic import SymbolicMesh
 
 GALLERY = ROOT / "benchmark" / "gallery"

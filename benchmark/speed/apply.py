@@ -13,7 +13,7 @@ from pathlib import Path
 from benchmark.report import Cell, Result, Table, Tell
 from benchmark.speed.assets import corpus
 from benchmark.speed.watch import Watched, watched
-from meshforge.batch import common_folder
+from meshforge.batch.discovery import common_folder
 from meshforge.common import MeshForgeError
 from meshforge.formats import load
 from meshforge.samples import TABLES

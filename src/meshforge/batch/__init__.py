@@ -3,42 +3,24 @@ in place, and the report."""
 
 from meshforge.batch.apply import apply, inputs_of
 from meshforge.batch.check import CheckJournal, CheckOutcome, CheckTask, check_asset, check_assets, open_journal
-from meshforge.batch.corrections import Correction, replay_corrections
-from meshforge.batch.discovery import (
-    OWN_FOLDERS,
-    SETTINGS,
-    STATE,
-    AssetSet,
-    asset_id,
-    common_folder,
-    expand,
-    find_assets_in,
-)
+from meshforge.batch.discovery import OWN_FOLDERS, SETTINGS, STATE, AssetSet, asset_id, expand, find_assets_in
 from meshforge.batch.execution import execute
 from meshforge.batch.jobs import (
     APPLY_DEFAULTS,
     ApplyOptions,
     ApplyTask,
     AssetJob,
+    Correction,
     load_named_templates,
     load_templates,
     make_jobs,
     plan_run,
     read_template,
+    replay_corrections,
     template_folders,
 )
 from meshforge.batch.lock import hold_lock
-from meshforge.batch.outcome import (
-    AssetOutcome,
-    Edited,
-    Failed,
-    RuleEffect,
-    RunSummary,
-    Skipped,
-    Unchanged,
-    status_of,
-    to_json_line,
-)
+from meshforge.batch.outcome import AssetOutcome, Failed, RuleEffect, RunSummary, Skipped, status_of, to_json_line
 from meshforge.batch.preparation.decompose import DecompositionResult, decompose_asset
 from meshforge.batch.preparation.record import (
     Preparation,
@@ -118,7 +100,6 @@ __all__ = [
     "Correction",
     "DecompositionResult",
     "EarlierExamination",
-    "Edited",
     "ExecutionOptions",
     "Failed",
     "LabelStatus",
@@ -135,7 +116,6 @@ __all__ = [
     "Skipped",
     "Stamp",
     "TopItems",
-    "Unchanged",
     "WorkerFailure",
     "apply",
     "apply_preparation",
@@ -143,7 +123,6 @@ __all__ = [
     "asset_id",
     "check_asset",
     "check_assets",
-    "common_folder",
     "count_processors",
     "cut_hull",
     "decompose_asset",

@@ -11,10 +11,16 @@ from functools import partial
 from pathlib import Path
 
 from meshforge.batch import outputs, provenance
-from meshforge.batch.corrections import corrections_digest, replay_corrections
 from meshforge.batch.discovery import STATE
 from meshforge.batch.execution import execute
-from meshforge.batch.jobs import APPLY_DEFAULTS, ApplyOptions, ApplyTask, AssetJob
+from meshforge.batch.jobs import (
+    APPLY_DEFAULTS,
+    ApplyOptions,
+    ApplyTask,
+    AssetJob,
+    corrections_digest,
+    replay_corrections,
+)
 from meshforge.batch.lock import hold_lock
 from meshforge.batch.outcome import AssetOutcome, Edited, Failed, RuleEffect, Unchanged
 from meshforge.batch.preparation.storage import prepare_from_folder, record_digest
@@ -137,8 +143,7 @@ def _run_program(
     mesh, flags = replay_corrections(job.corrections, source, result.mesh, task.program, task.templates)
     draft = outputs.plan_draft(task, job, asset)
     if not task.options.dry_run:
-        known = labels.vocabulary or task.program.labels
-        draft = outputs.write_draft(draft, mesh, known, task.options)
+        draft = outputs.write_draft(draft, mesh, labels.vocabulary or task.program.labels, task.options)
     outcome = (Unchanged if _has_same_hulls(source, mesh) and not job.preparation else Edited)(
         asset=job.id,
         out=str(task.out / draft.main),
@@ -163,9 +168,8 @@ def _opaque_notes(asset: Asset) -> tuple[str, ...]:
 
 def _label_notes(followed: LabelTransfer) -> tuple[str, ...]:
     """What a person should know about labels that were given to another state of the asset."""
-    renamed = [f"{old} to {new}" for old, new in followed.renamed]
     kinds = (
-        ("labels followed renamed hulls", renamed),
+        ("labels followed renamed hulls", [f"{old} to {new}" for old, new in followed.renamed]),
         ("hulls changed since they were labelled", followed.changed),
         ("labels of hulls that are gone were left out", followed.gone),
     )

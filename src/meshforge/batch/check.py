@@ -185,8 +185,7 @@ def check_assets(
     One that crashes, takes too long or too much memory is an error of its own. known: what earlier examinations
     depended on, by id; None for an asset of which that is as it was.
     """
-    items = [(job, known.get(job.id)) for job in work]
-    results = execute(partial(_check_job, task), items, execution)
+    results = execute(partial(_check_job, task), [(job, known.get(job.id)) for job in work], execution)
     for job, result in zip(work, results, strict=True):
         yield CheckOutcome(job.path, f"{job.path}: {result.why}") if isinstance(result, WorkerFailure) else result
 

@@ -10,18 +10,8 @@ from collections.abc import Callable, Generator, Sequence
 from dataclasses import replace
 from typing import Any
 
-from meshforge.batch.workers import (
-    POLL_SECONDS,
-    UNBOUNDED,
-    ExecutionOptions,
-    Item,
-    Result,
-    WorkerFailure,
-    count_processors,
-    memory_share,
-    raise_if_stopped,
-    run_isolated,
-)
+from meshforge.batch import workers as processes
+from meshforge.batch.workers import ExecutionOptions, Item, Result, WorkerFailure, memory_share, run_isolated
 from meshforge.common import MeshForgeError
 
 ITEMS_A_CHUNK = 32
@@ -41,13 +31,13 @@ def execute(
     if options.backend == "ray":
         return run_on_cluster(function, items, options)
     if options.memory is None:
-        share = memory_share(min(options.workers or count_processors(), len(items)))
+        share = memory_share(min(options.workers or processes.count_processors(), len(items)))
         options = replace(options, memory=share)
     return run_isolated(function, items, options)
 
 
 def run_on_cluster(
-    function: Callable[[Item], Result], items: Sequence[Item], options: ExecutionOptions = UNBOUNDED
+    function: Callable[[Item], Result], items: Sequence[Item], options: ExecutionOptions = processes.UNBOUNDED
 ) -> Generator[Result | WorkerFailure, None, None]:
     """The results of `function` on the items, in their order, computed on all nodes of a cluster.
 
@@ -74,8 +64,8 @@ def run_on_cluster(
             if not waiting:
                 break
             task, count = waiting[0]
-            while not ray.wait([task], timeout=POLL_SECONDS)[0]:
-                raise_if_stopped(options.stop)
+            while not ray.wait([task], timeout=processes.POLL_SECONDS)[0]:
+                processes.raise_if_stopped(options.stop)
             waiting.popleft()
             for result in _collect_chunk(ray, task, count):
                 if options.progress:
@@ -119,8 +109,7 @@ def _run_chunk(
 ) -> list[Result | WorkerFailure]:
     """Runs on a node, in a process of Ray's; the workers that it starts need not load Ray's main module first."""
     vars(sys.modules["__main__"]).pop("__file__", None)
-    options = ExecutionOptions(workers, timeout, memory or memory_share(workers))
-    return list(run_isolated(function, items, options))
+    return list(run_isolated(function, items, ExecutionOptions(workers, timeout, memory or memory_share(workers))))
 
 
 def _collect_chunk(ray: Any, task: Any, count: int) -> list[Any]:

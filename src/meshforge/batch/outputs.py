@@ -81,10 +81,8 @@ def _read_back(main: Path, mesh: SymbolicMesh) -> list[str]:
     wanted = [hull.name for hull in mesh.hulls]
     if sorted(back) != sorted(wanted):
         odd = ", ".join(sorted(set(back) ^ set(wanted))[:5])
-        raise AssetError(
-            f"the edited file reads back with other hulls than it should have: {odd}",
-            remedy="This is a fault of MeshForge; nothing was written. Please report the asset.",
-        )
+        remedy = "This is a fault of MeshForge; nothing was written. Please report the asset."
+        raise AssetError(f"the edited file reads back with other hulls than it should have: {odd}", remedy=remedy)
     return back
 
 
@@ -136,11 +134,8 @@ class OutputFolder:
             raise self._end_of_run(error.strerror) from error
 
     def _end_of_run(self, why: str | None) -> MeshForgeError:
-        return MeshForgeError(
-            f"nothing can be written here any more: {why}",
-            where=str(self._out),
-            remedy="What is in place stays. Fix that, then run the same command again: it goes on where it was.",
-        )
+        remedy = "What is in place stays. Fix that, then run the same command again: it goes on where it was."
+        return MeshForgeError(f"nothing can be written here any more: {why}", where=str(self._out), remedy=remedy)
 
     def _commit_draft(self, worked: WorkerResult) -> AssetOutcome:
         outcome, draft = worked.outcome, worked.draft

@@ -151,8 +151,7 @@ def template_digests(templates: Mapping[str, Template]) -> dict[str, str]:
 
 def asset_digests(path: Path, referenced: Iterable[Path], base: Path) -> dict[str, str]:
     """The digest of every file of an asset, by its path relative to `base`; of a folder, of all mesh files in it."""
-    files = {*source_files(path), *referenced}
-    return {relative_name(file, base): file_digest(file) for file in sorted(files)}
+    return {relative_name(file, base): file_digest(file) for file in sorted({*source_files(path), *referenced})}
 
 
 def has_same_files(recorded: Mapping[str, str], path: Path, base: Path) -> bool:

@@ -198,10 +198,8 @@ def _collect(future: Future[Result], timeout: float | None) -> Result | WorkerFa
 
 
 def _start_error(error: Exception) -> MeshForgeError:
-    return MeshForgeError(
-        f"worker processes do not start: {error}",
-        remedy="In a script of your own, put the call below `if __name__ == '__main__':`, or pass workers=0.",
-    )
+    remedy = "In a script of your own, put the call below `if __name__ == '__main__':`, or pass workers=0."
+    return MeshForgeError(f"worker processes do not start: {error}", remedy=remedy)
 
 
 def _describe_exit(code: int | None) -> str:

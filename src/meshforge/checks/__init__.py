@@ -1,11 +1,9 @@
 """Whether hulls are legal, within the limits of an engine, fit, leave free what is free, and rest; and fixes."""
 
 from meshforge.checks.engines import ENGINES, find_engine
-from meshforge.checks.examination import CheckOptions, Examination, check, examine_mesh
+from meshforge.checks.examination import CheckOptions, Examination, check, draw_examination, examine_mesh
 from meshforge.checks.fix import FixResult, fix
 from meshforge.checks.legality import Finding, Severity
-from meshforge.checks.physics.simulation import Physics
-from meshforge.checks.pictures import draw_examination
 
 __all__ = [
     "ENGINES",
@@ -13,7 +11,6 @@ __all__ = [
     "Examination",
     "Finding",
     "FixResult",
-    "Physics",
     "Severity",
     "check",
     "draw_examination",

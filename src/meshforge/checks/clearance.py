@@ -7,16 +7,8 @@ from typing import Any, Literal
 
 import numpy as np
 
-from meshforge.checks.grid import (
-    Grid,
-    Mask,
-    cells_to_surface,
-    find_pockets,
-    flood_from_outside,
-    grid_around,
-    voxelize_hulls,
-    voxelize_surface,
-)
+from meshforge.checks import grid as voxels
+from meshforge.checks.grid import Grid, Mask, flood_from_outside, grid_around, voxelize_hulls, voxelize_surface
 from meshforge.checks.legality import Finding
 from meshforge.common import join_names
 from meshforge.geometry import Aabb, Floats
@@ -78,16 +70,6 @@ class Clearance:
 
     def to_json(self) -> dict[str, Any]:
         """The clearance as JSON-able data; volumes in litres, lengths in metres."""
-        regions = [
-            {
-                "kind": region.kind,
-                "litres": region.litres,
-                "min": region.bounds.min.tolist(),
-                "max": region.bounds.max.tolist(),
-                "hulls": list(region.hulls),
-            }
-            for region in self.regions
-        ]
         return {
             "reference": self.reference,
             "cell": self.cell,
@@ -95,7 +77,16 @@ class Clearance:
             "opened": self.opened,
             "layers": {"closed": self.layers[0], "opened": self.layers[1]},
             "with_doubled_cells": {"closed": self.doubled[0], "opened": self.doubled[1]},
-            "regions": regions,
+            "regions": [
+                {
+                    "kind": region.kind,
+                    "litres": region.litres,
+                    "min": region.bounds.min.tolist(),
+                    "max": region.bounds.max.tolist(),
+                    "hulls": list(region.hulls),
+                }
+                for region in self.regions
+            ],
         }
 
 
@@ -136,7 +127,7 @@ def _measure(mesh: SymbolicMesh, before: SymbolicMesh | None, corners: Floats, g
     regions, sums, layers = [], [], []
     masks: tuple[tuple[RegionKind, Mask], ...] = (("closed", closed), ("opened", opened))
     for kind, mask in masks:
-        numbers, count = find_pockets(mask)
+        numbers, count = voxels.find_pockets(mask)
         found: list[Mask] = [numbers == k + 1 for k in range(min(count, _REGIONS))]
         regions += [_build_region(kind, part, grid, mesh) for part in found]
         sums.append(grid.litres(numbers > 0))
@@ -150,12 +141,11 @@ def _measure(mesh: SymbolicMesh, before: SymbolicMesh | None, corners: Floats, g
 def _build_region(kind: RegionKind, part: Mask, grid: Grid, mesh: SymbolicMesh) -> ClearanceRegion:
     cells = np.argwhere(part)
     low = grid.origin + cells.min(axis=0) * grid.cell
-    high = grid.origin + (cells.max(axis=0) + 1) * grid.cell
-    bounds = Aabb(low, high)
+    bounds = Aabb(low, grid.origin + (cells.max(axis=0) + 1) * grid.cell)
     hulls = (
         _find_fillers(part, grid, [h for h in mesh.hulls if _is_touching(h.aabb, bounds)]) if kind == "closed" else ()
     )
-    return ClearanceRegion(kind, grid.litres(part), bounds, hulls, cells_to_surface(grid, part))
+    return ClearanceRegion(kind, grid.litres(part), bounds, hulls, voxels.cells_to_surface(grid, part))
 
 
 def _find_fillers(part: Mask, grid: Grid, hulls: list[Hull]) -> tuple[str, ...]:

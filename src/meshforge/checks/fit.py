@@ -176,8 +176,7 @@ def _corners(surfaces: Sequence[Surface]) -> Floats:
 
 
 def _build_group(hulls: tuple[Hull, ...], corners: Floats, cell: float | None) -> FitGroup:
-    bounds = Aabb.union([*(h.aabb for h in hulls), Aabb.of_points(corners.reshape(-1, 3))])
-    grid = grid_around(bounds, cell)
+    grid = grid_around(Aabb.union([*(h.aabb for h in hulls), Aabb.of_points(corners.reshape(-1, 3))]), cell)
     surfaces = [h.vertices[h.faces] for h in hulls]
     owner = np.repeat(np.arange(len(hulls)), [len(s) for s in surfaces])
     spacing = _SPACING * grid.cell
@@ -215,6 +214,5 @@ def _is_inside(points: Floats, hulls: Sequence[Hull]) -> Mask:
         near = np.flatnonzero(~inside & (points >= box.min).all(axis=1) & (points <= box.max).all(axis=1))
         planes = planes_of(hull.vertices, hull.faces)
         for part in np.array_split(near, len(near) * len(planes.offsets) // 4_000_000 + 1):
-            heights = (points[part] - planes.middle) @ planes.normals.T
-            inside[part] = (heights <= planes.offsets).all(axis=1)
+            inside[part] = ((points[part] - planes.middle) @ planes.normals.T <= planes.offsets).all(axis=1)
     return inside

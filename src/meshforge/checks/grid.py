@@ -36,8 +36,7 @@ class Grid:
 
     def cells_of(self, points: Floats) -> Ints:
         """The cell (n, 3) of each point (n, 3), the nearest one for points outside."""
-        steps = np.floor((points - self.origin) / self.cell)
-        return np.clip(steps, 0, np.array(self.shape) - 1).astype(np.int64)
+        return np.clip(np.floor((points - self.origin) / self.cell), 0, np.array(self.shape) - 1).astype(np.int64)
 
     def cell_centers(self, axis: int) -> Floats:
         """The coordinates (k,) of the middles of the cells along an axis [m]."""
@@ -64,8 +63,7 @@ def grid_around(bounds: Aabb, cell: float | None = None) -> Grid:
         if np.prod(counts.astype(float)) <= MOST_CELLS:
             break
         size *= 1.1
-    origin = bounds.center - counts * size / 2
-    return Grid(origin, size, (int(counts[0]), int(counts[1]), int(counts[2])))
+    return Grid(bounds.center - counts * size / 2, size, (int(counts[0]), int(counts[1]), int(counts[2])))
 
 
 def voxelize_surface(grid: Grid, corners: Floats) -> Mask:
@@ -108,8 +106,7 @@ def _interval(flat: Floats, normals: Floats, offsets: Floats) -> tuple[Floats, F
     up, down = rise > _LEVEL, rise < -_LEVEL
     top = (room[:, up] / rise[up]).min(axis=1, initial=np.inf)
     bottom = (room[:, down] / rise[down]).max(axis=1, initial=-np.inf)
-    beside = (room[:, ~(up | down)] < 0).any(axis=1)
-    return np.where(beside, np.inf, bottom), top
+    return np.where((room[:, ~(up | down)] < 0).any(axis=1), np.inf, bottom), top
 
 
 def flood_from_outside(taken: Mask) -> Mask:
@@ -128,8 +125,7 @@ def find_pockets(mask: Mask, least: int = 27) -> tuple[Ints, int]:
     from scipy.ndimage import binary_dilation, binary_opening, generate_binary_structure, label  # lazy: 0.3 s
 
     cross = generate_binary_structure(3, 1)
-    deep = binary_dilation(binary_opening(mask, cross), cross) & mask
-    parts, count = label(deep, cross)
+    parts, count = label(binary_dilation(binary_opening(mask, cross), cross) & mask, cross)
     sizes = np.bincount(parts.ravel(), minlength=count + 1)
     sizes[0] = 0
     order = np.argsort(-sizes, kind="stable")[: int((sizes >= least).sum())]
@@ -145,14 +141,12 @@ def cells_to_surface(grid: Grid, mask: Mask) -> Surface:
     vertices, inverse = np.unique(corners.reshape(-1, 3), axis=0, return_inverse=True)
     ring: Ints = inverse.reshape(-1, 4)
     faces = np.concatenate([ring[:, [0, 1, 2]], ring[:, [0, 2, 3]]])
-    places: Floats = grid.origin + vertices * grid.cell
-    return Surface(places, faces)
+    return Surface(grid.origin + vertices * grid.cell, faces)
 
 
 def _boundary_faces(mask: Mask, axis: int, side: int) -> Ints:
     """The corners (n, 4, 3) of the faces on one side of cells, counter-clockwise seen from outside."""
-    padded = np.pad(mask, 1)
-    beside = np.roll(padded, -1 if side else 1, axis)[1:-1, 1:-1, 1:-1]
+    beside = np.roll(np.pad(mask, 1), -1 if side else 1, axis)[1:-1, 1:-1, 1:-1]
     cells = np.argwhere(mask & ~beside)
     first, second = np.eye(3, dtype=np.int64)[[(axis + 1) % 3, (axis + 2) % 3]]
     start = cells + side * np.eye(3, dtype=np.int64)[axis]

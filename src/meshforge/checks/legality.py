@@ -1,6 +1,5 @@
 """What a check finds; what every hull and every mesh must be, whatever the engine; and what is legal but odd: slivers,
-oblong hulls, hulls inside of others, pairs that overlap or gape.
-"""
+oblong hulls, hulls inside of others, pairs that overlap or gape."""
 
 from __future__ import annotations
 
@@ -97,12 +96,11 @@ def check_legality(mesh: SymbolicMesh) -> tuple[frozenset[str], tuple[Finding, .
         if (names := faults[rule.name])
     ]
     faulty = frozenset(name for names in faults.values() for name in names)
-    sound = [hull for hull in mesh.hulls if hull.name not in faulty]
     return faulty, (
         *findings,
         *_check_names(mesh),
         *_check_bodies(mesh),
-        *_check_duplicates(sound),
+        *_check_duplicates([hull for hull in mesh.hulls if hull.name not in faulty]),
         *_report_opaque(mesh),
     )
 

@@ -99,9 +99,8 @@ def make_limit(rule: str, number: float, severity: Severity, problem: str, sourc
 def check_limits(engine: Engine, mesh: SymbolicMesh, faulty: frozenset[str]) -> tuple[Finding, ...]:
     """What is beyond the limits of an engine; `faulty` hulls are left out."""
     hulls = [h for h in mesh.hulls if h.name not in faulty]
-    limits = (finding for limit in engine.limits if (finding := _check_limit(engine, limit, hulls)))
     return (
-        *limits,
+        *(finding for limit in engine.limits if (finding := _check_limit(engine, limit, hulls))),
         *_check_primitives(engine, hulls),
         *_check_hull_counts(engine, mesh),
         *_check_one_hull_a_file(engine, mesh),

@@ -1,17 +1,13 @@
 """Pure shapes: hulls, native primitives, poses, and what can be measured and made of them."""
 
-from meshforge.geometry.aabb import Aabb, bounds
-from meshforge.geometry.arrays import Floats, Ints, freeze_floats, freeze_ints, nearest_on_triangles
+from meshforge.geometry.arrays import Aabb, Floats, Ints, bounds, freeze_floats, freeze_ints, nearest_on_triangles
 from meshforge.geometry.convex import FLATNESS, convex_hull, measure_extents, principal_extents, spans_volume
-from meshforge.geometry.cut import cut, intersect, partition
 from meshforge.geometry.decomposition.engines import CoacdSettings, DecomposeSettings, EngineControl, VhacdSettings
 from meshforge.geometry.decomposition.run import cache_folder, decompose
 from meshforge.geometry.decomposition.triangles import is_line, is_sheet, sheet_hulls, volume_inside
 from meshforge.geometry.distance import close_pairs, distance
 from meshforge.geometry.fill import aabb_box, aabb_capsule, aabb_cylinder, aabb_sphere, longest_axis, map_to_box
-from meshforge.geometry.fit_box import tight_box
-from meshforge.geometry.fit_round import tight_capsule, tight_cylinder
-from meshforge.geometry.measure import inertia, overlap_volume, principal_axes, volume_of_union
+from meshforge.geometry.fit import tight_box, tight_capsule, tight_cylinder
 from meshforge.geometry.pieces import Piece, split_pieces
 from meshforge.geometry.pose import (
     Pose,
@@ -25,6 +21,7 @@ from meshforge.geometry.pose import (
 from meshforge.geometry.round_shapes import Capsule, Cylinder, Ellipsoid, Sphere
 from meshforge.geometry.shape import Box, Polytope, Shape, digest, is_same_shape
 from meshforge.geometry.simplify import Enclosure, HullBudget, enclose
+from meshforge.geometry.solids import cut, inertia, overlap_volume, partition, principal_axes, volume_of_union
 from meshforge.geometry.surface import (
     LEVEL,
     is_closed,
@@ -74,7 +71,6 @@ __all__ = [
     "freeze_floats",
     "freeze_ints",
     "inertia",
-    "intersect",
     "is_closed",
     "is_convex",
     "is_line",

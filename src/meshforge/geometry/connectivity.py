@@ -51,8 +51,7 @@ def components_by_vertices(corners: Ints) -> Ints:
 def distinct_faces(corners: Ints, component: Ints) -> Ints:
     """Indices, ascending, of the triangles with three corners; of doubled ones in one component, the first."""
     proper = np.flatnonzero((corners != np.roll(corners, 1, axis=1)).all(axis=1))
-    keys = np.sort(corners[proper], axis=1)
-    _, first = row_ids(component[proper], *keys.T)
+    _, first = row_ids(component[proper], *np.sort(corners[proper], axis=1).T)
     return proper[np.sort(first)]
 
 
@@ -137,8 +136,7 @@ def components_by_edges(points: Floats, corners: Ints, inward: bool) -> Ints:
     order = np.lexsort((begins, np.round(angle / _TURN), ids))
     starts = np.searchsorted(ids[order], np.arange(len(first)))
     following = np.append(order[1:], order[0])
-    ends = np.append(starts[1:], len(order)) - 1
-    following[ends] = order[starts]
+    following[np.append(starts[1:], len(order)) - 1] = order[starts]
     joined = (np.bincount(ids)[ids[order]] == 2) | (begins[order] & ~begins[following])
     return number_by_occurrence(component_roots(face[order[joined]], face[following[joined]], len(corners)))
 
@@ -152,7 +150,6 @@ def _angles_around_edges(points: Floats, corners: Ints, edges: Ints, reference: 
     out = points[opposite] - low
     out = out - np.einsum("ij,ij->i", out, axis)[:, None] * axis
     x = out[reference]
-    y = cross(axis, x)
-    turn = np.arctan2(np.einsum("ij,ij->i", out, y), np.einsum("ij,ij->i", out, x))
+    turn = np.arctan2(np.einsum("ij,ij->i", out, cross(axis, x)), np.einsum("ij,ij->i", out, x))
     turn = np.where(turn < 0, turn + 2 * np.pi, turn)
     return np.where(turn > 2 * np.pi - _TURN, 0.0, turn)

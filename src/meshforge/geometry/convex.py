@@ -75,8 +75,7 @@ def measure_extents(points: Floats) -> Floats:
     middle, axes, _ = principal_extents(points)
     local = (points - middle) @ axes.T
     found = [_measure_box(local, k) for k in range(3)]
-    best: Floats = np.sort(min(found, key=lambda sides: float(np.prod(sides))))[::-1]
-    return best
+    return np.sort(min(found, key=lambda sides: float(np.prod(sides))))[::-1]
 
 
 def _measure_box(local: Floats, axis: int) -> Floats:
@@ -93,14 +92,12 @@ def _measure_box(local: Floats, axis: int) -> Floats:
     along = edges / np.maximum(np.linalg.norm(edges, axis=1, keepdims=True), np.finfo(float).tiny)
     across = np.column_stack([-along[:, 1], along[:, 0]])
     sides = np.stack([np.ptp(ring @ along.T, axis=0), np.ptp(ring @ across.T, axis=0)], axis=1)
-    best = sides[sides.prod(axis=1).argmin()]
-    return np.array([float(np.ptp(local[:, axis])), *best])
+    return np.array([float(np.ptp(local[:, axis])), *sides[sides.prod(axis=1).argmin()]])
 
 
 def _least_extent(points: Floats, extents: Floats) -> float:
     """Extents of the points that are no larger count as none [m]."""
-    rounding = 8 * np.finfo(float).eps * float(np.abs(points).max())
-    return max(_RANK * float(extents.max()), rounding, _SMALLEST)
+    return max(_RANK * float(extents.max()), 8 * np.finfo(float).eps * float(np.abs(points).max()), _SMALLEST)
 
 
 def _thicken(points: Floats, center: Floats, axes: Floats, thickness: float) -> Floats:
@@ -208,8 +205,7 @@ def hull_by_manifold(points: Floats) -> HullIndices | None:
 
 def _bytes_of_rows(points: Floats) -> list[bytes]:
     """The bytes of each of points (n, 3)."""
-    rows: list[bytes] = np.ascontiguousarray(points).view("V24").ravel().tolist()
-    return rows
+    return np.ascontiguousarray(points).view("V24").ravel().tolist()
 
 
 def hull_by_qhull(points: Floats) -> HullIndices | None:

@@ -20,11 +20,10 @@ import coal
 import numpy as np
 
 from meshforge.common import GeometryError
-from meshforge.geometry.aabb import bounds, near_boxes
-from meshforge.geometry.arrays import Floats, Ints
-from meshforge.geometry.cut import cut
+from meshforge.geometry.arrays import Floats, Ints, bounds, near_boxes
 from meshforge.geometry.round_shapes import Capsule, Cylinder, Ellipsoid, Sphere
 from meshforge.geometry.shape import Box, Polytope, Shape
+from meshforge.geometry.solids import cut
 
 _TOLERANCE = 1e-10  # coal's default, 1e-6, is its error on curved shapes; below 1e-11 its iteration begins to stray
 _ITERATIONS = 512  # thin shapes need more than the default, 128

@@ -7,8 +7,7 @@ from collections.abc import Iterable
 import numpy as np
 
 from meshforge.common import GeometryError
-from meshforge.geometry.aabb import Aabb
-from meshforge.geometry.arrays import Floats, Ints
+from meshforge.geometry.arrays import Aabb, Floats, Ints
 from meshforge.geometry.pose import Pose
 from meshforge.geometry.round_shapes import Capsule, Cylinder, Sphere, tessellate_capsule, unit_cylinder, unit_sphere
 from meshforge.geometry.shape import Box, Polytope, Shape

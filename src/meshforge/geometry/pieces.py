@@ -82,8 +82,7 @@ def _read_memoized(soup: _Soup) -> tuple[Piece, ...]:
 
 
 def _read(soup: _Soup) -> tuple[Piece, ...]:
-    found = PieceReader(soup.vertices, soup.faces, soup.group).read()
-    ordered = sorted(found, key=lambda part: int(part.faces[0]))
+    ordered = sorted(PieceReader(soup.vertices, soup.faces, soup.group).read(), key=lambda part: int(part.faces[0]))
     return tuple(_make_piece(soup.vertices, soup.faces, part, soup.group) for part in ordered)
 
 
@@ -200,8 +199,7 @@ class PieceReader:
         component = connectivity.components_by_edges(self.points, corners[proper], inward)
         parts = self._add_slivers(_subdivide(faces[proper], component), np.setdiff1d(faces, faces[proper]))
         closed = len(connectivity.find_closed_components(corners[proper], component)) == len(parts) > 1
-        solids = self._judge_all(parts) if closed else []
-        return _join_backs(solids) or ([whole] if whole.verdict.shape else [])
+        return _join_backs(self._judge_all(parts) if closed else []) or ([whole] if whole.verdict.shape else [])
 
     def _judge_all(self, parts: list[Ints]) -> list[PieceFaces]:
         """The parts judged, none where one of them is no hull."""

@@ -65,7 +65,6 @@ class Pose:
         r = self.rotation
         # the four squares times four; the largest is divided by, so that nothing is lost near half turns
         squares = 1.0 + np.array([[1, 1, 1], [1, -1, -1], [-1, 1, -1], [-1, -1, 1]]) @ np.diag(r)
-        largest = int(np.argmax(squares))
         products = np.array(
             [
                 [squares[0], r[2, 1] - r[1, 2], r[0, 2] - r[2, 0], r[1, 0] - r[0, 1]],
@@ -73,7 +72,7 @@ class Pose:
                 [r[0, 2] - r[2, 0], r[0, 1] + r[1, 0], squares[2], r[1, 2] + r[2, 1]],
                 [r[1, 0] - r[0, 1], r[0, 2] + r[2, 0], r[1, 2] + r[2, 1], squares[3]],
             ]
-        )[largest]
+        )[int(np.argmax(squares))]
         quaternion: Floats = products / np.linalg.norm(products)
         return -quaternion if quaternion[0] < 0 else quaternion
 

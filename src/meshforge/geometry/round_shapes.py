@@ -8,8 +8,7 @@ from typing import ClassVar
 
 import numpy as np
 
-from meshforge.geometry.aabb import Aabb
-from meshforge.geometry.arrays import Floats, Ints, freeze_floats, freeze_ints
+from meshforge.geometry.arrays import Aabb, Floats, Ints, freeze_floats, freeze_ints
 from meshforge.geometry.pose import Pose
 from meshforge.geometry.shape import Polytope, PrimitiveShape, Shape, split_scaled_rotation
 

@@ -13,8 +13,7 @@ from weakref import WeakKeyDictionary
 
 import numpy as np
 
-from meshforge.geometry.aabb import Aabb
-from meshforge.geometry.arrays import Floats, Ints, cross, freeze_floats, freeze_ints
+from meshforge.geometry.arrays import Aabb, Floats, Ints, cross, freeze_floats, freeze_ints
 from meshforge.geometry.pose import Pose
 
 _BOX_CORNERS = np.array(list(itertools.product((-1.0, 1.0), repeat=3)))

@@ -58,8 +58,7 @@ def _enclose_by_planes(hull: Polytope, budget: HullBudget) -> Enclosure | None:
     if budget.vertices < 8 or budget.polygons < 6 or budget.polygon_vertices < 4:
         return None  # a box has more
     middle, axes, extents = principal_extents(hull.vertices)
-    old = (hull.vertices - middle) @ axes.T
-    search = _PlaneSearch(old, hull.faces, extents, budget)
+    search = _PlaneSearch((hull.vertices - middle) @ axes.T, hull.faces, extents, budget)
     search.run()
     while True:
         for growth in _GROWTH:

@@ -152,8 +152,7 @@ def _align_windings(corners: Ints) -> Ints:
     agree = (forward[pairs[:, 0]] != forward[pairs[:, 1]]).astype(np.int64)
     n = len(corners)  # node k is triangle k as it is wound, node n + k is it turned over
     rows = np.concatenate([one, one + n])
-    columns = np.concatenate([other + n * (1 - agree), other + n * agree])
-    side = component_roots(rows, columns, 2 * n)
+    side = component_roots(rows, np.concatenate([other + n * (1 - agree), other + n * agree]), 2 * n)
     turned = side[:n] > side[n:]  # equal sides: a surface with one side only, nothing to turn
     out = corners.copy()
     out[turned] = out[turned][:, ::-1]

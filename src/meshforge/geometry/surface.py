@@ -76,8 +76,7 @@ def lowest_altitudes(vertices: Floats, faces: Ints) -> tuple[Floats, Ints]:
     lengths = np.linalg.norm(sides, axis=2)
     double_areas = np.linalg.norm(cross(sides[:, 0], sides[:, 1]), axis=1)
     apex = np.argmax(lengths, axis=1)
-    longest = np.maximum(lengths[np.arange(len(faces)), apex], np.finfo(float).tiny)
-    return double_areas / longest, apex
+    return double_areas / np.maximum(lengths[np.arange(len(faces)), apex], np.finfo(float).tiny), apex
 
 
 def _size(vertices: Floats) -> float:
@@ -137,8 +136,7 @@ def polygon_sizes(hull: Polytope) -> tuple[int, ...]:
 
     pairs = neighbour_faces(hull.faces)
     normals = normals_of(hull)
-    bend = np.linalg.norm(np.cross(normals[pairs[:, 0]], normals[pairs[:, 1]]), axis=1)
-    level = pairs[bend <= LEVEL]
+    level = pairs[np.linalg.norm(np.cross(normals[pairs[:, 0]], normals[pairs[:, 1]]), axis=1) <= LEVEL]
     links = coo_array((np.ones(len(level)), (level[:, 0], level[:, 1])), shape=(len(hull.faces),) * 2)
     count, polygon = connected_components(links, directed=False)
     corners = np.unique(np.column_stack([np.repeat(polygon, 3), hull.faces.ravel()]), axis=0)

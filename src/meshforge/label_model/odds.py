@@ -107,8 +107,7 @@ class LabelBeliefs:
         own = self._votes.chances[np.arange(len(codes)), codes] if places else np.zeros(len(codes))
         wrong = (1 - own) * (1 - right) / max(1, len(places) - 1)
         shares = np.where(right > 0, wrong / np.maximum(own * right + wrong, 1e-300), 1.0)
-        ends = np.cumsum([0, *self._counts])
-        sums = (float(shares[first:end].sum()) for first, end in pairwise(ends))
+        sums = (float(shares[first:end].sum()) for first, end in pairwise(np.cumsum([0, *self._counts])))
         return dict(zip(self._names, sums, strict=True))
 
     def odds_of(self, asset: str, hull: Hull) -> LabelOdds | None:
@@ -203,8 +202,7 @@ def vote_by_lookalikes(meshes: Sequence[SymbolicMesh], vocabulary: Sequence[str]
         return LookalikeVotes(even, np.zeros((len(hulls), 0), dtype=np.int64))
     sure = np.array([_vote_weight(hull.confidence) for hull in hulls])
     rows = _standardize(descriptors(meshes))
-    asked = min(NEIGHBOURS + 1, len(voting))
-    gaps, found = cKDTree(rows[voting]).query(rows, k=range(1, asked + 1))
+    gaps, found = cKDTree(rows[voting]).query(rows, k=range(1, min(NEIGHBOURS + 1, len(voting)) + 1))
     near, gaps = _drop_self(voting[found], np.asarray(gaps))
     votes = (1 + (gaps / REACH) ** 2) ** -FALLOFF * sure[near]
     return LookalikeVotes(_vote_shares(codes[near], votes, len(vocabulary)), codes[near][:, :MAX_MENTIONED])

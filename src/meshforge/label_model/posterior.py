@@ -1,6 +1,5 @@
 """The chance of each label for each hull of a family, a table of comparable rows: by hulls that look alike, then by
-hulls that touch.
-"""
+hulls that touch."""
 
 from __future__ import annotations
 

@@ -5,37 +5,28 @@ from meshforge.labels.from_files.points import PointsOptions
 from meshforge.labels.from_files.read import LabelFileOptions, label_file_beside
 from meshforge.labels.from_files.segments import PointAlignment
 from meshforge.labels.label_store import LabelStore
-from meshforge.labels.merge import LabelOutcome, OutcomeCallback, label_new_hulls
-from meshforge.labels.names.label_by_names import PatternPairs
-from meshforge.labels.offers import LabelOffers, OfferCache
-from meshforge.labels.progress import SourceTally, Tally
-from meshforge.labels.propagation.label_by_propagation import PropagationResult, Stage
+from meshforge.labels.merge import LabelOutcome, label_new_hulls
+from meshforge.labels.offers import OfferCache
+from meshforge.labels.propagation.label_by_propagation import PropagationResult
 from meshforge.labels.propagation.propagate import FamilyPosterior, Propagator, propagate
-from meshforge.labels.propose import Proposal, Proposals
-from meshforge.labels.vlm.endpoint import Endpoint, endpoint_of
+from meshforge.labels.summary import Proposal, Proposals, SourceTally, Tally
+from meshforge.labels.vlm.endpoint import endpoint_of
 from meshforge.labels.vlm.label_by_vlm import VlmForecast, VlmResult, check_vlm_settings
 from meshforge.labels.vlm.limits import Usage
-from meshforge.labels.vlm.prompt import PromptConfig
 
 __all__ = [
-    "Endpoint",
     "FamilyPosterior",
     "LabelFileOptions",
-    "LabelOffers",
     "LabelOutcome",
     "LabelStore",
     "OfferCache",
-    "OutcomeCallback",
-    "PatternPairs",
     "PointAlignment",
     "PointsOptions",
-    "PromptConfig",
     "PropagationResult",
     "Propagator",
     "Proposal",
     "Proposals",
     "SourceTally",
-    "Stage",
     "Tally",
     "Usage",
     "VlmForecast",

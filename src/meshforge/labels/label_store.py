@@ -13,16 +13,9 @@ from meshforge.labels.from_files.read import LabelFileOptions
 from meshforge.labels.merge import LabelOutcome, OutcomeCallback, ignore_report, set_labels
 from meshforge.labels.names.label_by_names import PatternPairs, label_from_names, propose_from_names
 from meshforge.labels.offers import LabelOffers, OfferCache
-from meshforge.labels.progress import Tally, describe_label_plan, tally, write_contact_sheets
-from meshforge.labels.propagation.label_by_propagation import (
-    PropagationResult,
-    Stage,
-    WriteBlock,
-    ignore_stage,
-    propagate_labels,
-    propose_propagated,
-)
-from meshforge.labels.propose import Proposals
+from meshforge.labels.propagation import label_by_propagation
+from meshforge.labels.propagation.label_by_propagation import PropagationResult, Stage, WriteBlock, ignore_stage
+from meshforge.labels.summary import Proposals, Tally, describe_label_plan, tally, write_contact_sheets
 from meshforge.labels.vlm.label_by_vlm import VlmForecast, VlmResult, forecast_vlm, label_with_vlm
 from meshforge.labels.vlm.limits import Usage
 from meshforge.store import Store, VlmSettings
@@ -132,7 +125,7 @@ class LabelStore(Store):
         labels are written, given the asset that would help most.
         Raises ProjectError: no vocabulary, no label to begin with; StoppedError on a stop, with nothing written.
         """
-        return propagate_labels(self, execution, stage, report, write_block)
+        return label_by_propagation.propagate_labels(self, execution, stage, report, write_block)
 
     def propose_propagated(
         self,
@@ -142,7 +135,7 @@ class LabelStore(Store):
         stage: Stage = ignore_stage,
     ) -> Proposals:
         """What `propagate_labels` would give, with nothing written; vocabulary: one to try instead."""
-        return propose_propagated(self, vocabulary, execution, stage)
+        return label_by_propagation.propose_propagated(self, vocabulary, execution, stage)
 
     def label_with_vlm(
         self,

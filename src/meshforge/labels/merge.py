@@ -6,20 +6,12 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 
+from meshforge import symbolic
 from meshforge.common import AssetError, ProjectError, file_state, join_names, nearest_name
 from meshforge.geometry import Shape, digest, overlap_volume
 from meshforge.rendering import UNSURE
 from meshforge.store import Store, hull_digests
-from meshforge.symbolic import (
-    GIVEN_SOURCES,
-    HUMAN_SOURCES,
-    Hull,
-    Label,
-    LabelSource,
-    SymbolicMesh,
-    match_labels,
-    transfer_labels,
-)
+from meshforge.symbolic import HUMAN_SOURCES, Label, SymbolicMesh
 
 ReplacePolicy = Callable[[Label | None, Label], bool]
 """Whether a label, or none, may be replaced by a given one at all; what people said stays in any case."""
@@ -47,7 +39,7 @@ class LabelOutcome:
 
 
 def set_labels(
-    store: Store, asset: str, labels: Mapping[str, str | None], source: LabelSource, confidence: float
+    store: Store, asset: str, labels: Mapping[str, str | None], source: symbolic.LabelSource, confidence: float
 ) -> LabelOutcome:
     """Write labels of one asset, or remove them by None. Raises ProjectError, with nothing written, for a wrong one."""
     given = {name: Label(label, confidence, source) for name, label in labels.items() if label is not None}
@@ -148,7 +140,7 @@ class LabelWriter:
         hulls: digests by name, in order. Raises AssetError where the present labels cannot be read.
         """
         with self._store.lock():
-            current = match_labels(self._store.labels(asset), hulls).labels
+            current = symbolic.match_labels(self._store.labels(asset), hulls).labels
             wanted = {name: label for name, label in given.items() if may(current.get(name), label)}
             labels, report = merge_labels(asset, hulls, current, wanted, self.vocabulary)
             if report.taken:
@@ -174,7 +166,7 @@ def can_replace_less_certain(current: Label | None, given: Label) -> bool:
     """Whether a label may be replaced: an earlier one of that machine, or one that another was less sure of."""
     if current is None or current.source == given.source:
         return True
-    return current.source not in GIVEN_SOURCES and current.confidence < given.confidence
+    return current.source not in symbolic.GIVEN_SOURCES and current.confidence < given.confidence
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -204,7 +196,7 @@ def label_new_hulls(store: Store, asset: str, old: Mapping[str, Shape], mesh: Sy
     labels = {name: file.labels[name] for name in gone}
     fresh = {h.name: _label_by_overlap(h, gone, labels) for h in mesh.hulls if were.get(h.name) != here[h.name]}
     rest = replace(file, labels={n: label for n, label in file.labels.items() if n not in gone})
-    followed = transfer_labels(rest, mesh).mesh
+    followed = symbolic.transfer_labels(rest, mesh).mesh
     taken = {name: label for name, label in fresh.items() if label and not followed.hull_of(name).annotation}
     notes = [f"labels of {join_names([*gone])} went to {join_names([*taken])}"] if taken else []
     lost = sorted({label.name for label in labels.values()} - {label.name for label in taken.values()})
@@ -213,7 +205,7 @@ def label_new_hulls(store: Store, asset: str, old: Mapping[str, Shape], mesh: Sy
     return NewHullLabels(store, asset, followed.with_labels(taken), away, tuple(notes))
 
 
-def _label_by_overlap(hull: Hull, gone: Mapping[str, Shape], labels: Mapping[str, Label]) -> Label | None:
+def _label_by_overlap(hull: symbolic.Hull, gone: Mapping[str, Shape], labels: Mapping[str, Label]) -> Label | None:
     """The label of most of what a hull overlaps, with the certainty of the hull that had it."""
     common = {name: overlap_volume(hull.shape, shape) for name, shape in gone.items()}
     covered = sum(common.values())

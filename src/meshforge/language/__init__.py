@@ -11,9 +11,8 @@ from meshforge.language.actions.base import (
     PrimitiveOrFileArgument,
     WordArgument,
 )
-from meshforge.language.actions.basic import ACTIONS, Delete, Each, Merge, Scale
+from meshforge.language.actions.basic import ACTIONS, Add, Delete, Each, Merge, Replace, Scale
 from meshforge.language.actions.edit import Template
-from meshforge.language.actions.insert import Add, Replace
 from meshforge.language.apply import (
     ActionResult,
     RuleTrace,
@@ -22,10 +21,9 @@ from meshforge.language.apply import (
     from_canonical_frame,
     to_canonical_frame,
 )
-from meshforge.language.explain import explain
 from meshforge.language.orient import orient_mesh
 from meshforge.language.parse import parse_action, parse_extractor, parse_orient
-from meshforge.language.print import Comments, Rule, show, show_label
+from meshforge.language.print import Comments, Rule, explain, show, show_label
 from meshforge.language.program import HeaderComments, Program, RunResult, rename_in_program
 from meshforge.language.syntax import (
     DIRECTIONS,

@@ -65,8 +65,7 @@ def apply_action(
     gone = {hull.name for group, edit in zip(groups, edits, strict=True) if edit.removes for hull in group.hulls}
     renamed = _relabel(groups, edits, label)
     kept = [renamed.get(hull.name, hull) for hull in mesh.hulls if hull.name not in gone]
-    inherited = inheritance_notes((m for _, m in made), mesh)
-    notes = dict.fromkeys([*(edit.note for edit in edits if edit.note), *inherited])
+    notes = dict.fromkeys([*(edit.note for edit in edits if edit.note), *inheritance_notes((m for _, m in made), mesh)])
     changed = bool(made or gone or renamed)
     return ActionResult(
         mesh.with_hulls([*kept, *(hull for hull, _ in made)]) if changed else mesh,

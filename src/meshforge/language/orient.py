@@ -4,16 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
+from meshforge import geometry
 from meshforge.common import ProgramError, join_names
-from meshforge.geometry import (
-    Floats,
-    Pose,
-    nearest_aligned_rotation,
-    nearest_aligned_rotation_between,
-    rotation_about,
-    smallest_rotation,
-    snap_rotation,
-)
+from meshforge.geometry import Floats, Pose
 from meshforge.language.print import show
 from meshforge.language.syntax import SLACK, BaseExtractor, Direction, LandmarkPair, Orient, select_mask
 from meshforge.symbolic import SymbolicMesh, bits_of
@@ -31,7 +24,7 @@ def orient_mesh(mesh: SymbolicMesh, orient: Orient | None) -> tuple[SymbolicMesh
     None, and a turn by nothing, give the mesh itself. Raises ProgramError naming a landmark that selects nothing,
     or landmarks that give no direction.
     """
-    rotation = snap_rotation(_find_rotation(mesh, orient)) if orient else np.eye(3)
+    rotation = geometry.snap_rotation(_find_rotation(mesh, orient)) if orient else np.eye(3)
     pose = Pose(rotation, np.zeros(3))
     if np.array_equal(rotation, np.eye(3)):
         return mesh, pose
@@ -44,18 +37,17 @@ def _find_rotation(mesh: SymbolicMesh, orient: Orient) -> Floats:
     if len(directions) == 2:
         frame = _frame_of(directions[0], _perpendicular_part(directions, orient))
         rotation: Floats = _frame_of(axes[0], axes[1]).T @ frame
-        return nearest_aligned_rotation(rotation) if orient.snap else rotation
+        return geometry.nearest_aligned_rotation(rotation) if orient.snap else rotation
     if orient.snap:
-        return nearest_aligned_rotation_between(directions[0], axes[0])
-    return _square_up(mesh, smallest_rotation(directions[0], axes[0]), "XYZ".index(orient.pairs[0].axis[1]))
+        return geometry.nearest_aligned_rotation_between(directions[0], axes[0])
+    return _square_up(mesh, geometry.smallest_rotation(directions[0], axes[0]), "XYZ".index(orient.pairs[0].axis[1]))
 
 
 def _square_up(mesh: SymbolicMesh, upright: Floats, axis: int) -> Floats:
     """The rotation `upright`, then the turn about the coordinate axis that squares up the footprint."""
     plane = [(axis + 1) % 3, (axis + 2) % 3]
     points = np.concatenate([hull.vertices for hull in mesh.hulls]) @ upright.T
-    turned: Floats = rotation_about(np.eye(3)[axis], square_up_angle(points[:, plane])) @ upright
-    return turned
+    return geometry.rotation_about(np.eye(3)[axis], square_up_angle(points[:, plane])) @ upright
 
 
 def _frame_of(first: Floats, second: Floats) -> Floats:
@@ -70,12 +62,9 @@ def _perpendicular_part(directions: list[Floats], orient: Orient) -> Floats:
     norm = float(np.linalg.norm(part))
     if norm < _PARALLEL:
         pairs = " and ".join(f"{show(pair.start)} -> {show(pair.end)}" for pair in orient.pairs)
-        raise ProgramError(
-            f"orient: {pairs} run along one line, so they give no frame",
-            remedy="Choose a second pair of landmarks that lies across the first, or leave it out.",
-        )
-    unit: Floats = part / norm
-    return unit
+        remedy = "Choose a second pair of landmarks that lies across the first, or leave it out."
+        raise ProgramError(f"orient: {pairs} run along one line, so they give no frame", remedy=remedy)
+    return part / norm
 
 
 def _landmark_direction(mesh: SymbolicMesh, pair: LandmarkPair) -> Floats:
@@ -132,11 +121,9 @@ def _fold_angles(angles: Floats) -> Floats:
     """The angles up to quarter turns, in (-pi/4, pi/4]; what is -pi/4 but for rounding counts as pi/4."""
     quarter = np.pi / 2
     low = -quarter / 2 + _EQUAL
-    folded: Floats = (angles - low) % quarter + low
-    return folded
+    return (angles - low) % quarter + low
 
 
 def _rectangle_area(outline: Floats, turn: float) -> float:
     cosine, sine = np.cos(turn), np.sin(turn)
-    turned = outline @ np.array([[cosine, sine], [-sine, cosine]])
-    return float(np.prod(np.ptp(turned, axis=0)))
+    return float(np.prod(np.ptp(outline @ np.array([[cosine, sine], [-sine, cosine]]), axis=0)))

@@ -11,20 +11,11 @@ from typing import TYPE_CHECKING, Any, cast
 
 from meshforge.common import ProgramError
 from meshforge.language import syntax
+from meshforge.language import text as program_text
 from meshforge.language.actions import base
 from meshforge.language.actions.basic import ACTIONS
 from meshforge.language.print import CommentLines, Comments, Rule
-from meshforge.language.text import (
-    Node,
-    ProgramText,
-    TreeReader,
-    likely_word,
-    quote_code,
-    start_of,
-    subtrees_of,
-    syntax_error,
-    tokens_of,
-)
+from meshforge.language.text import Node, ProgramText, TreeReader, likely_word, quote_code, subtrees_of, tokens_of
 
 if TYPE_CHECKING:  # lark is loaded where a program is parsed
     from lark import Lark, Token
@@ -89,7 +80,7 @@ def parse_tree(source: ProgramText, start: str) -> Node:
         assert isinstance(error, UnexpectedCharacters | UnexpectedToken)
         offset = len(source.text.rstrip("\n")) if at_end else int(error.pos_in_stream or 0)
         accepted: set[str] = parsing.accepts()  # type: ignore[no-untyped-call]  # lark leaves it untyped
-        raise syntax_error(source, offset, accepted, before) from None
+        raise program_text.syntax_error(source, offset, accepted, before) from None
 
 
 def _only_child(tree: Node) -> Node:
@@ -258,7 +249,7 @@ def _bare_token(given: Node | Token) -> Token | None:
 def _misfit_error(
     text: TreeReader, kind: type[base.Action], argument: base.ArgumentType, given: Node | Token
 ) -> ProgramError:
-    thing = text.source.piece_at(start_of(given))
+    thing = text.source.piece_at(program_text.start_of(given))
     remedy = f"Write {kind.usage()}."
     like = likely_word(thing.strip('"'), argument.choices)
     if like:

@@ -8,19 +8,10 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from meshforge.common import MeshForgeError, ProgramError
-from meshforge.language import syntax
+from meshforge.language import parse, syntax
 from meshforge.language.actions.base import show_number
 from meshforge.language.actions.edit import Template, check_templates
 from meshforge.language.apply import RuleTrace, apply_rule, from_canonical_frame, to_canonical_frame
-from meshforge.language.parse import (
-    attach_comments,
-    build_labels,
-    build_orient,
-    build_rule,
-    build_threshold,
-    collect_headers,
-    parse_tree,
-)
 from meshforge.language.print import CommentLines, Comments, Rule, show, show_label, show_rule
 from meshforge.language.text import Node, ProgramText, TreeReader, subtrees_of
 from meshforge.symbolic import SymbolicMesh
@@ -98,7 +89,7 @@ class Program:
         """The program in a text. Raises ProgramError at `name:line:column`, with the line and a caret."""
         source = ProgramText(text.removeprefix("\ufeff").removesuffix("\n") + "\n", name)
         try:
-            return _build_program(source, parse_tree(source, "program"))
+            return _build_program(source, parse.parse_tree(source, "program"))
         except RecursionError:
             raise ProgramError("its extractors are nested too deep", where=name) from None
 
@@ -130,10 +121,8 @@ class Program:
 
     def _check_has_labels(self, mesh: SymbolicMesh) -> None:
         if self.labels_asked and mesh.hulls and not any(hull.label for hull in mesh.hulls):
-            raise ProgramError(
-                "no labels: the program asks for labels, and no hull has one",
-                remedy="Label the asset first (meshforge label), or give its labels with --labels FILE.",
-            )
+            remedy = "Label the asset first (meshforge label), or give its labels with --labels FILE."
+            raise ProgramError("no labels: the program asks for labels, and no hull has one", remedy=remedy)
 
     def _run_rules(self, mesh: SymbolicMesh, templates: Mapping[str, Template]) -> RunResult:
         current, pose = to_canonical_frame(mesh, self.orient, self.contact)
@@ -203,16 +192,16 @@ def _build_program(source: ProgramText, tree: Node) -> Program:
     """The program of a `program` node."""
     statements = subtrees_of(tree)
     text = TreeReader(source)
-    headers = collect_headers(text, [node for node in statements if node.data != "rule"])
-    labels = build_labels(text, headers["labels"]) if "labels" in headers else ()
+    headers = parse.collect_headers(text, [node for node in statements if node.data != "rule"])
+    labels = parse.build_labels(text, headers["labels"]) if "labels" in headers else ()
     text = TreeReader(source, labels)
-    comments, end = attach_comments(source.text, [node.meta.line for node in statements])
+    comments, end = parse.attach_comments(source.text, [node.meta.line for node in statements])
     of = dict(zip(map(id, statements), comments, strict=True))
     return Program(
         labels,
-        build_orient(text, headers["orient"]) if "orient" in headers else None,
-        tuple(build_rule(text, node, of[id(node)]) for node in statements if node.data == "rule"),
-        build_threshold(text, headers.get("contact")),
-        build_threshold(text, headers.get("extremity")),
+        parse.build_orient(text, headers["orient"]) if "orient" in headers else None,
+        tuple(parse.build_rule(text, node, of[id(node)]) for node in statements if node.data == "rule"),
+        parse.build_threshold(text, headers.get("contact")),
+        parse.build_threshold(text, headers.get("extremity")),
         HeaderComments(**{name: of[id(node)] for name, node in headers.items()}, end=end),
     )

@@ -145,10 +145,8 @@ def check_direction(direction: str) -> None:
 def _check_base(node: object, *operands: object) -> None:
     for operand in operands:
         if not isinstance(operand, All | Is):
-            raise ProgramError(
-                f"{type(node).__name__} takes All or Is(label), not {operand!r}",
-                remedy="Combine selections with Union, Intersect and Diff instead of nesting them.",
-            )
+            remedy = "Combine selections with Union, Intersect and Diff instead of nesting them."
+            raise ProgramError(f"{type(node).__name__} takes All or Is(label), not {operand!r}", remedy=remedy)
 
 
 def select(extractor: Extractor, mesh: SymbolicMesh, extremity: float = EXTREMITY) -> frozenset[int]:

@@ -114,8 +114,7 @@ def syntax_error(source: ProgramText, offset: int, accepted: Set[str], before: s
     accepted: names of the grammar's terminals that may stand there; before: the text of the token before it.
     """
     found = source.piece_at(offset)
-    words = _candidate_words(accepted)
-    like = likely_word(found, words)
+    like = likely_word(found, _candidate_words(accepted))
     problem = _problem(found, accepted)
     if like:
         return source.error_at(offset, problem, f"Did you mean {like}?")

@@ -4,7 +4,6 @@ needed."""
 from meshforge.rendering.camera import VIEWS, Up, View
 from meshforge.rendering.canvas import encode_png, encode_webp, make_contact_sheet, write_png
 from meshforge.rendering.colors import (
-    COLOR_BY,
     DIFFERENCE_COLORS,
     SELECTED,
     UNLABELLED,
@@ -13,14 +12,7 @@ from meshforge.rendering.colors import (
     label_color,
     label_colors,
 )
-from meshforge.rendering.compare import (
-    compare,
-    draw_before_after,
-    draw_difference,
-    draw_heat_map,
-    draw_volumes,
-    joint_bounds,
-)
+from meshforge.rendering.compare import compare, draw_before_after, draw_difference, draw_heat_map, draw_volumes
 from meshforge.rendering.id_buffer import count_visible_pixels, render_id_buffer, render_thumbnail
 from meshforge.rendering.labeling.picture import LabelingPicture
 from meshforge.rendering.labeling.series import draw_labeling_pictures, hull_numbers
@@ -28,7 +20,6 @@ from meshforge.rendering.picture import render, up_axis
 from meshforge.rendering.scene import RenderMesh, to_render_mesh
 
 __all__ = [
-    "COLOR_BY",
     "DIFFERENCE_COLORS",
     "SELECTED",
     "UNLABELLED",
@@ -49,7 +40,6 @@ __all__ = [
     "encode_png",
     "encode_webp",
     "hull_numbers",
-    "joint_bounds",
     "label_color",
     "label_colors",
     "make_contact_sheet",

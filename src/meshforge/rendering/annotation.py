@@ -138,8 +138,7 @@ def _draw_scale(draw: Any, size: tuple[int, int], top: int) -> None:
     draw.text((x, top + high / 2), "unsure", fill=FAINT, font=font(small), anchor="lm")
     x += round(52 * u)
     for k in range(length):
-        color = hexadecimal(confidence_color(k / max(length - 1, 1)))
-        draw.line((x + k, top, x + k, top + high), fill=color)
+        draw.line((x + k, top, x + k, top + high), fill=hexadecimal(confidence_color(k / max(length - 1, 1))))
     draw.text((x + length + 8 * u, top + high / 2), "certain", fill=FAINT, font=font(small), anchor="lm")
 
 
@@ -168,8 +167,7 @@ def find_label_anchors(items: Ints, wanted: Collection[int] | None = None, least
 
 def count_pixels(items: Ints, count: int = 0) -> Ints:
     """How many pixels (h, w) show each item, for `count` items at least; -1 is none."""
-    counts: Ints = np.bincount(items.ravel() + 1, minlength=count + 1)[1:]
-    return counts
+    return np.bincount(items.ravel() + 1, minlength=count + 1)[1:]
 
 
 def _find_anchor(part: Ints, item: int, where: tuple[slice, slice]) -> LabelAnchor:

@@ -74,8 +74,7 @@ class Camera:
     def to_pixels(self, points: Floats) -> Floats:
         """Points (n, 3) in the picture: column and row (n, 2), the first pixel's centre at (0, 0)."""
         offset = (self.project(points) - self.middle) / self.scale
-        half = (np.array(self.size) - 1) / 2
-        return half + offset * [1, -1]
+        return (np.array(self.size) - 1) / 2 + offset * [1, -1]
 
     def supersample(self, factor: int) -> Camera:
         """The same camera with `factor` times as many pixels along each side."""
@@ -98,8 +97,7 @@ class Camera:
         """Right and up of pixel columns and rows on the image plane."""
         width, height = self.size
         right = self.middle[0] + (columns - (width - 1) / 2) * self.scale
-        up = self.middle[1] - (rows - (height - 1) / 2) * self.scale
-        return right, up
+        return right, self.middle[1] - (rows - (height - 1) / 2) * self.scale
 
 
 def aim_camera(view: View, up: Up, size: tuple[int, int], points: Floats, margin: float = _MARGIN) -> Camera:
@@ -110,8 +108,7 @@ def aim_camera(view: View, up: Up, size: tuple[int, int], points: Floats, margin
     """
     axes = axes_of(view, up)
     eye = axes[2] * _DISTANCE if view.startswith("iso") else None
-    loose = Camera(axes, eye, np.zeros(2), 1.0, size)
-    plane = loose.project(points)
+    plane = Camera(axes, eye, np.zeros(2), 1.0, size).project(points)
     low, high = plane.min(axis=0), plane.max(axis=0)
     room = np.array(size) * (1 - 2 * margin)
     scale = float(np.max((high - low) / room)) or 1.0 / min(size)

@@ -62,8 +62,7 @@ class Canvas:
             mixed = pixels[..., :3] + below * (1 - alpha)
         else:
             mixed = np.concatenate([pixels[..., :3] / np.maximum(alpha, 1e-4), alpha], axis=2)
-        levels = np.rint(np.clip(mixed, 0, 1) * 255).astype(np.uint8)
-        self.image.paste(Image.fromarray(levels, self.image.mode), at)
+        self.image.paste(Image.fromarray(np.rint(np.clip(mixed, 0, 1) * 255).astype(np.uint8), self.image.mode), at)
 
     def write_marks(self, items: Ints, marks: Mapping[int, str], at: tuple[int, int]) -> None:
         """Writes texts on items seen at (left, top)."""
@@ -73,12 +72,11 @@ class Canvas:
     def write_message(self, text: str, box: tuple[int, int, int, int]) -> None:
         """Writes a text into the middle of a box."""
         left, top, right, bottom = box
-        size = round(20 * annotation.text_scale(self.size))
         self._draw.text(
             ((left + right) / 2, (top + bottom) / 2),
             text,
             fill=annotation.FAINT,
-            font=annotation.font(size),
+            font=annotation.font(round(20 * annotation.text_scale(self.size))),
             anchor="mm",
         )
 

@@ -106,8 +106,7 @@ def candidate_colors() -> tuple[Floats, Floats]:
 
 def to_linear(colors: Floats) -> Floats:
     """Colours in sRGB as linear light, both in 0..1."""
-    linear: Floats = np.where(colors <= 0.04045, colors / 12.92, ((colors + 0.055) / 1.055) ** 2.4)
-    return linear
+    return np.where(colors <= 0.04045, colors / 12.92, ((colors + 0.055) / 1.055) ** 2.4)
 
 
 @dataclass(frozen=True, slots=True)

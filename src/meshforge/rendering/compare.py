@@ -1,6 +1,5 @@
 """Pictures of an edit, before and after under one camera; and of measurements: surfaces in bands of colour, and
-parts of space within pale hulls.
-"""
+parts of space within pale hulls."""
 
 from __future__ import annotations
 
@@ -13,27 +12,12 @@ import numpy as np
 
 from meshforge.common import pluralize
 from meshforge.geometry import Aabb, Floats, Ints, Shape
+from meshforge.rendering import colors as palette
+from meshforge.rendering import picture
 from meshforge.rendering.camera import Up, View
 from meshforge.rendering.canvas import Canvas, make_contact_sheet
-from meshforge.rendering.colors import (
-    KEPT,
-    MADE,
-    REMOVED,
-    UNLABELLED,
-    ColorBy,
-    HullColors,
-    LegendEntry,
-    color_hulls,
-    rgb,
-)
-from meshforge.rendering.picture import (
-    Subject,
-    build_subject,
-    draw_on_canvas,
-    points_to_frame,
-    render_meshes_of,
-    up_axis,
-)
+from meshforge.rendering.colors import ColorBy, HullColors, LegendEntry, color_hulls, rgb
+from meshforge.rendering.picture import Subject, build_subject, draw_on_canvas, points_to_frame
 from meshforge.rendering.raycast import DrawLayer
 from meshforge.rendering.scene import to_render_mesh
 from meshforge.symbolic import Hull, Surface, SymbolicMesh
@@ -93,10 +77,12 @@ def draw_difference(
 ) -> Image:
     """What an edit did: made hulls green, kept ones grey, removed ones as red, striped shells."""
     gone = [h for h in before.hulls if h.name not in after.index]
-    colors = np.array([rgb(KEPT if h.name in before.index else MADE) for h in after.hulls]).reshape(-1, 3)
+    colors = np.array([rgb(palette.KEPT if h.name in before.index else palette.MADE) for h in after.hulls]).reshape(
+        -1, 3
+    )
     made = sum(h.name not in before.index for h in after.hulls)
-    entries = (LegendEntry(REMOVED, "removed", len(gone)), LegendEntry(MADE, "made", made))
-    coloring = HullColors(colors, (*entries, LegendEntry(KEPT, "kept", len(after.hulls) - made)))
+    entries = (LegendEntry(palette.REMOVED, "removed", len(gone)), LegendEntry(palette.MADE, "made", made))
+    coloring = HullColors(colors, (*entries, LegendEntry(palette.KEPT, "kept", len(after.hulls) - made)))
     caption = f"{pluralize(len(before.hulls), 'hull')} before, {len(after.hulls)} after"
     canvas = Canvas(size, background, title, caption if legend else None, coloring if legend else HullColors(colors))
     fresh = frozenset(k for k, h in enumerate(after.hulls) if h.name not in before.index)
@@ -116,8 +102,8 @@ def joint_bounds(*meshes: SymbolicMesh) -> Aabb | None:
 def _with_removed(what: Subject, gone: Sequence[Hull], fresh: frozenset[int]) -> Subject:
     if not gone:
         return what
-    red, every = np.tile(rgb(REMOVED), (len(gone), 1)), frozenset(range(len(gone)))
-    shells = DrawLayer(render_meshes_of(gone), red, before=0.55, behind=0.3, hatched=every, drawn_over=fresh)
+    red, every = np.tile(rgb(palette.REMOVED), (len(gone), 1)), frozenset(range(len(gone)))
+    shells = DrawLayer(picture.render_meshes_of(gone), red, before=0.55, behind=0.3, hatched=every, drawn_over=fresh)
     return replace(what, layers=(*what.layers, shells))
 
 
@@ -153,12 +139,11 @@ def draw_heat_map(
     colors = np.array([rgb(color) for color in BANDS])
 
     def tint(points: Floats, items: Ints) -> Floats:
-        tinted: Floats = colors[np.searchsorted(edges, measure(points, items))]
-        return tinted
+        return colors[np.searchsorted(edges, measure(points, items))]
 
     render_meshes = [to_render_mesh(thing) for thing in things]
     layer = DrawLayer(render_meshes, np.tile(colors[0], (len(render_meshes), 1)), tint=tint)
-    subject = Subject((layer,), points_to_frame(render_meshes, ()), up_axis(mesh))
+    subject = Subject((layer,), points_to_frame(render_meshes, ()), picture.up_axis(mesh))
     canvas = Canvas(size, "light", title, None, HullColors(colors, _band_legend(edges)))
     draw_on_canvas(canvas, subject)
     return canvas.image
@@ -174,12 +159,12 @@ def _band_legend(edges: Floats) -> tuple[LegendEntry, ...]:
 
 def draw_volumes(mesh: SymbolicMesh, marked: Sequence[VolumeMark], *, size: tuple[int, int], title: str) -> Image:
     """The marked parts of space, solid, within the hulls of a mesh as grey shells."""
-    parts, shells = [to_render_mesh(surface) for _, _, surface in marked], render_meshes_of(mesh.hulls)
+    parts, shells = [to_render_mesh(surface) for _, _, surface in marked], picture.render_meshes_of(mesh.hulls)
     colors = np.array([rgb(color) for _, color, _ in marked]).reshape(-1, 3)
     names = dict.fromkeys((color, name) for name, color, _ in marked)
     legend = tuple(LegendEntry(color, name) for color, name in names)
-    pale = DrawLayer(shells, np.tile(rgb(UNLABELLED), (len(shells), 1)), before=0.28, behind=0.28)
-    subject = Subject((DrawLayer(parts, colors), pale), points_to_frame(parts, shells), up_axis(mesh))
+    pale = DrawLayer(shells, np.tile(rgb(palette.UNLABELLED), (len(shells), 1)), before=0.28, behind=0.28)
+    subject = Subject((DrawLayer(parts, colors), pale), points_to_frame(parts, shells), picture.up_axis(mesh))
     canvas = Canvas(size, "light", title, None, HullColors(colors, legend))
     draw_on_canvas(canvas, subject)
     return canvas.image

@@ -51,8 +51,7 @@ def count_visible_pixels(
     mesh: SymbolicMesh, *, view: View = "iso", size: tuple[int, int] = (400, 300), up: Up | None = None
 ) -> Mapping[str, int]:
     """How many pixels of a picture show each hull, by name; hulls that are hidden have 0."""
-    items = render_id_buffer(mesh, view=view, size=size, up=up)
-    counts = count_pixels(items, len(mesh.hulls))
+    counts = count_pixels(render_id_buffer(mesh, view=view, size=size, up=up), len(mesh.hulls))
     return {hull.name: int(n) for hull, n in zip(mesh.hulls, counts, strict=True)}
 
 
@@ -121,5 +120,4 @@ def _encode(seen: Ints, light: Floats32, hulls: int) -> ThumbnailPixels:
     picked = np.where(middle >= 0, middle, seen.max(axis=0))
     item = np.where(picked < hulls, picked, -1) + 1
     shade = np.rint(255 * light.sum(axis=0) / np.maximum(count, 1))
-    coverage = np.rint(255 * count / len(seen))
-    return np.stack([item // 256, item % 256, shade, coverage], axis=2).astype(np.uint8)
+    return np.stack([item // 256, item % 256, shade, np.rint(255 * count / len(seen))], axis=2).astype(np.uint8)

@@ -30,8 +30,7 @@ _SOFTNESS = 1.2  # blur in cells, enough to hide the pattern of turns
 
 def shade(colors: Floats, normals: Floats, camera: Camera, upright: Floats) -> Floats32:
     """The colours (n, 3), sRGB in 0..1, of surfaces with such normals (n, 3); double-sided."""
-    facing = np.where(normals @ camera.axes[2] < 0, -1.0, 1.0)
-    normals = normals * facing[:, None]
+    normals = normals * np.where(normals @ camera.axes[2] < 0, -1.0, 1.0)[:, None]
     key, fill = (np.clip(normals @ (d @ camera.axes / np.linalg.norm(d)), 0, None) for d in (_KEY, _FILL))
     sky = 0.5 + 0.5 * normals @ upright
     strength = 0.52 + 0.28 * sky + 0.44 * key + 0.14 * fill
@@ -42,8 +41,7 @@ def shade(colors: Floats, normals: Floats, camera: Camera, upright: Floats) -> F
 def _compress_highlights(linear: Floats) -> Floats:
     """Values above 0.8 are bent towards one, so that light faces keep their colour."""
     over = np.clip(linear - 0.8, 0, None)
-    limited: Floats = np.minimum(linear, 0.8) + 0.2 * (1 - np.exp(-over / 0.2))
-    return limited
+    return np.minimum(linear, 0.8) + 0.2 * (1 - np.exp(-over / 0.2))
 
 
 def measure_open_sky(scene: RayScene, points: Floats, normals: Floats, turn: Floats) -> Floats32:
@@ -79,8 +77,7 @@ def _measure_free_share(
 
 def _tangents(normals: Floats) -> tuple[Any, Any]:
     """Two unit vectors square to each normal (n, 3) and to each other."""
-    helper = np.where(np.abs(normals[:, :1]) < 0.7, [[1.0, 0.0, 0.0]], [[0.0, 1.0, 0.0]])
-    first = np.cross(normals, helper)
+    first = np.cross(normals, np.where(np.abs(normals[:, :1]) < 0.7, [[1.0, 0.0, 0.0]], [[0.0, 1.0, 0.0]]))
     first /= np.linalg.norm(first, axis=1, keepdims=True)
     return first, np.cross(normals, first)
 
@@ -102,8 +99,7 @@ def compute_openness(hits: RayHits, camera: Camera, rows: Ints, columns: Ints) -
 def dither_turns(rows: Ints, columns: Ints) -> Floats:
     """A turn in 0..1 for each cell: sixteen different ones in every block of four by four."""
     order = np.array([[0, 8, 2, 10], [12, 4, 14, 6], [3, 11, 1, 9], [15, 7, 13, 5]])
-    turns: Floats = order[rows % 4, columns % 4] / 16
-    return turns
+    return order[rows % 4, columns % 4] / 16
 
 
 def _smooth(grid: Floats32, facet: Ints) -> Floats32:
@@ -130,8 +126,7 @@ def _upsample(grid: Floats32, coarse: Ints, hits: RayHits, rows: Ints, columns: 
     for r, rw in _interpolation_taps(rows, grid.shape[0]):
         for c, cw in _interpolation_taps(columns, grid.shape[1]):
             cell = r * grid.shape[1] + c
-            alike = (facets.take(cell) == facet) + np.float32(0.02) * (items.take(cell) == item)
-            weight = alike * rw * cw
+            weight = ((facets.take(cell) == facet) + np.float32(0.02) * (items.take(cell) == item)) * rw * cw
             total += weight * grid.take(cell)
             weights += weight
     return np.where(weights > 1e-5, total / weights, np.float32(1.0))
@@ -179,8 +174,7 @@ def _ground_points(frame: ViewFrame, camera: Camera, rows: Floats, columns: Floa
     origins, directions = camera.pixel_rays(columns, rows)
     fall = directions @ frame.upright
     depth = (frame.ground_height - origins @ frame.upright) / np.where(fall < -1e-3, fall, 1e-3)
-    points: Floats = origins + directions * depth[:, None]
-    return points
+    return origins + directions * depth[:, None]
 
 
 def _shadow_from_above(scene: RayScene, frame: ViewFrame) -> tuple[Floats32, Floats, float]:

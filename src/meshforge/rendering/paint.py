@@ -89,8 +89,7 @@ def _classify_steps(scene: RayScene, here: Ints, there: Ints, mine: Ints, theirs
     steps = np.zeros(here.shape, np.uint8)
     at = np.nonzero(here != there)
     first, second = mine[at], theirs[at]
-    cosine = np.einsum("ij,ij->i", scene.normals[here[at]], scene.normals[there[at]])
-    within = np.where(cosine < _SHARP, CREASE, 0)
+    within = np.where(np.einsum("ij,ij->i", scene.normals[here[at]], scene.normals[there[at]]) < _SHARP, CREASE, 0)
     between = np.where((first < 0) | (second < 0), SILHOUETTE, BORDER)
     steps[at] = np.where(first == second, within, between)
     return steps
@@ -132,8 +131,7 @@ def paint(layers: Sequence[DrawLayer], frame: ViewFrame, camera: Camera, fine: i
 def _draw_solid(buffer: Framebuffer, layer: DrawLayer, hits: RayHits, frame: ViewFrame, camera: Camera) -> None:
     rows, columns = pixels_where(hits.item >= 0)
     color = _shade_surface(layer, hits, frame, camera, rows, columns)
-    openness = compute_openness(hits, camera, rows, columns)
-    color *= (1 - _CORNER * (1 - openness))[:, None]
+    color *= (1 - _CORNER * (1 - compute_openness(hits, camera, rows, columns)))[:, None]
     color += (1 - color) * (0.55 * _is_between_stripes(layer, hits)[rows, columns])[:, None]
     buffer.blend(rows, columns, color)
 
@@ -150,8 +148,7 @@ def _shade_surface(
     color = shade(base, scene.normals, camera, frame.upright)[triangle]
     bent = np.nonzero(scene.is_round[triangle])[0]
     if len(bent):
-        points = hits.points(camera, rows[bent], columns[bent])
-        normals = scene.smooth_normals(triangle[bent], points)
+        normals = scene.smooth_normals(triangle[bent], hits.points(camera, rows[bent], columns[bent]))
         color[bent] = shade(base[triangle[bent]], normals, camera, frame.upright)
     return color
 
@@ -196,8 +193,7 @@ def _draw_shell(
     buffer: Framebuffer, layer: DrawLayer, hits: RayHits, share: Floats32, frame: ViewFrame, camera: Camera
 ) -> None:
     rows, columns = pixels_where(share > 0)
-    color = _shade_surface(layer, hits, frame, camera, rows, columns)
-    buffer.blend(rows, columns, color, share[rows, columns])
+    buffer.blend(rows, columns, _shade_surface(layer, hits, frame, camera, rows, columns), share[rows, columns])
 
 
 def _draw_lines(buffer: Framebuffer, drawn: LineStrengths) -> None:

@@ -116,10 +116,8 @@ def _check_arguments(views: Sequence[str], color_by: str, size: tuple[int, int])
     if color_by not in COLOR_BY:
         raise UsageError(f"hulls cannot be coloured by {color_by!r}", remedy=f"Choose from {', '.join(COLOR_BY)}.")
     if size[0] not in PICTURE_SIZES or size[1] not in PICTURE_SIZES:
-        raise UsageError(
-            f"a picture cannot be {size[0]} by {size[1]} pixels",
-            remedy=f"Sides go from {PICTURE_SIZES.start} to {PICTURE_SIZES.stop - 1}.",
-        )
+        remedy = f"Sides go from {PICTURE_SIZES.start} to {PICTURE_SIZES.stop - 1}."
+        raise UsageError(f"a picture cannot be {size[0]} by {size[1]} pixels", remedy=remedy)
 
 
 def _describe_count(mesh: SymbolicMesh, highlight: frozenset[str] | None) -> str:
@@ -142,8 +140,7 @@ def _split_room(room: tuple[int, int, int, int], count: int) -> list[tuple[int, 
 
     def unfit(columns: int) -> float:
         rows = -(-count // columns)
-        shape = (right - left) / columns / ((bottom - top) / rows)
-        return abs(math.log(shape / 1.25)) + 0.3 * (rows * columns - count)
+        return abs(math.log((right - left) / columns / ((bottom - top) / rows) / 1.25)) + 0.3 * (rows * columns - count)
 
     columns = min(range(1, count + 1), key=unfit)
     rows = -(-count // columns)

@@ -83,8 +83,7 @@ class RayHits:
     def points(self, camera: Camera, rows: Ints, columns: Ints) -> Floats:
         """Where the rays through some pixels (n,), each of which shows something, meet it (n, 3)."""
         origins, directions = camera.pixel_rays(columns, rows)
-        depth = self.scene.depth(self.triangle[rows, columns], origins, directions)
-        return origins + directions * depth[:, None]
+        return origins + directions * self.scene.depth(self.triangle[rows, columns], origins, directions)[:, None]
 
     def depth(self, camera: Camera, rows: Ints, columns: Ints) -> Floats:
         """How far along their rays (n,) those places are."""

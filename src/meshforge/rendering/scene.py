@@ -126,8 +126,7 @@ class RayScene:
         area = np.einsum("ij,ij->i", normal, normal)
         second = np.einsum("ij,ij->i", np.cross(points - a, c - a), normal) / area
         third = np.einsum("ij,ij->i", np.cross(b - a, points - a), normal) / area
-        shares = np.stack([1 - second - third, second, third], axis=1)
-        mixed = np.einsum("ik,ikj->ij", shares, self.bent[triangles])
+        mixed = np.einsum("ik,ikj->ij", np.stack([1 - second - third, second, third], axis=1), self.bent[triangles])
         smooth: Floats = mixed / np.linalg.norm(mixed, axis=1, keepdims=True)
         return smooth
 
@@ -180,8 +179,7 @@ def _item_centers(scene: RayScene) -> Floats:
     """The middle (m, 3) of the thing that each triangle belongs to."""
     count = np.maximum(np.bincount(scene.item), 1)
     sums = [np.bincount(scene.item, part) for part in scene.corners.mean(axis=1).T]
-    middles: Floats = (np.stack(sums, axis=1) / count[:, None])[scene.item]
-    return middles
+    return (np.stack(sums, axis=1) / count[:, None])[scene.item]
 
 
 def _corners_of(render_mesh: RenderMesh, center: Floats, unit: float) -> tuple[Floats, Floats]:
@@ -202,8 +200,7 @@ def _number_facets(item: Ints, normals: Floats, bent: Floats) -> Ints:
     """One number for all triangles of an item with one normal: the same face of a convex piece, or one round thing."""
     steps = np.rint(normals * 500).astype(np.int64) + 512
     key = ((item * 1024 + steps[:, 0]) * 1024 + steps[:, 1]) * 1024 + steps[:, 2]
-    flat = ~np.isfinite(bent[:, 0, 0])
-    return np.unique(np.where(flat, key, -1 - item), return_inverse=True)[1].astype(np.int32)
+    return np.unique(np.where(~np.isfinite(bent[:, 0, 0]), key, -1 - item), return_inverse=True)[1].astype(np.int32)
 
 
 def window_rays(camera: Camera, columns: Floats, rows: Floats, start: float) -> tuple[Floats32, Floats32]:

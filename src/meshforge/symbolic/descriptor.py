@@ -78,5 +78,4 @@ def _spreads(pieces: Sequence[Floats]) -> Floats:
     points = points - np.repeat(np.add.reduceat(points, starts) / counts[:, None], counts, axis=0)
     products = (points[:, :, None] * points[:, None, :]).reshape(-1, 9)
     scatter = np.add.reduceat(products, starts).reshape(-1, 3, 3) / counts[:, None, None]
-    spreads: Floats = 2 * np.sqrt(np.maximum(np.linalg.eigvalsh(scatter)[:, ::-1], 0.0))
-    return spreads
+    return 2 * np.sqrt(np.maximum(np.linalg.eigvalsh(scatter)[:, ::-1], 0.0))

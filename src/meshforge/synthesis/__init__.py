@@ -3,7 +3,7 @@
 from meshforge.synthesis.asset_selection import choose_first_demonstration
 from meshforge.synthesis.demonstration import Demonstration, Step, merge_steps, strip_each
 from meshforge.synthesis.learn import synthesize
-from meshforge.synthesis.options import LAYERS, Layers, Options
+from meshforge.synthesis.options import LAYERS, Answer, Choice, Hint, LabelCorrection, Layers, Options, Question, Repair
 from meshforge.synthesis.outcome import (
     Ambiguous,
     Found,
@@ -15,9 +15,8 @@ from meshforge.synthesis.outcome import (
     TimedOut,
     outcome_to_json,
 )
-from meshforge.synthesis.questions import Answer, Choice, Hint, LabelCorrection, Question, Repair
 from meshforge.synthesis.readings.rank import BELIEVABLE
-from meshforge.synthesis.task import Replay, advance, begin_replay, memoize
+from meshforge.synthesis.task import advance, begin_replay, memoize
 
 __all__ = [
     "BELIEVABLE",
@@ -38,7 +37,6 @@ __all__ = [
     "Question",
     "Reading",
     "Repair",
-    "Replay",
     "Step",
     "TimedOut",
     "advance",

@@ -13,8 +13,8 @@ from meshforge.common import MeshForgeError, pluralize
 from meshforge.label_model import LabelBeliefs
 from meshforge.language import EXTREMITY, Attach, Extractor, Geo, Is, Orient, select_mask, to_canonical_frame
 from meshforge.symbolic import SymbolicMesh
+from meshforge.synthesis.options import Choice, Hint, Question
 from meshforge.synthesis.outcome import reading_id
-from meshforge.synthesis.questions import Choice, Hint, Question
 from meshforge.synthesis.readings.rank import RankedReadings
 from meshforge.synthesis.task import memoize
 
@@ -66,8 +66,7 @@ def suggest_demonstration(learned: Sequence[tuple[RankedReadings, Sequence[str]]
         for place, gain in ranked.question_value.gains(len(ranked.examples)).items():
             gains[names[place]] = gains.get(names[place], 0.0) + gain
     if gains:
-        most = max(gains, key=lambda name: (gains[name], name))
-        return Hint(most, "believable readings of the rules differ there")
+        return Hint(max(gains, key=lambda name: (gains[name], name)), "believable readings of the rules differ there")
     return _suggest_strangest(*learned[0]) if learned else None
 
 
@@ -85,8 +84,7 @@ def _suggest_strangest(ranked: RankedReadings, names: Sequence[str]) -> Hint | N
 
 
 def _hull_names(ranked: RankedReadings, reading: int, mesh: int) -> tuple[str, ...]:
-    chosen = ranked.field.on(ranked.terms[reading].bits, mesh)
-    return ranked.field.meshes[mesh].names_of(chosen)
+    return ranked.field.meshes[mesh].names_of(ranked.field.on(ranked.terms[reading].bits, mesh))
 
 
 def select_sample(learned: Sequence[FieldReadings], trust: Mapping[str, float]) -> tuple[str, ...]:

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from meshforge.common import DemonstrationError
 from meshforge.language import Action, Delete, Each
 from meshforge.symbolic import SymbolicMesh, mask_of, split_by_contact
-from meshforge.synthesis.questions import LabelCorrection
+from meshforge.synthesis.options import LabelCorrection
 
 
 @dataclass(frozen=True, slots=True, init=False)
@@ -136,10 +136,8 @@ def _merge_rule(number: int, demos: Sequence[Demonstration]) -> RuleSpec:
     steps = [(name, demo.step(number)) for name, demo in name_demonstrations(demos)]
     shown = [(name, step) for name, step in steps if step and step.shown]
     if not shown:
-        raise DemonstrationError(
-            f"rule {number} selects no hull in any demonstration",
-            remedy="Show it on a mesh where it has something to do, or leave the step out.",
-        )
+        remedy = "Show it on a mesh where it has something to do, or leave the step out."
+        raise DemonstrationError(f"rule {number} selects no hull in any demonstration", remedy=remedy)
     for other in shown[1:]:
         _check_same_rule(number, shown[0], other)
     eaches = [(name, step) for name, step in shown if isinstance(step.action, Each)]

@@ -5,24 +5,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
+from meshforge import language
 from meshforge.common import join_names, pluralize
-from meshforge.language import (
-    All,
-    Attach,
-    BaseExtractor,
-    Diff,
-    Extractor,
-    Geo,
-    Intersect,
-    Is,
-    Program,
-    Union,
-    labels_of,
-    select_mask,
-    show,
-    show_label,
-    size_of,
-)
+from meshforge.language import Extractor, show, show_label, size_of
 from meshforge.symbolic import SymbolicMesh
 from meshforge.synthesis.demonstration import Example, RuleSpec
 from meshforge.synthesis.options import Options
@@ -101,23 +86,23 @@ def _advise_on_near_contacts(miss: NearestExtractor, example: Example) -> Iterat
                     )
 
 
-def _anchors(extractor: Extractor) -> Iterator[BaseExtractor]:
-    if isinstance(extractor, Attach):
+def _anchors(extractor: Extractor) -> Iterator[language.BaseExtractor]:
+    if isinstance(extractor, language.Attach):
         yield extractor.anchor
-    elif isinstance(extractor, Union | Intersect | Diff):
+    elif isinstance(extractor, language.Union | language.Intersect | language.Diff):
         yield from _anchors(extractor.left)
         yield from _anchors(extractor.right)
 
 
-def _is_in_base(mesh: SymbolicMesh, index: int, base: BaseExtractor) -> bool:
+def _is_in_base(mesh: SymbolicMesh, index: int, base: language.BaseExtractor) -> bool:
     match base:
-        case All():
+        case language.All():
             return True
-        case Is(label):
+        case language.Is(label):
             return mesh.hulls[index].label == label
 
 
-def find_obstacles(task: LearningTask, wanted: Program) -> tuple[str, ...]:
+def find_obstacles(task: LearningTask, wanted: language.Program) -> tuple[str, ...]:
     """What keeps a wanted program from being learned before any rule is searched for."""
     lines = []
     if len(wanted.rules) != len(task.rules):
@@ -151,12 +136,12 @@ def follow_rule(
 
 def _find_exclusion(wanted: Extractor, task: LearningTask) -> Iterator[str]:
     """Why it is none of those that are searched."""
-    unknown = [label for label in labels_of(wanted) if label not in task.frame.labels]
+    unknown = [label for label in language.labels_of(wanted) if label not in task.frame.labels]
     if unknown:
         yield f"the label {show_label(unknown[0])} is not in the vocabulary"
     if size_of(wanted) > task.options.max_size:
         yield f"it has {size_of(wanted)} nodes, and the search ends at {task.options.max_size}"
-    for kind, letter in ((Attach, "T"), (Geo, "G")):
+    for kind, letter in ((language.Attach, "T"), (language.Geo, "G")):
         if letter not in task.options.layers and any(isinstance(leaf, kind) for leaf in _leaves_of(wanted)):
             yield f"{kind.__name__} is switched off (layers {task.options.layers})"
 
@@ -164,7 +149,7 @@ def _find_exclusion(wanted: Extractor, task: LearningTask) -> Iterator[str]:
 def _find_difference(wanted: Extractor, examples: Sequence[Example], extremity: float) -> Iterator[str]:
     """On which mesh it does something else than was shown."""
     for example in examples:
-        found = select_mask(wanted, example.mesh, extremity)
+        found = language.select_mask(wanted, example.mesh, extremity)
         extra = example.mesh.names_of(found & ~example.selection)
         missing = example.mesh.names_of(example.selection & ~found)
         parts = [f"leaves out {join_names(missing)}"] if missing else []
@@ -204,8 +189,8 @@ def _explain_preference(ranked: RankedReadings, place: int, names: Sequence[str]
     )
 
 
-def _leaves_of(extractor: Extractor) -> Iterator[All | Is | Attach | Geo]:
-    if isinstance(extractor, Union | Intersect | Diff):
+def _leaves_of(extractor: Extractor) -> Iterator[language.All | language.Is | language.Attach | language.Geo]:
+    if isinstance(extractor, language.Union | language.Intersect | language.Diff):
         yield from _leaves_of(extractor.left)
         yield from _leaves_of(extractor.right)
     else:

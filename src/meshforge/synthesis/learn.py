@@ -9,9 +9,8 @@ from meshforge.language import Orient, Program, Template
 from meshforge.symbolic import SymbolicMesh
 from meshforge.synthesis.demonstration import Demonstration, collect_rule_specs, name_demonstrations
 from meshforge.synthesis.learning_run import LearningRun
-from meshforge.synthesis.options import Options, TimeBudget
+from meshforge.synthesis.options import Answer, LabelCorrection, Options, Repair, TimeBudget
 from meshforge.synthesis.outcome import LearningOutcome, NeedsRepair
-from meshforge.synthesis.questions import Answer, LabelCorrection, Repair
 from meshforge.synthesis.task import Batch, LearningTask, apply_corrections, name_batch
 
 DEFAULTS = Options()
@@ -136,8 +135,5 @@ def _check_label(label: str, vocabulary: Sequence[str], where: str) -> None:
     if label not in vocabulary:
         like = nearest_name(label, vocabulary)
         hint = f"Did you mean {like!r}? " if like else ""
-        raise DemonstrationError(
-            f"the label {label!r} is not in the vocabulary",
-            where=where,
-            remedy=f"{hint}The vocabulary is {', '.join(vocabulary) or 'empty'}.",
-        )
+        remedy = f"{hint}The vocabulary is {', '.join(vocabulary) or 'empty'}."
+        raise DemonstrationError(f"the label {label!r} is not in the vocabulary", where=where, remedy=remedy)

@@ -15,10 +15,9 @@ from meshforge.synthesis import outcome
 from meshforge.synthesis.asset_selection import choose_question, select_sample, suggest_demonstration
 from meshforge.synthesis.demonstration import Demonstration, Example, RuleSpec, name_demonstrations
 from meshforge.synthesis.diagnosis import find_obstacles, follow_rule, give_advice
-from meshforge.synthesis.options import OutOfTime, TimeBudget
+from meshforge.synthesis.options import Answer, LabelCorrection, OutOfTime, Question, Repair, TimeBudget
 from meshforge.synthesis.orientation.suggest import OrientationSuggestion, suggest_orientation
 from meshforge.synthesis.paper.search import HitWithCorrections, PaperSearch
-from meshforge.synthesis.questions import Answer, LabelCorrection, Question, Repair
 from meshforge.synthesis.readings.rank import RankedReadings, enumerate_consistent
 from meshforge.synthesis.repair.explain import RepairCollector, make_confirmer
 from meshforge.synthesis.search.smallest import Hit, Miss, NearestExtractor, Search, SearchEffort, Unfinished
@@ -171,11 +170,10 @@ class LearningRun:
         nearest, repairs = _to_nearest(spec.number, miss.nearest), self._repairs.repairs
         if repairs:
             return outcome.NeedsRepair(repairs=repairs, nearest=nearest, **self._common_fields())
-        answered = self._replays.assets_with_answers(spec.number)
         return outcome.NoProgram(
             why=miss.why,
             nearest=nearest,
-            advice=give_advice(miss.nearest, examples, answered),
+            advice=give_advice(miss.nearest, examples, self._replays.assets_with_answers(spec.number)),
             suggested=self._suggest_orientation(),
             **self._common_fields(),
         )
@@ -197,14 +195,12 @@ class LearningRun:
             return None
 
     def _program(self) -> Program:
-        rules = tuple(learned.rule for learned in self._learned)
-        return replace(self._task.frame, rules=rules)
+        return replace(self._task.frame, rules=tuple(learned.rule for learned in self._learned))
 
     def _record_effort(self, spec: RuleSpec, tried: SearchEffort) -> None:
         self._tried = [*self._tried[: spec.number - 1], tried]
 
     def _common_fields(self) -> _OutcomeFields:
-        elapsed = self._budget.elapsed
         return {
             "rules": tuple(learned.rule for learned in self._learned),
             "readings": tuple(
@@ -213,7 +209,7 @@ class LearningRun:
                 for reading in _list_readings(number, learned.readings, learned.names)
             ),
             "tried": tuple(self._tried),
-            "seconds": {"search": self._searching, "replay": elapsed - self._searching},
+            "seconds": {"search": self._searching, "replay": self._budget.elapsed - self._searching},
             "stale": self._replays.stale,
             "followed": tuple(self._followed),
         }

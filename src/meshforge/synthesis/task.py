@@ -1,6 +1,5 @@
 """All that a program is learned from, and its demonstrations replayed: the mesh as each rule meets it, after all rules
-before it.
-"""
+before it."""
 
 from __future__ import annotations
 
@@ -13,8 +12,7 @@ from meshforge import language
 from meshforge.common import DemonstrationError, MeshForgeError, nearest_name
 from meshforge.symbolic import Label, SymbolicMesh, mask_of, split_by_contact
 from meshforge.synthesis.demonstration import Demonstration, Example, RuleSpec, name_demonstrations
-from meshforge.synthesis.options import Options
-from meshforge.synthesis.questions import Answer, LabelCorrection
+from meshforge.synthesis.options import Answer, LabelCorrection, Options
 
 Batch = Mapping[str, SymbolicMesh]
 """Meshes by the names that questions and readings call them."""
@@ -256,11 +254,9 @@ def _mask_of_step(replay: Replay, number: int) -> int:
 def _unknown_hull_error(replay: Replay, number: int, name: str) -> DemonstrationError:
     where = f"{replay.name}, rule {number}"
     if name in replay.demo.mesh.index or name in replay.used:
-        return DemonstrationError(
-            f"the hull {name!r} is gone: an earlier rule removed or replaced it",
-            where=where,
-            remedy="Select what that rule made, or change the order of the steps.",
-        )
+        problem = f"the hull {name!r} is gone: an earlier rule removed or replaced it"
+        remedy = "Select what that rule made, or change the order of the steps."
+        return DemonstrationError(problem, where=where, remedy=remedy)
     like = nearest_name(name, replay.mesh.index)
     return DemonstrationError(
         f"there is no hull {name!r}", where=where, remedy=f"Did you mean {like!r}?" if like else None

@@ -16,11 +16,9 @@ from meshforge.batch import (
     ApplyOptions,
     AssetJob,
     AssetOutcome,
-    Edited,
     ExecutionOptions,
     Failed,
     Skipped,
-    Unchanged,
     apply,
     expand,
     hold_lock,
@@ -28,6 +26,7 @@ from meshforge.batch import (
     status_of,
     to_json_line,
 )
+from meshforge.batch.outcome import Edited, Unchanged
 from meshforge.common import MeshForgeError, UsageError
 from meshforge.formats import load
 from meshforge.language import Program

@@ -13,7 +13,6 @@ from meshforge.batch import (
     ExecutionOptions,
     Failed,
     RunSummary,
-    Unchanged,
     apply,
     expand,
     make_jobs,
@@ -21,7 +20,7 @@ from meshforge.batch import (
     run_isolated,
     status_of,
 )
-from meshforge.batch.outcome import MOST_SHOWN
+from meshforge.batch.outcome import MOST_SHOWN, Unchanged
 from meshforge.batch.workers import MIB, memory_share
 from meshforge.language import Program
 from tests.unit.batch.families import PROGRAM, write_tables

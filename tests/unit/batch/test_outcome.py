@@ -5,7 +5,8 @@ import pickle
 
 import pytest
 
-from meshforge.batch import AssetOutcome, Edited, Failed, RuleEffect, Skipped, Unchanged, status_of, to_json_line
+from meshforge.batch import AssetOutcome, Failed, RuleEffect, Skipped, status_of, to_json_line
+from meshforge.batch.outcome import Edited, Unchanged
 
 RULES = (RuleEffect(1, ("a", "b"), ("a~1",), "two pieces"), RuleEffect(2, ()))
 OUTCOMES: list[tuple[str, AssetOutcome]] = [

@@ -21,9 +21,9 @@ from meshforge.batch import (
     ReportOptions,
     RunFigures,
     RunSummary,
-    Unchanged,
     write_report,
 )
+from meshforge.batch.outcome import Unchanged
 from meshforge.checks import Finding
 from meshforge.language import Program, RuleTrace, explain, show
 from meshforge.symbolic import SymbolicMesh

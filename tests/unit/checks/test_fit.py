@@ -3,9 +3,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from meshforge.checks.examination import draw_fit
 from meshforge.checks.fit import measure_fit
 from meshforge.checks.legality import find_oddities
-from meshforge.checks.pictures import draw_fit
 from meshforge.geometry import Aabb, Box, Shape
 from meshforge.symbolic import Hull, SymbolicMesh
 from tests.cups import BOTTOM, WALLS, WHOLE, cup

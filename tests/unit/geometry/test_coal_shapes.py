@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from meshforge.geometry import Box, Floats, Polytope, Pose, close_pairs, convex_hull, distance
-from meshforge.geometry.aabb import bounds, near_boxes
+from meshforge.geometry.arrays import bounds, near_boxes
 from meshforge.geometry.distance import _POOL_SIZE, CoalFrame, _pool, split_for_coal
 
 

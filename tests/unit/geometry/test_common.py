@@ -5,7 +5,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from meshforge.geometry import Aabb, Box, convex_hull, cut, intersect, is_convex, overlap_volume, partition
+from meshforge.geometry import Aabb, Box, convex_hull, cut, is_convex, overlap_volume, partition
+from meshforge.geometry.solids import intersect
 from tests.examples import examples
 
 

@@ -27,7 +27,7 @@ from meshforge.geometry import (
     tight_cylinder,
     volume_of_union,
 )
-from meshforge.geometry.fit_round import smallest_circle
+from meshforge.geometry.fit import smallest_circle
 
 CUBE = Box.of_bounds(Aabb([0, 0, 0], [1, 1, 1]))
 

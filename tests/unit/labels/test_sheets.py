@@ -9,7 +9,7 @@ import pytest
 from PIL import Image
 
 from meshforge.labels import SourceTally
-from meshforge.labels.progress import PER_SHEET
+from meshforge.labels.summary import PER_SHEET
 from meshforge.project import Project
 from meshforge.rendering import label_colors
 from tests.unit.batch.families import label_of, table_boxes

@@ -7,8 +7,9 @@ from pathlib import Path
 
 import pytest
 
-from meshforge.batch import IN_PROCESS, Edited, ExecutionOptions, Failed
+from meshforge.batch import IN_PROCESS, ExecutionOptions, Failed
 from meshforge.batch import status_of as word
+from meshforge.batch.outcome import Edited
 from meshforge.common import AssetError, GeometryError, ProjectError
 from meshforge.formats import load
 from meshforge.language import Delete, Merge

@@ -12,11 +12,11 @@ from meshforge.rendering import (
     draw_before_after,
     draw_difference,
     encode_png,
-    joint_bounds,
     make_contact_sheet,
     render_id_buffer,
 )
 from meshforge.rendering.colors import KEPT, MADE, REMOVED, rgb
+from meshforge.rendering.compare import joint_bounds
 from meshforge.symbolic import SymbolicMesh
 from tests.unit.rendering.scenes import box, edited, hull, near, pixels, table
 

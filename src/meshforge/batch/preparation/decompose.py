@@ -11,19 +11,10 @@ from typing import Any
 
 import numpy as np
 
+from meshforge import geometry
 from meshforge.batch.preparation import record
 from meshforge.common import MeshForgeError, join_names, pluralize
-from meshforge.geometry import (
-    DecomposeSettings,
-    Floats,
-    Ints,
-    Polytope,
-    decompose,
-    is_sheet,
-    sheet_hulls,
-    volume_inside,
-    volume_of_union,
-)
+from meshforge.geometry import DecomposeSettings, Floats, Polytope
 from meshforge.symbolic import Asset, Surface
 
 _NEAR = 0.01  # of the diagonal: surface farther outside of all hulls than this is not covered
@@ -103,8 +94,7 @@ def _decompose_source(
 ) -> tuple[record.Replacement, list[Polytope]]:
     notes: list[str] = []
     hulls = decompose_surface(source.surface, settings, source.what, hollow=hollow, cache=cache, note=notes.append)
-    names = record.free_names(source.base, len(hulls), taken)
-    made = dict(zip(names, map(record.hull_digest, hulls), strict=True))
+    made = dict(zip(record.free_names(source.base, len(hulls), taken), map(record.hull_digest, hulls), strict=True))
     remarks = "; ".join([describe_fit(source.surface, hulls, solid=source.kind == "opaque" and not hollow), *notes])
     return record.Replacement(source.what, source.kind, record.surface_digest(source.surface), made, remarks), hulls
 
@@ -144,12 +134,12 @@ def decompose_surface(
     hollow: planar holes stay open, so that shells of one sheet are not filled.
     """
 
-    def run(vertices: Floats, faces: Ints) -> list[Polytope]:
-        return decompose(vertices, faces, settings, close=not hollow, cache=cache, note=note)
+    def run(vertices: Floats, faces: geometry.Ints) -> list[Polytope]:
+        return geometry.decompose(vertices, faces, settings, close=not hollow, cache=cache, note=note)
 
-    if is_sheet(surface.vertices[surface.faces].reshape(-1, 3)):
+    if geometry.is_sheet(surface.vertices[surface.faces].reshape(-1, 3)):
         note("it is flat, so its hulls are thin sheets")
-        return sheet_hulls(surface.vertices, surface.faces, run, name)
+        return geometry.sheet_hulls(surface.vertices, surface.faces, run, name)
     return run(surface.vertices, surface.faces)
 
 
@@ -169,7 +159,10 @@ def describe_fit(surface: Surface, hulls: Sequence[Polytope], *, solid: bool) ->
     An open surface encloses nothing, and parts that overlap, as those to look at may, enclose some of it twice.
     """
     parts = [pluralize(len(hulls), "hull")]
-    volume, own = volume_of_union(hulls), volume_inside(surface.vertices, surface.faces) if solid else None
+    volume, own = (
+        geometry.volume_of_union(hulls),
+        geometry.volume_inside(surface.vertices, surface.faces) if solid else None,
+    )
     if own and own > _SKIN * volume:
         excess, more = volume / own - 1, "more" if volume > own else "less"
         parts.append("the same volume" if abs(excess) < _LEAST else f"{abs(excess):.0%} {more} volume")

@@ -93,8 +93,7 @@ class Preparation:
 
 def hull_digest(hull: Polytope) -> str:
     """A digest of a hull to the last bit; zero has no sign."""
-    content = (hull.vertices + 0.0).tobytes() + hull.faces.tobytes()
-    return hashlib.blake2b(content, digest_size=8).hexdigest()
+    return hashlib.blake2b((hull.vertices + 0.0).tobytes() + hull.faces.tobytes(), digest_size=8).hexdigest()
 
 
 def free_names(base: str, count: int, taken: Iterable[str]) -> list[str]:
@@ -152,8 +151,7 @@ def merge_visuals(asset: Asset, body: str) -> Surface | None:
     own = [s for s in asset.visuals if len(s.faces) and (s.body == body or (s.body is None and alone))]
     if not own:
         return None
-    starts = np.cumsum([0, *(len(s.vertices) for s in own)])
-    faces = [s.faces + start for s, start in zip(own, starts, strict=False)]
+    faces = [s.faces + start for s, start in zip(own, np.cumsum([0, *(len(s.vertices) for s in own)]), strict=False)]
     return Surface(np.concatenate([s.vertices for s in own]), np.concatenate(faces), body)
 
 
@@ -187,11 +185,9 @@ def apply_preparation(asset: Asset, preparation: Preparation) -> Asset:
     """
     fit = replay_preparation(asset, preparation)
     if fit.lost:
-        raise AssetError(
-            f"its preparation is out of date: {join_names([f'{lost.what} {lost.why}' for lost in fit.lost], 3)}",
-            where=str(asset.path),
-            remedy="Do it again with `meshforge prepare`, or take it away with `meshforge prepare --remove`.",
-        )
+        problem = f"its preparation is out of date: {join_names([f'{lost.what} {lost.why}' for lost in fit.lost], 3)}"
+        remedy = "Do it again with `meshforge prepare`, or take it away with `meshforge prepare --remove`."
+        raise AssetError(problem, where=str(asset.path), remedy=remedy)
     return fit.asset
 
 

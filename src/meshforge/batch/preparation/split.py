@@ -62,11 +62,8 @@ def split_hull(
     if not parting.parts:
         raise GeometryError("nothing of what its body shows lies in it", where=name, remedy="Cut it by a plane.")
     if len(parting.parts) == 1 and parting.lost < 0.01:
-        raise GeometryError(
-            f"the decomposition ({pluralize(len(pieces), 'piece')}) does not divide it",
-            where=name,
-            remedy="Set a lower threshold, or cut it by a plane.",
-        )
+        problem = f"the decomposition ({pluralize(len(pieces), 'piece')}) does not divide it"
+        raise GeometryError(problem, where=name, remedy="Set a lower threshold, or cut it by a plane.")
     remarks = [f"{parting.lost:.0%} of its volume is in no part"]
     remarks += [f"{pluralize(parting.dropped, 'crumb')} dropped"] if parting.dropped else []
     step = record.PreparationStep("split", settings_to_json(settings, hollow), software_versions(settings), ())
@@ -89,11 +86,8 @@ def _find_divider(asset: Asset, geom: Geom) -> Surface:
     piece = next((p for p in asset.opaque if p.name == geom.parent), None)
     found = seen or (piece.surface if piece else None)
     if found is None:
-        raise GeometryError(
-            f"the body {geom.body!r} shows nothing that could be decomposed",
-            where=geom.name,
-            remedy="Cut the hull by a plane.",
-        )
+        problem = f"the body {geom.body!r} shows nothing that could be decomposed"
+        raise GeometryError(problem, where=geom.name, remedy="Cut the hull by a plane.")
     return found
 
 
@@ -106,8 +100,7 @@ def _add_step(
     notes: Sequence[str],
 ) -> record.Preparation:
     taken = {*(g.name for g in asset.geoms), *(o.name for o in asset.opaque), *before.hull_digests}
-    names = record.free_names(geom.name, len(parts), taken)
-    made = dict(zip(names, map(record.hull_digest, parts), strict=True))
+    made = dict(zip(record.free_names(geom.name, len(parts), taken), map(record.hull_digest, parts), strict=True))
     description = "; ".join([pluralize(len(parts), "hull"), *notes])
     entry = record.Replacement(geom.name, "hull", digest(geom.shape), made, description)
     return before.with_step(record.PreparationStep(step.do, step.settings, step.software, (entry,)), parts)

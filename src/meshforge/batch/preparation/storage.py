@@ -133,16 +133,10 @@ def _format_hulls(hulls: Iterable[tuple[str, Polytope]]) -> bytes:
 
 
 def _damage_error(path: Path, problem: Any) -> AssetError:
-    return AssetError(
-        f"this preparation is damaged: {problem}",
-        where=str(path),
-        remedy="Bring the file back as it was, or take the preparation away: meshforge prepare --remove",
-    )
+    remedy = "Bring the file back as it was, or take the preparation away: meshforge prepare --remove"
+    return AssetError(f"this preparation is damaged: {problem}", where=str(path), remedy=remedy)
 
 
 def _file_error(path: Path, error: OSError) -> AssetError:
-    return AssetError(
-        f"this is no file of a preparation that can be read or replaced: {error.strerror}",
-        where=str(path),
-        remedy="Take away by hand what stands there.",
-    )
+    problem = f"this is no file of a preparation that can be read or replaced: {error.strerror}"
+    return AssetError(problem, where=str(path), remedy="Take away by hand what stands there.")

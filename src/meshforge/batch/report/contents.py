@@ -166,8 +166,7 @@ def read_again(readers: Sequence[MeshReader | None]) -> list[SymbolicMesh | None
 
     None for what cannot be read any more, or has no reader.
     """
-    wanted = [reader for reader in readers if reader]
-    found = execute(_try_read, wanted, ExecutionOptions(timeout=READ_TIMEOUT))
+    found = execute(_try_read, [reader for reader in readers if reader], ExecutionOptions(timeout=READ_TIMEOUT))
     meshes = [next(found) if reader else None for reader in readers]
     return [None if isinstance(mesh, WorkerFailure) else mesh for mesh in meshes]
 

@@ -226,8 +226,7 @@ def _header_lines(program: Program) -> Iterator[tuple[str, str | None]]:
     if program.contact is not None:
         yield f"contact {program.contact:g}", "Hulls this near each other touch (a share of the diagonal)."
     if program.extremity is not None:
-        sentence = "Hulls this near the boundary are extreme (a share of the diagonal)."
-        yield f"extremity {program.extremity:g}", sentence
+        yield f"extremity {program.extremity:g}", "Hulls this near the boundary are extreme (a share of the diagonal)."
     if program.orient:
         yield show(program.orient), explain(program.orient)
 

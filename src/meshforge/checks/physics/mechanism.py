@@ -1,6 +1,5 @@
 """The mechanism of a mesh: which body hangs on which as MuJoCo takes it, which hulls may touch and how they rub, and
-whether the masses and inertias in its file can be those of its bodies.
-"""
+whether the masses and inertias in its file can be those of its bodies."""
 
 from __future__ import annotations
 
@@ -34,8 +33,7 @@ class JointTree:
     @staticmethod
     def of(mesh: SymbolicMesh) -> JointTree:
         """The tree of a mesh; bodies that a floating joint holds are roots, loops are cut."""
-        named = mesh.asset.bodies if mesh.asset else ()
-        known = {body.name: body.pose for body in named}
+        known = {body.name: body.pose for body in (mesh.asset.bodies if mesh.asset else ())}
         bodies = {**known, **{hull.body: Pose.identity() for hull in mesh.hulls if hull.body not in known}}
         tree = JointTree(bodies)
         for joint in mesh.asset.mechanism.joints if mesh.asset else ():
@@ -128,8 +126,7 @@ def _number_pairs(pairs: tuple[tuple[str, str], ...], sources: list[str]) -> Ite
     """The pairs of hulls that were made of the geoms of a pair."""
     wanted = {frozenset(pair) for pair in pairs}
     touched = {name for pair in pairs for name in pair}
-    of_pairs = [k for k, name in enumerate(sources) if name in touched]
-    for first, second in combinations(of_pairs, 2):
+    for first, second in combinations([k for k, name in enumerate(sources) if name in touched], 2):
         if frozenset((sources[first], sources[second])) in wanted:
             yield frozenset((first, second))
 

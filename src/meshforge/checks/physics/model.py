@@ -114,12 +114,11 @@ def _add_joint(body: Any, joint: Joint, local: Pose, reach: tuple[float, float])
     import mujoco  # lazy: 0.3 s, only the physics checks need it
 
     mass, length = reach
-    kinds = {
+    kind, weight = {
         "revolute": (mujoco.mjtJoint.mjJNT_HINGE, mass * length**2),
         "prismatic": (mujoco.mjtJoint.mjJNT_SLIDE, mass),
         "ball": (mujoco.mjtJoint.mjJNT_BALL, mass * length**2),
-    }
-    kind, weight = kinds[joint.kind]
+    }[joint.kind]
     added = body.add_joint(type=kind, pos=local.apply(joint.anchor[None])[0], axis=local.rotation @ joint.axis)
     added.damping = [max(joint.damping, _DAMPING * weight), 0.0, 0.0]
     if joint.limits is not None and joint.limits[0] < joint.limits[1] and joint.kind != "ball":
@@ -138,8 +137,7 @@ def _estimate_load(joint: Joint, mesh: SymbolicMesh, tree: mechanism.JointTree) 
     known = {i.body: i.mass for i in inertials if mechanism.find_inertial_problem(i) is None}
     mass = sum(known.get(body, DENSITY * sum(h.volume for h in hulls if h.body == body)) for body in names)
     ends = np.concatenate([np.zeros((0, 3)), *(h.aabb.corners for h in hulls), *(i.centre[None] for i in inertials)])
-    length = float(np.linalg.norm(ends - joint.anchor, axis=1).max(initial=0.01))
-    return max(mass, _LEAST), length
+    return max(mass, _LEAST), float(np.linalg.norm(ends - joint.anchor, axis=1).max(initial=0.01))
 
 
 def _add_hull(spec: Any, body: Any, name: str, hull: Hull, local: Pose) -> None:
@@ -164,5 +162,4 @@ def _add_hull(spec: Any, body: Any, name: str, hull: Hull, local: Pose) -> None:
             body.add_geom(type=geoms.mjGEOM_MESH, meshname=name, name=name, density=DENSITY)
             return
     pose = shape.pose
-    quaternion = pose.to_quaternion()
-    body.add_geom(type=kind, size=size, pos=pose.translation, quat=quaternion, name=name, density=DENSITY)
+    body.add_geom(type=kind, size=size, pos=pose.translation, quat=pose.to_quaternion(), name=name, density=DENSITY)

@@ -148,8 +148,7 @@ def _simulate_rest(mesh: SymbolicMesh, tree: JointTree) -> Rest | None:
 
 def _speeds(velocities: Floats, size: Floats) -> Floats:
     """The linear speeds (n, 3) beside angular ones (n, 3) at half the size of each body, as rows (n, 6) [m/s]."""
-    rows: Floats = np.concatenate([velocities[:, 3:], velocities[:, :3] * (size / 2)[:, None]], axis=1)
-    return rows
+    return np.concatenate([velocities[:, 3:], velocities[:, :3] * (size / 2)[:, None]], axis=1)
 
 
 def _body_size(model: Any, body: int) -> float:

@@ -1,6 +1,5 @@
 """Decomposition engines: the settings of each, one field an option, and each run in a process of its own: it can be
-stopped at once, and a crash in C++ becomes an error.
-"""
+stopped at once, and a crash in C++ becomes an error."""
 
 from __future__ import annotations
 
@@ -143,10 +142,8 @@ def run_engine(mesh: TriangleMesh, settings: DecomposeSettings, control: EngineC
         with log.open("wb") as errors:
             code = _supervise(command, errors.fileno(), control)
         if code != 0 or not target.exists():
-            raise GeometryError(
-                f"{settings.engine} crashed ({_last_message(log, code)})",
-                remedy="Try other settings (preprocess_mode, threshold), the other engine, or fix the mesh.",
-            )
+            remedy = "Try other settings (preprocess_mode, threshold), the other engine, or fix the mesh."
+            raise GeometryError(f"{settings.engine} crashed ({_last_message(log, code)})", remedy=remedy)
         return unpack_pieces(target.read_bytes())
 
 
@@ -222,8 +219,7 @@ def unpack_pieces(content: bytes) -> list[EnginePiece]:
     ends = np.cumsum(counts.reshape(-1, 2), axis=0)
     if (len(vertices), len(faces)) != tuple(ends[-1] if len(ends) else (0, 0)):
         raise ValueError("counts do not add up")
-    starts = ends - counts
     return [
         (vertices[v0:v1].astype(np.float64), faces[f0:f1].astype(np.int64))
-        for (v0, f0), (v1, f1) in zip(starts, ends, strict=True)
+        for (v0, f0), (v1, f1) in zip(ends - counts, ends, strict=True)
     ]

@@ -112,8 +112,7 @@ def cache_key(mesh: TriangleMesh, settings: engines.DecomposeSettings) -> str:
     """A digest of geometry, settings, engine and its version."""
     wheel = version(settings.package)
     header = json.dumps([settings.engine, wheel, settings.as_dict(), mesh.vertices.shape], sort_keys=True)
-    content = header.encode() + mesh.vertices.tobytes() + mesh.faces.tobytes()
-    return hashlib.blake2b(content, digest_size=20).hexdigest()
+    return hashlib.blake2b(header.encode() + mesh.vertices.tobytes() + mesh.faces.tobytes(), digest_size=20).hexdigest()
 
 
 def read_entry(folder: Path, key: str) -> list[engines.EnginePiece] | None:

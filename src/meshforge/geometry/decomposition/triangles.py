@@ -14,12 +14,11 @@ import manifold3d
 import numpy as np
 
 from meshforge.common import GeometryError
-from meshforge.geometry.aabb import Aabb
-from meshforge.geometry.arrays import Floats, Ints, freeze_floats, freeze_ints
+from meshforge.geometry.arrays import Aabb, Floats, Ints, freeze_floats, freeze_ints
 from meshforge.geometry.connectivity import edges_of
 from meshforge.geometry.convex import FLATNESS, convex_hull, principal_extents, spans_volume
-from meshforge.geometry.cut import intersect
 from meshforge.geometry.shape import Box, Polytope, volume_and_centroid
+from meshforge.geometry.solids import intersect
 from meshforge.geometry.surface import is_closed
 
 _FLAT = 1e-7  # an extent below this share of the largest spans no volume
@@ -66,10 +65,8 @@ def clean_triangles(vertices: Any, faces: Any) -> TriangleMesh:
 def _refuse_flat(points: Floats, any_triangle: bool) -> None:
     extents = np.linalg.svd(points - points.mean(axis=0), compute_uv=False)
     if not any_triangle or len(extents) < 3 or extents[2] <= _FLAT * extents[0]:
-        raise GeometryError(
-            "the mesh is flat: it spans no volume",
-            remedy="Give it a thickness; for a single flat piece, a convex hull with a thickness is enough.",
-        )
+        remedy = "Give it a thickness; for a single flat piece, a convex hull with a thickness is enough."
+        raise GeometryError("the mesh is flat: it spans no volume", remedy=remedy)
 
 
 def _count_open_edges(faces: Ints) -> int:
@@ -80,11 +77,9 @@ def _count_open_edges(faces: Ints) -> int:
 def cap_holes(mesh: TriangleMesh) -> tuple[TriangleMesh, int]:
     """The mesh with caps on its holes, and how many these were; 0 where caps on planar holes alone do not close it."""
     loops = _find_loops(mesh.faces) if mesh.open_edges else []
-    level = _LEVEL * mesh.diagonal
-    groups = _group_by_plane([mesh.vertices[loop] for loop in loops], level)
+    groups = _group_by_plane([mesh.vertices[loop] for loop in loops], _LEVEL * mesh.diagonal)
     if loops and groups:
-        caps = [_make_cap(mesh.vertices, [loops[k] for k in group]) for group in groups]
-        faces = np.concatenate([mesh.faces, *caps])
+        faces = np.concatenate([mesh.faces, *[_make_cap(mesh.vertices, [loops[k] for k in group]) for group in groups]])
         if is_closed(faces):
             return TriangleMesh(mesh.vertices, faces, 0), len(loops)
     return mesh, 0

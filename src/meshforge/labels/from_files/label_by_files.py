@@ -12,7 +12,7 @@ from meshforge.labels import merge
 from meshforge.labels.from_files import read
 from meshforge.labels.from_files.points import class_names_in_file
 from meshforge.labels.names.label_by_names import name_patterns
-from meshforge.labels.propose import LabelEvidence, Proposals, group_evidence
+from meshforge.labels.summary import LabelEvidence, Proposals, group_evidence
 from meshforge.store import Store
 from meshforge.symbolic import Label, match_labels, read_labels
 
@@ -86,11 +86,8 @@ def _require_files(store: Store, source: Path | None) -> dict[str, Path]:
     """The file of each asset that has one. Raises ProjectError where no asset has one."""
     files = read.find_label_files(store.found, source)
     if not files:
-        raise ProjectError(
-            "there is no labels file for any asset",
-            where=str(store.folder),
-            remedy="Put a labels file beside each asset, or name a folder of them that mirrors the assets.",
-        )
+        remedy = "Put a labels file beside each asset, or name a folder of them that mirrors the assets."
+        raise ProjectError("there is no labels file for any asset", where=str(store.folder), remedy=remedy)
     return files
 
 

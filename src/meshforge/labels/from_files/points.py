@@ -1,6 +1,5 @@
 """Labels out of segmented points and meshes: what the classes of other tools and datasets mean in the vocabulary of a
-project, and each hull as what most of the points are that it holds.
-"""
+project, and each hull as what most of the points are that it holds."""
 
 from __future__ import annotations
 
@@ -54,16 +53,13 @@ def class_names_of(
     names = (
         dict(enumerate(vocabulary if tuple(given) == (VOCABULARY,) else given))
         or found.names
-        or _read_classes_beside(path)
+        or next((read_class_names(file) for file in _class_files(path) if file.is_file()), {})
     )
     kinds = [int(k) for k in np.unique(found.classes) if k >= 0]
     bare = [str(number) for number in kinds if not names.get(number)]
     if bare:
-        problem = (
-            f"class {join_names(bare)} has no name" if names else "its classes are numbers, and nothing names them"
-        )
         raise AssetError(
-            problem,
+            f"class {join_names(bare)} has no name" if names else "its classes are numbers, and nothing names them",
             where=str(path),
             remedy="Name them in order: --classes drawer,handle,leg, or --classes vocabulary where they are those of "
             f"the vocabulary; or put them beside it, a name a line, in {_class_files(path)[0].name} or classes.txt.",
@@ -75,11 +71,6 @@ def class_names_in_file(path: Path, given: Sequence[str]) -> list[str]:
     """The names of the classes in a file, in their order. Raises AssetError."""
     names = class_names_of(read_segmentation(path), path, given, ())
     return list(dict.fromkeys(names[number] for number in sorted(names)))
-
-
-def _read_classes_beside(path: Path) -> dict[int, str]:
-    file = next((place for place in _class_files(path) if place.is_file()), None)
-    return read_class_names(file) if file else {}
 
 
 def _class_files(path: Path) -> tuple[Path, Path]:
@@ -187,11 +178,9 @@ def _visual_box(mesh: SymbolicMesh) -> Aabb | None:
 def _refuse_points_outside(said: segments.HullVotes, path: Path, placing: segments.PointAlignment) -> None:
     """Raise AssetError where most points are in no hull, unless they are to be taken as they are."""
     if placing.align != "off" and said.of_hulls and said.held < _HELD:
-        raise AssetError(
-            f"only {said.held:.0%} of its points are in hulls: it may be turned, or of another asset",
-            where=str(path),
-            remedy="If it is right, and only part of the asset has hulls, say --align off.",
-        )
+        problem = f"only {said.held:.0%} of its points are in hulls: it may be turned, or of another asset"
+        remedy = "If it is right, and only part of the asset has hulls, say --align off."
+        raise AssetError(problem, where=str(path), remedy=remedy)
 
 
 def _to_file_labels(
@@ -207,6 +196,5 @@ def _to_file_labels(
         if meaning is None:
             odd[name] += 1
         elif meaning.label and vote:
-            sure = round(vote.confidence * meaning.sure, _DIGITS)
-            labels[hull.name] = Label(meaning.label, sure, "file")
+            labels[hull.name] = Label(meaning.label, round(vote.confidence * meaning.sure, _DIGITS), "file")
     return FileLabels(labels, names, [describe_unknown_class(name, count, vocabulary) for name, count in odd.items()])

@@ -13,14 +13,7 @@ from typing import Literal
 from meshforge.batch import AssetSet, ExecutionOptions, WorkerFailure, asset_id, execute, read_prepared
 from meshforge.common import AssetError, MeshForgeError, UsageError, describe_error
 from meshforge.formats import POINTS_SUFFIXES, SEMANTICS_FILE, labels_beside, points_beside, read_semantics
-from meshforge.labels.from_files.points import (
-    ClassMeaning,
-    FileLabels,
-    PointsOptions,
-    describe_unknown_class,
-    label_by_points,
-    meaning_of,
-)
+from meshforge.labels.from_files import points
 from meshforge.labels.names.label_by_names import HullNames, NamePattern, PatternPairs, names_of_mesh
 from meshforge.labels.names.words import EXACT
 from meshforge.store import AssetFacts, Store, hull_digests, iterate_survey
@@ -74,11 +67,11 @@ def _file_in_mirror(place: Path, asset: Path) -> Path | None:
     """The file in a folder of them; place: where the asset would be there, which may be where it is."""
     labels = labels_beside(place)
     plain = (place.with_name(place.name + ".json"), labels)
-    points = (place.with_suffix(suffix) for suffix in POINTS_SUFFIXES)
+    others = (place.with_suffix(suffix) for suffix in POINTS_SUFFIXES)
     return (
         next((path for path in plain if path.is_file()), None)
         or points_beside(labels)
-        or next((path for path in points if path != asset and path.is_file()), None)
+        or next((path for path in others if path != asset and path.is_file()), None)
         or _semantics_beside(place)
     )
 
@@ -90,7 +83,7 @@ def _semantics_beside(asset: Path) -> Path | None:
 
 def label_by_links(
     mesh: SymbolicMesh, path: Path, vocabulary: Sequence[str], patterns: Sequence[NamePattern]
-) -> FileLabels:
+) -> points.FileLabels:
     """What a file says of the hulls of an asset.
 
     A hull whose own names say another label of the vocabulary, and that alone, is that: PartNet calls what is on a link
@@ -112,8 +105,8 @@ def label_by_links(
         elif meaning.label:
             labels[own.hull] = Label(meaning.label, meaning.sure, "file")
     gone = [f"there is no link {link!r}" for link in semantics if link not in links]
-    return FileLabels(
-        labels, names, [*(describe_unknown_class(name, count, vocabulary) for name, count in odd.items()), *gone]
+    return points.FileLabels(
+        labels, names, [*(points.describe_unknown_class(name, count, vocabulary) for name, count in odd.items()), *gone]
     )
 
 
@@ -124,11 +117,11 @@ def read_link_names(path: Path) -> list[str]:
 
 def _interpret(
     own: HullNames, semantic: str, vocabulary: Sequence[str], patterns: Sequence[NamePattern]
-) -> tuple[str, ClassMeaning | None]:
+) -> tuple[str, points.ClassMeaning | None]:
     """What a hull is called, and what that means."""
-    of_link = meaning_of(semantic, vocabulary, patterns)
+    of_link = points.meaning_of(semantic, vocabulary, patterns)
     for _, name in own.own_names():
-        meaning = meaning_of(name, vocabulary, patterns)
+        meaning = points.meaning_of(name, vocabulary, patterns)
         if meaning and meaning.sure >= EXACT and not (of_link and meaning.label == of_link.label):
             return name, meaning
     return semantic, of_link
@@ -140,7 +133,7 @@ class LabelFileOptions:
     precede; reading: how segmented points are read."""
 
     meanings: PatternPairs = ()
-    reading: PointsOptions = field(default_factory=PointsOptions)
+    reading: points.PointsOptions = field(default_factory=points.PointsOptions)
 
 
 @dataclass(frozen=True, slots=True)
@@ -148,7 +141,7 @@ class LabelFileContent:
     """What a file says of an asset. hulls: digests by name, in order; error: why the asset or its file is not read."""
 
     hulls: Mapping[str, str] = field(default_factory=dict)
-    given: FileLabels = field(default_factory=FileLabels)
+    given: points.FileLabels = field(default_factory=points.FileLabels)
     error: str | None = None
 
 
@@ -189,12 +182,9 @@ def read_label_files(
                 yield asset, _read_by_facts(next(facts)[1], file)
             else:
                 content = next(others)
-                yield (
-                    asset,
-                    LabelFileContent(error=f"{store.path(asset)}: {content.why}")
-                    if isinstance(content, WorkerFailure)
-                    else content,
-                )
+                if isinstance(content, WorkerFailure):
+                    content = LabelFileContent(error=f"{store.path(asset)}: {content.why}")
+                yield asset, content
 
 
 def _read_by_facts(facts: AssetFacts, file: Path) -> LabelFileContent:
@@ -206,14 +196,16 @@ def _read_by_facts(facts: AssetFacts, file: Path) -> LabelFileContent:
         return LabelFileContent(facts.hulls, error=error.message)
     homes = match_labels(labels_file, facts.hulls)
     present = {name: homes.labels[name] for name in facts.hulls if name in homes.labels}
-    return LabelFileContent(facts.hulls, FileLabels({name: labels_file.labels[name] for name in homes.gone} | present))
+    return LabelFileContent(
+        facts.hulls, points.FileLabels({name: labels_file.labels[name] for name in homes.gone} | present)
+    )
 
 
 def _read_by_mesh(work: _Work) -> LabelFileContent:
     try:
         mesh = SymbolicMesh.of(read_prepared(work.path, work.preparation))
         if kind_of(work.file) == "points":
-            given = label_by_points(mesh, work.file, work.options.reading, work.vocabulary, work.patterns)
+            given = points.label_by_points(mesh, work.file, work.options.reading, work.vocabulary, work.patterns)
         else:
             given = label_by_links(mesh, work.file, work.vocabulary, work.patterns)
         return LabelFileContent(hull_digests(mesh), given)

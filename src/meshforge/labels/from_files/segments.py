@@ -53,12 +53,11 @@ def align_points(points: Floats, boxes: Sequence[Aabb], placing: PointAlignment,
     ways = (PointAlignment(align, axis) for align in _TRIED_MODES for axis in _AXES)
     apart = {way: _box_distance(_move(points, boxes, way, up), boxes) for way in ways}
     best = min(apart, key=lambda way: apart[way])
-    fits = apart[best] <= _SLACK
     raise GeometryError(
-        f"its points do not lie where the asset does: they are in a box {_describe_box(_box_of(own))}, "
+        f"its points do not lie where the asset does: they are in a box {_describe_box(Aabb.of_points(own))}, "
         f"the hulls in a box {_describe_box(boxes[0])}",
         remedy=f"They would fit with {_describe_options(best)}."
-        if fits
+        if apart[best] <= _SLACK
         else "Export them in the frame of the asset, in metres.",
     )
 
@@ -68,28 +67,22 @@ def _move(points: Floats, boxes: Sequence[Aabb], placing: PointAlignment, up: Up
     turned = points @ turn
     if placing.align != "box":
         return turned
-    fitted = [_fit_box(turned, box) for box in boxes]
-    return min(fitted, key=lambda own: _box_distance(own, boxes))
+    return min([_fit_box(turned, box) for box in boxes], key=lambda own: _box_distance(own, boxes))
 
 
 def _fit_box(points: Floats, box: Aabb) -> Floats:
     """Points scaled evenly and moved so that their box has the diagonal and the middle of another."""
-    own = _box_of(points)
+    own = Aabb.of_points(points)
     scale = box.diagonal / own.diagonal if own.diagonal > 0 else 1.0
-    moved: Floats = (points - own.center) * scale + box.center
-    return moved
+    return (points - own.center) * scale + box.center
 
 
 def _box_distance(points: Floats, boxes: Sequence[Aabb]) -> float:
     """How far the box of points is from the nearest of some, as a share of its diagonal."""
-    own = _box_of(points)
+    own = Aabb.of_points(points)
     return min(
         float(max(np.abs(own.min - box.min).max(), np.abs(own.max - box.max).max())) / box.diagonal for box in boxes
     )
-
-
-def _box_of(points: Floats) -> Aabb:
-    return Aabb.of_points(points)
 
 
 def _describe_box(box: Aabb) -> str:
@@ -128,8 +121,7 @@ def samples_of_faces(vertices: Floats, faces: Ints, classes: Ints, *, each: bool
     total = float(areas.sum())
     counts = np.maximum(np.ceil(areas / total * _COUNT), 1).astype(np.int64) if total > 0 else np.ones(len(faces), int)
     face = np.repeat(np.arange(len(faces)), counts)
-    within = np.arange(len(face)) - np.repeat(np.cumsum(counts) - counts, counts)
-    shares = _corner_shares(within)
+    shares = _corner_shares(np.arange(len(face)) - np.repeat(np.cumsum(counts) - counts, counts))
     points = np.einsum("nk,nkd->nd", shares, corners[face])
     own = classes[face] if each else classes[faces[face, shares.argmax(axis=1)]]
     return PointSamples(points, own, (areas / counts)[face])

@@ -13,7 +13,7 @@ from meshforge.batch import SETTINGS, ExecutionOptions
 from meshforge.common import MeshForgeError, ProjectError, UsageError, nearest_name
 from meshforge.labels.merge import LabelOutcome, LabelWriter, OutcomeCallback, can_fill_gap
 from meshforge.labels.names.words import UNSURE, match_label
-from meshforge.labels.propose import LabelEvidence, Proposals, group_evidence
+from meshforge.labels.summary import LabelEvidence, Proposals, group_evidence
 from meshforge.store import AssetFacts, Settings, Store, iterate_survey
 from meshforge.symbolic import Label, Mentions, SymbolicMesh, match_labels
 
@@ -102,14 +102,10 @@ def match_names(names: HullNames, vocabulary: Sequence[str], patterns: Sequence[
 
     Patterns come first, then words; each name of the hull is asked in turn, its own first.
     """
-    return _match_patterns(names, patterns) or _match_words(names, vocabulary)
-
-
-def _match_patterns(names: HullNames, patterns: Sequence[NamePattern]) -> NameMatch | None:
     for kind, name in (*names.all_names(), (_HULL, names.hull)):
         if pattern := find_pattern(name, patterns):
             return NameMatch(pattern.label or None, _PATTERN, kind, name, "pattern")
-    return None
+    return _match_words(names, vocabulary)
 
 
 def _match_words(names: HullNames, vocabulary: Sequence[str]) -> NameMatch | None:
@@ -174,8 +170,7 @@ def label_from_names(
 def require_patterns(store: Store, vocabulary: Sequence[str], meanings: PatternPairs) -> tuple[NamePattern, ...]:
     """The patterns that say what names mean. Raises ProjectError: no vocabulary; UsageError: a wrong pattern."""
     if not vocabulary:
-        remedy = "Say first what hulls can be."
-        raise ProjectError("the vocabulary is empty", where=str(store.folder), remedy=remedy)
+        raise ProjectError("the vocabulary is empty", where=str(store.folder), remedy="Say first what hulls can be.")
     return name_patterns(store.folder, store.settings, vocabulary, meanings)
 
 

@@ -73,8 +73,7 @@ def places() -> frozenset[str]:
 
 @cache
 def _read_words(file: str) -> frozenset[str]:
-    text = files("meshforge.labels.names").joinpath(file).read_text(encoding="utf-8")
-    return frozenset(text.split())
+    return frozenset(files("meshforge.labels.names").joinpath(file).read_text(encoding="utf-8").split())
 
 
 def split_joined_word(word: str, more: Collection[str]) -> Words:
@@ -87,14 +86,12 @@ def split_joined_word(word: str, more: Collection[str]) -> Words:
         ways = [
             (*before, word[start:end])
             for start, before in enumerate(best)
-            if before is not None and end - start >= _LEAST_PART and _is_part(word[start:end], more)
+            if before is not None
+            and end - start >= _LEAST_PART
+            and any(form in dictionary() or form in more for form in forms(word[start:end]))
         ]
         best.append(min(ways, key=len, default=None))
     return best[-1] or (word,)
-
-
-def _is_part(word: str, more: Collection[str]) -> bool:
-    return any(form in dictionary() or form in more for form in forms(word))
 
 
 def word_similarity(word: str, meant: str) -> float:
@@ -193,7 +190,8 @@ def match_label(name: str, vocabulary: Sequence[str]) -> LabelInName | None:
 def _match_words(spoken: Words, vocabulary: tuple[str, ...]) -> LabelInName | None:
     """The same of the words of a name, of which there are far fewer than names."""
     known = {label: words_of(label) for label in vocabulary}
-    words = _split_joined_words(_put_thing_last(spoken), {word for own in known.values() for word in own})
+    parts = {word for own in known.values() for word in own}
+    words = tuple(part for word in _put_thing_last(spoken) for part in _split_word(word, parts))
     found = [mention for label, wanted in known.items() for mention in _find_mentions(words, label, wanted)]
     found = [one for one in found if not any(_outdoes(other, one) for other in found)]
     things = [one for one in found if not _are_all(known[one.label], fillers())] or found
@@ -215,12 +213,8 @@ def _put_thing_last(words: Words) -> Words:
     return words if turn is None else (*words[turn + 1 :], *words[:turn])
 
 
-def _split_joined_words(words: Words, known: Collection[str]) -> Words:
-    """The words of a name, those that are joined taken apart where the thing that they end with is of a label."""
-    return tuple(part for word in words for part in _split_word(word, known))
-
-
 def _split_word(word: str, known: Collection[str]) -> Words:
+    """A word of a name, taken apart if it is joined and the thing that it ends with is of a label."""
     if is_one_of(word, known):
         return (word,)
     parts = split_joined_word(word, known)

@@ -1,6 +1,5 @@
 """Hulls described so that the same part of another asset is described alike: a mesh set upright first, since files tilt
-their assets, then a row of numbers for each hull.
-"""
+their assets, then a row of numbers for each hull."""
 
 from __future__ import annotations
 
@@ -35,8 +34,7 @@ def find_up(mesh: SymbolicMesh) -> Floats:
     found = np.concatenate([axis[None], _flat_sides(mesh)])
     worth = _score(mesh, found) * np.exp(-((_to_degrees(found @ axis) / _FAR) ** 2))
     worth[0] += _STAYS
-    best: Floats = found[first_greatest(worth)]
-    return best
+    return found[first_greatest(worth)]
 
 
 def find_other_sides(mesh: SymbolicMesh, up: Floats, most: int) -> list[Floats]:
@@ -58,13 +56,11 @@ def _score(mesh: SymbolicMesh, directions: Floats) -> Floats:
     shares = areas / (areas.sum() or 1.0)
     lean = _to_degrees(np.abs(directions @ normals.T))
     level, plumb = (np.exp(-((angle / _SOFT) ** 2)) @ shares for angle in (lean, 90.0 - lean))
-    worth: Floats = level + _PLUMB * plumb
-    return worth
+    return level + _PLUMB * plumb
 
 
 def _to_degrees(cosines: Floats) -> Floats:
-    angles: Floats = np.degrees(np.arccos(np.clip(cosines, -1.0, 1.0)))
-    return angles
+    return np.degrees(np.arccos(np.clip(cosines, -1.0, 1.0)))
 
 
 def rotation_to_z(up: Floats) -> Floats:
@@ -144,7 +140,6 @@ def describe_shapes(whole: WholeShape, volumes: Floats) -> Floats:
     away = np.linalg.norm(aside, axis=1)
     outward = aside / np.maximum(away, _LEAST * size)[:, None]
     outward = axes_along(np.pad(outward, ((0, 0), (0, 1))), spread, axes)
-    upward = axes_along(np.broadcast_to([0.0, 0.0, 1.0], outward.shape), spread, axes)
     return np.column_stack(
         [
             np.log(volumes / size**3) / 3,
@@ -153,7 +148,7 @@ def describe_shapes(whole: WholeShape, volumes: Floats) -> Floats:
             np.log(np.maximum(high - low, _LEAST * size) / size),
             ((low + high) / 2 - whole.foot) / whole.tall,
             away / size,
-            upward,
+            axes_along(np.broadcast_to([0.0, 0.0, 1.0], outward.shape), spread, axes),
             (spread[:, 0] - spread[:, 1]) / spread[:, 0],
             (spread[:, 1] - spread[:, 2]) / spread[:, 0],
             spread[:, 2] / spread[:, 0],
@@ -174,7 +169,9 @@ class HullDescriber:
         self._volumes = np.array([hull.volume for hull in mesh.hulls])
         triangles = tuple(hull.vertices[hull.faces] for hull in mesh.hulls)
         self._whole = whole_of(tuple(hull.vertices for hull in mesh.hulls), triangles)
-        self._touching = _contact_matrix(mesh)
+        self._touching = np.zeros((len(mesh.hulls), len(mesh.hulls)))  # symmetric, of 0 and 1
+        for a, b in mesh.contacts:
+            self._touching[a, b] = self._touching[b, a] = 1.0
 
     def describe_shapes(self, up: Floats) -> Floats:
         """What each hull is itself, and how it lies: `SHAPE_COLUMNS` of its row, which is quick. up: (3,)."""
@@ -200,28 +197,19 @@ class HullDescriber:
         )
 
 
-def _contact_matrix(mesh: SymbolicMesh) -> Floats:
-    """Which hulls touch, as a symmetric matrix of 0 and 1 (n, n)."""
-    touching = np.zeros((len(mesh.hulls), len(mesh.hulls)))
-    for a, b in mesh.contacts:
-        touching[a, b] = touching[b, a] = 1.0
-    return touching
-
-
 def _describe_counts(own: Floats, touching: Floats, volumes: Floats) -> Floats:
     """How many hulls look alike, touch, and are there; the share of the volume, of the largest, and the rank."""
     count = len(own)
     look = own[:, _LOOK_COLUMNS]
     alike = np.exp(-cdist(look, look, "sqeuclidean") / _ALIKE**2).sum(axis=1) - 1
     shares = np.maximum(volumes, 1e-12 * volumes.max() + 1e-300)
-    rank = share_ranks(volumes) / max(1, count - 1)
     columns = [
         np.log1p(alike),
         np.log1p(touching.sum(axis=1)),
         np.full(count, np.log(count)),
         np.log(shares / shares.max()),
         np.log(shares / shares.sum()),
-        rank,
+        share_ranks(volumes) / max(1, count - 1),
     ]
     return np.stack(columns, axis=1)
 

@@ -73,7 +73,7 @@ class DescriptorCache:
 
     def __init__(self, store: Store, facts: Mapping[str, AssetFacts], execution: batch.ExecutionOptions) -> None:
         contact = store.settings.thresholds.contact or EPSILON
-        layout, base = store.layout, store.found.base
+        layout, base, software = store.layout, store.found.base, batch.software_version()
         self._execution = execution
         self._work = {
             asset: _Work(
@@ -83,7 +83,7 @@ class DescriptorCache:
                 layout.preparation(asset),
                 own.preparation,
                 contact,
-                _digest_key(own, contact),
+                batch.text_digest(json.dumps([software, contact, own.preparation, own.files], sort_keys=True)),
                 layout.sketches,
                 asset,
             )
@@ -120,16 +120,9 @@ class DescriptorCache:
         for (asset, _), result in zip(
             wanted, batch.execute(_describe_sides, work, replace(self._execution, progress=done)), strict=True
         ):
-            yield (
-                asset,
-                f"{self._work[asset].path}: {result.why}" if isinstance(result, batch.WorkerFailure) else result,
-            )
-
-
-def _digest_key(facts: AssetFacts, contact: float) -> str:
-    return batch.text_digest(
-        json.dumps([batch.software_version(), contact, facts.preparation, facts.files], sort_keys=True)
-    )
+            if isinstance(result, batch.WorkerFailure):
+                result = f"{self._work[asset].path}: {result.why}"
+            yield asset, result
 
 
 def _read_kept(work: _Work, what: str, *names: str) -> list[NDArray[Any]] | None:

@@ -14,7 +14,7 @@ from meshforge.label_model import FamilyTable, reference_label
 from meshforge.labels.merge import LabelOutcome, LabelWriter, OutcomeCallback, can_replace_less_certain
 from meshforge.labels.propagation import propagate
 from meshforge.labels.propagation.descriptor_cache import DescriptorCache
-from meshforge.labels.propose import LabelEvidence, Proposals, group_evidence
+from meshforge.labels.summary import LabelEvidence, Proposals, group_evidence
 from meshforge.store import AssetFacts, Store, survey
 from meshforge.symbolic import Label, LabelFile, match_labels
 
@@ -63,7 +63,6 @@ def compare_family(
     cache: DescriptorCache, known: Mapping[str, Sequence[str | None]], execution: ExecutionOptions, stage: Stage
 ) -> FamilyComparison:
     """Compare all hulls. known: of each asset the labels of its hulls, None where there is none."""
-
     seen = {asset: cache.read_rows(asset) for asset in known}
     missing = [asset for asset, own in seen.items() if own is None]
     with stage(len(missing), "describing") as advance:
@@ -88,7 +87,6 @@ def _find_doubtful(
     family: FamilyTable, assets: Sequence[str], cache: DescriptorCache, stop: Callable[[], bool] | None
 ) -> Iterator[tuple[str, tuple[int, ...]]]:
     """The assets that may lie on another side, and on which."""
-
     for place, sides in propagate.find_doubtful_sides(
         family, lambda place: cache.read_sides(assets[place]), propagate.metric_weights()
     ):
@@ -110,7 +108,6 @@ def _collect_sides(
 
 def _compute_isolated(family: FamilyTable, stop: Callable[[], bool] | None) -> propagate.FamilyPosterior:
     """What labels say, in a process of its own where that may have to be stopped in the midst."""
-
     (found,) = run_isolated(propagate.compute_posterior, [family], ExecutionOptions(1 if stop else 0, None, stop=stop))
     if isinstance(found, WorkerFailure):
         raise MeshForgeError(f"the labels could not be propagated: {found.why}")
@@ -181,8 +178,7 @@ class _Findings:
 
     def labels_of(self, asset: str) -> dict[str, Label]:
         """The labels of an asset, by hull."""
-        rows = zip(self.hulls[asset], self.found.labels(asset), strict=True)
-        return {name: label for name, label in rows if label}
+        return {name: label for name, label in zip(self.hulls[asset], self.found.labels(asset), strict=True) if label}
 
 
 def _compare_assets(store: Store, vocabulary: Sequence[str], execution: ExecutionOptions, stage: Stage) -> _Findings:
@@ -212,7 +208,6 @@ def _compare_assets(store: Store, vocabulary: Sequence[str], execution: Executio
 
 def _reference_labels(file: LabelFile, facts: AssetFacts, vocabulary: Sequence[str]) -> list[str | None]:
     """The labels of the hulls of an asset that others may be taken from."""
-
     labels = match_labels(file, facts.hulls).labels
     found = (reference_label(labels.get(name)) for name in facts.hulls)
     return [name if name in vocabulary else None for name in found]

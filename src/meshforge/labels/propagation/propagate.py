@@ -12,19 +12,9 @@ from importlib.resources import files
 import numpy as np
 from scipy.spatial.distance import cdist
 
+from meshforge import label_model
 from meshforge.geometry import Floats, Ints
-from meshforge.label_model import (
-    EQUAL,
-    NO_LABEL,
-    ColumnScale,
-    FamilyTable,
-    first_greatest,
-    greatest_first,
-    pick_evenly,
-    reference_label,
-    refine_by_neighbors,
-    vote_by_similarity,
-)
+from meshforge.label_model import NO_LABEL, FamilyTable, first_greatest, greatest_first, pick_evenly
 from meshforge.labels.propagation.describe import ROW_WIDTH, SHAPE_COLUMNS, MeshDescriber
 from meshforge.symbolic import Label, SymbolicMesh
 
@@ -71,7 +61,7 @@ def find_doubtful_sides(
         likeness = [apart(scale(found)) for found in sides(mesh)]
         seems = apart(family.rows[span, SHAPE_COLUMNS])
         order = greatest_first(-np.array(likeness))
-        yield mesh, tuple([side for side in order if likeness[side] < seems - EQUAL][:_CLOSE])
+        yield mesh, tuple([side for side in order if likeness[side] < seems - label_model.EQUAL][:_CLOSE])
 
 
 def correct_upright(family: FamilyTable, closer: Iterable[tuple[int, Sequence[Floats]]], metric: Floats) -> FamilyTable:
@@ -96,8 +86,7 @@ def correct_upright(family: FamilyTable, closer: Iterable[tuple[int, Sequence[Fl
 
 
 def _rows_with_labels(family: FamilyTable, metric: Floats) -> Floats:
-    found: Floats = family.rows[pick_evenly(family.labelled, _MOST_ROWS)] * metric
-    return found
+    return family.rows[pick_evenly(family.labelled, _MOST_ROWS)] * metric
 
 
 def _spans_of(family: FamilyTable) -> Iterator[tuple[int, slice]]:
@@ -192,7 +181,10 @@ def compute_posterior(family: FamilyTable, metric: Floats | None = None) -> Fami
     if not family.labels:
         return FamilyPosterior(family, np.zeros((len(family.codes), 0)))
     return FamilyPosterior(
-        family, refine_by_neighbors(family, vote_by_similarity(family, metric_weights() if metric is None else metric))
+        family,
+        label_model.refine_by_neighbors(
+            family, label_model.vote_by_similarity(family, metric_weights() if metric is None else metric)
+        ),
     )
 
 
@@ -202,16 +194,17 @@ def propagate(meshes: Sequence[SymbolicMesh]) -> FamilyPosterior:
     The same family in the same order gives the same, bit for bit, on any processor. Meshes may lie anyhow about the
     upright axis of their files, at any size and place, tilted by up to some 40 degrees, or on their side.
     """
-    return Propagator(meshes).propagate([reference_label(hull.annotation) for mesh in meshes for hull in mesh.hulls])
+    return Propagator(meshes).propagate(
+        [label_model.reference_label(hull.annotation) for mesh in meshes for hull in mesh.hulls]
+    )
 
 
 def build_family(seen: Sequence[tuple[Floats, Ints]]) -> FamilyTable:
     """A family without any label yet; seen: `rows` and `touching` of the descriptor of each mesh."""
     rows = np.concatenate([np.zeros((0, ROW_WIDTH)), *(own for own, _ in seen)])
     sizes = np.array([len(own) for own, _ in seen], dtype=np.int64)
-    starts = np.cumsum(sizes) - sizes
-    pairs = (touching + start for (_, touching), start in zip(seen, starts, strict=True))
-    scale = ColumnScale.of(rows)
+    pairs = (touching + start for (_, touching), start in zip(seen, np.cumsum(sizes) - sizes, strict=True))
+    scale = label_model.ColumnScale.of(rows)
     return FamilyTable(
         scale(rows),
         scale,

@@ -68,8 +68,7 @@ def points_inside(vertices: Floats, axis: Floats, count: int) -> Floats:
 def points_on_surface(triangles: Floats, count: int) -> Floats:
     """Points (count, 3) spread evenly over triangles (n, 3, 3)."""
     a, b, c = triangles[:, 0], triangles[:, 1], triangles[:, 2]
-    areas = np.linalg.norm(np.cross(b - a, c - a), axis=1)
-    ends = np.cumsum(areas)
+    ends = np.cumsum(np.linalg.norm(np.cross(b - a, c - a), axis=1))
     at = np.searchsorted(ends, ((np.arange(count) + 0.5) / count - EQUAL) * ends[-1])
     face = np.minimum(at, len(triangles) - 1)
     share = (0.5 + np.arange(1, count + 1)[:, None] * _PLASTIC) % 1.0
@@ -123,8 +122,7 @@ def whole_of(pieces: tuple[Floats, ...], triangles: tuple[Floats, ...]) -> Whole
     least = min(_LEAST, max(1, _MANY // len(pieces)))
     counts = np.maximum(least, np.floor(shares * _SEEN + 0.5 + EQUAL).astype(int))
     seen = np.concatenate([points_on_surface(t, int(n)) for t, n in zip(triangles, counts, strict=True)])
-    weights = np.repeat(areas / counts, counts) / areas.sum()
-    return WholeShape.of(pieces, seen, weights)
+    return WholeShape.of(pieces, seen, np.repeat(areas / counts, counts) / areas.sum())
 
 
 def describe_surroundings(whole: WholeShape) -> Floats:
@@ -194,5 +192,4 @@ def _describe_rings(whole: WholeShape, offsets: Floats) -> Floats:
     cell = level * (len(_RING_BOUNDS) + 1) + aside
     count = len(offsets)
     flat = (np.arange(count)[:, None] * _CELLS + cell).ravel()
-    shares = np.bincount(flat, np.tile(whole.weights, count), count * _CELLS)
-    return np.sqrt(shares).reshape(count, _CELLS)
+    return np.sqrt(np.bincount(flat, np.tile(whole.weights, count), count * _CELLS)).reshape(count, _CELLS)

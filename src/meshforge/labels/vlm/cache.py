@@ -54,7 +54,8 @@ class AnswerCache:
         try:
             data = json.loads(self.path(question, endpoint).read_bytes())
             answer = _AnswerRecord.model_validate(data["answered"] | {"tokens": data["tokens"]})
-            return _to_reply(answer) if data["asked"] == _round_trip(question.document(endpoint)) else None
+            asked = json.loads(json.dumps(question.document(endpoint)))
+            return _to_reply(answer) if data["asked"] == asked else None
         except (OSError, ValueError, KeyError, TypeError, ValidationError):
             return None
 
@@ -77,49 +78,25 @@ class AnswerCache:
         return self.folder / "answers" / f"{question.digest(endpoint)}.json"
 
 
-def _round_trip(document: dict[str, Any]) -> Any:
-    """A document as it comes back from JSON."""
-    return json.loads(json.dumps(document))
-
-
 def _to_cached(reply: Reply) -> _AnswerRecord:
     usage, tokens = reply.usage or TokenCount(), None
     if reply.tokens is not None:
         tokens = tuple(
-            (
-                _token_to_text(token.text),
-                token.chance,
-                {_token_to_text(other): chance for other, chance in token.others.items()},
-            )
+            (token.text.decode(_ANY_BYTES), token.chance, {t.decode(_ANY_BYTES): c for t, c in token.others.items()})
             for token in reply.tokens
         )
-    return _AnswerRecord(
-        text=reply.text,
-        finish=reply.finish,
-        input_tokens=usage.input,
-        output_tokens=usage.output,
-        estimated=usage.estimated,
-        cost=reply.cost,
-        tokens=tokens,
-    )
+    counts: dict[str, Any] = {"input_tokens": usage.input, "output_tokens": usage.output, "estimated": usage.estimated}
+    return _AnswerRecord(text=reply.text, finish=reply.finish, **counts, cost=reply.cost, tokens=tokens)
 
 
 def _to_reply(answer: _AnswerRecord) -> Reply:
     usage, tokens = TokenCount(answer.input_tokens, answer.output_tokens, answer.estimated), None
     if answer.tokens is not None:
         tokens = tuple(
-            Token(_text_to_token(text), chance, {_text_to_token(other): c for other, c in others.items()})
+            Token(text.encode(_ANY_BYTES), chance, {other.encode(_ANY_BYTES): c for other, c in others.items()})
             for text, chance, others in answer.tokens
         )
     return Reply(answer.text, answer.finish, usage, tokens, answer.cost, cached=True)
-
-
-def _token_to_text(token: bytes) -> str:
-    return token.decode(_ANY_BYTES)
-
-
-def _text_to_token(text: str) -> bytes:
-    return text.encode(_ANY_BYTES)
 
 
 def write_page(folder: Path, name: str, answers: VlmAnswers) -> Path:
@@ -128,8 +105,7 @@ def write_page(folder: Path, name: str, answers: VlmAnswers) -> Path:
     pictures = relative_name(folder / "pictures", path.parent)
     body = [f"<h1>{escape(name)}</h1>", *_label_rows(answers)]
     for number, digest in enumerate(answers.asked, 1):
-        file = folder / "answers" / f"{digest}.json"
-        body += [f"<h2>Question {number}</h2>", *_format_question(file, pictures)]
+        body += [f"<h2>Question {number}</h2>", *_format_question(folder / "answers" / f"{digest}.json", pictures)]
     head = f'<meta charset="utf-8"><title>{escape(name)}</title><style>{_STYLE}</style>'
     write_atomically(path, f'<!doctype html>\n<html lang="en">{head}\n' + "\n".join(body) + "\n</html>\n")
     return path
@@ -149,10 +125,8 @@ def _format_question(file: Path, pictures: str) -> Iterator[str]:
         kept = json.loads(file.read_bytes())
         messages, answer = kept["asked"]["messages"], kept["answered"]
         usage = f"{answer['input_tokens']} tokens in, {answer['output_tokens']} out"
-        shown = [
-            *_format_messages(messages, pictures),
-            f'<pre class="answer">{escape(answer["text"])}</pre><p>{usage}.</p>',
-        ]
+        said = f'<pre class="answer">{escape(answer["text"])}</pre><p>{usage}.</p>'
+        shown = [*_format_messages(messages, pictures), said]
     except (OSError, ValueError, KeyError, TypeError):
         yield "<p>It got no answer.</p>"
     else:

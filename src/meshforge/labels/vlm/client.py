@@ -8,6 +8,7 @@ import threading
 from collections.abc import Callable, Mapping
 from concurrent.futures import Future
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -72,7 +73,7 @@ class Client:
                 self._features = read_features(path) if path else None
             if self._features is None:
                 try:
-                    self._features = probe_features(self._send_probe)
+                    self._features = probe_features(partial(self._ask_with_retries, is_probe=True))
                 except QuestionError as error:
                     raise self._end_with(EndError(error.problem, where=error.where, remedy=error.remedy)) from error
                 if path:
@@ -99,7 +100,7 @@ class Client:
             self._limiter.count(cached=1)
             return replace(reply, cached=True)
         try:
-            mine.set_result(self._find_or_ask(question, key))
+            mine.set_result(self._find_or_ask(question))
         except BaseException as error:
             mine.set_exception(error)
             raise
@@ -112,7 +113,7 @@ class Client:
         """Close the connections."""
         self._transport.close()
 
-    def _find_or_ask(self, question: VlmQuestion, key: str) -> Reply:
+    def _find_or_ask(self, question: VlmQuestion) -> Reply:
         known = self.find_answer(question)
         if known:
             self._limiter.count(cached=1)
@@ -121,23 +122,18 @@ class Client:
         if not features.pictures and any(question.pictures):
             raise self._end_with(EndError("this model takes no pictures", where=self.endpoint.model))
         try:
-            reply = self._ask_with_retries(question, features, key)
+            reply = self._ask_with_retries(question, features)
         except RefusalError:  # of all that a server may dislike, a schema can be done without
             if question.schema is None or not features.schema:
                 raise
-            reply = self._ask_with_retries(question, replace(features, schema=False), key)
+            reply = self._ask_with_retries(question, replace(features, schema=False))
         if self._cache:
             self._cache.write(question, self.endpoint, reply)
         return reply
 
-    def _send_probe(self, question: VlmQuestion, features: ServerFeatures) -> Reply:
-        return self._ask_with_retries(question, features, question.digest(self.endpoint), is_probe=True)
-
-    def _ask_with_retries(
-        self, question: VlmQuestion, features: ServerFeatures, key: str, *, is_probe: bool = False
-    ) -> Reply:
+    def _ask_with_retries(self, question: VlmQuestion, features: ServerFeatures, *, is_probe: bool = False) -> Reply:
         """Ask until an answer is there, or the attempts are used up."""
-        body = features.body(question, self.endpoint)
+        body, key = features.body(question, self.endpoint), question.digest(self.endpoint)
         with self._slots:
             try:
                 for attempt in range(self.endpoint.retries + 1):
@@ -171,7 +167,8 @@ class Client:
                     self._limiter.count_lost(bound)
                 raise
             usage, cost = self._limiter.charge(question, reply.usage, is_probe=is_probe)
-        self._count_success()
+        with self._lock:
+            self._unanswered, self._answered = 0, True
         return replace(reply, usage=usage, cost=cost)
 
     def _give_up(self, fault: TransientError, attempt: int) -> None:
@@ -189,10 +186,6 @@ class Client:
             remedy = "Try again later; what was answered is not asked again."
             raise self._end_with(EndError(f"several questions in a row got {tried}", where=where, remedy=remedy))
         raise QuestionError(tried, where=where)
-
-    def _count_success(self) -> None:
-        with self._lock:
-            self._unanswered, self._answered = 0, True
 
     def _raise_if_ended(self) -> None:
         """Raises EndError where one came up before, or a stop is wanted."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
 from typing import Any
 from urllib.parse import urlsplit
 
@@ -123,18 +123,7 @@ class Endpoint:
 
 def endpoint_of(settings: VlmSettings) -> Endpoint:
     """The endpoint that the table [vlm] names. Raises UsageError: no address, or no model named."""
-    return Endpoint(
-        base_url=settings.base_url,
-        model=settings.model,
-        key_env=settings.key_env,
-        input_price=settings.input_price,
-        output_price=settings.output_price,
-        concurrency=settings.concurrency,
-        timeout=settings.timeout,
-        retries=settings.retries,
-        wait=settings.wait,
-        extra=settings.extra,
-    )
+    return Endpoint(**{field.name: getattr(settings, field.name) for field in fields(Endpoint)})
 
 
 @dataclass(frozen=True, slots=True)
@@ -146,5 +135,4 @@ class TokenCount:
     estimated: bool = False
 
     def __add__(self, other: TokenCount) -> TokenCount:
-        estimated = self.estimated or other.estimated
-        return TokenCount(self.input + other.input, self.output + other.output, estimated)
+        return TokenCount(self.input + other.input, self.output + other.output, self.estimated or other.estimated)

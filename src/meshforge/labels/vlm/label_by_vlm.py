@@ -42,22 +42,17 @@ def draw_assets(
 ) -> Generator[tuple[str, AssetQuestions], None, None]:
     """All assets of a project, in their order, as soon as they are drawn; some are drawn ahead of the others."""
     assets = store.assets()
-    items = list(zip(assets, store.asset_files(assets), strict=True))
-    work = execute(partial(_draw, config), items, execution)
+    work = execute(partial(_draw, config), list(zip(assets, store.asset_files(assets), strict=True)), execution)
     try:
         for asset, found in zip(assets, work, strict=True):
-            yield (
-                asset,
-                AssetQuestions(error=f"{store.path(asset)}: {found.why}")
-                if isinstance(found, WorkerFailure)
-                else found,
-            )
+            if isinstance(found, WorkerFailure):
+                found = AssetQuestions(error=f"{store.path(asset)}: {found.why}")
+            yield asset, found
     finally:
         work.close()
 
 
 def _draw(config: PromptConfig, item: tuple[str, AssetFiles]) -> AssetQuestions:
-
     asset, place = item
     try:
         mesh = place.read_mesh()
@@ -92,7 +87,6 @@ def label_with_vlm(
     execution: ExecutionOptions = IN_PROCESS,
 ) -> VlmResult:
     """Ask about all hulls without a label of a person or a file; see `LabelStore.label_with_vlm`."""
-
     config = prompt_config_of(settings, store.vocabulary)
     client = Client(endpoint_of(settings), store.layout.vlm, max_cost=settings.max_cost, stop=stop or (lambda: False))
     with (
@@ -235,7 +229,6 @@ def forecast_vlm(
     execution: ExecutionOptions = IN_PROCESS,
 ) -> VlmForecast:
     """What `label_with_vlm` would send; questions that have to be asked again come on top of it."""
-
     endpoint = endpoint_of(settings)
     config = prompt_config_of(settings, store.vocabulary if vocabulary is None else vocabulary)
     client = Client(endpoint, store.layout.vlm, max_cost=settings.max_cost)

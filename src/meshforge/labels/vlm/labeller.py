@@ -12,17 +12,11 @@ from functools import partial
 from queue import Empty, Queue
 from typing import TypeVar
 
+from meshforge.labels.vlm import prompt
 from meshforge.labels.vlm.answer import LabelVote, VlmAnswers, decide_label, label_chances, read_answer
 from meshforge.labels.vlm.client import Client
 from meshforge.labels.vlm.endpoint import QuestionError
-from meshforge.labels.vlm.prompt import (
-    HullQuestion,
-    PromptConfig,
-    build_questions,
-    example_answer,
-    question_message,
-    retry_message,
-)
+from meshforge.labels.vlm.prompt import HullQuestion, PromptConfig
 from meshforge.labels.vlm.request import Message, VlmQuestion
 from meshforge.rendering import draw_labeling_pictures
 from meshforge.symbolic import Label, SymbolicMesh
@@ -123,7 +117,7 @@ class Labeller:
         self, mesh: SymbolicMesh, wanted: Collection[str] | None = None, name: str = ""
     ) -> Iterator[HullQuestion]:
         """The questions that `begin` asks at first; nothing is sent."""
-        return build_questions(mesh, mesh.index.keys() if wanted is None else wanted, self._config, name)
+        return prompt.build_questions(mesh, mesh.index.keys() if wanted is None else wanted, self._config, name)
 
     def begin(self, mesh: SymbolicMesh, wanted: Collection[str] | None = None, name: str = "") -> OpenAnswers:
         """Draw a mesh and ask about some hulls, by default all. Questions that get no answer leave their hulls open.
@@ -152,26 +146,22 @@ class Labeller:
 
     def _ask_about(self, hull_question: HullQuestion) -> _Response:
         """The votes of one question; what its answer leaves open is asked once more."""
-        asked: tuple[str, ...] = (self._digest(hull_question.question),)
+        endpoint = self._client.endpoint
+        asked: tuple[str, ...] = (hull_question.question.digest(endpoint),)
         try:
             votes, left, second = self._collect_votes(hull_question, hull_question.question)
         except QuestionError as error:
-            return _Response(
-                open=dict.fromkeys(hull_question.hulls.values(), "the question got no answer"), failed=error.sentence
-            )
+            gaps = dict.fromkeys(hull_question.hulls.values(), "the question got no answer")
+            return _Response(open=gaps, failed=error.sentence)
         failed = None
         if second:
             try:
-                more, left, _ = self._collect_votes(
-                    replace(hull_question, hulls={n: hull_question.hulls[n] for n in left}), second
-                )
-                votes, asked = votes | more, (*asked, self._digest(second))
+                rest = replace(hull_question, hulls={n: hull_question.hulls[n] for n in left})
+                more, left, _ = self._collect_votes(rest, second)
+                votes, asked = votes | more, (*asked, second.digest(endpoint))
             except QuestionError as error:
                 failed = error.sentence
         return _Response(votes, {hull_question.hulls[n]: why for n, why in left.items()}, failed, asked)
-
-    def _digest(self, question: VlmQuestion) -> str:
-        return question.digest(self._client.endpoint)
 
     def _collect_votes(
         self, hull_question: HullQuestion, question: VlmQuestion
@@ -182,15 +172,13 @@ class Labeller:
         answer = read_answer(reply.text, hull_question.hulls.keys(), vocabulary, unknown)
         sure = label_chances(reply, answer, vocabulary, unknown)
         votes = {
-            hull_question.hulls[number]: LabelVote(
-                label, hull_question.weights[hull_question.hulls[number]], sure.get(number)
-            )
+            (hull := hull_question.hulls[number]): LabelVote(label, hull_question.weights[hull], sure.get(number))
             for number, label in answer.said.items()
         }
         if not answer.open:
             return votes, {}, None
         why = "the answer was cut off" if reply.is_cut and not answer.odd else answer.problem
-        back = (Message.assistant(reply.text[:_QUOTED] or "-"), retry_message(answer.open, answer.odd))
+        back = (Message.assistant(reply.text[:_QUOTED] or "-"), prompt.retry_message(answer.open, answer.odd))
         limit = question.limit * 2 if reply.is_cut else question.limit
         second = replace(question, messages=(*question.messages, *back), limit=limit)
         return votes, dict.fromkeys(answer.open, why), second
@@ -214,4 +202,4 @@ def example_messages(mesh: SymbolicMesh, config: PromptConfig) -> tuple[Message,
     shown = frozenset[str]().union(*(shot.numbered for shot in taken))
     numbers = {hull: mesh.index[hull] for hull in labelled if hull in shown}
     said = {number: mesh.hull_of(hull).label or config.unknown for hull, number in numbers.items()}
-    return question_message(taken, 0, numbers), example_answer(said)
+    return prompt.question_message(taken, 0, numbers), prompt.example_answer(said)

@@ -157,10 +157,8 @@ class Backoff:
         jitter in 0..1 keeps questions apart that failed at one time. Raises EndError: that is too long, or a stop.
         """
         if after is not None and after > LONGEST_DEMAND:
-            raise EndError(
-                f"the server wants to be left alone for {after / 60:.0f} minutes",
-                remedy="Go on then; what was answered is not asked again.",
-            )
+            remedy = "Go on then; what was answered is not asked again."
+            raise EndError(f"the server wants to be left alone for {after / 60:.0f} minutes", remedy=remedy)
         if after:
             with self._lock:
                 self._closed_until = max(self._closed_until, time.monotonic() + after)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Collection, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field, fields, replace
 from typing import Any, Literal
 
 from meshforge.common import UsageError
@@ -109,20 +109,12 @@ class PromptConfig:
 
 def prompt_config_of(settings: VlmSettings, vocabulary: Sequence[str]) -> PromptConfig:
     """What the table [vlm] says on asking. Raises UsageError: no vocabulary, or a description of what is no label."""
-    return PromptConfig(
-        vocabulary=tuple(vocabulary),
-        mode=settings.mode,
-        descriptions=settings.descriptions,
-        about=settings.about,
-        names=settings.names,
-        repeats=settings.repeats,
-        room=settings.room,
-        size=settings.size,
-    )
+    _, *own = fields(PromptConfig)
+    return PromptConfig(tuple(vocabulary), **{field.name: getattr(settings, field.name) for field in own})
 
 
 def task_message(config: PromptConfig, up: str, repeat: int = 0) -> Message:
-    """What the task is; up: the axis that points up."""
+    """What the task is; up: the axis that points up, as `+Z`."""
     words = config.words(repeat)
     labels = [
         f"- {word}: {_to_line(config.descriptions[word])}" if word in config.descriptions else f"- {word}"
@@ -215,8 +207,7 @@ def build_questions(
     name: that of the asset, which the model is given where the config says so.
     """
     mode = config.picture_mode
-    names = [hull.name for hull in mesh.hulls]
-    for group in _group_names(names, mode.hulls):
+    for group in _group_names([hull.name for hull in mesh.hulls], mode.hulls):
         if set(group).isdisjoint(wanted):
             continue
         pictures = draw_labeling_pictures(mesh, hulls=group, most=mode.pictures, size=mode.size)
@@ -242,7 +233,7 @@ def _ask_in_repeats(
     weights = {hull: clearness(count, config.picture_mode.size) for hull, count in pixels.items()}
     limit = config.room + _ENTRY_TOKENS * len(numbers)
     for repeat in range(config.repeats):
-        messages = task_message(config, up_of(mesh), repeat), pictures
+        messages = task_message(config, f"+{up_axis(mesh, None)}", repeat), pictures
         question = VlmQuestion(messages, answer_schema(config, repeat), limit, repeat=repeat)
         yield HullQuestion(question, {number: hull for hull, number in numbers.items()}, weights, repeat)
 
@@ -252,8 +243,3 @@ def _group_names(names: list[str], most: int) -> Iterator[list[str]]:
     count = -(-len(names) // most)
     for k in range(count):
         yield names[k * len(names) // count : (k + 1) * len(names) // count]
-
-
-def up_of(mesh: SymbolicMesh) -> str:
-    """The axis that points up in pictures of a mesh, as `+Z`."""
-    return f"+{up_axis(mesh, None)}"

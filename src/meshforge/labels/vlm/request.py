@@ -71,8 +71,8 @@ class VlmQuestion:
 
     @cached_property
     def digests(self) -> tuple[str, ...]:
-        """The digest of each picture."""
-        return tuple(digest_picture(picture) for picture in self.pictures)
+        """Thirty-two hexadecimal digits of each picture file."""
+        return tuple(hashlib.blake2b(picture, digest_size=16).hexdigest() for picture in self.pictures)
 
     def document(self, endpoint: Endpoint) -> dict[str, Any]:
         """All that the answer depends on, with digests in place of pictures; there is no key in it."""
@@ -98,11 +98,6 @@ class VlmQuestion:
         """Thirty-two hexadecimal digits, the same for the same question to the same model."""
         text = json.dumps(self.document(endpoint), ensure_ascii=True, sort_keys=True)
         return hashlib.blake2b(text.encode(), digest_size=16).hexdigest()
-
-
-def digest_picture(picture: bytes) -> str:
-    """Thirty-two hexadecimal digits of a picture file."""
-    return hashlib.blake2b(picture, digest_size=16).hexdigest()
 
 
 @dataclass(frozen=True, slots=True)
@@ -165,22 +160,17 @@ def probe_features(send: Callable[[VlmQuestion, ServerFeatures], Reply]) -> Serv
                 raise EndError(error.problem, where=error.where) from error
             features = less
             continue
-        keeps, sees = _fits_schema(reply.text), not features.pictures or "red" in reply.text.lower()
-        return replace(
-            features,
-            schema=features.schema and keeps,
-            logprobs=features.logprobs and reply.tokens is not None,
-            sees=sees,
-        )
+        schema, logprobs = features.schema and _fits_schema(reply.text), features.logprobs and reply.tokens is not None
+        sees = not features.pictures or "red" in reply.text.lower()
+        return replace(features, schema=schema, logprobs=logprobs, sees=sees)
 
 
 @cache
 def probe_question(with_picture: bool) -> VlmQuestion:
     """Which colour is this? Asked so that only a schema makes the answer JSON."""
-    colour = {"type": "string", "enum": list(_COLOURS)}
     schema = {
         "type": "object",
-        "properties": {"colour": colour},
+        "properties": {"colour": {"type": "string", "enum": list(_COLOURS)}},
         "required": ["colour"],
         "additionalProperties": False,
     }

@@ -69,9 +69,8 @@ def read_reply(data: Any) -> Reply:
         case {"choices": [{"message": {**message}, **choice}, *_]}:
             finish = choice.get("finish_reason")
             tokens = _parse_tokens(choice.get("logprobs"))
-            text = (
-                _message_text(message).encode(errors="replace").decode()
-            )  # half a surrogate pair cannot be written to a file
+            # half a surrogate pair cannot be written to a file
+            text = _message_text(message).encode(errors="replace").decode()
             return Reply(text, finish if isinstance(finish, str) else "stop", usage, tokens)
     raise NoReplyError("the server sent something that is no answer", usage)
 
@@ -102,8 +101,7 @@ def _parse_tokens(data: Any) -> tuple[Token, ...] | None:
     """The tokens with their chances, None where there are none or one is not of the usual form."""
     match data:
         case {"content": [_, *_] as rows}:
-            made = [_parse_token(row) for row in rows]
-            tokens = tuple(token for token in made if token)
+            tokens = tuple(token for row in rows if (token := _parse_token(row)))
             return tokens if len(tokens) == len(rows) else None
     return None
 
@@ -113,7 +111,8 @@ def _parse_token(row: Any) -> Token | None:
         case {"token": str(), "logprob": float() | int() as logprob}:
             top = row.get("top_logprobs")
             others = [_parse_token({**other, "top_logprobs": None}) for other in top or () if isinstance(other, dict)]
-            return Token(_token_bytes(row), _chance(logprob), {other.text: other.chance for other in others if other})
+            chance = 0.0 if math.isnan(logprob) else math.exp(min(logprob, 0.0))
+            return Token(_token_bytes(row), chance, {other.text: other.chance for other in others if other})
     return None
 
 
@@ -122,10 +121,6 @@ def _token_bytes(row: Mapping[Any, Any]) -> bytes:
     if isinstance(raw, list) and raw and all(isinstance(b, int) and 0 <= b < 256 for b in raw):
         return bytes(raw)
     return str(row["token"]).encode("utf-8", "surrogatepass")
-
-
-def _chance(logprob: float) -> float:
-    return math.exp(min(logprob, 0.0)) if not math.isnan(logprob) else 0.0
 
 
 class Transport:
@@ -145,8 +140,7 @@ class Transport:
         try:
             text = client.post("/chat/completions", cast_to=str, body=dict(body))
         except openai.APITimeoutError as error:
-            seconds = f"{self._endpoint.timeout:g}"
-            raise TransientError(f"no answer within {seconds} seconds", charged=True) from error
+            raise TransientError(f"no answer within {self._endpoint.timeout:g} seconds", charged=True) from error
         except openai.APIConnectionError as error:
             raise self._to_transient_error(error) from error
         except openai.APIStatusError as error:
@@ -192,9 +186,8 @@ class Transport:
             return RefusalError(f"the server refused the question ({status}): {said}", where=where)
         if status in (401, 403) or (status == 400 and "api key" in said.lower()):
             name = self._endpoint.key_name
-            remedy = (
-                f"The key is what the environment variable {name} holds." if name else "Name its key: key_env in [vlm]."
-            )
+            held = f"The key is what the environment variable {name} holds."
+            remedy = held if name else "Name its key: key_env in [vlm]."
             return EndError(f"the server does not accept the key: {said}", where=where, remedy=remedy)
         if status == 404:
             remedy = "Look at base_url and model; a base_url mostly ends with /v1."
@@ -217,8 +210,7 @@ def _make_client(endpoint: Endpoint, key: str) -> OpenAI:
 
 def _error_text(error: APIStatusError) -> str:
     """The server's own words, in one line."""
-    found = _error_message(error.body)
-    words = " ".join((found or str(error.body or error.message)).split())
+    words = " ".join((_error_message(error.body) or str(error.body or error.message)).split())
     return words if len(words) <= _LONG else f"{words[:_LONG]} ..."
 
 

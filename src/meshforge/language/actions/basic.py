@@ -1,18 +1,124 @@
-"""The actions without shapes of their own: Delete, Merge, Scale, Each; and the registry of all actions by name."""
+"""The actions: Replace and Add, which insert shapes; Delete, Merge, Scale and Each; and the registry of all by name."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
-from typing import ClassVar
+from typing import ClassVar, Literal
 
 import numpy as np
 
-from meshforge.geometry import convex_hull
+from meshforge import geometry
+from meshforge.geometry import Aabb, Floats, Shape, convex_hull
+from meshforge.language.actions import base
 from meshforge.language.actions.base import AXES, Action, ActionArgument, Axis, FactorArgument, WordArgument
 from meshforge.language.actions.edit import GroupEdit, HullGroup, NewShape
-from meshforge.language.actions.insert import Add, Replace
+from meshforge.language.syntax import Direction
 from meshforge.symbolic import SymbolicMesh, split_by_contact
+
+_FILL_SHAPES: Mapping[str, Callable[[Aabb], Shape]] = {
+    "box": geometry.aabb_box,
+    "cylinder": geometry.aabb_cylinder,
+    "capsule": geometry.aabb_capsule,
+    "sphere": geometry.aabb_sphere,
+}
+_TIGHT_FITS = {"box": geometry.tight_box, "cylinder": geometry.tight_cylinder, "capsule": geometry.tight_capsule}
+
+
+@dataclass(frozen=True, slots=True)
+class Replace(base.Action):
+    """Replaces the selected hulls of each body by a primitive or a template that fills their bounding box."""
+
+    by_body: ClassVar[bool] = True
+    geometry: str = field(metadata={"argument": base.PrimitiveOrFileArgument()})
+    fit: Literal["tight", "longest"] | None = field(
+        default=None, metadata={"argument": base.WordArgument(("tight", "longest"))}
+    )
+
+    def conflict(self) -> str | None:
+        if self.fit == "tight" and self.geometry not in ("box", "cylinder", "capsule"):
+            return f"tight is for box, cylinder and capsule, not {self.geometry}"
+        if self.fit == "longest" and self.geometry in base.PRIMITIVES:
+            return f"longest is for template files, not {self.geometry}"
+        return None
+
+    @property
+    def templates(self) -> tuple[str, ...]:
+        return () if self.geometry in base.PRIMITIVES else (self.geometry,)
+
+    def edit(self, group: HullGroup) -> GroupEdit:
+        if self.templates:
+            return GroupEdit.insert(fit_template(group, self.geometry, turned=self.fit == "longest"), group)
+        shape, note = fit_primitive(group, self.geometry, tight=self.fit == "tight")
+        return GroupEdit.insert((shape,), group, note=note)
+
+
+def fit_primitive(group: HullGroup, primitive: str, *, tight: bool) -> tuple[Shape, str | None]:
+    """The primitive that fills the bounding box of the group, or the smallest one around its points; with a note."""
+    if tight:
+        note = "round primitives were fitted by their tessellated points" if group.has_round else None
+        return _TIGHT_FITS[primitive](group.points, name=group.largest.name, thicken=group.thickness), note
+    shape = _FILL_SHAPES[primitive](group.bounds)
+    if shape.is_primitive:
+        return shape, None
+    return shape, f"sides of the {primitive} differ by more than 1%, so it is a hull mesh"
+
+
+def fit_template(group: HullGroup, name: str, *, turned: bool) -> tuple[Shape, ...]:
+    """The shapes of a template, its bounding box mapped onto that of the group, axis by axis.
+
+    turned: whether its longest axis is first turned onto that of the group.
+    """
+    template = group.template(name)
+    if not turned:
+        return geometry.map_to_box(template.shapes, template.aabb, group.bounds)
+    turn = _quarter_turn(geometry.longest_axis(template.aabb), geometry.longest_axis(group.bounds))
+    shapes = [shape.transform(turn, np.zeros(3)) for shape in template.shapes]
+    return geometry.map_to_box(shapes, Aabb.union(shape.aabb for shape in shapes), group.bounds)
+
+
+def _quarter_turn(start: int, end: int) -> Floats:
+    """The quarter turn (3, 3) that takes one coordinate axis to another, the identity where they are one."""
+    turn = np.eye(3)
+    if start != end:
+        turn[[start, end]] = 0.0
+        turn[end, start], turn[start, end] = 1.0, -1.0
+    return turn
+
+
+@dataclass(frozen=True, slots=True)
+class Add(base.Action):
+    """Puts a template against the side of the selected hulls' bounding box, as large as fits it or at its own size."""
+
+    by_body: ClassVar[bool] = True
+    direction: Direction = field(metadata={"argument": base.DIRECTION})
+    template: str = field(metadata={"argument": base.FileArgument()})
+    keep: bool = field(default=False, metadata={"argument": base.FlagArgument("keep")})
+
+    @property
+    def templates(self) -> tuple[str, ...]:
+        return (self.template,)
+
+    def edit(self, group: HullGroup) -> GroupEdit:
+        template = group.template(self.template)
+        axis, sign = "XYZ".index(self.direction[1]), 1.0 if self.direction[0] == "+" else -1.0
+        factor = 1.0 if self.keep else _fit_factor(template.aabb, group.bounds, axis)
+        offset = _flush_offset(template.aabb, group.bounds, axis, sign, factor)
+        shapes = tuple(shape.transform(np.eye(3) * factor, offset) for shape in template.shapes)
+        return GroupEdit.insert(shapes, group, removes=False)
+
+
+def _fit_factor(part: Aabb, bounds: Aabb, axis: int) -> float:
+    """The factor that makes `part` as large as fits the side of `bounds` across `axis`."""
+    across = [k for k in range(3) if k != axis]
+    return float((bounds.size[across] / part.size[across]).min())
+
+
+def _flush_offset(part: Aabb, bounds: Aabb, axis: int, sign: float, factor: float) -> Floats:
+    """Where to move the scaled `part`, so that it touches the middle of that side from outside."""
+    target = bounds.center.copy()
+    target[axis] += sign * (bounds.size[axis] + part.size[axis] * factor) / 2
+    return target - part.center * factor
 
 
 @dataclass(frozen=True, slots=True)

@@ -120,7 +120,5 @@ def check_templates(wanted: Iterable[str], templates: Mapping[str, Template]) ->
     for name in wanted:
         if name not in templates:
             known = ", ".join(sorted(templates)) or "none"
-            raise ProgramError(
-                f'there is no template "{name}" (templates given: {known})',
-                remedy="Templates are looked for beside the program, then in the folder templates/ beside it.",
-            )
+            remedy = "Templates are looked for beside the program, then in the folder templates/ beside it."
+            raise ProgramError(f'there is no template "{name}" (templates given: {known})', remedy=remedy)

@@ -14,18 +14,8 @@ from meshforge.geometry import Aabb, Floats, Ints
 from meshforge.rendering.annotation import INK, LabelAnchor, PixelBox, count_pixels
 from meshforge.rendering.camera import Camera, View
 from meshforge.rendering.colors import PALE, rgb
-from meshforge.rendering.labeling.page import (
-    NumberLegend,
-    PagePixels,
-    draw_head,
-    draw_numbers,
-    draw_surfaces,
-    head_height,
-    lay_ink,
-    number_sizes,
-    to_square_image,
-    trace_ink,
-)
+from meshforge.rendering.labeling import page
+from meshforge.rendering.labeling.page import PagePixels, draw_surfaces, lay_ink, to_square_image, trace_ink
 from meshforge.rendering.labeling.placement import LEAST_PIXELS, TextSize, place_numbers
 from meshforge.rendering.labeling.subject import NEUTRAL, Arrangement, LabelingSubject
 from meshforge.rendering.paint import LineStrengths
@@ -71,13 +61,13 @@ class LabelingCanvas:
     @property
     def drawing_size(self) -> tuple[int, int]:
         """Width and height that words leave to the drawing [px]."""
-        return self.size, self.size - head_height(self.size) - self._legend.height
+        return self.size, self.size - page.head_height(self.size) - self._legend.height
 
     def draw(self, arrangement: Arrangement, view: View) -> LabelingPicture:
         """The picture of an arrangement from one side."""
         from PIL import ImageDraw  # lazy: 0.01 s, only pictures need it
 
-        subject, top = self.subject, head_height(self.size)
+        subject, top = self.subject, page.head_height(self.size)
         camera = arrangement.camera(view, self.drawing_size)
         hits = arrangement.cast_solid(camera)
         items = arrangement.hull_pixels(hits)
@@ -90,28 +80,27 @@ class LabelingCanvas:
             items = _mask_box(items, taken[0])
         draw = ImageDraw.Draw(marked)
         numbered = self._write_numbers(draw, arrangement, items, camera, taken, top)
-        draw_head(draw, self.size, arrangement.describe(view), camera, arrangement.view_frame.upright)
+        page.draw_head(draw, self.size, arrangement.describe(view), camera, arrangement.view_frame.upright)
         self._legend.draw(draw, numbered, subject.colors)
         plain = self._draw_visual(arrangement, camera)
         if plain is None:
             plain = self._draw_page(arrangement, hits, np.tile(NEUTRAL, (len(colors), 1)), camera, drawing, faint)
         hulls = subject.mesh.hulls
-        counts = count_pixels(items, len(hulls)).tolist()
         return LabelingPicture(
             arrangement.describe(view),
             marked,
             to_square_image(plain, self.size, top),
-            {hull.name: n for hull, n in zip(hulls, counts, strict=True)},
+            {hull.name: n for hull, n in zip(hulls, count_pixels(items, len(hulls)).tolist(), strict=True)},
             frozenset(hulls[k].name for k in numbered),
         )
 
     @cached_property
-    def _legend(self) -> NumberLegend:
-        return NumberLegend(self.subject.number_texts, self.size)
+    def _legend(self) -> page.NumberLegend:
+        return page.NumberLegend(self.subject.number_texts, self.size)
 
     @cached_property
     def _number_sizes(self) -> dict[int, dict[int, TextSize]]:
-        return number_sizes(self.subject.number_texts, self.size)
+        return page.number_sizes(self.subject.number_texts, self.size)
 
     @property
     def _line_width(self) -> int:
@@ -128,11 +117,11 @@ class LabelingCanvas:
         faint: LineStrengths | None,
     ) -> PagePixels:
         """The solid hulls in their colours, and their lines and those of the faint ones."""
-        page = draw_surfaces(hits, colors, arrangement.view_frame, camera)
-        lay_ink(page, drawing)
+        pixels = draw_surfaces(hits, colors, arrangement.view_frame, camera)
+        lay_ink(pixels, drawing)
         if faint is not None:
-            lay_ink(page, faint, _FAINT_INK)
-        return page
+            lay_ink(pixels, faint, _FAINT_INK)
+        return pixels
 
     def _trace_faint(self, arrangement: Arrangement, hits: RayHits, camera: Camera) -> LineStrengths | None:
         """The lines (h, w) of hulls that are only hinted at, where nothing else is; None without such hulls."""
@@ -145,9 +134,9 @@ class LabelingCanvas:
         if visual is None:
             return None
         hits, steps = visual
-        page = draw_surfaces(hits, self.subject.visuals[1], arrangement.view_frame, camera)
-        lay_ink(page, trace_ink(hits, self._line_width, steps, self.subject.smooth))
-        return page
+        pixels = draw_surfaces(hits, self.subject.visuals[1], arrangement.view_frame, camera)
+        lay_ink(pixels, trace_ink(hits, self._line_width, steps, self.subject.smooth))
+        return pixels
 
     def _paste_inset(
         self, marked: Image, arrangement: Arrangement, view: View, items: Ints, top: int
@@ -170,7 +159,7 @@ class LabelingCanvas:
             column, row = ((first + last) / 2).round().astype(int).tolist()
             known[alone] = LabelAnchor(column, row, 0.0)
         places = place_numbers(items, self._number_sizes, known, taken)
-        draw_numbers(draw, places, self.subject.number_texts, self.subject.colors, top)
+        page.draw_numbers(draw, places, self.subject.number_texts, self.subject.colors, top)
         return sorted(place.item for place in places)
 
 
@@ -201,11 +190,11 @@ def draw_inset(arrangement: Arrangement, view: View, size: int) -> Image:
     whole, about = Arrangement.in_place(subject), Arrangement(subject, arrangement.close, subject.points)
     camera = whole.camera(view, (side, side))
     hits, shining = whole.cast_solid(camera), about.cast_solid(camera)
-    page = draw_surfaces(hits, np.tile(rgb(PALE), (len(whole.solid), 1)), whole.view_frame, camera)
-    lay_ink(page, trace_ink(hits, 2), 0.6)
+    pixels = draw_surfaces(hits, np.tile(rgb(PALE), (len(whole.solid), 1)), whole.view_frame, camera)
+    lay_ink(pixels, trace_ink(hits, 2), 0.6)
     lit = draw_surfaces(shining, subject.colors[list(arrangement.close)], whole.view_frame, camera)
-    page[shining.item >= 0] = lit[shining.item >= 0]
-    image = to_square_image(page, side, 0)
+    pixels[shining.item >= 0] = lit[shining.item >= 0]
+    image = to_square_image(pixels, side, 0)
     draw = ImageDraw.Draw(image)
     seen = camera.to_pixels(whole.view_frame.to_unit(Aabb.of_points(arrangement.frame).corners))
     low, high = seen.min(axis=0), seen.max(axis=0)

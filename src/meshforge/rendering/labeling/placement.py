@@ -170,8 +170,7 @@ def find_box_crossings(lines: Floats, boxes: Floats) -> Any:
     step_x, step_y = _avoid_zero(end_x - x), _avoid_zero(end_y - y)
     a, b, c, d = (left - x) / step_x, (right - x) / step_x, (top - y) / step_y, (bottom - y) / step_y
     enter = np.maximum(np.minimum(a, b), np.minimum(c, d))
-    leave = np.minimum(np.maximum(a, b), np.maximum(c, d))
-    return np.maximum(enter, 0) < np.minimum(leave, 1)
+    return np.maximum(enter, 0) < np.minimum(np.minimum(np.maximum(a, b), np.maximum(c, d)), 1)
 
 
 def find_line_crossings(lines: Floats, others: Floats) -> Any:

@@ -61,10 +61,8 @@ def _check_arguments(names: Mapping[str, int], picked: Collection[str], most: in
     if most < 1:
         raise UsageError(f"{most} pictures show nothing", remedy="Ask for one at least.")
     if size not in LABELING_SIZES:
-        raise UsageError(
-            f"pictures for labelling cannot be {size} pixels wide",
-            remedy=f"Sides go from {LABELING_SIZES.start} to {LABELING_SIZES.stop - 1}.",
-        )
+        remedy = f"Sides go from {LABELING_SIZES.start} to {LABELING_SIZES.stop - 1}."
+        raise UsageError(f"pictures for labelling cannot be {size} pixels wide", remedy=remedy)
 
 
 class _PictureSeries:

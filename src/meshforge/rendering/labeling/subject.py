@@ -11,18 +11,12 @@ from typing import Any
 import numpy as np
 
 from meshforge.geometry import Aabb, Floats, Ints
+from meshforge.rendering import raycast
 from meshforge.rendering.camera import Camera, Up, View, aim_camera
 from meshforge.rendering.colors import PALE, pick_distinct_colors, rgb
 from meshforge.rendering.labeling.viewpoints import VIEW_WORDS, ViewPreview, outermost_points
 from meshforge.rendering.picture import points_to_frame
-from meshforge.rendering.raycast import (
-    RayHits,
-    ViewFrame,
-    cast_rays,
-    cast_rays_adaptively,
-    cast_rays_with_steps,
-    up_vector,
-)
+from meshforge.rendering.raycast import RayHits, ViewFrame, cast_rays, up_vector
 from meshforge.rendering.scene import RayScene, RenderMesh, build_scene, prepare_for_rays, to_render_mesh
 from meshforge.symbolic import SymbolicMesh
 
@@ -149,8 +143,7 @@ class Arrangement:
     @staticmethod
     def explode(subject: LabelingSubject, push: float) -> Arrangement:
         """All hulls, pushed away from the middle of all."""
-        every = tuple(range(len(subject.render_meshes)))
-        moved = Arrangement(subject, every, subject.points, push)
+        moved = Arrangement(subject, tuple(range(len(subject.render_meshes))), subject.points, push)
         return replace(moved, frame=np.concatenate([s.vertices for s in moved.render_meshes]))
 
     def describe(self, view: View) -> str:
@@ -196,7 +189,7 @@ class Arrangement:
     def cast_faint(self, camera: Camera) -> RayHits | None:
         """What the pixels show of the faint hulls and of what is no hull, None where there is neither."""
         scene = self._faint_scene
-        return cast_rays_adaptively(scene, camera) if len(scene.corners) else None
+        return raycast.cast_rays_adaptively(scene, camera) if len(scene.corners) else None
 
     def cast_visual(self, camera: Camera) -> tuple[RayHits, Any] | None:
         """What the pixels show of the visual mesh, and where a part of it steps back behind another (h, w).
@@ -207,7 +200,7 @@ class Arrangement:
         hidden = bool(self.close) and len(self.solid) < len(self.render_meshes)
         if self.push or hidden or not self.subject.visuals[0]:
             return None
-        return cast_rays_with_steps(self.subject.visual_scene(self.view_frame), camera)
+        return raycast.cast_rays_with_steps(self.subject.visual_scene(self.view_frame), camera)
 
     def hull_pixels(self, hits: RayHits) -> Ints:
         """The index of the hull that each pixel (h, w) shows in full, -1 for none."""

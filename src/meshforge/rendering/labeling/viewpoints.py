@@ -59,8 +59,7 @@ class ViewPreview:
         for axis in (0, 1):
             for here, there in (neighbour_slices(axis), neighbour_slices(axis)[::-1]):
                 inner[here] &= items[here] == items[there]
-        parts = (np.bincount(items[mask], minlength=count) / items.size for mask in (items >= 0, inner))
-        return ViewPreview(*parts)
+        return ViewPreview(*(np.bincount(items[mask], minlength=count) / items.size for mask in (items >= 0, inner)))
 
     def quality(self, least: float) -> Floats:
         """How well each hull is seen (n,), from 0 to 1; not at all below a share of `least`."""

@@ -90,8 +90,7 @@ class OrientationSearch:
         return found if found and language.size_of(found) <= most else None
 
     def _search(self, rule: RuleInFrame, most: int) -> None:
-        options = replace(self._options, max_size=most)
-        answer = Search(rule.examples, self._frame.labels, self._budget, options).run()
+        answer = Search(rule.examples, self._frame.labels, self._budget, replace(self._options, max_size=most)).run()
         if isinstance(answer, Unfinished):
             raise OutOfTime
         if isinstance(answer, Hit):
@@ -126,8 +125,7 @@ class FrameAttempt:
     def learn(self, limit: int, most: int) -> bool:
         """Learn on; whether every rule has an extractor, of at most `limit` nodes in all and `most` each."""
         while not self._over and not self.is_done:
-            others = sum(self._search.floors[len(self.sizes) + 1 :])
-            room = min(most, limit - sum(self.sizes) - others)
+            room = min(most, limit - sum(self.sizes) - sum(self._search.floors[len(self.sizes) + 1 :]))
             if room < self._search.floors[len(self.sizes)] or not self._learn_next(room):
                 break
         return self.is_done and sum(self.sizes) <= limit
@@ -187,8 +185,7 @@ def analyze_rule(
     shown = [bool(e.selection >> index & 1) for e in examples for index in range(len(e.mesh.hulls))]
     fits = (table == np.array(shown)).all(axis=1)
     least = 2 if any(isinstance(chosen[row], language.Geo) for row in np.flatnonzero(fits)) else 3
-    columns = [column.tobytes() for column in np.packbits(table.T, axis=1)]
-    seen = Counter(zip(columns, shown, strict=True))
+    seen = Counter(zip([column.tobytes() for column in np.packbits(table.T, axis=1)], shown, strict=True))
     return RuleInFrame(tuple(examples), None, frozenset(seen), _count_strays(seen), least)
 
 

@@ -1,6 +1,5 @@
 """Looks for the orientation under which every rule has an extractor, and the extractors are smallest, among the
-directives that a person would rather have first.
-"""
+directives that a person would rather have first."""
 
 from __future__ import annotations
 
@@ -34,8 +33,7 @@ class Directives:
 
     def __init__(self, shown: Sequence[SymbolicMesh], batch: Sequence[SymbolicMesh], vocabulary: Sequence[str]) -> None:
         demonstrated = {id(mesh) for mesh in shown}
-        others = [mesh for mesh in batch if id(mesh) not in demonstrated]
-        self._landmarks = Landmarks([*shown, *others], vocabulary)
+        self._landmarks = Landmarks([*shown, *[mesh for mesh in batch if id(mesh) not in demonstrated]], vocabulary)
         self._shown = len(shown)
         ends = combinations(self._landmarks.bases, 2)
         self._ends = [(a, b) for a, b in ends if self._landmarks.apart(a, b)[: self._shown].all()]
@@ -63,18 +61,16 @@ class Directives:
         gaps = self._landmarks.directions(a, b)[self._landmarks.apart(a, b)]
         unit = np.round(gaps / np.linalg.norm(gaps, axis=1, keepdims=True), 9)[:, ["XYZ".index(k) for k in letters]]
         nearest = np.argmax(np.abs(unit), axis=1)
-        upward = unit[np.arange(len(unit)), nearest] >= 0
-        votes = Counter(zip(nearest.tolist(), upward.tolist(), strict=True))
+        votes = Counter(zip(nearest.tolist(), (unit[np.arange(len(unit)), nearest] >= 0).tolist(), strict=True))
         place, up = max(votes, key=lambda axis: (votes[axis], -axis[0], axis[1]))
         start, end = (a, b) if up else (b, a)
         return LandmarkPair(_UPWARD[letters[place]], start, end)
 
     def _sort(self, orients: Iterable[Orient]) -> list[Orient]:
         """Those that hold on every demonstrated mesh: plain before snap, then what holds on most of the batch."""
-        held = [(orient, self._landmarks.holds(orient)) for orient in orients]
         rows = [
             (orient.snap, -int(holds[self._shown :].sum()), self._places(orient), orient)
-            for orient, holds in held
+            for orient, holds in [(orient, self._landmarks.holds(orient)) for orient in orients]
             if holds[: self._shown].all()
         ]
         return [orient for *_, orient in sorted(rows, key=lambda row: row[:3])]
@@ -103,8 +99,7 @@ class Landmarks:
 
     def directions(self, start: BaseExtractor, end: BaseExtractor) -> Floats:
         """From the centre of one landmark to that of another on each mesh (n, 3) [m]; NaN where one is missing."""
-        gap: Floats = self._centres[:, self.place(end)] - self._centres[:, self.place(start)]
-        return gap
+        return self._centres[:, self.place(end)] - self._centres[:, self.place(start)]
 
     def apart(self, start: BaseExtractor, end: BaseExtractor) -> Bools:
         """On which meshes both landmarks are present, and apart (n,)."""
@@ -121,8 +116,7 @@ class Landmarks:
 
     def _across(self, first: LandmarkPair, second: LandmarkPair) -> Bools:
         one, other = (self.directions(pair.start, pair.end) for pair in (first, second))
-        area = np.linalg.norm(np.cross(one, other), axis=1)
-        far: Bools = area >= self._least * np.linalg.norm(one, axis=1)
+        far: Bools = np.linalg.norm(np.cross(one, other), axis=1) >= self._least * np.linalg.norm(one, axis=1)
         return far
 
 
@@ -137,8 +131,7 @@ def _centres(mesh: SymbolicMesh, vocabulary: Sequence[str]) -> Floats:
 
 def _centre(volumes: Floats, moments: Floats) -> Floats:
     total = float(volumes.sum())
-    centre: Floats = moments.sum(axis=0) / total if total > 0 else np.full(3, np.nan)
-    return centre
+    return moments.sum(axis=0) / total if total > 0 else np.full(3, np.nan)
 
 
 MIN_SAVING = 3

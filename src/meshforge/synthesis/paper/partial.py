@@ -1,6 +1,5 @@
 """Partial programs: extractors with holes, all ways to fill the first hole, the worklist of them, simplest first; and
-what they select at least on one demonstrated mesh, under its labels or others.
-"""
+what they select at least on one demonstrated mesh, under its labels or others."""
 
 from __future__ import annotations
 

@@ -12,17 +12,9 @@ from types import MappingProxyType
 from meshforge.language import Extractor, labels_of
 from meshforge.symbolic import bits_of
 from meshforge.synthesis.demonstration import Example, LabelChange, to_correction
-from meshforge.synthesis.options import Options, OutOfTime, TimeBudget
-from meshforge.synthesis.paper.partial import (
-    ExampleMasks,
-    Hole,
-    HoleGrammar,
-    NearestTracker,
-    Open,
-    Worklist,
-    is_feasible,
-)
-from meshforge.synthesis.questions import LabelCorrection
+from meshforge.synthesis.options import LabelCorrection, Options, OutOfTime, TimeBudget
+from meshforge.synthesis.paper import partial as partials
+from meshforge.synthesis.paper.partial import ExampleMasks, Hole, HoleGrammar, NearestTracker, Open, Worklist
 from meshforge.synthesis.search.smallest import Hit, Miss, SearchEffort, SearchResult, Unfinished
 
 
@@ -90,7 +82,7 @@ class PaperSearch:
         """EnumerateCandidates: bounds judge what still has holes; what is complete may be a near miss to explain."""
         self._filled += 1
         for candidate in self._grammar.fill(partial):
-            if not isinstance(candidate, Open) or all(is_feasible(candidate, demo) for demo in self._demos):
+            if not isinstance(candidate, Open) or all(partials.is_feasible(candidate, demo) for demo in self._demos):
                 worklist.put(candidate)
 
     def _check_complete(self, extractor: Extractor) -> Hit | HitWithCorrections | None:

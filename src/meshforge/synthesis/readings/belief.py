@@ -109,8 +109,7 @@ def _leaf_doubt_nats(leaf: All | Is | Attach | Geo) -> float:
         case Is():
             return 0.0
         case Attach(selected, anchor):
-            either = ALL * (isinstance(selected, All) + isinstance(anchor, All))
-            return either + SELF * (selected == anchor)
+            return ALL * (isinstance(selected, All) + isinstance(anchor, All)) + SELF * (selected == anchor)
         case Geo(base, direction):
             return (UPRIGHT if direction[1] == "Z" else SIDEWAYS) + ALL * isinstance(base, All)
 
@@ -145,11 +144,9 @@ def measure_evidence(
     many = _sum_by_mesh(chosen.astype(float), ends)
     strange = _sum_by_mesh(chosen * _strangeness(field, selections), ends)
     active = many > 0
-    meshes = np.maximum(active.sum(axis=1), 1)
-    odd = np.where(active, strange / np.maximum(many, 1), 0.0).sum(axis=1) / meshes
+    odd = np.where(active, strange / np.maximum(many, 1), 0.0).sum(axis=1) / np.maximum(active.sum(axis=1), 1)
     idle = 1 - active.mean(axis=1)
-    rows = zip(idle.tolist(), odd.tolist(), strict=True)
-    return tuple(ReadingEvidence(*row) for row in rows)
+    return tuple(ReadingEvidence(*row) for row in zip(idle.tolist(), odd.tolist(), strict=True))
 
 
 def _strangeness(field: ObservationTable, selections: Sequence[int]) -> Floats:
@@ -165,16 +162,14 @@ def _strangeness(field: ObservationTable, selections: Sequence[int]) -> Floats:
     far = cKDTree(rows[shown]).query(rows[first:])[0]
     known = {hulls[place].label for place in shown}
     foreign = np.array([hull.label not in known for hull in hulls[first:]])
-    squared: Floats = np.where(foreign, np.maximum(far, STRANGE_LABEL), far) ** 2
-    return squared
+    return np.where(foreign, np.maximum(far, STRANGE_LABEL), far) ** 2
 
 
 def _unpack(readings: Sequence[int], width: int) -> npt.NDArray[np.bool_]:
     """Whether each reading has each group: (readings, width)."""
     size = (width + 7) // 8
     packed = np.frombuffer(b"".join(row.to_bytes(size, "little") for row in readings), np.uint8)
-    table = np.unpackbits(packed.reshape(len(readings), size), axis=1, count=width, bitorder="little")
-    return table.astype(np.bool_)
+    return np.unpackbits(packed.reshape(len(readings), size), axis=1, count=width, bitorder="little").astype(np.bool_)
 
 
 def _sum_by_mesh(values: Floats, ends: npt.NDArray[np.int64]) -> Floats:

@@ -1,6 +1,5 @@
 """The readings of one rule: every extractor up to some size that selects what was shown, ranked; which one the program
-takes, where the others differ, and the question that tells them apart.
-"""
+takes, where the others differ, and the question that tells them apart."""
 
 from __future__ import annotations
 
@@ -15,8 +14,7 @@ from meshforge.language import Extractor
 from meshforge.symbolic import mask_of
 from meshforge.synthesis.options import OutOfTime
 from meshforge.synthesis.readings.belief import choose_reading, compute_beliefs, count_idle, measure_evidence
-from meshforge.synthesis.search.bank import Bank
-from meshforge.synthesis.search.completion import Goal, HalfTerm, half_terms_for, satisfies, terms_for
+from meshforge.synthesis.search.bank import Bank, Goal, HalfTerm, half_terms_for, satisfies, terms_for
 from meshforge.synthesis.search.smallest import Search
 from meshforge.synthesis.search.terms import Key, Term
 
@@ -277,8 +275,7 @@ class QuestionValue:
 
 def _wrong_costs(differs: Floats) -> Floats:
     """What it costs to have one reading where another is meant, in demonstrations; differs: shares of assets."""
-    costs: Floats = np.where(differs > 0, 1 + UNSEEN_COST * (1 - differs) ** SAMPLE_SEEN, 0.0)
-    return costs
+    return np.where(differs > 0, 1 + UNSEEN_COST * (1 - differs) ** SAMPLE_SEEN, 0.0)
 
 
 def _number(column: Sequence[object]) -> list[int]:

@@ -167,8 +167,7 @@ def search_larger(
         budget.check()
         if isinstance(answer, Hit) and (key := order_key(answer.extractor, places)) not in known and key[0] > above:
             known.add(key)
-            matched = variants.relabelings_for(answer.extractor)
-            candidate = Candidate(answer.extractor, key, tuple(map(tuple, matched)))
+            candidate = Candidate(answer.extractor, key, tuple(map(tuple, variants.relabelings_for(answer.extractor))))
             within = min(within, candidate.cost + RIVAL_MARGIN)
             yield candidate
 
@@ -192,8 +191,7 @@ def combine_relabelings(variants: Variants, budget: TimeBudget) -> Iterator[tupl
             step = (*at[:place], at[place] + 1, *at[place + 1 :])
             if step[place] < len(some) and step not in seen:
                 seen.add(step)
-                cost = sum(some[k].relabeling.cost for some, k in zip(lists, step, strict=True))
-                heappush(heap, (cost, step))
+                heappush(heap, (sum(some[k].relabeling.cost for some, k in zip(lists, step, strict=True)), step))
 
 
 def _is_compatible(chosen: Sequence[Variant]) -> bool:

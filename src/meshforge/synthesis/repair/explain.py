@@ -1,6 +1,5 @@
 """Explains what was shown by a program and wrong labels, where that is more believable than a program alone; and the
-repairs that a run proposes, joined over its rules.
-"""
+repairs that a run proposes, joined over its rules."""
 
 from __future__ import annotations
 
@@ -15,22 +14,10 @@ from meshforge.label_model import LabelBeliefs, LabelOdds, is_human
 from meshforge.language import Extractor, show, size_of
 from meshforge.symbolic import Hull, SymbolicMesh
 from meshforge.synthesis.demonstration import Example, LabelChange, name_demonstrations, to_correction
-from meshforge.synthesis.options import Options, TimeBudget
+from meshforge.synthesis.options import LabelCorrection, Options, Repair, TimeBudget
 from meshforge.synthesis.paper.search import HitWithCorrections
-from meshforge.synthesis.questions import LabelCorrection, Repair
-from meshforge.synthesis.repair.candidates import (
-    MAX_BELIEF_AGAINST_PERSON,
-    MIN_BELIEF,
-    MIN_BELIEF_WITHOUT_EXACT,
-    NO_EXTRACTOR_COST,
-    NODE_COST,
-    RIVAL_MARGIN,
-    Candidate,
-    key_cost,
-    search_larger,
-    search_small,
-    total_chance,
-)
+from meshforge.synthesis.repair import candidates as candidate_search
+from meshforge.synthesis.repair.candidates import Candidate, total_chance
 from meshforge.synthesis.repair.relabelings import Variants, enumerate_relabelings
 from meshforge.synthesis.search.smallest import Hit, Miss
 from meshforge.synthesis.search.terms import order_key
@@ -183,7 +170,11 @@ class CorrectionSearch:
     def _exact_cost(self) -> float:
         """What it costs to believe in the exact extractor, or in none at all [nats]."""
         places = {label: place for place, label in enumerate(self._vocabulary)}
-        return key_cost(order_key(self._exact, places)) if self._exact else NO_EXTRACTOR_COST
+        return (
+            candidate_search.key_cost(order_key(self._exact, places))
+            if self._exact
+            else candidate_search.NO_EXTRACTOR_COST
+        )
 
     @property
     def _limit(self) -> int:
@@ -192,7 +183,7 @@ class CorrectionSearch:
 
     def _build_variants(self) -> Variants | None:
         """None where no label can be corrected."""
-        within = self._exact_cost - NODE_COST
+        within = self._exact_cost - candidate_search.NODE_COST
         room = MAX_RELABELINGS // max(1, len(self._examples))
         ways = [
             enumerate_relabelings(
@@ -212,10 +203,12 @@ class CorrectionSearch:
 
     def _find_candidates(self, variants: Variants) -> list[Candidate]:
         above = min(SMALL_SIZE, self._limit)
-        found = list(search_small(variants, above, self._exact_cost, self._budget))
-        within = min([self._exact_cost, *(one.cost + RIVAL_MARGIN for one in found)])
+        found = list(candidate_search.search_small(variants, above, self._exact_cost, self._budget))
+        within = min([self._exact_cost, *(one.cost + candidate_search.RIVAL_MARGIN for one in found)])
         options = replace(self._options, max_size=self._limit)
-        found += search_larger(self._examples, variants, self._vocabulary, options, above, within, self._budget)
+        found += candidate_search.search_larger(
+            self._examples, variants, self._vocabulary, options, above, within, self._budget
+        )
         return found
 
     def _rival_cost(self, variants: Variants) -> float:
@@ -224,9 +217,9 @@ class CorrectionSearch:
 
     def _choose(self, candidates: Sequence[Candidate], beliefs: Mapping[ChangeAt, float]) -> Candidate | None:
         """The first candidate, of those about as good as the best, whose corrections are all believed."""
-        least = MIN_BELIEF if self._exact else MIN_BELIEF_WITHOUT_EXACT
+        least = candidate_search.MIN_BELIEF if self._exact else candidate_search.MIN_BELIEF_WITHOUT_EXACT
         for candidate in candidates:
-            if candidate.score > candidates[0].score + RIVAL_MARGIN:
+            if candidate.score > candidates[0].score + candidate_search.RIVAL_MARGIN:
                 break
             if all(beliefs[place] >= least for place in changes_of(candidate)):
                 return candidate
@@ -240,7 +233,7 @@ class CorrectionSearch:
             hull = example.mesh.hulls[change[0]]
             odds = self._labels.odds_of(example.name, hull)
             assert odds, "only hulls with odds are relabelled"
-            most = MAX_BELIEF_AGAINST_PERSON if is_human(hull) else 1.0
+            most = candidate_search.MAX_BELIEF_AGAINST_PERSON if is_human(hull) else 1.0
             why = explain_correction(odds, change[1], chosen.extractor, len(places) == 1)
             rows.append((to_correction(example, change), min(beliefs[at, change], most), why))
         rows.sort(key=lambda row: (row[0].asset, row[0].hull))

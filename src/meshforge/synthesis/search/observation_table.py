@@ -108,10 +108,9 @@ class HullGroups:
             self.of.append(numbers[key])
         self.width = len(firsts)
         places = {label: place for place, label in enumerate(vocabulary)}
-        packed = np.packbits(table[:, firsts], axis=1, bitorder="little")
         self.terms = [
             Term(int.from_bytes(row.tobytes(), "little"), leaf_key(leaf, places), leaf)
-            for leaf, row in zip(chosen, packed, strict=True)
+            for leaf, row in zip(chosen, np.packbits(table[:, firsts], axis=1, bitorder="little"), strict=True)
         ]
 
     def term(self, extractor: language.Extractor) -> Term:

@@ -12,8 +12,7 @@ from meshforge.language import Extractor
 from meshforge.symbolic import SymbolicMesh, mask_of
 from meshforge.synthesis.demonstration import Example
 from meshforge.synthesis.options import Options, OutOfTime, TimeBudget
-from meshforge.synthesis.search.bank import Bank, positions
-from meshforge.synthesis.search.completion import Completion, Goal
+from meshforge.synthesis.search.bank import Bank, Completion, Goal, positions
 from meshforge.synthesis.search.observation_table import ObservationTable
 from meshforge.synthesis.search.terms import Term
 
@@ -120,8 +119,7 @@ class Search:
             wrong = (self.field.bits(extractor) ^ self.need) & ((1 << self.width) - 1)
             if not wrong:
                 return Hit(extractor, self.tried)
-            refuting = list(positions(wrong))[:_MAX_COUNTEREXAMPLES]
-            self.decisive = tuple(sorted({*self.decisive, *refuting}))
+            self.decisive = tuple(sorted({*self.decisive, *list(positions(wrong))[:_MAX_COUNTEREXAMPLES]}))
 
     def _find_smallest(self) -> Extractor | None:
         """The first extractor that is right on the decisive groups."""

@@ -14,19 +14,8 @@ from dataclasses import dataclass
 from itertools import product
 from typing import Any, assert_never
 
-from meshforge.language import (
-    DIRECTIONS,
-    All,
-    Attach,
-    BaseExtractor,
-    Diff,
-    Direction,
-    Extractor,
-    Geo,
-    Intersect,
-    Is,
-    Union,
-)
+from meshforge import language
+from meshforge.language import All, Attach, BaseExtractor, Diff, Geo, Is, Union
 from meshforge.synthesis.options import Layers
 
 Leaf = All | Is | Attach | Geo
@@ -34,13 +23,13 @@ Leaf = All | Is | Attach | Geo
 Key = tuple[Any, ...]
 """Sorts extractors; entry 0 is the size, entry 1 the doubts."""
 
-SetOperator = type[Union] | type[Intersect] | type[Diff]
+SetOperator = type[Union] | type[language.Intersect] | type[Diff]
 
 _IS, _ALL, _ATTACH, _GEO = range(4)
-OPERATOR_RANK: Mapping[SetOperator, int] = {Union: 4, Intersect: 5, Diff: 6}
+OPERATOR_RANK: Mapping[SetOperator, int] = {Union: 4, language.Intersect: 5, Diff: 6}
 """Of equal size and doubts: labels, then contact, then position, then what adds, and last what takes away."""
 
-DIRECTION_RANK: Mapping[Direction, int] = {"+Z": 0, "-Z": 1, "+X": 2, "-X": 3, "+Y": 4, "-Y": 5}
+DIRECTION_RANK: Mapping[language.Direction, int] = {"+Z": 0, "-Z": 1, "+X": 2, "-X": 3, "+Y": 4, "-Y": 5}
 """Up and down first: an orientation settles them, while the turn about the upright axis is often a convention."""
 
 
@@ -48,7 +37,7 @@ def enumerate_leaves(vocabulary: Sequence[str], layers: Layers = "S+T+G") -> tup
     """Every extractor without set operators over the labels of a vocabulary."""
     bases: list[BaseExtractor] = [*map(Is, vocabulary), All()]
     attached = [Attach(selected, anchor) for selected, anchor in product(bases, bases)] if "T" in layers else []
-    extreme = [Geo(base, direction) for base, direction in product(bases, DIRECTIONS)] if "G" in layers else []
+    extreme = [Geo(base, direction) for base, direction in product(bases, language.DIRECTIONS)] if "G" in layers else []
     return (*bases, *attached, *extreme)
 
 
@@ -80,10 +69,10 @@ def operator_key(operator: SetOperator, left: Key, right: Key) -> Key:
     return (1 + left[0] + right[0], left[1] + right[1], OPERATOR_RANK[operator], left, right)
 
 
-def order_key(extractor: Extractor, labels: Mapping[str, int]) -> Key:
+def order_key(extractor: language.Extractor, labels: Mapping[str, int]) -> Key:
     """The key of any extractor: what sorts first is smaller, or as small and more believable."""
     match extractor:
-        case Union(left, right) | Intersect(left, right) | Diff(left, right):
+        case Union(left, right) | language.Intersect(left, right) | Diff(left, right):
             return operator_key(type(extractor), order_key(left, labels), order_key(right, labels))
         case All() | Is() | Attach() | Geo():
             return leaf_key(extractor, labels)
@@ -120,7 +109,7 @@ class Term:
     form: All | Is | Attach | Geo | Compound
 
     @property
-    def extractor(self) -> Extractor:
+    def extractor(self) -> language.Extractor:
         """The term written out."""
         made = self.form
         return made.operator(made.left.extractor, made.right.extractor) if isinstance(made, Compound) else made

@@ -1,23 +1,141 @@
-"""The smallest cylinder, capsule and circle around points."""
+"""The smallest box, cylinder, capsule and circle around points, the search for them, and the memo of fits."""
 
 from __future__ import annotations
 
 import itertools
+from collections import OrderedDict
 from collections.abc import Callable
+from functools import wraps
+from hashlib import blake2b
+from typing import Protocol, TypeVar
 
 import numpy as np
 
 from meshforge.geometry.arrays import Floats
 from meshforge.geometry.convex import convex_hull
-from meshforge.geometry.fit_box import descend, memoize_fit
-from meshforge.geometry.pose import Pose
+from meshforge.geometry.pose import Pose, quaternions_of_rotations, rotations_of_quaternions
 from meshforge.geometry.round_shapes import Capsule, Cylinder, Sphere
-from meshforge.geometry.shape import Polytope
+from meshforge.geometry.shape import Box, Polytope, Shape
 
-_STARTS = 24
+_MOST_SIDES, _LEAST_SIDES = 48, 12  # faces and edges, the largest first, that a box is laid against
+_SIDE_WORK = 5000  # these times the vertices; of more vertices, fewer sides
+_STARTS = 24  # of the descent, the best of the candidates
+_NO_BETTER = 1e-6  # a box that is smaller by less than this share is no better than an upright one
+
+_DIRECTIONS_TRIED = 24  # directions tried from each start in a round
+_ROUNDS = 120
 _DIRECTIONS = 96  # axes to begin with, besides those of the hull's faces and edges
-
 _SLACK = 1e-12  # relative; points this far outside are on the circle
+
+AnyShape = TypeVar("AnyShape", bound=Shape, covariant=True)
+_MEMO_SIZE = 4096  # fits, a few hundred bytes each
+
+
+class FitFunction(Protocol[AnyShape]):
+    """A function that fits a shape around points (n, 3); name: what messages call them."""
+
+    def __call__(self, points: Floats, *, name: str = "points", thicken: float | None = None) -> AnyShape: ...
+
+
+def memoize_fit(fit: Callable[..., AnyShape]) -> FitFunction[AnyShape]:
+    """A fit that does the same points only once; failures are not remembered."""
+    known: OrderedDict[tuple[bytes, float | None], AnyShape] = OrderedDict()
+
+    @wraps(fit)
+    def remembering(points: Floats, *, name: str = "points", thicken: float | None = None) -> AnyShape:
+        key = blake2b(np.ascontiguousarray(points).data, digest_size=16).digest(), thicken
+        known[key] = fitted = known.pop(key, None) or fit(points, name=name, thicken=thicken)
+        if len(known) > _MEMO_SIZE:
+            known.popitem(last=False)
+        return fitted
+
+    return remembering
+
+
+@memoize_fit
+def tight_box(points: Floats, *, name: str = "points", thicken: float | None = None) -> Box:
+    """The smallest box around points (n, 3), in any orientation; all points are inside to 1e-12 of its size.
+
+    Boxes laid against a face and an edge of the hull, and the coordinate axes, are the starts of a descent. Measured on
+    120 random hulls, each in six frames, its result was within 1% of the best known in 718 of 720, within 2% in all.
+    Of its poses the one nearest to no turn is taken. Raises GeometryError as `convex_hull` does.
+    """
+    hull = convex_hull(points, name=name, thicken=thicken)
+    middle = hull.vertices.mean(axis=0)
+    corners = hull.vertices - middle
+    rotation = _find_rotation(corners / float(np.abs(corners).max()), hull)
+    turned = (np.concatenate([points, hull.vertices]) - middle) @ rotation.T
+    low, high = turned.min(axis=0), turned.max(axis=0)
+    return Box(Pose(rotation.T, middle + rotation.T @ ((low + high) / 2)), (high - low) / 2)
+
+
+def _find_rotation(corners: Floats, hull: Polytope) -> Floats:
+    """The rows of (3, 3) are the axes of the box."""
+    candidates = np.concatenate([np.eye(3)[None], _candidate_rotations(hull)])
+    volumes = _box_volumes(corners, candidates)
+    starts = candidates[np.argsort(volumes, kind="stable")[:_STARTS]]
+    turn = descend(lambda q: _box_volumes(corners, rotations_of_quaternions(q)), quaternions_of_rotations(starts), 0.05)
+    finalists = np.concatenate([starts[:1], rotations_of_quaternions(turn[None])])
+    best = finalists[np.argmin(_box_volumes(corners, finalists) * [1 - _NO_BETTER, 1.0])]
+    kept = volumes[0] <= _box_volumes(corners, best[None])[0] * (1 + _NO_BETTER)
+    return np.eye(3) if kept else _turn_least(best)
+
+
+def _candidate_rotations(hull: Polytope) -> Floats:
+    """The rotations (k, 3, 3) of boxes with one side on a face of the hull and another along an edge."""
+    a, b, c = (hull.vertices[hull.faces[:, k]] for k in range(3))
+    most = min(_MOST_SIDES, max(_LEAST_SIDES, _SIDE_WORK // len(hull.vertices)))
+    normals, edges = _longest_directions(np.cross(b - a, c - a))[:most], _longest_directions(b - a)[:most]
+    first = edges[None] - np.einsum("ik,jk->ij", normals, edges)[..., None] * normals[:, None]
+    length = np.linalg.norm(first, axis=2)
+    face, edge = np.nonzero(length > 1e-6)
+    first = first[face, edge] / length[face, edge, None]
+    return np.stack([first, np.cross(normals[face], first), normals[face]], axis=1)
+
+
+def _longest_directions(vectors: Floats) -> Floats:
+    """Unit vectors along the longest of some, each direction once, in either sense."""
+    lengths = np.linalg.norm(vectors, axis=1)
+    order = np.argsort(-lengths, kind="stable")
+    units = vectors[order] / lengths[order, None]
+    alike = np.abs(units @ units.T) > 1 - 1e-9
+    distinct: Floats = units[~np.tril(alike, -1).any(axis=1)]
+    return distinct
+
+
+def _box_volumes(corners: Floats, rotations: Floats) -> Floats:
+    """Volumes (k,) of the boxes around corners (n, 3) that are turned by rotations (k, 3, 3)."""
+    volumes: Floats = np.prod(np.ptp(rotations @ corners.T, axis=2), axis=1)
+    return volumes
+
+
+def _turn_least(rotation: Floats) -> Floats:
+    """The axes (3, 3) of a box in the order and the senses that turn least."""
+    orders = [rotation[list(order)] * np.array(signs)[:, None] for order in itertools.permutations(range(3))
+              for signs in itertools.product((1.0, -1.0), repeat=3)]  # fmt: skip
+    proper = (axes for axes in orders if np.linalg.det(axes) > 0)
+    return max(proper, key=lambda axes: round(float(np.trace(axes)), 9))
+
+
+def descend(objective: Callable[[Floats], Floats], starts: Floats, step: float) -> Floats:
+    """The arguments (d,) of the lowest value found from starts (k, d); the same for the same input.
+
+    objective: values (m,) of arguments (m, d). Each round tries fixed scattered directions from every start; a step
+    that helps grows, one that does not shrinks.
+    """
+    scatter = np.random.default_rng(0)
+    points, values = starts.copy(), objective(starts)
+    steps, each = np.full(len(points), step), np.arange(len(points))
+    for _ in range(_ROUNDS):
+        tried = points[:, None] + steps[:, None, None] * scatter.normal(size=(_DIRECTIONS_TRIED, points.shape[1]))
+        found = objective(tried.reshape(-1, points.shape[1])).reshape(len(points), -1)
+        best = np.argmin(found, axis=1)
+        better = found[each, best] < values
+        points = np.where(better[:, None], tried[each, best], points)
+        values = np.where(better, found[each, best], values)
+        steps = steps * np.where(better, 1.6, 0.6)
+    lowest: Floats = points[int(np.argmin(values))]
+    return lowest
 
 
 @memoize_fit
@@ -48,8 +166,7 @@ def tight_capsule(points: Floats, *, name: str = "points", thicken: float | None
     _, radii, lows, highs = _measure_capsules(everything, line[None])
     radius, low, high = float(radii[0]), float(lows[0]), float(highs[0])
     frame, along = _frame_of_axis(line[:3]), line[:3] / np.linalg.norm(line[:3])
-    foot = line[3:6] - along * (line[3:6] @ along)
-    origin = middle + size * (foot + along * ((low + high) / 2))
+    origin = middle + size * (line[3:6] - along * (line[3:6] @ along) + along * ((low + high) / 2))
     if high - low <= 1e-9:
         return Sphere(Pose.of_translation(origin), size * (radius + (high - low) / 2))
     return Capsule(Pose(frame.T, origin), size * radius, size * (high - low) / 2)
@@ -64,8 +181,7 @@ def _prepare(points: Floats, name: str, thicken: float | None) -> tuple[Floats, 
     middle = hull.aabb.center
     corners = hull.vertices - middle
     size = float(np.abs(corners).max())
-    everything = np.concatenate([points - middle, corners])
-    return corners / size, everything / size, middle, size, _candidate_axes(hull)
+    return corners / size, np.concatenate([points - middle, corners]) / size, middle, size, _candidate_axes(hull)
 
 
 def _candidate_axes(hull: Polytope) -> Floats:
@@ -84,8 +200,7 @@ def _minimize_volume(volumes: Callable[[Floats], Floats], corners: Floats, axes:
     """The arguments (count,) of the smallest volume: axis (3), a point on it (3), and what else there is."""
     lines = np.zeros((len(axes), count))
     lines[:, :3], lines[:, 3:6] = axes, _estimate_centers(corners, axes)
-    starts = lines[np.argsort(volumes(lines), kind="stable")[:_STARTS]]
-    return descend(volumes, starts, 0.03)
+    return descend(volumes, lines[np.argsort(volumes(lines), kind="stable")[:_STARTS]], 0.03)
 
 
 def _estimate_centers(corners: Floats, axes: Floats) -> Floats:
@@ -105,8 +220,7 @@ def _project_on_lines(corners: Floats, axes: Floats, centers: Floats) -> tuple[F
     units = axes / np.linalg.norm(axes, axis=1, keepdims=True)
     heights = units @ corners.T
     across = heights - np.einsum("ij,ij->i", units, centers)[:, None]
-    squares = np.square(corners[None] - centers[:, None]).sum(axis=2) - across**2
-    return heights, squares.clip(0.0)
+    return heights, (np.square(corners[None] - centers[:, None]).sum(axis=2) - across**2).clip(0.0)
 
 
 def _cylinder_volumes(corners: Floats, lines: Floats) -> Floats:
@@ -127,8 +241,7 @@ def _measure_capsules(corners: Floats, lines: Floats) -> tuple[Floats, Floats, F
     lows, highs = (heights + rise).min(axis=1), (heights - rise).max(axis=1)
     middles = (lows + highs) / 2  # where no straight part is needed, the sphere sits between the two ends
     lows, highs = np.minimum(lows, middles), np.maximum(highs, middles)
-    volumes = radii**2 * (highs - lows + 4 / 3 * radii)
-    return volumes, radii, lows, highs
+    return radii**2 * (highs - lows + 4 / 3 * radii), radii, lows, highs
 
 
 def _frame_of_axis(axis: Floats) -> Floats:
@@ -146,8 +259,7 @@ def smallest_circle(points: Floats) -> tuple[Floats, float]:
 
     The circle of the few points that bear it grows by the farthest point outside, until there is none.
     """
-    bearing = points[:1]
-    center, radius = points[0], 0.0
+    bearing, center, radius = points[:1], points[0], 0.0
     for _ in range(len(points) + 8):
         reach = np.linalg.norm(points - center, axis=1)
         farthest = int(np.argmax(reach))
@@ -159,7 +271,7 @@ def smallest_circle(points: Floats) -> tuple[Floats, float]:
 
 def _circle_around_few(points: Floats) -> tuple[Floats, float, Floats]:
     """The smallest circle around at most four points, with those of them that bear it."""
-    best: tuple[float, Floats, Floats] | None = None
+    best: tuple[Floats, float, Floats] | None = None
     for count in (1, 2, 3):
         for chosen in itertools.combinations(range(len(points)), count):
             some = points[list(chosen)]
@@ -168,12 +280,12 @@ def _circle_around_few(points: Floats) -> tuple[Floats, float, Floats]:
                 continue
             radius = float(np.linalg.norm(some - center, axis=1).max())
             inside = bool((np.linalg.norm(points - center, axis=1) <= radius * (1 + _SLACK)).all())
-            if inside and (best is None or radius < best[0]):
-                best = radius, center, some
-    if best is None:  # rounding: nearly collinear points on a circle without end
-        center = points.mean(axis=0)
-        return center, float(np.linalg.norm(points - center, axis=1).max()), points[:3]
-    return best[1], best[0], best[2]
+            if inside and (best is None or radius < best[1]):
+                best = center, radius, some
+    if best:
+        return best
+    center = points.mean(axis=0)  # rounding: nearly collinear points on a circle without end
+    return center, float(np.linalg.norm(points - center, axis=1).max()), points[:3]
 
 
 def _circumcentre(points: Floats) -> Floats | None:

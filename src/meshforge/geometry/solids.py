@@ -1,16 +1,19 @@
-"""Volumes of overlaps and unions of shapes, by manifold3d, and the inertia of solids of one density."""
+"""Solids by manifold3d: volumes of overlaps and unions, inertia at one density; cut by planes, intersected, and
+partitioned by other shapes."""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
+from dataclasses import dataclass
 from typing import Any, assert_never
 
 import manifold3d
 import numpy as np
 
 from meshforge.common import GeometryError
-from meshforge.geometry.aabb import Aabb
-from meshforge.geometry.arrays import Floats
+from meshforge.geometry.arrays import Aabb, Floats
+from meshforge.geometry.convex import convex_hull, spans_volume
 from meshforge.geometry.round_shapes import Capsule, Cylinder, Ellipsoid, Sphere
 from meshforge.geometry.shape import Box, Polytope, Shape
 
@@ -26,8 +29,7 @@ def overlap_volume(a: Shape, b: Shape) -> float:
     if not a.aabb.intersects(b.aabb):
         return 0.0
     bounds = Aabb.union([a.aabb, b.aabb])
-    common = to_manifold(a, bounds) ^ to_manifold(b, bounds)
-    return max(0.0, float(common.volume())) * bounds.diagonal**3
+    return max(0.0, float((to_manifold(a, bounds) ^ to_manifold(b, bounds)).volume())) * bounds.diagonal**3
 
 
 def volume_of_union(shapes: Sequence[Shape]) -> float:
@@ -35,8 +37,7 @@ def volume_of_union(shapes: Sequence[Shape]) -> float:
     if not shapes:
         return 0.0
     bounds = Aabb.union(shape.aabb for shape in shapes)
-    solids = [to_manifold(shape, bounds) for shape in shapes]
-    whole = manifold3d.Manifold.batch_boolean(solids, manifold3d.OpType.Add)
+    whole = manifold3d.Manifold.batch_boolean([to_manifold(shape, bounds) for shape in shapes], manifold3d.OpType.Add)
     return float(whole.volume()) * bounds.diagonal**3
 
 
@@ -50,8 +51,7 @@ def to_manifold(shape: Shape, bounds: Aabb) -> Any:
             fine = _tessellate(shape)
             grown = np.cbrt(shape.volume / fine.volume())  # of equal volume, it errs to both sides of the surface
             linear = shape.pose.rotation * (grown / bounds.diagonal)
-            offset = (shape.pose.translation - bounds.center) / bounds.diagonal
-            return fine.transform(np.column_stack([linear, offset]))
+            return fine.transform(np.column_stack([linear, (shape.pose.translation - bounds.center) / bounds.diagonal]))
         case _:
             raise TypeError(f"no solid of a shape of kind {shape.kind}")
 
@@ -84,8 +84,7 @@ def _revolve_capsule(radius: float, half_length: float) -> Any:
     angle = np.linspace(0.0, np.pi / 2, _SEGMENTS // 4 + 1)
     dome = np.column_stack([radius * np.cos(angle), radius * np.sin(angle) + half_length])
     dome[-1, 0] = 0.0
-    outline = np.concatenate([dome[::-1] * [1.0, -1.0], dome])
-    return manifold3d.CrossSection([outline]).revolve(_SEGMENTS)
+    return manifold3d.CrossSection([np.concatenate([dome[::-1] * [1.0, -1.0], dome])]).revolve(_SEGMENTS)
 
 
 def inertia(shapes: Sequence[Shape], mass: float, centre: Floats | None = None) -> tuple[Floats, Floats]:
@@ -136,8 +135,7 @@ def _moment_of_rod(radius: float, half: float) -> Floats:
 
 def _moment_of_capsule(radius: float, half: float) -> Floats:
     """The moments of a cylinder and the halves of a ball on its ends, their centroids 3/8 of the radius above these."""
-    along = half**2 + 3 / 4 * half * radius + radius**2 / 5
-    ends = np.array([radius**2 / 5, radius**2 / 5, along])
+    ends = np.array([radius**2 / 5, radius**2 / 5, half**2 + 3 / 4 * half * radius + radius**2 / 5])
     share = half / (half + 2 / 3 * radius)  # of the volume, that of the cylinder
     return np.asarray(share * _moment_of_rod(radius, half) + (1 - share) * ends)
 
@@ -149,3 +147,91 @@ def _moment_of_polytope(polytope: Polytope, middle: Floats) -> Floats:
     sums = corners.sum(axis=1)
     products = np.einsum("fki,fkj->fij", corners, corners) + np.einsum("fi,fj->fij", sums, sums)
     return np.asarray(np.einsum("f,fij->ij", volumes, products) / (20 * volumes.sum()))
+
+
+_THIN = 1e-6  # a part that reaches less than this share of the shape's size beyond the plane is none
+
+
+def cut(shape: Shape, point: Floats, normal: Floats) -> tuple[Polytope | None, Polytope | None]:
+    """The parts of a shape below and above the plane through `point` (3,) across `normal` (3,).
+
+    None stands for a part that is not there. Vertices of the shape stay what they are, bit for bit; a round primitive
+    is cut as its tessellation. A part that is thinner than 1e-6 of the shape's size is left out.
+    Raises GeometryError for a point that is not finite, or a normal without direction.
+    """
+    whole = shape.tessellate()
+    if not np.isfinite(point).all():
+        raise GeometryError("a plane needs a point whose coordinates are finite")
+    direction = _normalize(normal)
+    with np.errstate(over="ignore"):  # far enough from the shape is far enough
+        heights = (whole.vertices - point) @ direction
+    thin = _THIN * whole.aabb.diagonal
+    if heights.min() >= -thin:
+        return None, whole
+    if heights.max() <= thin:
+        return whole, None
+    crossing = _cross_edges(whole, heights)
+    below, above = whole.vertices[heights < 0], whole.vertices[heights > 0]
+    return _hull_of_part(below, crossing), _hull_of_part(above, crossing)
+
+
+def _normalize(normal: Floats) -> Floats:
+    """The normal one long, however long it is. It is halved or doubled first, which rounds nothing."""
+    most = float(np.abs(normal).max())
+    if not (math.isfinite(most) and most > 0):
+        raise GeometryError("a plane needs a normal that is finite and not zero")
+    near = np.ldexp(normal, -math.frexp(most)[1])
+    direction: Floats = near / np.linalg.norm(near)
+    return direction
+
+
+def _cross_edges(whole: Polytope, heights: Floats) -> Floats:
+    """The points (n, 3) where edges meet the plane."""
+    faces = whole.faces
+    start, end = faces.ravel(), faces[:, [1, 2, 0]].ravel()
+    through = (heights[start] < 0) & (heights[end] > 0)  # each edge has both senses, in its two faces
+    start, end = start[through], end[through]
+    share = (heights[start] / (heights[start] - heights[end]))[:, None]
+    crossings = whole.vertices[start] * (1 - share) + whole.vertices[end] * share
+    return np.concatenate([crossings, whole.vertices[heights == 0]])
+
+
+def _hull_of_part(side: Floats, crossing: Floats) -> Polytope | None:
+    points = np.concatenate([side, crossing])
+    return convex_hull(points, name="a part of a cut") if spans_volume(points) else None
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Partition:
+    """The parts of a shape, in the order of what parted it.
+
+    dropped: how many parts were too small; lost: the share of the shape's volume that is in no part.
+    """
+
+    parts: tuple[Polytope, ...]
+    dropped: int
+    lost: float
+
+
+def intersect(a: Shape, b: Shape) -> Polytope | None:
+    """What two convex shapes have in common, to rounding; None where that spans no volume.
+
+    Round primitives count as their tessellations.
+    """
+    if not a.aabb.intersects(b.aabb):
+        return None
+    bounds = Aabb.union([a.aabb, b.aabb])
+    common = to_manifold(a.tessellate(), bounds) ^ to_manifold(b.tessellate(), bounds)
+    corners = np.asarray(common.to_mesh64().vert_properties, dtype=np.float64)[:, :3] * bounds.diagonal + bounds.center
+    return convex_hull(corners, name="the common part") if len(corners) > 3 and spans_volume(corners) else None
+
+
+def partition(shape: Shape, by: Sequence[Shape], least: float = 1e-3) -> Partition:
+    """A shape parted by convex shapes that together cover it more or less.
+
+    least: parts of a smaller share of its volume are dropped.
+    """
+    found = [part for other in by if (part := intersect(shape, other))]
+    parts = tuple(part for part in found if part.volume >= least * shape.volume)
+    lost = 1.0 - volume_of_union(parts) / shape.tessellate().volume
+    return Partition(parts, len(found) - len(parts), min(max(lost, 0.0), 1.0))

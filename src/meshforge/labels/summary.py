@@ -1,9 +1,12 @@
-"""How far a project is labelled: counted by source and confidence, planned in words, and drawn on contact sheets."""
+"""Labels put together for people: those that would be given, to be looked at before they are taken; and how far a
+project is labelled, counted by source and confidence, planned in words, and drawn on contact sheets."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections import Counter
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
+from functools import partial
 from io import BytesIO
 from itertools import islice
 from pathlib import Path
@@ -12,7 +15,81 @@ from meshforge.batch import AssetJob, ExecutionOptions, plan_run, run_isolated
 from meshforge.common import AssetError, MeshForgeError
 from meshforge.rendering import UNLABELLED, UNSURE, encode_png, label_colors, make_contact_sheet, render, write_png
 from meshforge.store import AssetFiles, Store, survey
-from meshforge.symbolic import HUMAN_SOURCES, LABEL_SOURCES, match_labels
+from meshforge.symbolic import HUMAN_SOURCES, LABEL_SOURCES, Label, match_labels
+
+
+@dataclass(frozen=True, slots=True)
+class LabelEvidence:
+    """The label of one hull, None for one that is left without, and what says so: of what kind, and its name.
+
+    kind: `hull`, `body` or another one of names, with ` by pattern` or ` nearly` behind it, or the kind of a file.
+    """
+
+    asset: str
+    label: Label | None
+    kind: str
+    name: str
+
+
+@dataclass(frozen=True, slots=True)
+class Proposal:
+    """Hulls that would get the same label, None for none, for the like reason.
+
+    names: those that say so, the most frequent first; hulls, assets: how many there are, and in how many assets;
+    low, high: how sure the label is.
+    """
+
+    label: str | None
+    kind: str
+    names: tuple[str, ...]
+    hulls: int
+    assets: int
+    low: float
+    high: float
+
+    @property
+    def is_unsure(self) -> bool:
+        return self.label is not None and self.low < UNSURE
+
+
+@dataclass(frozen=True, slots=True)
+class Proposals:
+    """What would be taken, and what would be left without a label; problems: a sentence on each thing left out.
+
+    labelled: hulls whose label stays.
+    """
+
+    rows: tuple[Proposal, ...]
+    left: tuple[Proposal, ...]
+    labelled: int = 0
+    problems: tuple[str, ...] = ()
+
+
+def group_evidence(
+    found: Iterable[LabelEvidence], vocabulary: Sequence[str], labelled: int, problems: Iterable[str]
+) -> Proposals:
+    """All evidence, put together by label, kind and whether it is sure; in the order of the vocabulary."""
+    groups: dict[tuple[str | None, str, bool], list[LabelEvidence]] = {}
+    for one in found:
+        unsure = one.label is not None and one.label.confidence < UNSURE
+        groups.setdefault((one.label.name if one.label else None, one.kind, unsure), []).append(one)
+    rows = [_summarize_group(key[0], key[1], group) for key, group in groups.items()]
+    order = {label: k for k, label in enumerate(vocabulary)}
+    rows.sort(key=lambda row: (order.get(row.label or "", len(order)), row.is_unsure, -row.hulls, row.kind))
+    return Proposals(
+        tuple(row for row in rows if row.label is not None),
+        tuple(row for row in rows if row.label is None),
+        labelled,
+        tuple(problems),
+    )
+
+
+def _summarize_group(label: str | None, kind: str, group: Sequence[LabelEvidence]) -> Proposal:
+    names = Counter(one.name for one in group)
+    sure = [one.label.confidence for one in group if one.label] or [0.0]
+    ordered = sorted(names, key=lambda name: (-names[name], name))
+    return Proposal(label, kind, tuple(ordered), len(group), len({one.asset for one in group}), min(sure), max(sure))
+
 
 SURE = 0.9
 """Labels as certain as this are sure; those below `UNSURE` are not."""
@@ -95,19 +172,13 @@ def _has_human_label(store: Store, asset: str) -> bool:
         return False
 
 
-@dataclass(frozen=True, slots=True)
-class _Work:
-    place: AssetFiles
-    vocabulary: tuple[str, ...]
-
-
 def write_contact_sheets(
     store: Store, folder: Path, assets: Sequence[str], progress: Callable[[], None] | None = None
 ) -> tuple[Path, ...]:
     """Write `labels-001.png` and so on, in place of earlier ones; what cannot be drawn is left out."""
     vocabulary = store.vocabulary
-    works = [_Work(place, vocabulary) for place in store.asset_files(assets)]
-    images = run_isolated(_draw, works, ExecutionOptions(timeout=_TIMEOUT, progress=progress))
+    draw = partial(_draw, vocabulary)
+    images = run_isolated(draw, store.asset_files(assets), ExecutionOptions(timeout=_TIMEOUT, progress=progress))
     cells = iter([(asset, image) for asset, image in zip(assets, images, strict=True) if isinstance(image, bytes)])
     written = list[Path]()
     while batch := tuple(islice(cells, PER_SHEET)):
@@ -119,12 +190,12 @@ def write_contact_sheets(
     return tuple(written)
 
 
-def _draw(work: _Work) -> bytes | None:
+def _draw(vocabulary: tuple[str, ...], place: AssetFiles) -> bytes | None:
     try:
-        mesh = work.place.read_mesh()
+        mesh = place.read_mesh()
     except MeshForgeError:
         return None
-    return encode_png(render(mesh, color_by="label", size=_CELL, legend=False, vocabulary=work.vocabulary))
+    return encode_png(render(mesh, color_by="label", size=_CELL, legend=False, vocabulary=vocabulary))
 
 
 def _write_sheet(path: Path, batch: Sequence[tuple[str, bytes]], vocabulary: Sequence[str]) -> None:
