@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from meshforge.formats.lazy import mujoco
+from meshforge.formats.libraries import mujoco
 from meshforge.formats.mjcf.edit_plan import NewGeom, OldGeom
 from meshforge.formats.mjcf.model import MjcfModel
 from meshforge.formats.mjcf.shapes import MjcfShapes

@@ -14,7 +14,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from meshforge.common import AssetError
-from meshforge.formats.lazy import mujoco
+from meshforge.formats.libraries import mujoco
 from meshforge.formats.meshfile.surface import FARTHEST
 from meshforge.formats.mjcf.document import MjcfNode, MjcfTree, read_tree
 from meshforge.formats.mjcf.references import AssetFolders, read_submodels

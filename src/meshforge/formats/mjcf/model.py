@@ -9,7 +9,7 @@ from functools import cached_property
 import numpy as np
 
 from meshforge.formats.collision_pieces import ShapeNames, collect_mentions
-from meshforge.formats.lazy import mujoco
+from meshforge.formats.libraries import mujoco
 from meshforge.formats.mjcf.document import GeomRecord, MjcfBody, MjcfTree, body_names, geom_names
 from meshforge.formats.mjcf.engine import EngineModel, FlatText
 from meshforge.formats.mjcf.shapes import MjcfShapes, body_poses, geom_poses

@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 
 from meshforge.common import AssetError, MeshForgeError, join_names, plain_path, pluralize
-from meshforge.formats.lazy import mujoco
+from meshforge.formats.libraries import mujoco
 from meshforge.formats.mesh_reader import READABLE_MESH_SUFFIXES, read_content
 from meshforge.formats.mjcf import reduce, references
 from meshforge.formats.mjcf.document import MjcfDocument, MjcfNode, MjcfTree, read_tree

@@ -10,7 +10,7 @@ from typing import Literal
 
 from meshforge.common import AssetError, is_file
 from meshforge.formats import mesh_reader, references
-from meshforge.formats.lazy import mujoco
+from meshforge.formats.libraries import mujoco
 from meshforge.formats.mjcf.document import MjcfNode, MjcfTree
 from meshforge.formats.mjcf.engine import (
     EngineModel,

@@ -6,7 +6,7 @@ import numpy as np
 
 from meshforge.common import GeometryError
 from meshforge.formats.collision_pieces import CollisionPiece
-from meshforge.formats.lazy import mujoco
+from meshforge.formats.libraries import mujoco
 from meshforge.geometry import (
     Box,
     Capsule,

@@ -151,7 +151,7 @@ class PlainFormat(Format):
         made = dict(zip((geom.name for geom in new), self.name_hulls(document, new), strict=True))
         parts = tuple(replace(part, name=made[part.name]) for part in parts)
         data, read = self._edit_file(MeshFileEdit(document, asset.path, gone, parts), {*kept, *made.values()})
-        called = {**{name: name for name in kept}, **made}
+        called = {**{name: name for name in document.names if name in kept}, **made}
         names = {name: read.get(now, now) for name, now in called.items() if read.get(now, now) != name}
         return Output(data, copies=beside, notes=(*notes, *note_renames(names)), names=names)
 

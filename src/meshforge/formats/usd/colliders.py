@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import Any
 
-from meshforge.formats.lazy import pxr
+from meshforge.formats.libraries import pxr
 from meshforge.formats.usd.stage import BODY, UsdStage
 from meshforge.geometry import Pose
 from meshforge.symbolic import Body, unique_names

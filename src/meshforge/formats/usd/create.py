@@ -12,7 +12,7 @@ import numpy as np
 from meshforge.common import join_names, pluralize
 from meshforge.formats.base import Loss, Output
 from meshforge.formats.kinematic_tree import BodyTree, claim_name
-from meshforge.formats.lazy import pxr
+from meshforge.formats.libraries import pxr
 from meshforge.formats.usd.colliders import apply_schemas
 from meshforge.formats.usd.prims import (
     PrimSpace,

@@ -13,7 +13,7 @@ import numpy as np
 from meshforge.common import AssetError
 from meshforge.formats import collision_pieces
 from meshforge.formats.base import Mass, Output, note_renames
-from meshforge.formats.lazy import pxr
+from meshforge.formats.libraries import pxr
 from meshforge.formats.usd import colliders, edit_stage, layer_text, prims
 from meshforge.formats.usd.mechanism import centre_of, moments_of, read_number
 from meshforge.formats.usd.read import PrimCollision, read_collisions

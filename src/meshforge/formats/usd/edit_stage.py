@@ -11,7 +11,7 @@ import numpy as np
 
 from meshforge.common import AssetError, pluralize
 from meshforge.formats.collision_pieces import CollisionPiece, names_to_keep, new_hulls
-from meshforge.formats.lazy import pxr
+from meshforge.formats.libraries import pxr
 from meshforge.formats.usd import colliders
 from meshforge.formats.usd.prims import PrimSpace, add_mesh, add_native, free_prim_name, mark_collider
 from meshforge.formats.usd.read import PrimCollision

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from meshforge.common import AssetError
-from meshforge.formats.lazy import pxr
+from meshforge.formats.libraries import pxr
 from meshforge.formats.usd.crate import CRATE_MARK, refuse_harmful_crate
 from meshforge.formats.usd.crate_values import DEEPEST, NEEDLESS, REMEDY, bracket_depth
 

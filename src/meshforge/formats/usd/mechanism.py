@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from meshforge.formats.lazy import pxr
+from meshforge.formats.libraries import pxr
 from meshforge.formats.usd.colliders import StageBodies
 from meshforge.formats.usd.stage import BODY, UsdStage, rotation_of
 from meshforge.geometry import Floats, Pose, Shape, inertia, rotation_of_quaternion

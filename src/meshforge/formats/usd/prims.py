@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from meshforge.formats.kinematic_tree import claim_name, drop_rounding, perpendicular_to
-from meshforge.formats.lazy import pxr
+from meshforge.formats.libraries import pxr
 from meshforge.formats.usd.colliders import COLLISION, DRAWN, MESH_COLLISION, apply_schemas
 from meshforge.formats.usd.stage import rotation_of
 from meshforge.geometry import Box, Capsule, Cylinder, Floats, Ints, Pose, Shape, Sphere, principal_axes

@@ -11,7 +11,7 @@ import numpy as np
 
 from meshforge.common import AssetError, GeometryError, MeshForgeError, file_digest, is_file, join_names, pluralize
 from meshforge.formats import collision_pieces, mesh_reader
-from meshforge.formats.lazy import pxr
+from meshforge.formats.libraries import pxr
 from meshforge.formats.usd import colliders, guard
 from meshforge.formats.usd.mechanism import read_mechanism
 from meshforge.formats.usd.shapes import read_instances, read_mesh, read_parts

@@ -9,7 +9,7 @@ import numpy as np
 
 from meshforge.common import GeometryError
 from meshforge.formats.collision_pieces import CollisionPiece, build_solid, end_points, place_pieces, place_surface
-from meshforge.formats.lazy import pxr
+from meshforge.formats.libraries import pxr
 from meshforge.formats.meshfile.surface import FARTHEST, RawSurface, join_surfaces
 from meshforge.formats.usd.colliders import COLLISION, has_schema
 from meshforge.formats.usd.stage import UsdStage, rotation_of

@@ -20,7 +20,7 @@ from typing import Any, Literal
 import numpy as np
 
 from meshforge.common import AssetError
-from meshforge.formats.lazy import pxr
+from meshforge.formats.libraries import pxr
 from meshforge.formats.usd.crate import CRATE_MARK
 from meshforge.geometry import Floats, Pose
 from meshforge.symbolic import Document
