@@ -17,7 +17,7 @@ from meshforge.project import Project
 from meshforge.symbolic import HUMAN_SOURCES
 from tests.examples import examples
 from tests.unit.batch.families import table_boxes
-from tests.unit.labels.test_propagating import family
+from tests.unit.labels.test_label_by_propagation import family
 
 HULLS = tuple(table_boxes())
 Act = tuple[str, str, str, str]

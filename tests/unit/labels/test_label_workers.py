@@ -16,7 +16,7 @@ from meshforge.labels import LabelOutcome
 from meshforge.project import Project
 from tests.unit.batch.families import label_of, table_boxes, tree, write_table
 from tests.unit.deaths import deaths, needs_fork
-from tests.unit.labels.test_propagating import family
+from tests.unit.labels.test_label_by_propagation import family
 
 NAMES = tuple(table_boxes())
 WAYS: dict[str, Callable[[Project, ExecutionOptions], tuple[LabelOutcome, ...]]] = {

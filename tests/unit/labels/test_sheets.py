@@ -13,7 +13,7 @@ from meshforge.labels.summary import PER_SHEET
 from meshforge.project import Project
 from meshforge.rendering import label_colors
 from tests.unit.batch.families import label_of, table_boxes
-from tests.unit.labels.test_propagating import family
+from tests.unit.labels.test_label_by_propagation import family
 
 NAMES = tuple(table_boxes())
 

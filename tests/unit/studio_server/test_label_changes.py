@@ -21,7 +21,7 @@ from meshforge.symbolic import GIVEN_SOURCES, HUMAN_SOURCES, Label
 from tests.examples import examples
 from tests.unit.batch.families import label_of, table_boxes, tree
 from tests.unit.deaths import deaths, needs_fork
-from tests.unit.labels.test_propagating import NAMES, family
+from tests.unit.labels.test_label_by_propagation import NAMES, family
 
 ASSETS = ("t0.obj", "t1.obj", "t2.obj")
 HULLS = dict.fromkeys(ASSETS, NAMES)

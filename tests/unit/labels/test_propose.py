@@ -7,7 +7,7 @@ from pathlib import Path
 from meshforge.labels import Proposal, Proposals
 from meshforge.project import Project
 from tests.unit.batch.families import tree
-from tests.unit.labels.test_naming import named
+from tests.unit.labels.test_label_by_names import named
 from tests.unit.project.tables import FIRST, SECOND, THIRD, fresh
 
 
