@@ -66,9 +66,8 @@ def apply_action(
     renamed = _relabel(groups, edits, label)
     kept = [renamed.get(hull.name, hull) for hull in mesh.hulls if hull.name not in gone]
     notes = dict.fromkeys([*(edit.note for edit in edits if edit.note), *inheritance_notes((m for _, m in made), mesh)])
-    changed = bool(made or gone or renamed)
     return ActionResult(
-        mesh.with_hulls([*kept, *(hull for hull, _ in made)]) if changed else mesh,
+        mesh.with_hulls([*kept, *(hull for hull, _ in made)]) if made or gone or renamed else mesh,
         tuple(hull.name for hull, _ in made),
         "; ".join(notes) or None,
         tuple(tuple(source.name for source in m.sources) for _, m in made),

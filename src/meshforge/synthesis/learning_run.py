@@ -118,14 +118,9 @@ class LearningRun:
         self, spec: RuleSpec, examples: Sequence[Example], rest: Sequence[SymbolicMesh]
     ) -> RankedReadings | Miss | Unfinished | tuple[LabelCorrection, ...]:
         task = self._task
+        confirm = make_confirmer(spec.number, self._confirm) if self._confirm else None
         found = PaperSearch(
-            examples,
-            task.frame.labels,
-            self._budget,
-            task.options,
-            make_confirmer(spec.number, self._confirm) if self._confirm else None,
-            task.rejected,
-            self._repairs.counts,
+            examples, task.frame.labels, self._budget, task.options, confirm, task.rejected, self._repairs.counts
         ).run()
         self._record_effort(spec, found.tried)
         if isinstance(found, HitWithCorrections):
@@ -181,15 +176,12 @@ class LearningRun:
     def _suggest_orientation(self) -> OrientationSuggestion | None:
         task = self._task
         try:
-            return suggest_orientation(
-                task.demos,
-                task.rules,
-                task.frame,
-                task.templates,
+            options, batch = (
                 replace(task.options, max_size=min(task.options.max_size, PLAIN_SIZE)),
-                self._budget,
-                None,
-                list(task.batch.values()),
+                [*task.batch.values()],
+            )
+            return suggest_orientation(
+                task.demos, task.rules, task.frame, task.templates, options, self._budget, None, batch
             )
         except (OutOfTime, MeshForgeError):
             return None

@@ -17,7 +17,7 @@ from meshforge.synthesis.demonstration import Example, LabelChange, name_demonst
 from meshforge.synthesis.options import LabelCorrection, Options, Repair, TimeBudget
 from meshforge.synthesis.paper.search import HitWithCorrections
 from meshforge.synthesis.repair import candidates as candidate_search
-from meshforge.synthesis.repair.candidates import Candidate, total_chance
+from meshforge.synthesis.repair.candidates import NO_EXTRACTOR_COST, Candidate, key_cost, total_chance
 from meshforge.synthesis.repair.relabelings import Variants, enumerate_relabelings
 from meshforge.synthesis.search.smallest import Hit, Miss
 from meshforge.synthesis.search.terms import order_key
@@ -63,18 +63,12 @@ class RepairCollector:
         self, rule: int, examples: Sequence[Example], found: Hit | Miss
     ) -> tuple[LabelCorrection, ...]:
         """Corrections that explain what was shown better than what was found does. Raises OutOfTime."""
-        task = self._task
+        options, labels, rejected = self._task.options, self._task.frame.labels, self._task.rejected
+        exact = found.extractor if isinstance(found, Hit) else None
         explanation = (
-            task.options.repair
+            options.repair
             and CorrectionSearch(
-                examples,
-                task.frame.labels,
-                self._beliefs,
-                task.options,
-                self._budget,
-                found.extractor if isinstance(found, Hit) else None,
-                self.counts,
-                task.rejected,
+                examples, labels, self._beliefs, options, self._budget, exact, self.counts, rejected
             ).run()
         )
         if not explanation:
@@ -170,11 +164,7 @@ class CorrectionSearch:
     def _exact_cost(self) -> float:
         """What it costs to believe in the exact extractor, or in none at all [nats]."""
         places = {label: place for place, label in enumerate(self._vocabulary)}
-        return (
-            candidate_search.key_cost(order_key(self._exact, places))
-            if self._exact
-            else candidate_search.NO_EXTRACTOR_COST
-        )
+        return key_cost(order_key(self._exact, places)) if self._exact else NO_EXTRACTOR_COST
 
     @property
     def _limit(self) -> int:
