@@ -65,7 +65,9 @@ class LearningRun:
             failed = self._learn(spec)
             if failed:
                 return failed
-        return self._propose_repairs() if self._repairs.repairs else self._finish()
+        if self._repairs.repairs:
+            return outcome.NeedsRepair(repairs=self._repairs.repairs, proposed=self._program(), **self._common_fields())
+        return self._finish()
 
     def _learn(self, spec: RuleSpec) -> outcome.LearningOutcome | None:
         """Learn one rule and run it on all meshes; what stands in the way, if anything does."""
@@ -157,9 +159,6 @@ class LearningRun:
             )
         settled = bool(self._replays.others) and all(learned.readings.settled for learned in self._learned)
         return outcome.Found(program=program, settled=settled, hint=hint, sample=sample, **self._common_fields())
-
-    def _propose_repairs(self) -> outcome.LearningOutcome:
-        return outcome.NeedsRepair(repairs=self._repairs.repairs, proposed=self._program(), **self._common_fields())
 
     def _fail(self, spec: RuleSpec, miss: Miss, examples: Sequence[Example]) -> outcome.LearningOutcome:
         nearest, repairs = _to_nearest(spec.number, miss.nearest), self._repairs.repairs
