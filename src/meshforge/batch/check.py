@@ -17,7 +17,7 @@ from meshforge.batch.discovery import asset_id
 from meshforge.batch.execution import execute
 from meshforge.batch.jobs import AssetJob
 from meshforge.batch.lock import hold_lock
-from meshforge.batch.provenance import file_digest, software_version, source_files, text_digest
+from meshforge.batch.provenance import are_unchanged, file_digest, software_version, source_files, text_digest
 from meshforge.batch.workers import ExecutionOptions, WorkerFailure
 from meshforge.checks import CheckOptions, Examination, FixResult, draw_examination, examine_mesh, find_engine, fix
 from meshforge.common import AssetError, MeshForgeError, UsageError, describe_error, plain_path
@@ -48,7 +48,7 @@ class CheckInputs:
         own = [*source_files(job.path), *([job.labels] if job.labels else [])]
         if self.request != text_digest(asked) or not all(str(path) in self.files for path in own):
             return False
-        return all(Path(path).is_file() and file_digest(Path(path)) == known for path, known in self.files.items())
+        return are_unchanged(Path(), self.files)
 
 
 class CheckJournal:

@@ -75,12 +75,8 @@ def replay_corrections(
 
 def _restore_program_hulls(mesh: SymbolicMesh, edited: SymbolicMesh) -> SymbolicMesh:
     """The mesh with the program's own hulls where they stayed, so that turning there and back leaves no rounding."""
-    return replace(
-        mesh,
-        hulls=tuple(
-            edited.hull_of(h.name).with_label(h.annotation) if h.name in edited.index else h for h in mesh.hulls
-        ),
-    )
+    hulls = (edited.hull_of(h.name).with_label(h.annotation) if h.name in edited.index else h for h in mesh.hulls)
+    return replace(mesh, hulls=tuple(hulls))
 
 
 def corrections_digest(corrections: Iterable[Correction]) -> str | None:

@@ -90,11 +90,7 @@ class Stamp(BaseModel):
 
     def is_whole(self, folder: Path) -> bool:
         """Whether all files of this output are there, as they were written."""
-        if self.status == "failed":
-            return False
-        return all(
-            (folder / name).is_file() and file_digest(folder / name) == known for name, known in self.outputs.items()
-        )
+        return self.status != "failed" and are_unchanged(folder, self.outputs)
 
     def write(self, path: Path) -> None:
         """Write this stamp to disk."""
@@ -158,7 +154,12 @@ def has_same_files(recorded: Mapping[str, str], path: Path, base: Path) -> bool:
     """Whether the files of an asset are those that were recorded, without reading it as an asset."""
     if any(relative_name(file, base) not in recorded for file in source_files(path)):
         return False
-    return all((base / name).is_file() and file_digest(base / name) == known for name, known in recorded.items())
+    return are_unchanged(base, recorded)
+
+
+def are_unchanged(folder: Path, recorded: Mapping[str, str]) -> bool:
+    """Whether all files are there, by their paths from a folder, and have the digests that were recorded."""
+    return all((folder / name).is_file() and file_digest(folder / name) == known for name, known in recorded.items())
 
 
 def source_files(path: Path) -> list[Path]:

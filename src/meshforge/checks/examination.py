@@ -87,10 +87,8 @@ def examine_mesh(mesh: SymbolicMesh, wanted: CheckOptions, before: SymbolicMesh 
     findings = list(check(mesh, wanted.engine))
     if not wanted.is_costly:
         return Examination(tuple(findings))
-    sound, was = (
-        _without_illegal_hulls(_with_visuals_of(mesh, before)),
-        _without_illegal_hulls(before) if before else None,
-    )
+    sound = _without_illegal_hulls(_with_visuals_of(mesh, before))
+    was = _without_illegal_hulls(before) if before else None
     notes = []
     found = measure_fit(sound, cell=wanted.cell) if wanted.fit else None
     space = measure_clearance(sound, cell=wanted.cell) if wanted.clearance else None
@@ -142,16 +140,9 @@ def draw_examination(
         yield "fit-bare", f"visual mesh, {found.fit.bare:.3g} m off all hulls at most", maps[1]
     for name, part in (("clearance", found.clearance), ("clearance-of-edit", found.changed)):
         if part and part.regions:
-            yield (
-                name,
-                f"{part.reference}: {part.closed:.3g} l closed, {part.opened:.3g} l opened",
-                _draw_clearance(mesh, part, size),
-            )
-
-
-def _draw_clearance(mesh: SymbolicMesh, found: Clearance, size: tuple[int, int]) -> Image:
-    marked = [(region.kind, COLORS[region.kind], region.surface) for region in found.regions]
-    return draw_volumes(mesh, marked, size=size, title=f"space about the {found.reference}")
+            text = f"{part.reference}: {part.closed:.3g} l closed, {part.opened:.3g} l opened"
+            marked = [(region.kind, COLORS[region.kind], region.surface) for region in part.regions]
+            yield name, text, draw_volumes(mesh, marked, size=size, title=f"space about the {part.reference}")
 
 
 def draw_fit(mesh: SymbolicMesh, found: MeshFit, size: tuple[int, int] = (640, 480)) -> tuple[Image, Image] | None:

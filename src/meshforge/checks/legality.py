@@ -87,7 +87,8 @@ def check_legality(mesh: SymbolicMesh) -> tuple[frozenset[str], tuple[Finding, .
     """The names of the hulls that are no hulls, and everything found."""
     faults: dict[str, list[str]] = {rule.name: [] for rule in HULL_RULES}
     for hull in mesh.hulls:
-        rule = _find_broken_rule(hull.shape)
+        with np.errstate(all="ignore"):
+            rule = next((rule for rule in HULL_RULES if rule.is_broken(hull.shape)), None)
         if rule:
             faults[rule.name].append(hull.name)
     findings = [
@@ -103,11 +104,6 @@ def check_legality(mesh: SymbolicMesh) -> tuple[frozenset[str], tuple[Finding, .
         *_check_duplicates([hull for hull in mesh.hulls if hull.name not in faulty]),
         *_report_opaque(mesh),
     )
-
-
-def _find_broken_rule(shape: geometry.Shape) -> HullRule | None:
-    with np.errstate(all="ignore"):
-        return next((rule for rule in HULL_RULES if rule.is_broken(shape)), None)
 
 
 def _check_names(mesh: SymbolicMesh) -> Iterator[Finding]:

@@ -21,7 +21,6 @@ _MOST_SIDES, _LEAST_SIDES = 48, 12  # faces and edges, the largest first, that a
 _SIDE_WORK = 5000  # these times the vertices; of more vertices, fewer sides
 _STARTS = 24  # of the descent, the best of the candidates
 _NO_BETTER = 1e-6  # a box that is smaller by less than this share is no better than an upright one
-
 _DIRECTIONS_TRIED = 24  # directions tried from each start in a round
 _ROUNDS = 120
 _DIRECTIONS = 96  # axes to begin with, besides those of the hull's faces and edges

@@ -137,16 +137,14 @@ class PieceReader:
     def _join_near(self, found: list[PieceFaces]) -> list[PieceFaces]:
         """The parts, those that are no hulls joined where welding places that nearly agree makes a hull of them."""
         faces = np.sort(np.concatenate([part.faces for part in found if part.verdict.shape is None]))
-        near = connectivity.weld_nearly(self.points, self.placed[faces], _NEAR * self._extent())
+        extent = float(np.ptp(self.points[np.unique(self.placed)], axis=0).max())
+        near = connectivity.weld_nearly(self.points, self.placed[faces], _NEAR * extent)
         if near is None:
             return found
         welded = _subdivide(faces, connectivity.components_by_vertices(near[self.placed[faces]]))
         hulls = [part for part in (self._judge(faces, near) for faces in welded) if part.verdict.shape]
         used = np.concatenate([part.faces for part in hulls]) if hulls else faces[:0]
         return hulls + [part for part in found if not np.isin(part.faces[0], used)]
-
-    def _extent(self) -> float:
-        return float(np.ptp(self.points[np.unique(self.placed)], axis=0).max())
 
     def _split_touching(self, faces: Ints) -> list[PieceFaces]:
         """All that touches: as whole, or group by group."""

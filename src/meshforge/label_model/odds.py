@@ -200,7 +200,7 @@ def vote_by_lookalikes(meshes: Sequence[SymbolicMesh], vocabulary: Sequence[str]
     if len(voting) < 2:
         even = np.full((len(hulls), len(vocabulary)), 1 / max(1, len(vocabulary)))
         return LookalikeVotes(even, np.zeros((len(hulls), 0), dtype=np.int64))
-    sure = np.array([_vote_weight(hull.confidence) for hull in hulls])
+    sure = np.array([0.0 if h.confidence is None else min(1.0, max(0.05, h.confidence)) for h in hulls])
     rows = _standardize(descriptors(meshes))
     gaps, found = cKDTree(rows[voting]).query(rows, k=range(1, min(NEIGHBOURS + 1, len(voting)) + 1))
     near, gaps = _drop_self(voting[found], np.asarray(gaps))
@@ -221,10 +221,6 @@ def _vote_shares(labels: Ints, votes: Floats, count: int) -> Floats:
     np.add.at(counted, (np.arange(len(labels))[:, None], labels), votes)
     shares: Floats = counted / counted.sum(axis=1, keepdims=True)
     return (1 - SMOOTHING) * shares + SMOOTHING / count
-
-
-def _vote_weight(confidence: float | None) -> float:
-    return 0.0 if confidence is None else min(1.0, max(0.05, confidence))
 
 
 def _standardize(rows: Floats) -> Floats:

@@ -56,7 +56,10 @@ def apply_action(
     check_templates(action.templates, templates)
     if not selected_mask:
         return ActionResult(mesh, note="nothing selected", used=used)
-    groups = [_make_group(mesh, part, templates) for part in action.groups(mesh, selected_mask)]
+    groups = [
+        HullGroup(tuple(mesh.hulls[index] for index in sorted(bits_of(part))), reference_length(mesh), templates)
+        for part in action.groups(mesh, selected_mask)
+    ]
     edits = [action.edit(group) for group in groups]
     taken = set(used | names_in_use(mesh))
     made = [
@@ -66,9 +69,8 @@ def apply_action(
     renamed = _relabel(groups, edits, label)
     kept = [renamed.get(hull.name, hull) for hull in mesh.hulls if hull.name not in gone]
     notes = dict.fromkeys([*(edit.note for edit in edits if edit.note), *inheritance_notes((m for _, m in made), mesh)])
-    changed = bool(made or gone or renamed)
     return ActionResult(
-        mesh.with_hulls([*kept, *(hull for hull, _ in made)]) if changed else mesh,
+        mesh.with_hulls([*kept, *(hull for hull, _ in made)]) if made or gone or renamed else mesh,
         tuple(hull.name for hull, _ in made),
         "; ".join(notes) or None,
         tuple(tuple(source.name for source in m.sources) for _, m in made),
@@ -80,10 +82,6 @@ def names_in_use(mesh: SymbolicMesh) -> frozenset[str]:
     """The names that a made hull must not take: those of the mesh and of the file it came from."""
     source = mesh.asset.geoms if mesh.asset else ()
     return frozenset([hull.name for hull in mesh.hulls] + [geom.name for geom in source])
-
-
-def _make_group(mesh: SymbolicMesh, mask: int, templates: Mapping[str, Template]) -> HullGroup:
-    return HullGroup(tuple(mesh.hulls[index] for index in sorted(bits_of(mask))), reference_length(mesh), templates)
 
 
 def _make_hull(made: NewShape, label: str | None, taken: set[str], reference: float) -> Hull:

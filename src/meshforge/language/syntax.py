@@ -160,7 +160,7 @@ def select_mask(extractor: Extractor, mesh: SymbolicMesh, extremity: float = EXT
         case All():
             return (1 << len(mesh.hulls)) - 1
         case Is(label):
-            return label_mask(mesh, label)
+            return mask_of(index for index, hull in enumerate(mesh.hulls) if hull.label == label)
         case Attach(selected, anchor):
             return attach_mask(mesh, select_mask(selected, mesh, extremity), select_mask(anchor, mesh, extremity))
         case Geo(base, direction):
@@ -173,11 +173,6 @@ def select_mask(extractor: Extractor, mesh: SymbolicMesh, extremity: float = EXT
             return select_mask(left, mesh, extremity) & ~select_mask(right, mesh, extremity)
         case _:
             assert_never(extractor)
-
-
-def label_mask(mesh: SymbolicMesh, label: str) -> int:
-    """The hulls with a label."""
-    return mask_of(index for index, hull in enumerate(mesh.hulls) if hull.label == label)
 
 
 def attach_mask(mesh: SymbolicMesh, selected: int, anchor: int) -> int:

@@ -72,24 +72,14 @@ class Canvas:
     def write_message(self, text: str, box: tuple[int, int, int, int]) -> None:
         """Writes a text into the middle of a box."""
         left, top, right, bottom = box
-        self._draw.text(
-            ((left + right) / 2, (top + bottom) / 2),
-            text,
-            fill=annotation.FAINT,
-            font=annotation.font(round(20 * annotation.text_scale(self.size))),
-            anchor="mm",
-        )
+        font = annotation.font(round(20 * annotation.text_scale(self.size)))
+        self._draw.text(((left + right) / 2, (top + bottom) / 2), text, fill=annotation.FAINT, font=font, anchor="mm")
 
     def write_view_name(self, text: str, at: tuple[int, int]) -> None:
         """Writes the name of a view into the corner at (left, top)."""
         u = annotation.text_scale(self.size)
-        self._draw.text(
-            (at[0] + 16 * u, at[1] + 8 * u),
-            text,
-            fill=annotation.FAINT,
-            font=annotation.font(round(13 * u)),
-            anchor="lt",
-        )
+        place, font = (at[0] + 16 * u, at[1] + 8 * u), annotation.font(round(13 * u))
+        self._draw.text(place, text, fill=annotation.FAINT, font=font, anchor="lt")
 
 
 def _make_background(size: tuple[int, int], background: str | None) -> Any:

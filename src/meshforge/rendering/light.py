@@ -44,14 +44,6 @@ def _compress_highlights(linear: Floats) -> Floats:
     return np.minimum(linear, 0.8) + 0.2 * (1 - np.exp(-over / 0.2))
 
 
-def measure_open_sky(scene: RayScene, points: Floats, normals: Floats, turn: Floats) -> Floats32:
-    """The share (n,) of the near sky above each point (n, 3) that nothing blocks.
-
-    turn: (n,) in 0..1, how the pattern of rays is turned there; neighbours that differ can be averaged.
-    """
-    return _measure_free_share(scene, points, normals, turn, _RAYS, _SKY_REACH)
-
-
 def measure_ground_sky(scene: RayScene, points: Floats, upright: Floats, turn: Floats) -> Floats32:
     """The share (n,) of the sky above points (n, 3) of the ground that nothing blocks, with a wider reach."""
     return _measure_free_share(scene, points, np.broadcast_to(upright, points.shape), turn, _GROUND_RAYS, GROUND_REACH)
@@ -60,6 +52,10 @@ def measure_ground_sky(scene: RayScene, points: Floats, upright: Floats, turn: F
 def _measure_free_share(
     scene: RayScene, points: Floats, normals: Floats, turn: Floats, count: int, reach: float
 ) -> Floats32:
+    """The share (n,) of the sky above points (n, 3) that blocks none of so many rays within a reach.
+
+    turn: (n,) in 0..1, how the pattern of rays is turned there; neighbours that differ can be averaged.
+    """
     if len(points) == 0:
         return np.zeros(0, np.float32)
     first, second = _tangents(normals)
@@ -92,7 +88,7 @@ def compute_openness(hits: RayHits, camera: Camera, rows: Ints, columns: Ints) -
     away = np.einsum("ij,ij->i", normals, camera.directions_to_eye(points)) < 0
     normals = np.where(away[:, None], -normals, normals)
     grid = np.zeros(coarse.shape, np.float32)
-    grid[r, c] = measure_open_sky(hits.scene, points, normals, dither_turns(r, c))
+    grid[r, c] = _measure_free_share(hits.scene, points, normals, dither_turns(r, c), _RAYS, _SKY_REACH)
     return _upsample(_smooth(grid, np.append(hits.scene.facet, -1)[coarse]), coarse, hits, rows, columns)
 
 

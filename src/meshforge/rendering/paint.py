@@ -117,7 +117,9 @@ def paint(layers: Sequence[DrawLayer], frame: ViewFrame, camera: Camera, fine: i
     buffer = Framebuffer(compute_ground_shadow(solid.scene, frame, close) * np.float32(_SHADOW))
     width = max(2, round(1.1 * fine * min(text_scale(camera.size), 2.0)))
     _draw_solid(buffer, layers[0], solid, frame, close)
-    _draw_lines(buffer, trace_lines(solid, width))
+    drawn = trace_lines(solid, width)
+    rows, columns = pixels_where(drawn)
+    buffer.blend(rows, columns, _INK, _STRENGTH[drawn[rows, columns]])  # dark lines over the picture
     for layer in layers[1:]:
         hits = cast_layer(layer, frame, close)
         share = _shell_shares(layer, hits, solid, close)
@@ -194,12 +196,6 @@ def _draw_shell(
 ) -> None:
     rows, columns = pixels_where(share > 0)
     buffer.blend(rows, columns, _shade_surface(layer, hits, frame, camera, rows, columns), share[rows, columns])
-
-
-def _draw_lines(buffer: Framebuffer, drawn: LineStrengths) -> None:
-    """Lays dark lines over the picture."""
-    rows, columns = pixels_where(drawn)
-    buffer.blend(rows, columns, _INK, _STRENGTH[drawn[rows, columns]])
 
 
 def _draw_shell_lines(buffer: Framebuffer, layer: DrawLayer, hits: RayHits, share: Floats32, width: int) -> None:

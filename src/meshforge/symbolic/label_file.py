@@ -126,7 +126,7 @@ class _HullEntry:
             case {"label": str(label), **rest} if label:
                 return _HullEntry(
                     Label(label, _parse_confidence(name, rest, path), _parse_source(name, rest, path)),
-                    _parse_digest(rest),
+                    known if isinstance(known := rest.get("digest"), str) and known else None,
                 )
         raise AssetError(f"hull {name!r} has no label, which is a text", where=str(path), remedy=_REMEDY)
 
@@ -144,11 +144,6 @@ def _parse_source(name: str, rest: Mapping[Any, Any], path: Path) -> Any:
         remedy = f"It is one of: {', '.join(LABEL_SOURCES)}."
         raise AssetError(f"the source of hull {name!r} is {value!r}", where=str(path), remedy=remedy)
     return value
-
-
-def _parse_digest(rest: Mapping[Any, Any]) -> str | None:
-    value = rest.get("digest")
-    return value if isinstance(value, str) and value else None
 
 
 def _check_label(name: str, label: str, vocabulary: Sequence[str], path: Path) -> None:

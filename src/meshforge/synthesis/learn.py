@@ -43,19 +43,13 @@ def synthesize(
     confirmer = _RepairConfirmer(confirm, options.rejected, budget)
     confirmed: tuple[LabelCorrection, ...] = ()
     while True:
+        shown = tuple(
+            Demonstration(apply_corrections(demo.mesh, name, confirmed), demo.steps, demo.name)
+            for name, demo in name_demonstrations(demos)
+        )
+        batch = {name: apply_corrections(mesh, name, confirmed) for name, mesh in meshes.items()}
         task = LearningTask(
-            rules,
-            tuple(
-                Demonstration(apply_corrections(demo.mesh, name, confirmed), demo.steps, demo.name)
-                for name, demo in name_demonstrations(demos)
-            ),
-            {name: apply_corrections(mesh, name, confirmed) for name, mesh in meshes.items()},
-            frame,
-            templates or {},
-            tuple(answers),
-            confirmer.rejected,
-            options,
-            confirmed,
+            rules, shown, batch, frame, templates or {}, tuple(answers), confirmer.rejected, options, confirmed
         )
         outcome = LearningRun(task, budget, confirmer.confirm if confirm else None).run()
         if not confirm or not isinstance(outcome, NeedsRepair):

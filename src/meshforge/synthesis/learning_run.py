@@ -65,7 +65,9 @@ class LearningRun:
             failed = self._learn(spec)
             if failed:
                 return failed
-        return self._propose_repairs() if self._repairs.repairs else self._finish()
+        if self._repairs.repairs:
+            return outcome.NeedsRepair(repairs=self._repairs.repairs, proposed=self._program(), **self._common_fields())
+        return self._finish()
 
     def _learn(self, spec: RuleSpec) -> outcome.LearningOutcome | None:
         """Learn one rule and run it on all meshes; what stands in the way, if anything does."""
@@ -118,14 +120,9 @@ class LearningRun:
         self, spec: RuleSpec, examples: Sequence[Example], rest: Sequence[SymbolicMesh]
     ) -> RankedReadings | Miss | Unfinished | tuple[LabelCorrection, ...]:
         task = self._task
+        confirm = make_confirmer(spec.number, self._confirm) if self._confirm else None
         found = PaperSearch(
-            examples,
-            task.frame.labels,
-            self._budget,
-            task.options,
-            make_confirmer(spec.number, self._confirm) if self._confirm else None,
-            task.rejected,
-            self._repairs.counts,
+            examples, task.frame.labels, self._budget, task.options, confirm, task.rejected, self._repairs.counts
         ).run()
         self._record_effort(spec, found.tried)
         if isinstance(found, HitWithCorrections):
@@ -163,9 +160,6 @@ class LearningRun:
         settled = bool(self._replays.others) and all(learned.readings.settled for learned in self._learned)
         return outcome.Found(program=program, settled=settled, hint=hint, sample=sample, **self._common_fields())
 
-    def _propose_repairs(self) -> outcome.LearningOutcome:
-        return outcome.NeedsRepair(repairs=self._repairs.repairs, proposed=self._program(), **self._common_fields())
-
     def _fail(self, spec: RuleSpec, miss: Miss, examples: Sequence[Example]) -> outcome.LearningOutcome:
         nearest, repairs = _to_nearest(spec.number, miss.nearest), self._repairs.repairs
         if repairs:
@@ -181,15 +175,12 @@ class LearningRun:
     def _suggest_orientation(self) -> OrientationSuggestion | None:
         task = self._task
         try:
-            return suggest_orientation(
-                task.demos,
-                task.rules,
-                task.frame,
-                task.templates,
+            options, batch = (
                 replace(task.options, max_size=min(task.options.max_size, PLAIN_SIZE)),
-                self._budget,
-                None,
-                list(task.batch.values()),
+                [*task.batch.values()],
+            )
+            return suggest_orientation(
+                task.demos, task.rules, task.frame, task.templates, options, self._budget, None, batch
             )
         except (OutOfTime, MeshForgeError):
             return None

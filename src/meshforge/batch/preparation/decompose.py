@@ -70,22 +70,15 @@ def decompose_asset(
             entry, own = _decompose_source(source, settings, taken, hollow, cache)
         except MeshForgeError as error:
             own_name = None if error.where == source.what else error.where  # the name of the piece comes with Lost
-            failed.append(
-                record.PieceProblem(
-                    source.what, MeshForgeError(error.problem, where=own_name, remedy=error.remedy).message
-                )
-            )
+            why = MeshForgeError(error.problem, where=own_name, remedy=error.remedy).message
+            failed.append(record.PieceProblem(source.what, why))
             continue
         made.append(entry)
         hulls += own
         taken |= entry.made.keys()
     if made:
-        kept = kept.with_step(
-            record.PreparationStep(
-                "decompose", settings_to_json(settings, hollow), software_versions(settings), tuple(made)
-            ),
-            hulls,
-        )
+        done = settings_to_json(settings, hollow), software_versions(settings), tuple(made)
+        kept = kept.with_step(record.PreparationStep("decompose", *done), hulls)
     return DecompositionResult(kept, tuple(made), tuple(failed), fit.lost, missed)
 
 
@@ -159,10 +152,8 @@ def describe_fit(surface: Surface, hulls: Sequence[Polytope], *, solid: bool) ->
     An open surface encloses nothing, and parts that overlap, as those to look at may, enclose some of it twice.
     """
     parts = [pluralize(len(hulls), "hull")]
-    volume, own = (
-        geometry.volume_of_union(hulls),
-        geometry.volume_inside(surface.vertices, surface.faces) if solid else None,
-    )
+    volume = geometry.volume_of_union(hulls)
+    own = geometry.volume_inside(surface.vertices, surface.faces) if solid else None
     if own and own > _SKIN * volume:
         excess, more = volume / own - 1, "more" if volume > own else "less"
         parts.append("the same volume" if abs(excess) < _LEAST else f"{abs(excess):.0%} {more} volume")

@@ -100,10 +100,9 @@ def write_report(
     labels = (*known, *sorted({hull.label for mesh in meshes for hull in mesh.hulls if hull.label} - set(known)))
     labelled = bool(options.vocabulary) or any(hull.label for mesh in meshes for hull in mesh.hulls)
     colors, pictures = label_colors(labels), contents.PictureOptions(labels, labelled, options.changes)
-    cards, chosen = (
-        list[tuple[contents.ReportAsset, contents.AssetPictures | None]](),
-        _choose_pictured(assets, options.pictured),
-    )
+    order = sorted(range(len(assets)), key=lambda k: not (assets[k].demonstrated or assets[k].is_broken))
+    chosen = frozenset(order[: options.pictured])
+    cards: list[tuple[contents.ReportAsset, contents.AssetPictures | None]] = []
     for k, asset in enumerate(assets):
         cards.append((asset, contents.draw_asset(asset, pictures) if k in chosen else None))
         if options.progress:
@@ -145,11 +144,6 @@ def _load_template() -> Any:
         describe_findings=_describe_findings,
     )
     return template
-
-
-def _choose_pictured(assets: Sequence[contents.ReportAsset], count: int) -> frozenset[int]:
-    order = sorted(range(len(assets)), key=lambda k: not (assets[k].demonstrated or assets[k].is_broken))
-    return frozenset(order[:count])
 
 
 def _describe_selection(shown: int, figures: contents.RunFigures) -> str | None:

@@ -52,18 +52,15 @@ def _filter_contacts(spec: Any, touching: mechanism.ContactRules) -> None:
     plane.contype, plane.conaffinity = 0, _FLOOR_BIT
     plane.priority = min(contact.priority for contact in touching.contacts) - 1
     for k, contact in enumerate(touching.contacts):
-        _set_contact(spec.geom(f"hull {k}"), contact)
+        geom = spec.geom(f"hull {k}")
+        geom.contype, geom.conaffinity = contact.contype | _FLOOR_BIT, contact.conaffinity & ~_FLOOR_BIT
+        geom.condim, geom.priority, geom.friction = contact.condim, contact.priority, contact.friction
     known = {body.name for body in spec.bodies}
     for pair in sorted(sorted(f"body {name}" for name in pair) for pair in touching.apart if len(pair) == 2):
         if known.issuperset(pair):
             spec.add_exclude(bodyname1=pair[0], bodyname2=pair[1])
     for first, second in sorted(sorted(pair) for pair in touching.paired):
         spec.add_pair(geomname1=f"hull {first}", geomname2=f"hull {second}")
-
-
-def _set_contact(geom: Any, contact: mechanism.ContactAttributes) -> None:
-    geom.contype, geom.conaffinity = contact.contype | _FLOOR_BIT, contact.conaffinity & ~_FLOOR_BIT
-    geom.condim, geom.priority, geom.friction = contact.condim, contact.priority, contact.friction
 
 
 def _pose_on_floor(mesh: SymbolicMesh) -> Pose:

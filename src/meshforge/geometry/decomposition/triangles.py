@@ -59,7 +59,8 @@ def clean_triangles(vertices: Any, faces: Any) -> TriangleMesh:
     welded_faces = index.reshape(-1, 3)
     kept = np.diff(np.sort(welded_faces, axis=1), axis=1).min(axis=1) > 0
     _refuse_flat(welded, bool(kept.any()))
-    return TriangleMesh(welded, welded_faces[kept].astype(np.int64), _count_open_edges(welded_faces[kept]))
+    _, uses = np.unique(edges_of(welded_faces[kept])[0], axis=0, return_counts=True)
+    return TriangleMesh(welded, welded_faces[kept].astype(np.int64), int((uses == 1).sum()))
 
 
 def _refuse_flat(points: Floats, any_triangle: bool) -> None:
@@ -67,11 +68,6 @@ def _refuse_flat(points: Floats, any_triangle: bool) -> None:
     if not any_triangle or len(extents) < 3 or extents[2] <= _FLAT * extents[0]:
         remedy = "Give it a thickness; for a single flat piece, a convex hull with a thickness is enough."
         raise GeometryError("the mesh is flat: it spans no volume", remedy=remedy)
-
-
-def _count_open_edges(faces: Ints) -> int:
-    _, uses = np.unique(edges_of(faces)[0], axis=0, return_counts=True)
-    return int((uses == 1).sum())
 
 
 def cap_holes(mesh: TriangleMesh) -> tuple[TriangleMesh, int]:

@@ -180,12 +180,8 @@ def compute_posterior(family: FamilyTable, metric: Floats | None = None) -> Fami
     """What known labels say about all hulls of a family whose meshes stand upright."""
     if not family.labels:
         return FamilyPosterior(family, np.zeros((len(family.codes), 0)))
-    return FamilyPosterior(
-        family,
-        label_model.refine_by_neighbors(
-            family, label_model.vote_by_similarity(family, metric_weights() if metric is None else metric)
-        ),
-    )
+    votes = label_model.vote_by_similarity(family, metric_weights() if metric is None else metric)
+    return FamilyPosterior(family, label_model.refine_by_neighbors(family, votes))
 
 
 def propagate(meshes: Sequence[SymbolicMesh]) -> FamilyPosterior:

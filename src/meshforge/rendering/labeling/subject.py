@@ -167,11 +167,9 @@ class Arrangement:
     @cached_property
     def view_frame(self) -> ViewFrame:
         subject = self.subject
-        return (
-            subject.view_frame
-            if self.frame is subject.points
-            else ViewFrame(Aabb.of_points(self.frame), up_vector(subject.up))
-        )
+        if self.frame is subject.points:
+            return subject.view_frame
+        return ViewFrame(Aabb.of_points(self.frame), up_vector(subject.up))
 
     def camera(self, view: View, size: tuple[int, int]) -> Camera:
         return aim_camera(view, self.subject.up, size, self.view_frame.to_unit(self.frame), _MARGIN)

@@ -186,11 +186,8 @@ def analyze_rule(
     fits = (table == np.array(shown)).all(axis=1)
     least = 2 if any(isinstance(chosen[row], language.Geo) for row in np.flatnonzero(fits)) else 3
     seen = Counter(zip([column.tobytes() for column in np.packbits(table.T, axis=1)], shown, strict=True))
-    return RuleInFrame(tuple(examples), None, frozenset(seen), _count_strays(seen), least)
-
-
-def _count_strays(seen: Counter[Signature]) -> int:
-    return sum(min(count, seen[signature, False]) for (signature, selected), count in seen.items() if selected)
+    strays = sum(min(count, seen[signature, False]) for (signature, selected), count in seen.items() if selected)
+    return RuleInFrame(tuple(examples), None, frozenset(seen), strays, least)
 
 
 class MeshTurner:

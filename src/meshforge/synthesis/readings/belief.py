@@ -71,7 +71,7 @@ def compute_beliefs(
         + _doubt_nats(term, leaves)
         + UNTRIED * count_untested(term, shown)
         + UNNEEDED * idle
-        + share * _evidence_nats(facts)
+        + share * (IDLE * facts.idle + STRANGE * min(facts.strange, STRANGEST))
         + NEITHER * against
         for term, facts, against, idle in zip(terms, found, refused or none, unneeded or none, strict=True)
     ]
@@ -87,10 +87,6 @@ def choose_reading(terms: Sequence[Term], shares: Sequence[float]) -> int:
     best = max(range(len(terms)), key=lambda k: (shares[k], -k))
     first = max((k for k in range(len(terms)) if terms[k].size == smallest), key=lambda k: (shares[k], -k))
     return best if shares[best] >= LARGER * shares[first] else first
-
-
-def _evidence_nats(facts: ReadingEvidence) -> float:
-    return IDLE * facts.idle + STRANGE * min(facts.strange, STRANGEST)
 
 
 def _doubt_nats(term: Term, known: dict[Extractor, float]) -> float:

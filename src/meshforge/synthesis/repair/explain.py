@@ -17,7 +17,7 @@ from meshforge.synthesis.demonstration import Example, LabelChange, name_demonst
 from meshforge.synthesis.options import LabelCorrection, Options, Repair, TimeBudget
 from meshforge.synthesis.paper.search import HitWithCorrections
 from meshforge.synthesis.repair import candidates as candidate_search
-from meshforge.synthesis.repair.candidates import Candidate, total_chance
+from meshforge.synthesis.repair.candidates import NO_EXTRACTOR_COST, Candidate, key_cost, total_chance
 from meshforge.synthesis.repair.relabelings import Variants, enumerate_relabelings
 from meshforge.synthesis.search.smallest import Hit, Miss
 from meshforge.synthesis.search.terms import order_key
@@ -63,18 +63,12 @@ class RepairCollector:
         self, rule: int, examples: Sequence[Example], found: Hit | Miss
     ) -> tuple[LabelCorrection, ...]:
         """Corrections that explain what was shown better than what was found does. Raises OutOfTime."""
-        task = self._task
+        options, labels, rejected = self._task.options, self._task.frame.labels, self._task.rejected
+        exact = found.extractor if isinstance(found, Hit) else None
         explanation = (
-            task.options.repair
+            options.repair
             and CorrectionSearch(
-                examples,
-                task.frame.labels,
-                self._beliefs,
-                task.options,
-                self._budget,
-                found.extractor if isinstance(found, Hit) else None,
-                self.counts,
-                task.rejected,
+                examples, labels, self._beliefs, options, self._budget, exact, self.counts, rejected
             ).run()
         )
         if not explanation:
@@ -85,8 +79,7 @@ class RepairCollector:
 
     def record_inferred(self, rule: int, explained: HitWithCorrections) -> tuple[LabelCorrection, ...]:
         """Take over what the paper's algorithm infers, which says nothing about how believable it is."""
-        alone = len(explained.corrections) == 1
-        why = f"with {'it' if alone else 'all corrections'}, {show(explained.extractor)} selects what was shown"
+        why = describe_effect(explained.extractor, len(explained.corrections) == 1)
         self._found.update({correction: Repair(correction, rule, 1.0, why) for correction in explained.corrections})
         return explained.corrections
 
@@ -162,7 +155,9 @@ class CorrectionSearch:
         if variants is None or not all(variants.by_example):
             return None
         candidates = self._find_candidates(variants)
-        beliefs = compute_change_beliefs(candidates, self._rival_cost(variants))
+        # what it costs that the exact extractor, or none at all, is right, on whichever relabelings it matches
+        rival = self._exact_cost - sum(log(total_chance(some)) for some in variants.relabelings_for(self._exact))
+        beliefs = compute_change_beliefs(candidates, rival)
         chosen = self._choose(rank_candidates(candidates), beliefs)
         return self._to_explanation(chosen, beliefs) if chosen else None
 
@@ -170,11 +165,7 @@ class CorrectionSearch:
     def _exact_cost(self) -> float:
         """What it costs to believe in the exact extractor, or in none at all [nats]."""
         places = {label: place for place, label in enumerate(self._vocabulary)}
-        return (
-            candidate_search.key_cost(order_key(self._exact, places))
-            if self._exact
-            else candidate_search.NO_EXTRACTOR_COST
-        )
+        return key_cost(order_key(self._exact, places)) if self._exact else NO_EXTRACTOR_COST
 
     @property
     def _limit(self) -> int:
@@ -210,10 +201,6 @@ class CorrectionSearch:
             self._examples, variants, self._vocabulary, options, above, within, self._budget
         )
         return found
-
-    def _rival_cost(self, variants: Variants) -> float:
-        """What it costs that the exact extractor, or none at all, is right, on whichever relabelings it matches."""
-        return self._exact_cost - sum(log(total_chance(some)) for some in variants.relabelings_for(self._exact))
 
     def _choose(self, candidates: Sequence[Candidate], beliefs: Mapping[ChangeAt, float]) -> Candidate | None:
         """The first candidate, of those about as good as the best, whose corrections are all believed."""
@@ -275,7 +262,7 @@ def explain_correction(odds: LabelOdds, to: str, extractor: Extractor, alone: bo
 
     alone: whether it is the only correction.
     """
-    evidence = "; ".join([*_label_evidence(odds, to), _describe_effect(extractor, alone)])
+    evidence = "; ".join([*_label_evidence(odds, to), describe_effect(extractor, alone)])
     return evidence[0].upper() + evidence[1:]
 
 
@@ -298,5 +285,6 @@ def _label_doubts(hull: Hull) -> list[str]:
     return []
 
 
-def _describe_effect(extractor: Extractor, alone: bool) -> str:
+def describe_effect(extractor: Extractor, alone: bool) -> str:
+    """What corrections make possible. alone: whether there is only one."""
     return f"with {'it' if alone else 'all corrections'}, {show(extractor)} selects what was shown"
