@@ -146,7 +146,8 @@ def _walk_assets(folder: Path, root: Path) -> Iterator[Path]:
         if is_link_cycle(entry):
             continue
         if entry.is_dir():
-            if not ((folder / SETTINGS).is_file() and entry.name in OWN_FOLDERS) and not _is_written(entry, root):
+            is_own = entry.name in OWN_FOLDERS and (folder / SETTINGS).is_file()
+            if not is_own and not _is_written(entry, root):
                 yield from _walk_assets(entry, root)
         elif is_asset(entry):
             yield entry

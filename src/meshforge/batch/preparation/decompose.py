@@ -77,8 +77,9 @@ def decompose_asset(
         hulls += own
         taken |= entry.made.keys()
     if made:
-        done = settings_to_json(settings, hollow), software_versions(settings), tuple(made)
-        kept = kept.with_step(record.PreparationStep("decompose", *done), hulls)
+        used = settings_to_json(settings, hollow)
+        step = record.PreparationStep("decompose", used, software_versions(settings), tuple(made))
+        kept = kept.with_step(step, hulls)
     return DecompositionResult(kept, tuple(made), tuple(failed), fit.lost, missed)
 
 
