@@ -142,9 +142,8 @@ def _build_region(kind: RegionKind, part: Mask, grid: Grid, mesh: SymbolicMesh) 
     cells = np.argwhere(part)
     low = grid.origin + cells.min(axis=0) * grid.cell
     bounds = Aabb(low, grid.origin + (cells.max(axis=0) + 1) * grid.cell)
-    hulls = (
-        _find_fillers(part, grid, [h for h in mesh.hulls if _is_touching(h.aabb, bounds)]) if kind == "closed" else ()
-    )
+    near = [h for h in mesh.hulls if kind == "closed" and h.aabb.touches(bounds)]
+    hulls = _find_fillers(part, grid, near)
     return ClearanceRegion(kind, grid.litres(part), bounds, hulls, voxels.cells_to_surface(grid, part))
 
 
@@ -152,10 +151,6 @@ def _find_fillers(part: Mask, grid: Grid, hulls: list[Hull]) -> tuple[str, ...]:
     """The hulls that fill a region, by how much they fill."""
     shares = [(np.count_nonzero(voxelize_hulls(grid, [h.shape]) & part), h.name) for h in hulls]
     return tuple(name for count, name in sorted(shares, key=lambda s: (-s[0], s[1])) if count)
-
-
-def _is_touching(a: Aabb, b: Aabb) -> bool:
-    return bool((a.min <= b.max).all() and (b.min <= a.max).all())
 
 
 def _to_finding(region: ClearanceRegion, found: Clearance) -> Finding:

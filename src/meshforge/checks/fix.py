@@ -131,17 +131,10 @@ def _find_objection(
     if any(limit.is_broken(limit.measure(made.hull)) for limit in _find_broken_limits(engine, Hull("", "", made.hull))):
         return "no hull that keeps to all limits was found"
     for other in hulls:
-        meets = (
-            other.body != hull.body and _is_near(made.hull, other) and geometry.distance(made.hull, other.shape) == 0.0
-        )
-        if meets and geometry.distance(hull.shape, other.shape) > 0.0:
+        meets = other.body != hull.body and made.hull.aabb.touches(other.aabb)
+        if meets and geometry.distance(made.hull, other.shape) == 0.0 < geometry.distance(hull.shape, other.shape):
             return f"it would come to overlap {other.name} of body {other.body}"
     return None
-
-
-def _is_near(made: geometry.Polytope, other: Hull) -> bool:
-    a, b = made.aabb, other.aabb
-    return bool((a.min <= b.max).all() and (b.min <= a.max).all())
 
 
 def _free_name(name: str, taken: set[str]) -> str:

@@ -130,6 +130,10 @@ class Aabb:
         """Whether two boxes have more in common than a side, an edge or a corner."""
         return bool((np.maximum(self.min, other.min) < np.minimum(self.max, other.max)).all())
 
+    def touches(self, other: Aabb) -> bool:
+        """Whether two boxes have anything in common, be it a corner."""
+        return bool((self.min <= other.max).all() and (other.min <= self.max).all())
+
     @property
     def corners(self) -> Floats:
         """The eight corners (8, 3)."""

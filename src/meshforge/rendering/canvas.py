@@ -115,7 +115,8 @@ def make_contact_sheet(
         raise UsageError(f"a sheet of {len(images)} pictures with {len(titles)} titles cannot be made")
     columns = columns or math.ceil(math.sqrt(len(images)))
     cell = max(i.width for i in images), max(i.height for i in images)
-    gap, words = _cell_spacing(cell, bool(titles))
+    unit = annotation.text_scale(cell)
+    gap, words = max(4, round(10 * unit)), round(28 * unit) if titles else 0  # [px] between cells, and for a title
     rows = -(-len(images) // columns)
     size = gap + columns * (cell[0] + gap), gap + rows * (cell[1] + words + gap)
     legend = HullColors(np.zeros((0, 3)), tuple(LegendEntry(color, name) for name, color in colors.items()))
@@ -129,16 +130,10 @@ def make_contact_sheet(
         paper.paste(image, at, image if image.mode == "RGBA" else None)
         draw.rectangle((x - 1, y - 1, x + cell[0], y + cell[1]), outline=_FRAME)
         if titles:
-            small = round(15 * annotation.text_scale(cell))
+            small = round(15 * unit)
             text = annotation.shorten(titles[k], small, cell[0])
             draw.text((x + cell[0] // 2, y + cell[1] + words // 2), text, annotation.INK, annotation.font(small), "mm")
     return paper
-
-
-def _cell_spacing(cell: tuple[int, int], titled: bool) -> tuple[int, int]:
-    """The gap between cells, and the height of a title [px]."""
-    u = annotation.text_scale(cell)
-    return max(4, round(10 * u)), round(28 * u) if titled else 0
 
 
 def encode_png(image: Image) -> bytes:
