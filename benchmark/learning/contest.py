@@ -14,8 +14,9 @@ from benchmark.learning.cases import Case, learned, name_of
 from benchmark.learning.sygus import cvc5_problem
 from meshforge.label_model.odds import LabelBeliefs
 from meshforge.language import Extractor, show, size_of
-from meshforge.synthesis.options import LabelCorrection, Options, TimeBudget
+from meshforge.synthesis.options import Options, TimeBudget
 from meshforge.synthesis.paper.search import PaperSearch
+from meshforge.synthesis.questions import LabelCorrection
 from meshforge.synthesis.readings.rank import RankedReadings, enumerate_consistent
 from meshforge.synthesis.repair.explain import CorrectionSearch, Explanation
 from meshforge.synthesis.search.smallest import Hit

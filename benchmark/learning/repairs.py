@@ -17,7 +17,8 @@ from meshforge.label_model.odds import LabelBeliefs
 from meshforge.language import Extractor, select_mask, size_of
 from meshforge.symbolic import Label, LabelSource, SymbolicMesh, descriptors
 from meshforge.synthesis.demonstration import Example
-from meshforge.synthesis.options import LabelCorrection, Options, TimeBudget
+from meshforge.synthesis.options import Options, TimeBudget
+from meshforge.synthesis.questions import LabelCorrection
 from meshforge.synthesis.repair.explain import CorrectionSearch
 from meshforge.synthesis.search.smallest import Hit, Search
 

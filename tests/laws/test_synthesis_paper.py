@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from meshforge.language import All, Attach, BaseExtractor, Extractor, Geo, Is, labels_of, select_mask, size_of
 from meshforge.symbolic import Label, SymbolicMesh, bits_of
 from meshforge.synthesis.demonstration import Example
-from meshforge.synthesis.options import LAYERS, LabelCorrection, Layers, Options, TimeBudget
+from meshforge.synthesis.options import LAYERS, Layers, Options, TimeBudget
 from meshforge.synthesis.paper.partial import (
     BaseHole,
     ExampleMasks,
@@ -29,6 +29,7 @@ from meshforge.synthesis.paper.partial import (
     make_operator,
 )
 from meshforge.synthesis.paper.search import Abduction, HitWithCorrections, PaperSearch
+from meshforge.synthesis.questions import LabelCorrection
 from meshforge.synthesis.search.smallest import Hit, Miss, Search
 from tests.examples import examples
 from tests.strategies import extractors, grid_boxes, meshes

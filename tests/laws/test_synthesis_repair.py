@@ -18,7 +18,8 @@ from meshforge.label_model.odds import LabelBeliefs
 from meshforge.language import Extractor, select_mask, size_of
 from meshforge.symbolic import Label, SymbolicMesh
 from meshforge.synthesis.demonstration import Example
-from meshforge.synthesis.options import LabelCorrection, Options, TimeBudget
+from meshforge.synthesis.options import Options, TimeBudget
+from meshforge.synthesis.questions import LabelCorrection
 from meshforge.synthesis.repair.explain import CorrectionSearch, Explanation
 from meshforge.synthesis.repair.relabelings import Relabeling, build_hull_table, relabel
 from meshforge.synthesis.search.observation_table import HullTable

@@ -3,6 +3,7 @@ in place, and the report."""
 
 from meshforge.batch.apply import apply, inputs_of
 from meshforge.batch.check import CheckJournal, CheckOutcome, CheckTask, check_asset, check_assets, open_journal
+from meshforge.batch.corrections import Correction, replay_corrections
 from meshforge.batch.discovery import OWN_FOLDERS, SETTINGS, STATE, AssetSet, asset_id, expand, find_assets_in
 from meshforge.batch.execution import execute
 from meshforge.batch.jobs import (
@@ -10,13 +11,11 @@ from meshforge.batch.jobs import (
     ApplyOptions,
     ApplyTask,
     AssetJob,
-    Correction,
     load_named_templates,
     load_templates,
     make_jobs,
     plan_run,
     read_template,
-    replay_corrections,
     template_folders,
 )
 from meshforge.batch.lock import hold_lock

@@ -11,16 +11,10 @@ from functools import partial
 from pathlib import Path
 
 from meshforge.batch import outputs, provenance
+from meshforge.batch.corrections import corrections_digest, replay_corrections
 from meshforge.batch.discovery import STATE
 from meshforge.batch.execution import execute
-from meshforge.batch.jobs import (
-    APPLY_DEFAULTS,
-    ApplyOptions,
-    ApplyTask,
-    AssetJob,
-    corrections_digest,
-    replay_corrections,
-)
+from meshforge.batch.jobs import APPLY_DEFAULTS, ApplyOptions, ApplyTask, AssetJob
 from meshforge.batch.lock import hold_lock
 from meshforge.batch.outcome import AssetOutcome, Edited, Failed, RuleEffect, Unchanged
 from meshforge.batch.preparation.storage import prepare_from_folder, record_digest

@@ -1,88 +1,21 @@
-"""What a batch is given: one job an asset, with its edits by hand, which are replayed after the program; one task that
-is the same for all; the hull templates of its program; and the plan, which says what a run has before it."""
+"""What a batch is given: one job an asset, one task that is the same for all, and the hull templates of its program;
+and the plan, which says what a run has before it."""
 
 from __future__ import annotations
 
 import shutil
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 
-from meshforge import language
+from meshforge.batch.corrections import Correction
 from meshforge.batch.discovery import AssetSet, asset_id
-from meshforge.batch.provenance import stamp_path, text_digest
+from meshforge.batch.provenance import stamp_path
 from meshforge.batch.workers import GIB, MIB
 from meshforge.common import ProgramError, UsageError, pluralize
 from meshforge.formats import EngineName, Mass, labels_beside, read
-from meshforge.geometry import digest
 from meshforge.language import Program, Template
-from meshforge.symbolic import SymbolicMesh, mask_of
-
-
-@dataclass(frozen=True, slots=True)
-class Correction:
-    """One edit by hand. hulls: name and digest of each hull it is about; label: of what it makes, None keeps it."""
-
-    hulls: tuple[tuple[str, str], ...]
-    action: language.Action
-    label: str | None = None
-
-    def __str__(self) -> str:
-        names = ", ".join(f"{name} ({known})" for name, known in self.hulls)
-        return f"{names} => {self.action}" + (f" as {language.show_label(self.label)}" if self.label else "")
-
-    def find_problem(self, mesh: SymbolicMesh) -> str | None:
-        """Why this edit cannot be replayed on a mesh, None where it can."""
-        for name, known in self.hulls:
-            if name not in mesh.index:
-                return f"{name} is gone"
-            if digest(mesh.hull_of(name).shape) != known:
-                return f"{name} has another shape now"
-        return None
-
-
-def replay_corrections(
-    corrections: Iterable[Correction],
-    source: SymbolicMesh,
-    edited: SymbolicMesh,
-    program: language.Program,
-    templates: Mapping[str, language.Template],
-) -> tuple[SymbolicMesh, tuple[str, ...]]:
-    """The mesh that a program made of `source`, after edits by hand; and a sentence for each that was left out.
-
-    The edits see the mesh in the program's canonical frame, as its rules do.
-    """
-    corrections = tuple(corrections)
-    if not corrections:
-        return edited, ()
-    staged, pose = language.to_canonical_frame(source, program.orient, program.contact)
-    known = staged.index
-    current = staged.with_hulls(
-        staged.hulls[known[h.name]].with_label(h.annotation) if h.name in known else h.move(pose) for h in edited.hulls
-    )
-    flags, used = [], frozenset(edited.index)
-    for number, correction in enumerate(corrections, 1):
-        lost = correction.find_problem(_restore_program_hulls(current, edited))
-        if lost:
-            flags.append(f"edit {number} by hand was left out: {lost}")
-            continue
-        mask = mask_of(current.index[name] for name, _ in correction.hulls)
-        applied = language.apply_action(current, mask, correction.action, templates, correction.label, used)
-        current, used = applied.mesh, applied.used
-    return _restore_program_hulls(language.from_canonical_frame(source, current, pose), edited), tuple(flags)
-
-
-def _restore_program_hulls(mesh: SymbolicMesh, edited: SymbolicMesh) -> SymbolicMesh:
-    """The mesh with the program's own hulls where they stayed, so that turning there and back leaves no rounding."""
-    hulls = (edited.hull_of(h.name).with_label(h.annotation) if h.name in edited.index else h for h in mesh.hulls)
-    return replace(mesh, hulls=tuple(hulls))
-
-
-def corrections_digest(corrections: Iterable[Correction]) -> str | None:
-    """The digest of edits by hand, None where there are none."""
-    lines = [str(correction) for correction in corrections]
-    return text_digest("\n".join(lines)) if lines else None
 
 
 @dataclass(frozen=True, slots=True)

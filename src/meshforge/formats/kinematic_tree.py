@@ -8,7 +8,10 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
+from meshforge.common import AssetError
 from meshforge.formats.base import Loss
+from meshforge.formats.meshfile.surface import FARTHEST
+from meshforge.formats.xml import parse_numbers
 from meshforge.geometry import Floats, Pose
 from meshforge.symbolic import Asset, FeatureKind, Inertial, Joint, JointKind, unique_names
 
@@ -259,3 +262,14 @@ def drop_rounding(values: Floats, scale: float | None = None) -> Floats:
     """The numbers without those that are but the rounding of larger ones; scale: of these, else of the largest."""
     largest = float(np.abs(values).max()) if scale is None else scale
     return np.where(np.abs(values) < _ROUNDING * largest, 0.0, values)
+
+
+def read_numbers(text: str, count: int, given: str, place: str) -> Floats:
+    """The numbers (count,) of a text. Raises AssetError at a place: others, or none of a size; given: the element."""
+    values = parse_numbers(text)
+    if values is None or len(values) != count:
+        wanted = "a finite number" if count == 1 else f"{count} finite numbers"
+        raise AssetError(f"{given} does not hold {wanted}", where=place)
+    if any(abs(value) > FARTHEST for value in values):
+        raise AssetError(f"{given} is larger than anything", where=place)
+    return np.array(values)

@@ -11,11 +11,7 @@ from dataclasses import dataclass, field
 from typing import NoReturn
 from xml.parsers import expat
 
-import numpy as np
-
 from meshforge.common import AssetError
-from meshforge.formats.meshfile.surface import FARTHEST
-from meshforge.geometry import Floats
 
 _TAG_END = re.compile(rb"(?:[^\"'>]++|\"[^\"]*\"|'[^']*')*+>")
 
@@ -266,14 +262,3 @@ def parse_numbers(text: str) -> list[float] | None:
     except ValueError:
         return None
     return values if all(map(math.isfinite, values)) else None
-
-
-def read_numbers(text: str, count: int, given: str, place: str) -> Floats:
-    """The numbers (count,) of a text. Raises AssetError at a place: others, or none of a size; given: the element."""
-    values = parse_numbers(text)
-    if values is None or len(values) != count:
-        wanted = "a finite number" if count == 1 else f"{count} finite numbers"
-        raise AssetError(f"{given} does not hold {wanted}", where=place)
-    if any(abs(value) > FARTHEST for value in values):
-        raise AssetError(f"{given} is larger than anything", where=place)
-    return np.array(values)

@@ -3,7 +3,7 @@
 from meshforge.synthesis.asset_selection import choose_first_demonstration
 from meshforge.synthesis.demonstration import Demonstration, Step, merge_steps, strip_each
 from meshforge.synthesis.learn import synthesize
-from meshforge.synthesis.options import LAYERS, Answer, Choice, Hint, LabelCorrection, Layers, Options, Question, Repair
+from meshforge.synthesis.options import LAYERS, Layers, Options
 from meshforge.synthesis.outcome import (
     Ambiguous,
     Found,
@@ -15,6 +15,7 @@ from meshforge.synthesis.outcome import (
     TimedOut,
     outcome_to_json,
 )
+from meshforge.synthesis.questions import Answer, Choice, Hint, LabelCorrection, Question, Repair
 from meshforge.synthesis.readings.rank import BELIEVABLE
 from meshforge.synthesis.task import advance, begin_replay, memoize
 

@@ -13,8 +13,8 @@ from meshforge.common import MeshForgeError, pluralize
 from meshforge.label_model import LabelBeliefs
 from meshforge.language import EXTREMITY, Attach, Extractor, Geo, Is, Orient, select_mask, to_canonical_frame
 from meshforge.symbolic import SymbolicMesh
-from meshforge.synthesis.options import Choice, Hint, Question
 from meshforge.synthesis.outcome import reading_id
+from meshforge.synthesis.questions import Choice, Hint, Question
 from meshforge.synthesis.readings.rank import RankedReadings
 from meshforge.synthesis.task import memoize
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from meshforge.common import DemonstrationError
 from meshforge.language import Action, Delete, Each
 from meshforge.symbolic import SymbolicMesh, mask_of, split_by_contact
-from meshforge.synthesis.options import LabelCorrection
+from meshforge.synthesis.questions import LabelCorrection
 
 
 @dataclass(frozen=True, slots=True, init=False)

@@ -9,8 +9,9 @@ from meshforge.language import Orient, Program, Template
 from meshforge.symbolic import SymbolicMesh
 from meshforge.synthesis.demonstration import Demonstration, collect_rule_specs, name_demonstrations
 from meshforge.synthesis.learning_run import LearningRun
-from meshforge.synthesis.options import Answer, LabelCorrection, Options, Repair, TimeBudget
+from meshforge.synthesis.options import Options, TimeBudget
 from meshforge.synthesis.outcome import LearningOutcome, NeedsRepair
+from meshforge.synthesis.questions import Answer, LabelCorrection, Repair
 from meshforge.synthesis.task import Batch, LearningTask, apply_corrections, name_batch
 
 DEFAULTS = Options()

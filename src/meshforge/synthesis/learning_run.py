@@ -15,9 +15,10 @@ from meshforge.synthesis import outcome
 from meshforge.synthesis.asset_selection import choose_question, select_sample, suggest_demonstration
 from meshforge.synthesis.demonstration import Demonstration, Example, RuleSpec, name_demonstrations
 from meshforge.synthesis.diagnosis import find_obstacles, follow_rule, give_advice
-from meshforge.synthesis.options import Answer, LabelCorrection, OutOfTime, Question, Repair, TimeBudget
+from meshforge.synthesis.options import OutOfTime, TimeBudget
 from meshforge.synthesis.orientation.suggest import OrientationSuggestion, suggest_orientation
 from meshforge.synthesis.paper.search import HitWithCorrections, PaperSearch
+from meshforge.synthesis.questions import Answer, LabelCorrection, Question, Repair
 from meshforge.synthesis.readings.rank import RankedReadings, enumerate_consistent
 from meshforge.synthesis.repair.explain import RepairCollector, make_confirmer
 from meshforge.synthesis.search.smallest import Hit, Miss, NearestExtractor, Search, SearchEffort, Unfinished

@@ -1,124 +1,31 @@
-"""What learning is given: answers to the questions that a person is asked, corrections of labels, the options of a
-search, and the budget of time that it checks as it goes."""
+"""How a search is limited: the options of learning, and the budget of time that a search checks as it goes."""
 
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Collection, Iterable, Iterator
+from collections.abc import Callable, Collection, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import Literal, get_args
 
-from meshforge.common import DemonstrationError
 from meshforge.language import EXTREMITY, Program
-
-
-@dataclass(frozen=True, slots=True, order=True)
-class LabelCorrection:
-    """One hull of a demonstrated mesh gets another label; was: None where it has none.
-
-    asset: how messages call the mesh.
-    """
-
-    asset: str
-    hull: str
-    was: str | None
-    to: str
-
-    @property
-    def reverse(self) -> LabelCorrection | None:
-        """The correction that undoes this one, None where the hull had no label."""
-        return None if self.was is None else LabelCorrection(self.asset, self.hull, self.to, self.was)
-
-
-@dataclass(frozen=True, slots=True)
-class Choice:
-    """One way to go on; reading: the id of the most believable reading that does so; select: names of hulls."""
-
-    reading: str
-    select: tuple[str, ...]
-
-
-@dataclass(frozen=True, slots=True)
-class Question:
-    """Which hulls should a rule select on an asset? One of the choices, or neither.
-
-    harm: the share of the assets that the program is expected to edit wrongly as it stands; left: after an answer.
-    """
-
-    rule: int
-    asset: str
-    choices: tuple[Choice, ...]
-    harm: float
-    left: float
-
-    @property
-    def id(self) -> str:
-        return f"{self.rule}:{self.asset}"
-
-    def answer_with(self, choice: int | None) -> Answer:
-        """The answer that takes a choice, counted from 0, or None for neither.
-
-        Raises DemonstrationError where there is no such choice.
-        """
-        if choice is not None and not 0 <= choice < len(self.choices):
-            raise DemonstrationError(f"the question has {len(self.choices)} choices, and none at place {choice}")
-        if choice is None:
-            return Answer(self.rule, self.asset, None, [other.select for other in self.choices])
-        return Answer(self.rule, self.asset, self.choices[choice].select)
-
-
-@dataclass(frozen=True, slots=True, init=False)
-class Answer:
-    """What a person said: the hulls that a rule selects on an asset; None: neither of the choices.
-
-    refused: where it is neither, the choices there were.
-    """
-
-    rule: int
-    asset: str
-    select: frozenset[str] | None
-    refused: tuple[frozenset[str], ...] = ()
-
-    def __init__(
-        self, rule: int, asset: str, select: Iterable[str] | None, refused: Iterable[Iterable[str]] = ()
-    ) -> None:
-        if isinstance(select, str):
-            problem = f"rule {rule}: an answer is a set of hull names, not the text {select!r}"
-            raise DemonstrationError(problem, remedy=f"Write {{{select!r}}}.")
-        object.__setattr__(self, "rule", rule)
-        object.__setattr__(self, "asset", asset)
-        object.__setattr__(self, "select", None if select is None else frozenset(select))
-        object.__setattr__(self, "refused", tuple(map(frozenset, refused)))
-
-
-@dataclass(frozen=True, slots=True)
-class Repair:
-    """A label that is probably wrong, with what would be right.
-
-    rule: the first one that needs it; belief: that it is right, in 0..1; why: one sentence.
-    """
-
-    correction: LabelCorrection
-    rule: int
-    belief: float
-    why: str
-
-
-@dataclass(frozen=True, slots=True)
-class Hint:
-    """The asset that is best demonstrated next, and why, in a sentence."""
-
-    asset: str
-    why: str
-
+from meshforge.synthesis.questions import LabelCorrection
 
 Layers = Literal["S", "S+T", "S+G", "S+T+G"]
+
+
 LAYERS: tuple[Layers, ...] = get_args(Layers)
+
+
 Strategy = Literal["default", "paper"]
+
+
 STRATEGIES: tuple[Strategy, ...] = get_args(Strategy)
 
+
 Clock = Callable[[], float]
+
+
 """Seconds from any fixed moment."""
 
 

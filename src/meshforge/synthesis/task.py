@@ -12,7 +12,8 @@ from meshforge import language
 from meshforge.common import DemonstrationError, MeshForgeError, nearest_name
 from meshforge.symbolic import Label, SymbolicMesh, mask_of, split_by_contact
 from meshforge.synthesis.demonstration import Demonstration, Example, RuleSpec, name_demonstrations
-from meshforge.synthesis.options import Answer, LabelCorrection, Options
+from meshforge.synthesis.options import Options
+from meshforge.synthesis.questions import Answer, LabelCorrection
 
 Batch = Mapping[str, SymbolicMesh]
 """Meshes by the names that questions and readings call them."""

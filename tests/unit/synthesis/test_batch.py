@@ -23,7 +23,7 @@ from meshforge.synthesis import (
     synthesize,
 )
 from meshforge.synthesis.demonstration import collect_rule_specs
-from meshforge.synthesis.options import LabelCorrection
+from meshforge.synthesis.questions import LabelCorrection
 from meshforge.synthesis.task import ReplaySet, apply_corrections, name_batch
 from tests.synthesis_boxes import boxes
 from tests.synthesis_cupboards import cupboard, cupboards, shown, with_rare_doors

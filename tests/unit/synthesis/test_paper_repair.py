@@ -9,8 +9,9 @@ import pytest
 from meshforge.language import Attach, Diff, Extractor, Is, select_mask
 from meshforge.symbolic import Label, SymbolicMesh
 from meshforge.synthesis.demonstration import Example
-from meshforge.synthesis.options import LabelCorrection, Options, TimeBudget
+from meshforge.synthesis.options import Options, TimeBudget
 from meshforge.synthesis.paper.search import HitWithCorrections, PaperSearch
+from meshforge.synthesis.questions import LabelCorrection
 from meshforge.synthesis.search.smallest import Hit, Miss, SearchResult, Unfinished
 from tests.synthesis_boxes import table
 

@@ -11,7 +11,8 @@ from meshforge.label_model.odds import LabelBeliefs
 from meshforge.language import Extractor, parse_extractor, select_mask, show
 from meshforge.symbolic import Label, LabelSource, SymbolicMesh
 from meshforge.synthesis.demonstration import Example
-from meshforge.synthesis.options import LabelCorrection, Options, OutOfTime, TimeBudget
+from meshforge.synthesis.options import Options, OutOfTime, TimeBudget
+from meshforge.synthesis.questions import LabelCorrection
 from meshforge.synthesis.repair.explain import CorrectionSearch, Explanation
 from meshforge.synthesis.search.smallest import Hit, Search
 from tests.synthesis_boxes import boxes, table

@@ -8,8 +8,9 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from meshforge.common import AssetError, nearest_name
+from meshforge.formats.kinematic_tree import read_numbers
 from meshforge.formats.sdf.document import Version
-from meshforge.formats.xml import Element, read_numbers
+from meshforge.formats.xml import Element
 from meshforge.geometry import Floats, Pose, rotation_of_quaternion
 
 MODEL = "__model__"

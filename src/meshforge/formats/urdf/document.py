@@ -11,9 +11,9 @@ import numpy as np
 
 from meshforge.common import AssetError, nearest_name
 from meshforge.formats.collision_pieces import CollisionElement
-from meshforge.formats.kinematic_tree import TENSOR_NAMES, tensor_of_moments
+from meshforge.formats.kinematic_tree import TENSOR_NAMES, read_numbers, tensor_of_moments
 from meshforge.formats.references import Resolver
-from meshforge.formats.xml import Element, parse_xml, read_numbers
+from meshforge.formats.xml import Element, parse_xml
 from meshforge.geometry import Floats, Pose
 from meshforge.symbolic import Document, Inertial, Joint, JointKind, Mechanism, unit_vector
 

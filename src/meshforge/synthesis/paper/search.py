@@ -12,9 +12,10 @@ from types import MappingProxyType
 from meshforge.language import Extractor, labels_of
 from meshforge.symbolic import bits_of
 from meshforge.synthesis.demonstration import Example, LabelChange, to_correction
-from meshforge.synthesis.options import LabelCorrection, Options, OutOfTime, TimeBudget
+from meshforge.synthesis.options import Options, OutOfTime, TimeBudget
 from meshforge.synthesis.paper import partial as partials
 from meshforge.synthesis.paper.partial import ExampleMasks, Hole, HoleGrammar, NearestTracker, Open, Worklist
+from meshforge.synthesis.questions import LabelCorrection
 from meshforge.synthesis.search.smallest import Hit, Miss, SearchEffort, SearchResult, Unfinished
 
 

@@ -14,8 +14,9 @@ from meshforge.label_model import LabelBeliefs, LabelOdds, is_human
 from meshforge.language import Extractor, show, size_of
 from meshforge.symbolic import Hull, SymbolicMesh
 from meshforge.synthesis.demonstration import Example, LabelChange, name_demonstrations, to_correction
-from meshforge.synthesis.options import LabelCorrection, Options, Repair, TimeBudget
+from meshforge.synthesis.options import Options, TimeBudget
 from meshforge.synthesis.paper.search import HitWithCorrections
+from meshforge.synthesis.questions import LabelCorrection, Repair
 from meshforge.synthesis.repair import candidates as candidate_search
 from meshforge.synthesis.repair.candidates import NO_EXTRACTOR_COST, Candidate, key_cost, total_chance
 from meshforge.synthesis.repair.relabelings import Variants, enumerate_relabelings

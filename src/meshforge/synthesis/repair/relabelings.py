@@ -11,7 +11,8 @@ from meshforge.label_model import LabelBeliefs
 from meshforge.language import Extractor
 from meshforge.symbolic import Label, mask_of
 from meshforge.synthesis.demonstration import Example, LabelChange
-from meshforge.synthesis.options import LabelCorrection, Layers
+from meshforge.synthesis.options import Layers
+from meshforge.synthesis.questions import LabelCorrection
 from meshforge.synthesis.search.observation_table import HullGroups, HullTable
 
 
