@@ -77,6 +77,7 @@ def test_a_script_without_a_main_guard_is_told_what_to_do(tmp_path: Path) -> Non
     assert done.returncode == 1 and "if __name__ == '__main__'" in done.stderr
 
 
+@pytest.mark.slow
 def test_the_locks_of_a_pool_stay_for_workers_that_are_just_starting_until_the_pool_goes() -> None:
     context = worker_context()
     lock = weakref.ref(context.RLock())
