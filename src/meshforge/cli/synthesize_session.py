@@ -214,9 +214,10 @@ def _choice_index(question: Question, choice: int | None) -> int | None:
 
 
 def _confirm_always(verdict: bool) -> Callable[[Repair], bool]:
+    """Answers every repair alike, and reports it."""
 
-    def said(repair: Repair) -> bool:
+    def confirm(repair: Repair) -> bool:
         remark(f"{'repaired' if verdict else 'left as it is'}: {describe_change(repair)}")
         return verdict
 
-    return said
+    return confirm
