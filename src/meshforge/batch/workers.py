@@ -165,11 +165,11 @@ def worker_context() -> Any:
     if sys.platform != "linux":
         return _keep_locks(get_context("spawn"))
     context = get_context("forkserver")
-    context.set_forkserver_preload(["meshforge.batch.apply", *_loaded_modules()])
+    context.set_forkserver_preload(["meshforge.batch.apply", *_list_modules()])
     return _keep_locks(context)
 
 
-def _loaded_modules() -> list[str]:
+def _list_modules() -> list[str]:
     """The modules of MeshForge that this process has imported, but for the command line's, which no worker runs."""
     return [name for name in sys.modules if name.startswith("meshforge.") and not name.startswith("meshforge.cli")]
 
