@@ -12,6 +12,7 @@ import sys
 from importlib import import_module
 from pathlib import Path
 
+from benchmark.evaluation.journal import digest_protocol
 from benchmark.evaluation.page import write as write_page
 from benchmark.given import Given
 from benchmark.machine import machine
@@ -84,7 +85,10 @@ def _tell(line: str) -> None:
 def _write(out: Path, page: Page, result: Result, quick: bool) -> None:
     """Write one result, and its page anew from all results there are."""
     out.mkdir(parents=True, exist_ok=True)
-    data = {"machine": machine(page.packages), "quick": quick, **result.to_json()}
+    of_run = {"machine": machine(page.packages), "quick": quick}
+    if page.name == "evaluation":
+        of_run["protocol"] = digest_protocol()
+    data = {**of_run, **result.to_json()}
     write_atomically(out / f"{page.name}-{result.part}.json", json.dumps(data, indent=1, ensure_ascii=False) + "\n")
     files = [out / f"{page.name}-{part}.json" for part in page.all_parts]
     found = [json.loads(f.read_text("utf-8")) for f in files if f.is_file()]

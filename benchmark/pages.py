@@ -49,6 +49,7 @@ PAGES = (
         "",
         (
             "ceiling",
+            "mutation",
             "calibration",
             "effectiveness",
             "comparison",

@@ -8,7 +8,7 @@ from typing import Any
 
 from benchmark.criteria.case import Case
 
-CRITERIA = ("stands", "supports", "contains", "graspable", "passes", "swings", "structural")
+CRITERIA = ("stands", "supports", "contains", "graspable", "passes", "swings", "structural", "parts")
 """Each a module with `failure(case, **fields)`: why the case does not do, None where it does."""
 
 

@@ -26,7 +26,7 @@ def measure(tell: Tell, quick: bool) -> Result:
         (Table("SSR with true labels", columns, tuple(_row(layers, found) for layers, found in groups.items())),),
         tuple(Goal(f"SSR lost with {layers} alone, points", "at least", 0.1, lost) for layers, lost in missing.items()),
         (
-            "S: `All` and `Is` under set operators; T: `Attach`; G: `Geo`. Orientation by landmarks is there in all.",
+            "S: `All` and `Is` under set operators; T: `Attach`; G: `Geo`. All have orientation by landmarks.",
             paper.CONDITIONS,
         ),
         tuple(row.to_json() for row in rows if row.condition in LAYERS),

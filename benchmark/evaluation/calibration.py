@@ -42,8 +42,10 @@ def measure(tell: Tell, quick: bool) -> Result:
         "calibration",
         "The thresholds, on the calibration set",
         (
-            Table("Contact: pairs of parts that are told apart rightly", ("epsilon", "right, %"), touching),
-            Table("Extremity: hulls of a label told boundary or not, rightly", ("delta", "right, %"), outermost),
+            Table("Contact: pairs of parts classified correctly", ("epsilon", "right, %"), touching),
+            Table(
+                "Extremity: hulls of a label classified as boundary or not, correctly", ("delta", "right, %"), outermost
+            ),
             Table(
                 "Wrong labels of a mesh, noisy labeller",
                 ("meshes", "mean", "95th percentile", "of meshes with up to 12 hulls", "accuracy, %"),
@@ -60,12 +62,12 @@ def measure(tell: Tell, quick: bool) -> Result:
         ),
         (Goal("meshes of up to 12 hulls: 95th percentile of wrong labels", "at most", _ETA, _most(few)),),
         (
-            f"{len(rows)} meshes of other seeds than the 600. Two parts touch where their solids are within 1 mm, as "
-            "parts are that the generators join; they are told to touch where hulls of both are within epsilon, hulls "
-            "of several parts being left out. A hull is at the upper or lower boundary of its label where it holds "
-            "something of the outermost hundredth of that label's parts, upright; it is told so on the mesh as "
-            "landmarks orient it, which leans a little. The paper, by annotators: 100% for epsilon = 0.002, 96% for "
-            "delta = 0.05.",
+            f"{len(rows)} meshes of other seeds than the 600. Two parts touch if their solids are within 1 mm, as "
+            "the generators join parts; they are classified as touching if hulls of both are within epsilon, leaving "
+            "out hulls that belong to several parts. A hull is at the upper or lower boundary of its label if it "
+            "contains some of the outermost hundredth of that label's parts, upright; it is classified on the mesh as "
+            "landmarks orient it, which is slightly tilted. The paper, by annotators: 100% for epsilon = 0.002, 96% "
+            "for delta = 0.05.",
         ),
     )
 

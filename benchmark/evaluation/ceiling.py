@@ -37,7 +37,7 @@ def measure(tell: Tell, quick: bool) -> Result:
         "ceiling",
         "The tasks and their criteria",
         (
-            Table("Each criterion tried both ways", _COLUMNS, tuple(_row(name, rows) for name, rows in found.items())),
+            Table("Each criterion tested both ways", _COLUMNS, tuple(_row(name, rows) for name, rows in found.items())),
             Table("What fails under the reference program", ("task", "mesh", "pure", "why"), tuple(_failing(found))),
         ),
         (
@@ -46,8 +46,8 @@ def measure(tell: Tell, quick: bool) -> Result:
             Goal("wrong edits that fail, %, least of all tasks", "at least", 50.0, wrong),
         ),
         (
-            "*Pure*: no hull that the rules are about is of several parts (purity at least 0.9). An asset counts as "
-            "failing unedited where at least one of its three meshes does; meshes are counted beside it.",
+            "*Pure*: no hull that the rules are about belongs to several parts (purity at least 0.9). An asset "
+            "counts as failing unedited if at least one of its three meshes fails; the other column counts meshes.",
         ),
         tuple({"task": name, **row} for name, rows in found.items() for row in rows),
     )

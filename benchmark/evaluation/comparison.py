@@ -101,18 +101,18 @@ def _details(rows: Sequence[_Row]) -> Iterator[dict[str, Any]]:
 def _notes(rows: Sequence[_Row], settings: VlmSettings | None) -> Iterator[str]:
     yield (
         "*VLM Agent*: a model is given the documentation and the grammar of the language, and writes the program. "
-        "*VLM Blender*: it writes a Blender script, which is run on each mesh; a mesh with an object that is no closed "
-        "convex hull counts as failed. Both see what was demonstrated in MeshForge's session: of each mesh the hulls "
-        "with labels, boxes and contacts, pictures before and after, and all steps, also where the person showed the "
-        "tool only some; answers to its questions are not told. What a program or script does otherwise on these "
-        f"meshes is told to the model, up to {ROUNDS} answers in all; the one that did best is judged on all other "
-        "meshes by the task's criterion, also where it never did as was shown."
+        "*VLM Blender*: it writes a Blender script, which is run on each mesh; a mesh with an object that is not a "
+        "closed convex hull counts as failed. Both get the demonstrations of MeshForge's session: for each mesh the "
+        "hulls with labels, boxes and contacts, pictures before and after, and all steps, also if the person showed "
+        "the tool only some; they do not get answers to its questions. The model gets a report of what its program "
+        f"or script does differently on these meshes, up to {ROUNDS} answers in all. The best one is judged on all "
+        "other meshes by the task's criterion, even if it never matched the demonstrations."
     )
     yield (
-        "Labels, orientation, thresholds and templates are those of the session; under noisy labels the baselines keep "
-        "those that the person started with, while MeshForge's row has the corrections that were confirmed. Scripts "
-        "meet each mesh turned as the rules do, or as it lies where its landmarks are not to be found; they are one "
-        "script for all meshes, while those of the paper may also go mesh by mesh."
+        "Labels, orientation, thresholds and templates are those of the session; under noisy labels the baselines "
+        "keep those that the person started with, while MeshForge's row has the corrections that were confirmed. "
+        "Scripts get each mesh in the same orientation as the rules, or unturned if its landmarks are not found. "
+        "There is one script for all meshes, while those of the paper may also go mesh by mesh."
     )
     for row in rows:
         if row.played is None:
@@ -123,10 +123,10 @@ def _notes(rows: Sequence[_Row], settings: VlmSettings | None) -> Iterator[str]:
             yield f"{row.about}."
     if settings is None:
         yield (
-            "To run them: `script/bench comparison --vlm FILE`, with a table `[vlm]` as that of a project's "
-            "`meshforge.toml` in the file, and Blender's Python in `.bench/blender` (dependency group `blender`) or "
-            "named by `--blender PYTHON`. Answers are kept, so that an interrupted run goes on; `--max-cost DOLLARS` "
-            "limits what one run may spend on each baseline."
+            "To run them: `script/bench comparison --vlm FILE`, with a table `[vlm]` in the file as in a project's "
+            "`meshforge.toml`, and Blender's Python in `.bench/blender` (dependency group `blender`) or named by "
+            "`--blender PYTHON`. Answers are kept, so that an interrupted run continues; `--max-cost DOLLARS` limits "
+            "what one run may spend on each baseline."
         )
     else:
         endpoint = endpoint_of(settings)

@@ -33,11 +33,13 @@ def measure(tell: Tell, quick: bool) -> Result:
         (_sessions(rows), _study(ways)),
         (Goal("ten near misses with ABI: SSR", "at least", 1.0, rates["ABI"]),),
         (
-            f"{len(found)} instances: for each task the first draw of noisy labels and demonstrations in which two "
-            "demonstrations do not suffice without repair, and would if all their labels were right; the first ten "
-            "tasks that have one. All ways start from the same two, and go on to at most five of the same pool.",
-            "The person's time is modelled by keystrokes, the tool's is measured; the paper's is of real people, end "
-            "to end. Its ratings (cognitive burden, interaction efficiency) cannot be simulated, and are left out.",
+            f"{len(found)} instances: for each task the first draw of noisy labels and demonstrations for which "
+            "two demonstrations are not enough without repair, but would be if all their labels were right; the first "
+            "ten tasks with such a draw. All ways start from the same two demonstrations, and add at most three more "
+            "from the same pool.",
+            "The person's time is modelled by keystrokes, the tool's is measured; the paper measured real people, "
+            "end to end. We cannot simulate its ratings (cognitive burden, interaction efficiency), and leave them "
+            "out.",
             "*Triggered*: tasks in which a person was asked to confirm a correction.",
         ),
         tuple(row for instance in found for row in instance),

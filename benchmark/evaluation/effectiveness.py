@@ -232,32 +232,33 @@ def _notes(true: Groups) -> Iterator[str]:
         "are about was made of several parts."
     )
     yield (
-        "*Own choice*: of meshes on which equally many rules have something to do the person begins with any; else "
-        "with the one of them that the tool proposes."
+        "*Own choice*: of meshes on which equally many rules have something to do, the person begins with any; in "
+        "all other conditions, with the one that the tool proposes."
     )
     yield (
-        "*Random dozen*: before accepting a person looks at twelve results drawn at random, and the tool is told "
-        "nothing of them; else at those that the tool proposes, and what is right there is told to it (decision 0018). "
-        "*Right if labels were*: sessions whose program selects what the reference does on the same meshes with true "
-        "labels."
+        "*Random dozen*: before accepting, a person looks at twelve results drawn at random, and does not report "
+        "them to the tool; in all other conditions, at those that the tool proposes, and reports which ones are "
+        "right (decision 0018). *Right if labels were*: sessions whose program selects the same hulls as the "
+        "reference on the same meshes with true labels."
     )
     yield (
-        "*Propagated labels*: a person labels one mesh, or three, as advised, and looks through the labels of each "
-        "that is demonstrated; those of all others are propagated. *Labels given*: by hand, a session; the meshes "
-        "labelled before are not judged. F1 and FPR are against true labels throughout."
+        "*Propagated labels*: a person labels one mesh, or three, as advised, and checks the labels of each "
+        "demonstrated mesh; all other labels are propagated. *Labels given*: by hand, a session; meshes labelled "
+        "before are not judged. F1 and FPR are against true labels throughout."
     )
     yield (
-        "Where figures fall short. A question counts as much as a demonstration here, though it takes a third of the "
-        "time: where none is answered as many sessions end right with a lower k, since the results that are looked at "
-        "show what would be asked. Questions are kept for those who do not look: 0.6 instead of 0.4 demonstrations "
-        "that a question must spare gave a k of 1.8 on the calibration set (decision 0016). After one demonstration "
-        "nothing is known of what is on other meshes only, which is looked at then."
+        "Where figures miss their goal. A question counts as much as a demonstration here, though it takes a third "
+        "of the time. If no question is answered, as many sessions end right with a lower k, since the proposed "
+        "results show what the questions would ask. We keep the questions for people who do not look at results: if "
+        "a question must save 0.6 instead of 0.4 demonstrations, k is 1.8 on the calibration set (decision 0016). "
+        "One demonstration says nothing about parts that only other meshes have; people see these when they look at "
+        "results."
     )
     yield (
-        "Under noisy labels the sessions that end otherwise end with rules that do as the reference's on what was "
-        "shown and looked at. Some select the same wherever labels are right (*right if labels were*), so that only a "
-        "mesh with wrong labels tells them apart; the others differ on meshes that were not among those looked at, or "
-        "were shown on meshes with wrong labels; they were not traced, as traces are for the calibration set (decision "
-        "0019)."
+        "Under noisy labels, sessions that end with another behaviour have rules that agree with the reference on "
+        "all demonstrated meshes and results that the person looked at. Some select the same hulls wherever labels "
+        "are right (*right if labels were*), so that only a mesh with wrong labels shows a difference. The others "
+        "differ on meshes that the person did not look at, or were demonstrated on meshes with wrong labels. We did "
+        "not trace them, since traces are for the calibration set (decision 0019)."
     )
-    yield "Reasons in the table of failing sessions are read off the size of the rules and how a session ended."
+    yield "The reasons in the table of failing sessions follow from the size of the rules and how a session ended."

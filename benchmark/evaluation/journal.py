@@ -19,6 +19,7 @@ _SOURCES = ("src/meshforge/**/*.py", "src/meshforge/**/*.lark", "benchmark/**/*.
 _APART = {"batch", "checks", "cli", "preparation", "project", "samples", "studio", "evaluation", "results"}
 """Rooms that no unit of work comes from: what they do is to use, or only shows, what is measured."""
 _DATA = ("benchmark/assets/data/*", "benchmark/tasks/*/templates/*")
+_PROTOCOL = ("benchmark/criteria/*.py", "benchmark/tasks/*/task.toml", *_DATA)
 Unit = tuple[Any, ...]
 """What a unit of work is given: JSON-able."""
 
@@ -26,8 +27,18 @@ Unit = tuple[Any, ...]
 @cache
 def digest() -> str:
     """A digest of the code and the data that results depend on, but for what only shows them."""
+    return _digest((*_SOURCES, *_DATA))
+
+
+@cache
+def digest_protocol() -> str:
+    """A digest of the meshes, the tasks and their criteria."""
+    return _digest(_PROTOCOL)
+
+
+def _digest(patterns: Iterable[str]) -> str:
     found = hashlib.blake2b(digest_size=8)
-    for pattern in (*_SOURCES, *_DATA):
+    for pattern in patterns:
         for path in sorted(ROOT.glob(pattern)):
             if not _APART & set(path.relative_to(ROOT).parts):
                 found.update(f"{path.relative_to(ROOT)} {path.stat().st_size} ".encode() + path.read_bytes())

@@ -7,8 +7,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from benchmark.assets.looking import upright
-from benchmark.evaluation import failing
+from benchmark.evaluation import failing, mutation
 from benchmark.evaluation.gallery import overview
+from benchmark.evaluation.journal import digest_protocol
 from benchmark.evaluation.plots import plots
 from benchmark.evaluation.sessions import QUICK
 from benchmark.report import Result, as_text
@@ -22,16 +23,18 @@ if TYPE_CHECKING:
 
 _INTRO = """# The benchmark
 
-24 tasks on 600 collision meshes: eight categories of 25 generated assets, each decomposed by CoACD at three settings;
-a task is a program that a person has in mind, demonstrations of which the tool has to learn from, and a criterion that
-the edited meshes must meet, by physics in MuJoCo where it is physical. Written by `script/bench` from the JSON files in
-[results](results), which hold every run.
+24 tasks on 600 collision meshes: eight categories of 25 generated assets, each decomposed by CoACD at three settings.
+A task is a program that a person has in mind, demonstrations from which the tool must learn it, and a criterion that
+the edited meshes must meet, measured by physics in MuJoCo where it is physical. `script/bench` writes this page from
+the JSON files in [results](results), which hold every run.
 
 - `script/bench effectiveness` (any part by name, `script/bench` all of them, `--quick` one category and one seed)
-  measures again what this page says; what was interrupted goes on where it was. All of it, with the pages on speed,
-  learning, labels and the studio, took 57 minutes on two cores; but for times it comes out the same, bit for bit.
-- `script/make-benchmark` makes the 600 meshes and the calibration set again ([assets](assets)); the tasks are folders
-  in [tasks](tasks), readable in a minute; criteria are in [criteria](criteria), the simulated people in [study](study).
+  measures the figures of this page again; an interrupted run continues where it was. All of it, with the pages on
+  speed, learning, labels and the studio, took 57 minutes on two cores. Except for times, the results are the same,
+  bit for bit.
+- `script/make-benchmark` makes the 600 meshes and the calibration set again ([assets](assets)). The tasks are folders
+  in [tasks](tasks), readable in a minute; criteria are in [criteria](criteria), the simulated people in
+  [study](study).
 - [The gallery](gallery/index.html) shows each task before and after, rule by rule.
 
 ![Each task before and after](pictures/tasks.png)
@@ -51,12 +54,17 @@ def write(folder: Path, found: Sequence[Mapping[str, Any]], parts: Sequence[str]
     pictures(folder / "pictures", results, quick)
     machine = ", ".join(f"{name} {value}" for name, value in found[-1]["machine"].items())
     lines = [_INTRO, f"Machine: {machine}.\n", *(["**A quick run: one category, one seed.**\n"] if quick else [])]
+    if earlier := [f"`{data['part']}`" for data in found if data.get("protocol") != digest_protocol()]:
+        lines.append(f"**Measured before the last change of meshes, tasks or criteria: {', '.join(earlier)}.**\n")
     for part, result in results.items():
         lines += [as_text(result), f"`script/bench {part}` measures this.\n"]
         if part in drawn:
             lines.append(f"![{_CAPTIONS[part]}](pictures/{drawn[part]})\n")
         if part == "effectiveness" and any(not row["right"] for row in result.details):
-            lines.append("![Sessions that ended otherwise: before, as learned, as meant](pictures/sessions.png)\n")
+            told = "Sessions that ended with another behaviour: before, as learned, as intended"
+            lines.append(f"![{told}](pictures/sessions.png)\n")
+        if part == "mutation" and any(row["reason"] for row in result.details):
+            lines.append("![Mutants that do the same job](pictures/mutants.png)\n")
         if part == "ceiling" and _failing(result):
             lines.append("![What fails under the reference program: before, after](pictures/failures.png)\n")
     if missing := [part for part in parts if part not in results]:
@@ -77,6 +85,9 @@ def pictures(folder: Path, results: Mapping[str, Result], quick: bool) -> None:
     if otherwise := list(failing.pictures(ended)):
         captions, images = zip(*otherwise, strict=True)
         write_png(folder / "sessions.png", make_contact_sheet(images, 2, captions))
+    if "mutation" in results and (alike := list(mutation.pictures(results["mutation"].details))):
+        captions, images = zip(*alike, strict=True)
+        write_png(folder / "mutants.png", make_contact_sheet(images, 2, captions))
     meshes = _failing(results["ceiling"]) if "ceiling" in results else []
     if meshes:
         write_png(

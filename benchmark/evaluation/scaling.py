@@ -55,10 +55,11 @@ def measure(tell: Tell, quick: bool) -> Result:
         tuple(tables),
         notes=(
             f"The task {TASK}: its meshes repeated, each with every side stretched by a factor of its own; hulls cut "
-            f"in two, or left out, until there are as many as wanted; further labels on small boxes beside the mesh. "
-            f"Where it is not what varies: {_MESHES} meshes as they are. Shown on two meshes; one process, one round. "
-            "*Contacts*: contact graphs of all meshes, worked out once; *search*: rules, readings, repair; *replay*: "
-            "the rules on all meshes while learning; *applying*: the learned program on all meshes, in memory.",
+            f"in two, or left out, until the number is reached; further labels on small boxes beside the mesh. If the "
+            f"number of meshes is not what varies: {_MESHES} meshes as they are. Demonstrated on two meshes; one "
+            "process, one run. *Contacts*: contact graphs of all meshes, computed once; *search*: rules, readings, "
+            "repair; *replay*: the rules on all meshes while learning; *applying*: the learned program on all meshes, "
+            "in memory.",
             *notes,
         ),
     )
@@ -150,8 +151,9 @@ def _with_labels(mesh: SymbolicMesh, count: int, one: Task, rng: np.random.Gener
 
 
 def _sentence(what: str, points: Sequence[Point]) -> str:
-    parts = ", ".join(f"{name} as the power {power:.2g}" for name, power in _powers(points))
-    return f"{what.capitalize()}, {points[0].value:,} to {points[-1].value:,}: {parts} of their number."
+    parts = ", ".join(f"{name} with the power {power:.2g}" for name, power in _powers(points))
+    grows = parts.replace(" with", " grows with", 1)
+    return f"{what.capitalize()}, {points[0].value:,} to {points[-1].value:,}: time for {grows} of their number."
 
 
 def _powers(points: Sequence[Point]) -> Iterator[tuple[str, float]]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from functools import cache, cached_property
+from functools import cache, cached_property, lru_cache
 from pathlib import Path
 from typing import Any
 
@@ -40,7 +40,7 @@ class Task:
 
     says: what a person wants, in a sentence; motifs: of the design page; rare: the kind on which a simpler reading
     goes wrong, None where there is none; wrong: a deliberately wrong program, which the criterion must refuse;
-    criterion: its checks, all of which must hold.
+    criterion: its checks, all of which must hold; equivalents: mutants of the program that do the same job, and why.
     """
 
     name: str
@@ -53,6 +53,7 @@ class Task:
     wrong: Program
     criterion: tuple[Mapping[str, Any], ...]
     templates: Mapping[str, Template] = field(repr=False)
+    equivalents: Mapping[str, str] = field(default_factory=dict)
 
     def samples(self, calibration: bool = False) -> tuple[Sample, ...]:
         """The meshes that the task is about."""
@@ -93,7 +94,13 @@ class Task:
             return edited.error or "the program fails"
         truth = {hull.name: hull.annotation for hull in sample.mesh.hulls}
         mesh = upright(sample, _truly_labelled(edited, truth))
-        return judged(Case(mesh, sample.asset, upright(sample)), self.criterion)
+        return judged(Case(mesh, sample.asset, _before(sample)), self.criterion)
+
+
+@lru_cache(maxsize=128)
+def _before(sample: Sample) -> SymbolicMesh:
+    """The unedited mesh, upright; the same one each time, so that what is found out about it is kept."""
+    return upright(sample)
 
 
 def _truly_labelled(edited: Edited, truth: Mapping[str, Label | None]) -> SymbolicMesh:
@@ -121,6 +128,7 @@ def task(name: str) -> Task:
         Program.parse(data["wrong"]),
         tuple(data["criterion"]),
         templates,
+        data.get("equivalents", {}),
     )
 
 

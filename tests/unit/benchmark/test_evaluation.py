@@ -13,6 +13,7 @@ from benchmark.evaluation import journal
 from benchmark.evaluation.failing import failing, reason
 from benchmark.evaluation.figures import solved_at
 from benchmark.evaluation.journal import done
+from benchmark.evaluation.page import write
 from benchmark.study import Round, Session
 from benchmark.tasks import task
 
@@ -44,13 +45,22 @@ def test_a_quick_run_writes_the_page_and_its_pictures(journals: Path, tmp_path: 
     for part, data in found.items():
         assert f"## {data['title']}" in page
         assert f"`script/bench {part}`" in page
-    assert "Not run yet: `script/bench ablation correction scaling gallery`." in page
+    assert "Not run yet: `script/bench mutation ablation correction scaling gallery`." in page
     assert {name.name for name in (tmp_path / "out" / "pictures").iterdir()} >= {"tasks.png", "effectiveness.svg"}
     sessions = found["effectiveness"]["details"]
     assert {row["task"] for row in sessions} == {"cup-easy", "cup-medium", "cup-hard"}
     assert {row["seed"] for row in sessions} == {100}
     ceiling = {goal["what"]: goal["reached"] for goal in found["ceiling"]["goals"]}
     assert all(ceiling.values()), ceiling
+
+
+@pytest.mark.usefixtures("few_meshes")
+def test_the_page_names_what_was_measured_by_other_tasks_or_criteria(journals: Path, tmp_path: Path) -> None:
+    found = run(["ceiling"], tmp_path / "out")
+    told = "**Measured before the last change of meshes, tasks or criteria: `ceiling`.**"
+    assert told not in (tmp_path / "out" / "README.md").read_text("utf-8")
+    write(tmp_path / "again", [{**found["ceiling"], "protocol": "another"}], ["ceiling"])
+    assert told in (tmp_path / "again" / "README.md").read_text("utf-8")
 
 
 @pytest.mark.usefixtures("few_meshes")

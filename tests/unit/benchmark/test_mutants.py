@@ -1,0 +1,66 @@
+"""Programs that are nearly the reference, and that the criteria tell their edits from the reference's."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from benchmark.evaluation import mutation
+from benchmark.tasks import Edited, Task, task, tasks
+from benchmark.tasks.mutants import ACTIONS, EXTRACTORS, have_same_shapes, judge_mutants, mutants
+from meshforge.geometry import Box, Pose
+from meshforge.language import size_of
+from meshforge.symbolic import Hull, SymbolicMesh
+
+TASKS = tasks()
+
+
+@pytest.mark.parametrize("one", TASKS, ids=lambda one: one.name)
+def test_every_rule_is_changed_in_every_way(one: Task) -> None:
+    found = mutants(one)
+    assert len({mutant.name for mutant in found}) == len(found)
+    assert len({str(mutant.program) for mutant in found}) == len(found)
+    assert all(mutant.program != one.program for mutant in found)
+    for number, rule in enumerate(one.program.rules, 1):
+        mine = [mutant for mutant in found if mutant.rule == number]
+        wrong = [mutant for mutant in mine if len(mutant.program.rules) == len(one.program.rules)]
+        others = [mutant.program.rules[number - 1].extractor for mutant in wrong]
+        others = [extractor for extractor in others if extractor != rule.extractor]
+        assert len(mine) in (len(ACTIONS) + EXTRACTORS, len(ACTIONS) + EXTRACTORS + 1)
+        assert {size_of(extractor) for extractor in others} == {size_of(rule.extractor)}
+        assert len(others) == EXTRACTORS
+    assert [str(mutant.program) for mutant in mutants(one)] == [str(mutant.program) for mutant in found]
+
+
+@pytest.mark.parametrize("one", TASKS, ids=lambda one: one.name)
+def test_nothing_passes_that_deletes_all(one: Task) -> None:
+    everything = mutants(one)[0]
+    assert everything.name == "All => Delete"
+    for sample in one.samples(calibration=True)[:2]:
+        assert one.failure(sample, one.run(everything.program, sample.mesh))
+
+
+@pytest.mark.parametrize("name", ["cup-medium", "dispenser-medium", "knife-medium", "lamp-easy"])
+def test_the_criterion_tells_the_mutants_of_a_task(name: str) -> None:
+    rows = judge_mutants(name, calibration=True)
+    assert sum(bool(row["differs"]) for row in rows) > len(rows) / 2
+    worst = max(rows, key=mutation.share)
+    assert mutation.share(worst) <= mutation.MOST, worst
+
+
+def test_mutants_that_do_the_same_job_are_few_and_say_why() -> None:
+    every = [(one, mutant) for one in TASKS for mutant in mutants(one)]
+    alike = [one.equivalents[mutant.name] for one, mutant in every if mutant.name in one.equivalents]
+    assert len(alike) <= 0.1 * len(every)
+    assert all(len(reason) > 20 for reason in alike)
+
+
+def test_edits_are_alike_whatever_their_hulls_are_called() -> None:
+    sample = task("cup-easy").samples()[0]
+    hulls = sample.mesh.hulls
+    turned = [Hull(f"other{k}", "body", hull.shape) for k, hull in enumerate(reversed(hulls))]
+    assert have_same_shapes(Edited(sample.mesh), Edited(SymbolicMesh(tuple(turned))), 1e-6)
+    assert not have_same_shapes(Edited(sample.mesh), Edited(SymbolicMesh(tuple(turned[1:]))), 1e-6)
+    assert not have_same_shapes(Edited(sample.mesh), Edited(None, error="none"), 1e-6)
+    moved = [Hull("new", "body", Box(Pose.identity(), np.array([1.0, 1.0, 1.0]))), *turned[1:]]
+    assert not have_same_shapes(Edited(sample.mesh), Edited(SymbolicMesh(tuple(moved))), 1e-6)

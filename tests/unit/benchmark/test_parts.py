@@ -1,0 +1,169 @@
+"""What the criterion on parts lets through, and what it refuses, on a small table made by hand."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+import pytest
+
+from benchmark.assets.asset import Asset, Site
+from benchmark.criteria import Case, judged
+from meshforge.geometry import Aabb, Box, Pose, Shape, convex_hull
+from meshforge.symbolic import Hull, Label, SymbolicMesh
+from script.samples.part import Part
+from script.samples.solids import Point, block
+
+Room = tuple[Point, Point]
+TOP: Room = ((-0.5, -0.3, 0.7), (0.5, 0.3, 0.74))
+SHELF: Room = ((-0.45, -0.25, 0.3), (0.45, 0.25, 0.33))
+LEGS: list[Room] = [
+    ((x - 0.03, y - 0.03, 0.0), (x + 0.03, y + 0.03, 0.7)) for x in (-0.45, 0.45) for y in (-0.25, 0.25)
+]
+CRUMB: Room = ((0.1, 0.1, 0.74), (0.14, 0.13, 0.77))
+SITE = Site("knob", (0.0, 0.0, 0.8), (0.01, 0.01, 0.01))
+
+
+def box(room: Room) -> Box:
+    return Box.of_bounds(Aabb(np.array(room[0]), np.array(room[1])))
+
+
+def hull(name: str, label: str, shape: Shape) -> Hull:
+    return Hull(name, "body", shape, Label(label))
+
+
+def halves(room: Room, label: str, name: str) -> list[Hull]:
+    """The room as two hulls, one above the other."""
+    (x, y, z), (a, b, c) = room
+    middle = (z + c) / 2
+    rooms = [((x, y, z), (a, b, middle)), ((x, y, middle), (a, b, c))]
+    return [hull(f"{name}{k}", label, box(row).tessellate()) for k, row in enumerate(rooms)]
+
+
+BEFORE = [
+    *halves(TOP, "panel", "top"),
+    *halves(SHELF, "panel", "shelf"),
+    *(one for k, leg in enumerate(LEGS) for one in halves(leg, "leg", f"leg{k}")),
+    hull("crumb", "misc", box(CRUMB).tessellate()),
+]
+PARTS = [("top", "panel", TOP), ("shelf", "panel", SHELF), ("crumb", "misc", CRUMB)]
+PARTS += [(f"leg_{k}", "leg", leg) for k, leg in enumerate(LEGS)]
+ASSET = Asset(
+    "table_01",
+    "table",
+    "plain",
+    False,
+    "",
+    tuple(Part(name, label, block(*room)) for name, label, room in PARTS),
+    (SITE,),
+    Pose.identity(),
+    False,
+)
+
+
+def failure(after: Sequence[Hull], *fates: dict[str, Any], **fields: Any) -> str | None:
+    """Why the table does not do, edited so."""
+    case = Case(SymbolicMesh(tuple(after)), ASSET, SymbolicMesh(tuple(BEFORE)))
+    return judged(case, [{"kind": "parts", "fates": list(fates), **fields}])
+
+
+def without(*names: str) -> list[Hull]:
+    return [one for one in BEFORE if not one.name.startswith(names)]
+
+
+def scaled(one: Hull, factor: float) -> Hull:
+    middle = (one.aabb.min + one.aabb.max) / 2
+    return hull(f"{one.name}~1", one.label or "", convex_hull((one.vertices - middle) * factor + middle))
+
+
+GONE = {"of": "misc", "fate": "gone"}
+MADE = {"of": "panel", "extreme": "+Z", "fate": "made", "hulls": 1, "shape": "box", "together": True}
+
+
+def test_what_no_fate_is_for_stays() -> None:
+    assert failure(BEFORE) is None
+    assert "100% of crumb (misc) is gone, which stays" in str(failure(without("crumb")))
+    shrunk = [*without("shelf1"), scaled(next(one for one in BEFORE if one.name == "shelf1"), 0.8)]
+    assert "of shelf1 (panel) is gone, which stays" in str(failure(shrunk))
+
+
+def test_what_stays_may_be_cut_otherwise() -> None:
+    whole = hull("shelf0~1", "panel", box(SHELF).tessellate())
+    assert failure([*without("shelf"), whole]) is None
+    larger = hull("shelf0~1", "panel", box((SHELF[0], (0.45, 0.25, 0.4))).tessellate())
+    assert "larger" in str(failure([*without("shelf"), larger]))
+
+
+def test_a_part_is_gone_only_if_nothing_of_it_is_left() -> None:
+    crumb = BEFORE[-1]
+    assert failure(without("crumb"), GONE) is None
+    assert "crumb of crumb is as it was" in str(failure(BEFORE, GONE))
+    for factor in (0.3, 0.8, 1.0):
+        assert "where nothing should be left" in str(failure([*without("crumb"), scaled(crumb, factor)], GONE))
+    nameless = [*without("crumb"), Hull("new", "body", scaled(crumb, 0.8).shape)]
+    assert "where nothing should be left" in str(failure(nameless, GONE))
+
+
+def test_what_is_made_is_new_whole_and_no_larger() -> None:
+    rest = without("top")
+    assert failure([*rest, hull("top0~1", "panel", box(TOP))], MADE) is None
+    assert "as it was" in str(failure(BEFORE, MADE))
+    assert "0% of top is in hulls" in str(failure(rest, MADE))
+    assert "which stays" in str(failure([], MADE))
+    half = box((TOP[0], (0.0, 0.3, 0.74)))
+    assert "50% of top is in hulls" in str(failure([*rest, hull("top0~1", "panel", half)], MADE))
+    thick = box((TOP[0], (0.5, 0.3, 0.8)))
+    assert "150% larger" in str(failure([*rest, hull("top0~1", "panel", thick)], MADE))
+    assert "a polytope, a box wanted" in str(failure([*rest, hull("top0~1", "panel", box(TOP).tessellate())], MADE))
+    two = [hull(f"top0~{k}", "panel", one.shape) for k, one in enumerate(halves(TOP, "panel", ""))]
+    assert "made of 2 hulls, 1 wanted" in str(failure([*rest, *two], MADE))
+
+
+def test_parts_that_touch_a_label_have_a_fate_of_their_own() -> None:
+    fate = {"of": "panel", "touching": "misc", "fate": "gone"}
+    assert failure(without("top"), fate) is None
+    assert "which stays" in str(failure(without("top", "shelf"), fate))
+    assert failure(without("shelf"), {"of": "panel", "far": "misc", "fate": "gone"}) is None
+
+
+def test_a_part_is_whole_when_it_is_one_hull() -> None:
+    whole = {"of": "leg", "fate": "whole"}
+    merged = [hull(f"leg{k}0~1", "leg", box(leg).tessellate()) for k, leg in enumerate(LEGS)]
+    assert failure([*without("leg"), *merged], whole) is None
+    assert "leg_0 is made of 2 hulls, 1 wanted" in str(failure(BEFORE, whole))
+    everything = hull("leg00~1", "leg", convex_hull(np.concatenate([one.vertices for one in merged])))
+    assert "larger" in str(failure([*without("leg"), everything], whole))
+    assert failure(BEFORE, {**whole, "hulls": 2}) is None
+    assert "a box wanted" in str(failure(BEFORE, {**whole, "hulls": 2, "lowest": "box"}))
+
+
+@pytest.mark.parametrize(("filled", "why"), [(False, None), (True, "is filled")])
+def test_what_is_hollow_is_not_filled(filled: bool, why: str | None) -> None:
+    legs = {"of": "leg", "fate": "made", "together": True, "hollow": 0.2}
+    rooms = [((-0.48, -0.28, 0.0), (0.48, 0.28, 0.29))] if filled else LEGS
+    made = [hull(f"leg{k}0~1", "leg", box(room)) for k, room in enumerate([*LEGS, *rooms][len(LEGS) :])]
+    if filled:
+        made += [hull(f"leg{k}1~1", "leg", box(room)) for k, room in enumerate(LEGS)]
+    said = failure([*without("leg"), *made], legs)
+    assert said is None if why is None else why in str(said)
+
+
+def test_what_is_scaled_has_its_share_between_two() -> None:
+    fate = {"of": "shelf", "fate": "made", "share": 0.3, "most": 0.8, "together": True}
+    shelf = [one for one in BEFORE if one.name.startswith("shelf")]
+    rest = without("shelf")
+    assert failure([*rest, *(scaled(one, 0.8) for one in shelf)], fate) is None
+    assert "30% to 80% wanted" in str(failure([*rest, *(scaled(one, 0.99) for one in shelf)], fate))
+    assert "30% to 80% wanted" in str(failure([*rest, *(scaled(one, 0.5) for one in shelf)], fate))
+
+
+def test_what_is_added_is_at_its_site_and_not_in_something() -> None:
+    added = [{"site": "knob", "reach": 0.05, "hulls": 1}]
+    knob = hull("new", "panel", box(((-0.01, -0.01, 0.76), (0.01, 0.01, 0.8))))
+    assert failure([*BEFORE, knob], added=added) is None
+    assert "made of 0 hulls, 1 wanted" in str(failure(BEFORE, added=added))
+    sunk = hull("new", "panel", box(((-0.01, -0.01, 0.72), (0.01, 0.01, 0.755))))
+    assert failure([*BEFORE, sunk], added=added) is not None
+    aside = hull("new", "panel", box(((0.3, 0.2, 0.76), (0.35, 0.25, 0.8))))
+    assert "larger" in str(failure([*BEFORE, aside], added=added))
