@@ -12,10 +12,10 @@ import sys
 from importlib import import_module
 from pathlib import Path
 
-from benchmark.evaluation.journal import digest_protocol
 from benchmark.evaluation.page import write as write_page
-from benchmark.given import Given
+from benchmark.journal import digest_protocol
 from benchmark.machine import machine
+from benchmark.options import RunOptions
 from benchmark.pages import PAGES, Page, page_of, parts_of, text_of
 from benchmark.report import Result, as_text
 from meshforge.common import AssetError, UsageError, write_atomically
@@ -41,7 +41,7 @@ def main(arguments: list[str] | None = None) -> int:
         parts = parts_of(options.parts)
     except KeyError as unknown:
         parser.error(f"there is no part {unknown}, only {', '.join((*pages, *every))}")
-    given = Given(options.vlm, options.max_cost, options.blender, options.sample, tuple(options.labels))
+    given = RunOptions(options.vlm, options.max_cost, options.blender, options.sample, tuple(options.labels))
     for part in parts:
         page = page_of(part)
         try:
@@ -64,15 +64,15 @@ def _add_given(parser: argparse.ArgumentParser) -> None:
     asking.add_argument("--max-cost", type=float, metavar="DOLLARS", help="the most that a baseline or labeller costs")
     asking.add_argument("--blender", type=Path, metavar="PYTHON", help="a Python 3.11 with the dependency "
                         "group blender (BENCH_BLENDER), else that in .bench/blender")  # fmt: skip
-    asking.add_argument("--sample", type=int, default=Given().sample, metavar="N", help="meshes that are labelled")
+    asking.add_argument("--sample", type=int, default=RunOptions().sample, metavar="N", help="meshes that are labelled")
     asking.add_argument("--labels", type=Path, action="append", default=[], metavar="FOLDER",
                         help="labels that something else made: MESH.labels.json for each mesh")  # fmt: skip
 
 
-def run(page: Page, part: str, quick: bool = False, given: Given | None = None) -> Result:
+def run(page: Page, part: str, quick: bool = False, given: RunOptions | None = None) -> Result:
     """The result of one part."""
     measure = import_module(f"benchmark.{page.name}.{part}").measure
-    result = measure(_tell, quick, given or Given()) if part in page.given else measure(_tell, quick)
+    result = measure(_tell, quick, given or RunOptions()) if part in page.given else measure(_tell, quick)
     _tell("")
     assert isinstance(result, Result)
     return result
@@ -85,9 +85,7 @@ def _tell(line: str) -> None:
 def _write(out: Path, page: Page, result: Result, quick: bool) -> None:
     """Write one result, and its page anew from all results there are."""
     out.mkdir(parents=True, exist_ok=True)
-    of_run = {"machine": machine(page.packages), "quick": quick}
-    if page.name == "evaluation":
-        of_run["protocol"] = digest_protocol()
+    of_run = {"machine": machine(page.packages), "quick": quick, "protocol": digest_protocol()}
     data = {**of_run, **result.to_json()}
     write_atomically(out / f"{page.name}-{result.part}.json", json.dumps(data, indent=1, ensure_ascii=False) + "\n")
     files = [out / f"{page.name}-{part}.json" for part in page.all_parts]

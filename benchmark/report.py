@@ -57,7 +57,7 @@ class Result:
         return Result(data["part"], data["title"], tuple(tables), tuple(goals), tuple(data["notes"]), details)
 
 
-def shown(cell: Cell) -> str:
+def format_cell(cell: Cell) -> str:
     """A cell as text."""
     return (
         f"{cell:.3g}"
@@ -72,7 +72,9 @@ def as_text(result: Result) -> str:
     """A result in Markdown."""
     parts = [f"## {result.title}\n"]
     if result.goals:
-        rows = tuple((g.what, f"{g.sense} {shown(g.wanted)}", shown(g.measured), _verdict(g)) for g in result.goals)
+        rows = tuple(
+            (g.what, f"{g.sense} {format_cell(g.wanted)}", format_cell(g.measured), _verdict(g)) for g in result.goals
+        )
         parts.append(_grid(Table("To reach", ("figure", "to reach", "measured", ""), rows)))
     parts += [_grid(table) for table in result.tables]
     if result.notes:
@@ -85,7 +87,7 @@ def _verdict(goal: Goal) -> str:
 
 
 def _grid(table: Table) -> str:
-    lines = [table.columns, *(tuple(shown(cell).replace("|", "/") for cell in row) for row in table.rows)]
+    lines = [table.columns, *(tuple(format_cell(cell).replace("|", "/") for cell in row) for row in table.rows)]
     widths = [max(len(line[k]) for line in lines) for k in range(len(table.columns))]
     text = ["| " + " | ".join(c.ljust(w) for c, w in zip(line, widths, strict=True)) + " |" for line in lines]
     rule = "|" + "|".join("-" * (w + 2) for w in widths) + "|"

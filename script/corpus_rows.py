@@ -66,7 +66,7 @@ def _asset(path: Path, name: str, root: str) -> Row:
         len(asset.geoms),
         len(bodies),
         len(asset.opaque),
-        _counted(piece.reason for piece in asset.opaque),
+        _count(piece.reason for piece in asset.opaque),
         _short("; ".join(asset.notes), root),
     )
 
@@ -74,10 +74,10 @@ def _asset(path: Path, name: str, root: str) -> Row:
 def _part(path: Path, name: str) -> Row:
     found = split_into_pieces(read_triangles(path), name=name)
     opaque = [piece.reason or "no hull" for piece in found if piece.shape is None]
-    return Row(name, f"part {path.suffix.lower()}", len(found) - len(opaque), 1, len(opaque), _counted(opaque))
+    return Row(name, f"part {path.suffix.lower()}", len(found) - len(opaque), 1, len(opaque), _count(opaque))
 
 
-def _counted(reasons: Iterable[str]) -> str:
+def _count(reasons: Iterable[str]) -> str:
     """Reasons, the commonest first, each with its number; shares of convex hulls are told together."""
     found = Counter("not convex" if reason.startswith("not convex") else reason for reason in reasons)
     ordered = sorted(found.items(), key=lambda item: (-item[1], item[0]))

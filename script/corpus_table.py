@@ -49,7 +49,7 @@ def table(found: Iterable[Row]) -> str:
     return "\n".join(lines) + "\n"
 
 
-def parsed(text: str) -> dict[str, str]:
+def parse(text: str) -> dict[str, str]:
     """The line of each path in a table."""
     return {line.split("\t", 1)[0]: line for line in text.splitlines()[1:]}
 
@@ -59,12 +59,12 @@ def page(found: Sequence[Row]) -> str:
     refused = [one for one in found if one.message]
     closed = [one for one in found if one.opaque and not one.hulls]
     parts = [_HEAD, f"{pluralize(len(found), 'row')}: {_totals(found)}.\n", _summary(found)]
-    parts += [_listed("Refused", refused, "message"), _noted(found)]
-    parts += [_listed("Without a hull, all pieces non-convex", closed, "reasons")]
+    parts += [_list("Refused", refused, "message"), _note(found)]
+    parts += [_list("Without a hull, all pieces non-convex", closed, "reasons")]
     return "\n".join(parts)
 
 
-def _noted(found: Sequence[Row]) -> str:
+def _note(found: Sequence[Row]) -> str:
     """The notes, the commonest first, with the numbers and files of one of those that have it."""
     files: dict[str, list[Row]] = {}
     for one in found:
@@ -107,7 +107,7 @@ def _kind(one: Row) -> str:
     return one.format or (Path(one.path).suffix.lower() or "folder")
 
 
-def _listed(title: str, found: Sequence[Row], field: str) -> str:
+def _list(title: str, found: Sequence[Row], field: str) -> str:
     lines = [f"## {title} ({len(found)})\n", "| file | hulls | non-convex | |", "|---|---|---|---|"]
     lines += [f"| {one.path} | {one.hulls} | {one.opaque} | {_cell(str(getattr(one, field)))} |" for one in found]
     return "\n".join(lines) + "\n"
@@ -129,7 +129,7 @@ def main(words: Sequence[str]) -> int:
         return 2
     found = rows(root, entries(root))
     if "--check" in words:
-        changed = differences(parsed(TABLE.read_text(encoding="utf-8")), parsed(table(found)))
+        changed = differences(parse(TABLE.read_text(encoding="utf-8")), parse(table(found)))
         print("\n".join(changed) or f"{pluralize(len(found), 'row')} as before")
         return int(bool(changed))
     TABLE.write_text(table(found), encoding="utf-8")

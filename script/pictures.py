@@ -27,7 +27,7 @@ def main(folder: Path) -> None:
     """Write the pictures into a folder."""
     _tables(folder / "tables.png")
     _question(folder / "question.png")
-    _numbered(folder / "numbers.png")
+    _draw_numbers(folder / "numbers.png")
     _labels(folder / "labels.png")
 
 
@@ -59,7 +59,7 @@ def _question(path: Path) -> None:
     )
 
 
-def _numbered(path: Path) -> None:
+def _draw_numbers(path: Path) -> None:
     """What a model is shown of a table, or a person who reads hulls off: two of the views, without the plain ones."""
     first, second, *_ = draw_labeling_pictures(load(TABLES / "table_03.obj"), size=760)
     write_png(path, make_contact_sheet([first.marked, second.marked], columns=2))

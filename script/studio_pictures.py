@@ -28,18 +28,18 @@ def main(folder: Path) -> None:
         shutil.copytree(TABLES / "demonstrations", project.folder / "demonstrations")
         (project.folder / "demonstrations" / "table_08.obj.json").unlink()
         with studio(project.folder) as address:
-            _demonstrating(_page(browser, address, "light"), folder / "studio.png")
-            _asked(_page(browser, address, "light"), folder / "studio-learn.png")
-        with studio(_unlabelled(Path(scratch) / "three").folder) as address:
-            _labelling(_page(browser, address, "light"), folder / "studio-label.png")
+            _show_demonstration(_page(browser, address, "light"), folder / "studio.png")
+            _show_question(_page(browser, address, "light"), folder / "studio-learn.png")
+        with studio(_prepare_project(Path(scratch) / "three").folder) as address:
+            _show_labels(_page(browser, address, "light"), folder / "studio-label.png")
         project = create_tables(Path(scratch) / "two")
         project.synthesize()
         list(project.apply())
         with studio(project.folder) as address:
-            _reviewing(_page(browser, address, "dark"), folder / "studio-review.png")
+            _show_review(_page(browser, address, "dark"), folder / "studio-review.png")
 
 
-def _unlabelled(folder: Path) -> Project:
+def _prepare_project(folder: Path) -> Project:
     """The tables, of which one is labelled by hand."""
     project = Project.create(folder, sorted(TABLES.glob("*.obj")), vocabulary=TABLE_LABELS)
     true = read_labels(TABLES / f"{BY_HAND[0]}.labels.json").labels
@@ -58,7 +58,7 @@ def _page(browser: Browser, address: str, theme: Literal["light", "dark"]) -> Pa
     return page
 
 
-def _labelling(page: Page, path: Path) -> None:
+def _show_labels(page: Page, path: Path) -> None:
     """What propagation of the labels of one table gave, at the first hull that is unsure."""
     page.keyboard.press("Alt+1")
     page.keyboard.press("p")
@@ -69,7 +69,7 @@ def _labelling(page: Page, path: Path) -> None:
     page.screenshot(path=path)
 
 
-def _demonstrating(page: Page, path: Path) -> None:
+def _show_demonstration(page: Page, path: Path) -> None:
     """The second table, with what is guessed of the second step in hand."""
     page.keyboard.press("Alt+2")
     page.get_by_role("option", name="table_08.obj").first.click()
@@ -78,7 +78,7 @@ def _demonstrating(page: Page, path: Path) -> None:
     page.screenshot(path=path)
 
 
-def _asked(page: Page, path: Path) -> None:
+def _show_question(page: Page, path: Path) -> None:
     """A question, as pictures, beside the program."""
     page.keyboard.press("Alt+3")
     page.get_by_role("heading", name="which hulls should rule").wait_for()
@@ -86,7 +86,7 @@ def _asked(page: Page, path: Path) -> None:
     page.screenshot(path=path)
 
 
-def _reviewing(page: Page, path: Path) -> None:
+def _show_review(page: Page, path: Path) -> None:
     """Before and after, divided by the slider."""
     page.keyboard.press("Alt+4")
     page.get_by_role("option", name="table_11.obj").first.click()

@@ -74,7 +74,7 @@ def _plain(node: Any) -> Any:
     return out
 
 
-def generated() -> str:
+def generate() -> str:
     """The text of the TypeScript file."""
     command = ["node", "node_modules/json-schema-to-typescript/dist/src/cli.js", "--additionalProperties=false"]
     command += ["--maxItems=16", "--no-unknownAny", f"--bannerComment={_HEAD}"]
@@ -83,7 +83,7 @@ def generated() -> str:
 
 
 if __name__ == "__main__":
-    text = generated()
+    text = generate()
     if "--check" in sys.argv[1:]:
         sys.exit(0 if TARGET.read_text(encoding="utf-8") == text else f"{TARGET} is not up to date: script/make-wire")
     TARGET.write_text(text, encoding="utf-8")

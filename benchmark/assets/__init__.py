@@ -1,8 +1,8 @@
 """The assets of the benchmark: parametric generators, and the collision meshes that CoACD made of them, frozen."""
 
-from benchmark.assets.asset import Asset, Built, Site
-from benchmark.assets.decomposing import SETTINGS, Decomposed
-from benchmark.assets.frozen import Sample, samples
-from benchmark.assets.making import CATEGORIES
+from benchmark.assets.asset import Asset, Design, Site
+from benchmark.assets.decomposition import SETTINGS, Decomposition
+from benchmark.assets.generation import CATEGORIES
+from benchmark.assets.storage import Sample, samples
 
-__all__ = ["CATEGORIES", "SETTINGS", "Asset", "Built", "Decomposed", "Sample", "Site", "samples"]
+__all__ = ["CATEGORIES", "SETTINGS", "Asset", "Decomposition", "Design", "Sample", "Site", "samples"]

@@ -10,10 +10,10 @@ from pathlib import Path
 from time import perf_counter
 
 from benchmark.assets.asset import Asset
-from benchmark.assets.decomposing import SETTINGS, Decomposed, decomposed
-from benchmark.assets.frozen import DATA, read, write
-from benchmark.assets.looking import look
-from benchmark.assets.making import CALIBRATION, CATEGORIES, COUNT, SEED, assets
+from benchmark.assets.decomposition import SETTINGS, Decomposition, decompose_asset
+from benchmark.assets.generation import CALIBRATION, CATEGORIES, COUNT, SEED, assets
+from benchmark.assets.pictures import look
+from benchmark.assets.storage import DATA, read, write
 from meshforge.geometry.decomposition.run import cache_folder
 
 _CALIBRATING = {name: 9 if k < 3 else 8 for k, name in enumerate(CATEGORIES)}
@@ -39,25 +39,25 @@ def main() -> None:
         made = assets(name, count, CALIBRATION if given.calibration else SEED)
         made = [asset for k, asset in enumerate(made, 1) if not given.only or k in given.only]
         given.out.mkdir(parents=True, exist_ok=True)
-        write(given.out, stem, _decomposed(made, cache_folder() if given.cache else None))
+        write(given.out, stem, _decompose_all(made, cache_folder() if given.cache else None))
         if given.picture:
             look(read(given.out, stem), given.picture / f"{stem}.png")
 
 
-def _decomposed(made: list[Asset], cache: Path | None) -> Iterator[tuple[Asset, Mapping[str, Decomposed]]]:
+def _decompose_all(made: list[Asset], cache: Path | None) -> Iterator[tuple[Asset, Mapping[str, Decomposition]]]:
     """All at all settings, two at a time, in order; told as they come."""
 
-    def work(asset: Asset) -> tuple[dict[str, Decomposed], float]:
+    def work(asset: Asset) -> tuple[dict[str, Decomposition], float]:
         start = perf_counter()
-        return {setting: decomposed(asset, setting, cache) for setting in SETTINGS}, perf_counter() - start
+        return {setting: decompose_asset(asset, setting, cache) for setting in SETTINGS}, perf_counter() - start
 
     with ThreadPoolExecutor(2) as pool:
         for asset, (found, seconds) in zip(made, pool.map(work, made), strict=True):
-            print(_told(asset, found, seconds), flush=True)
+            print(_describe(asset, found, seconds), flush=True)
             yield asset, found
 
 
-def _told(asset: Asset, found: Mapping[str, Decomposed], seconds: float) -> str:
+def _describe(asset: Asset, found: Mapping[str, Decomposition], seconds: float) -> str:
     parts = Counter(part.label for part in asset.parts)
     hulls = " ".join(f"{len(mesh.hulls):3}" for mesh in found.values())
     impure = " ".join(f"{sum(max(s.values()) < 0.9 for s in mesh.shares):2}" for mesh in found.values())

@@ -41,7 +41,7 @@ class Site:
 
 
 @dataclass(frozen=True)
-class Built:
+class Design:
     """What a category makes of one draw: z up, front to -Y, standing on z = 0 where it stands.
 
     kind: the variant; about: a few words on this one.

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from benchmark.baselines.playing import Played
-from benchmark.baselines.refining import Written
-from benchmark.evaluation.figures import by_task, demonstrations, fpr_pure, shown, solved, spread
+from benchmark.baselines.refinement import Answer
+from benchmark.baselines.run import BaselineRun
+from benchmark.evaluation.figures import by_task, count_solved, demonstrations, format_pair, fpr_pure, spread
 from benchmark.report import Cell, Table
 from benchmark.study import Condition, Session
 
@@ -27,7 +27,9 @@ _COLUMNS = (
 )
 
 
-def accounts(rows: Sequence[tuple[str, Played, bool]], conditions: Sequence[Condition], *, is_priced: bool) -> Table:
+def accounts(
+    rows: Sequence[tuple[str, BaselineRun, bool]], conditions: Sequence[Condition], *, is_priced: bool
+) -> Table:
     """By baseline and condition; rows: the name, what came of it, and whether what is written has rules to compare."""
     cells = [
         _cells(name, played, condition, has_rules=has_rules, is_priced=is_priced)
@@ -37,7 +39,9 @@ def accounts(rows: Sequence[tuple[str, Played, bool]], conditions: Sequence[Cond
     return Table("Asking the model", _COLUMNS, tuple(cells))
 
 
-def _cells(name: str, played: Played, condition: Condition, *, has_rules: bool, is_priced: bool) -> tuple[Cell, ...]:
+def _cells(
+    name: str, played: BaselineRun, condition: Condition, *, has_rules: bool, is_priced: bool
+) -> tuple[Cell, ...]:
     pairs = list(_of(played, condition))
     groups, written = by_task([session for session, _ in pairs], condition.name), [one for _, one in pairs]
     many = max(len(pairs), 1)
@@ -46,9 +50,9 @@ def _cells(name: str, played: Played, condition: Condition, *, has_rules: bool, 
         name,
         condition.name,
         len(pairs),
-        f"{solved(groups)}/{len(groups)}" if has_rules else "–",
-        shown(spread(groups, fpr_pure)),
-        shown(spread(groups, demonstrations), 1),
+        f"{count_solved(groups)}/{len(groups)}" if has_rules else "–",
+        format_pair(spread(groups, fpr_pure)),
+        format_pair(spread(groups, demonstrations), 1),
         100 * sum(one.fits for one in written) / many,
         sum(one.rounds for one in written) / many,
         sum(one.text is None for one in written),
@@ -59,7 +63,7 @@ def _cells(name: str, played: Played, condition: Condition, *, has_rules: bool, 
     )
 
 
-def _of(played: Played, condition: Condition) -> Iterator[tuple[Session, Written]]:
+def _of(played: BaselineRun, condition: Condition) -> Iterator[tuple[Session, Answer]]:
     for session, written in zip(played.sessions, played.written, strict=True):
         if session.condition == condition.name:
             yield session, written

@@ -7,9 +7,9 @@ from dataclasses import dataclass, replace
 from functools import cache
 from pathlib import Path
 
-from benchmark.baselines import showing
-from benchmark.baselines.demonstrated import Shown
-from benchmark.baselines.refining import Tried, fenced
+from benchmark.baselines import prompts
+from benchmark.baselines.refinement import Trial, find_code
+from benchmark.baselines.replay import Replay
 from benchmark.tasks import Task
 from meshforge import language
 from meshforge.common import MeshForgeError, ProgramError
@@ -61,28 +61,28 @@ class Agent:
     """The model's work on one task and some demonstrations."""
 
     task: Task
-    shown: Sequence[Shown]
+    shown: Sequence[Replay]
 
     @property
     def opening(self) -> tuple[Message, ...]:
         """What the model is told first."""
         frame = self.task.program
         header = str(replace(frame, rules=()))
-        begun = _OPENING.format(header=header.strip(), templates=showing.templates(self.task.templates))
-        return instructions(), Message.user(begun, *showing.told(self.shown, frame), _CLOSING)
+        begun = _OPENING.format(header=header.strip(), templates=prompts.templates(self.task.templates))
+        return instructions(), Message.user(begun, *prompts.describe_demonstrations(self.shown, frame), _CLOSING)
 
-    def tried(self, answer: str) -> Tried:
+    def try_answer(self, answer: str) -> Trial:
         """An answer on the demonstrations."""
-        text = fenced(answer)
+        text = find_code(answer)
         if not text:
-            return Tried(None, 0, (f"There is no program in your answer. {_CLOSING}",))
+            return Trial(None, 0, (f"There is no program in your answer. {_CLOSING}",))
         try:
             program = self.read(text)
         except MeshForgeError as error:
-            return Tried(None, 0, (f"The program does not parse:\n{error.message[:_LONG]}\n{_AGAIN}",))
+            return Trial(None, 0, (f"The program does not parse:\n{error.message[:_LONG]}\n{_AGAIN}",))
         faults = [fault for one in self.shown for fault in self._faults(program, one)]
         said = "\n".join(("The program does not do what was shown.", *faults, _AGAIN)) if faults else ""
-        return Tried(str(program), len(faults), (said,) if faults else ())
+        return Trial(str(program), len(faults), (said,) if faults else ())
 
     def read(self, text: str) -> Program:
         """The program in a text, with the header that is settled. Raises ProgramError."""
@@ -92,7 +92,7 @@ class Agent:
         settled = {name: getattr(frame, name) for name in ("labels", "orient", "contact", "extremity")}
         return replace(program, **settled)
 
-    def _faults(self, program: Program, one: Shown) -> list[str]:
+    def _faults(self, program: Program, one: Replay) -> list[str]:
         """What a program does otherwise than was shown on a mesh."""
         try:
             result = program.run(one.demo.mesh, self.task.templates)
@@ -101,12 +101,12 @@ class Agent:
         wanted = [(step.action, step.label) for step in one.demo.steps]
         if [(rule.action, rule.label) for rule in program.rules] == wanted:
             return list(_astray(program, result, one))
-        if _hulls(result.mesh) == _hulls(self._wanted(one)):
+        if _hulls(result.mesh) == _hulls(self._expect(one)):
             return []
         told = ", then ".join(f"{step.action}{f' as {step.label}' if step.label else ''}" for step in one.demo.steps)
         return [f"{one.name}: other hulls are left than were shown. The steps were: {told}; each is a rule."]
 
-    def _wanted(self, one: Shown) -> SymbolicMesh:
+    def _expect(self, one: Replay) -> SymbolicMesh:
         """What was shown, in the frame that the mesh came in."""
         frame = self.task.program
         return from_canonical_frame(
@@ -122,14 +122,14 @@ def instructions() -> Message:
     return Message.system(_TASK.format(language=about.strip(), grammar=grammar.strip()))
 
 
-def _astray(program: Program, result: RunResult, one: Shown) -> list[str]:
+def _astray(program: Program, result: RunResult, one: Replay) -> list[str]:
     """The first rule that selects other hulls than were shown, since those after it meet another mesh."""
     for step, line, rule in zip(one.demo.steps, result.trace, program.rules, strict=True):
         wanted, done, mesh = step.select or frozenset(), frozenset(line.selected), one.stages[step.rule - 1]
         if wanted == done:
             continue
         wrong = [
-            f"{what} {showing.named([hull for hull in mesh.hulls if hull.name in names])}"
+            f"{what} {prompts.list_hulls([hull for hull in mesh.hulls if hull.name in names])}"
             for what, names in (("selects, but should not:", done - wanted), ("should select, too:", wanted - done))
             if names
         ]

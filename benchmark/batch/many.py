@@ -11,7 +11,7 @@ from pathlib import Path
 
 from benchmark.batch.crowd import STOOLS, crowd, stools, tables
 from benchmark.report import Cell, Goal, Result, Table, Tell
-from benchmark.speed.watch import watched
+from benchmark.speed.watch import watch_command
 from meshforge.formats import labels_beside
 from meshforge.project import Project
 from meshforge.samples import TABLES
@@ -66,7 +66,7 @@ def measure(tell: Tell, quick: bool) -> Result:
         labelled = [
             run
             for way, count in _LABELLED
-            for run in _labelled(way, stools(folder / "models"), 20 if quick else count, folder, tell)
+            for run in _label(way, stools(folder / "models"), 20 if quick else count, folder, tell)
         ]
     return Result(
         "many",
@@ -88,7 +88,9 @@ def _runs(kind: str, models: Sequence[Path], program: Path, count: int, folder: 
     found = []
     for part in ("from nothing", "again"):
         tell(f"{kind}, {count:,} {part}")
-        seen = watched(["apply", str(program), str(assets), "--out", str(out), "--workers", str(_WORKERS), "--json"])
+        seen = watch_command(
+            ["apply", str(program), str(assets), "--out", str(out), "--workers", str(_WORKERS), "--json"]
+        )
         outcomes: dict[str, int] = {}
         work = 0.0
         for line in seen.output.splitlines():
@@ -101,7 +103,7 @@ def _runs(kind: str, models: Sequence[Path], program: Path, count: int, folder: 
     return found
 
 
-def _labelled(way: str, models: Sequence[Path], count: int, folder: Path, tell: Tell) -> list[Run]:
+def _label(way: str, models: Sequence[Path], count: int, folder: Path, tell: Tell) -> list[Run]:
     """`label` in one way, on a project in which two assets are labelled, and again."""
     assets, place = folder / "assets", folder / "project"
     tell(f"labels by {way}: writing {count:,}")
@@ -113,7 +115,7 @@ def _labelled(way: str, models: Sequence[Path], count: int, folder: Path, tell: 
     found = []
     for part in ("from nothing", "again"):
         tell(f"labels by {way}, {count:,} {part}")
-        seen = watched(["label", str(place), "--with", way, "--workers", str(_WORKERS), "--json"])
+        seen = watch_command(["label", str(place), "--with", way, "--workers", str(_WORKERS), "--json"])
         rows = [json.loads(line) for line in seen.output.splitlines()]
         taken = sum(row.get("taken", 0) for row in rows)
         found.append(Run(way, part, count, seen.seconds, 0.0, seen.main, seen.worker, {"labels taken": taken}))

@@ -10,7 +10,7 @@ import numpy as np
 from benchmark.assets.asset import Site
 from benchmark.criteria.case import Case
 from benchmark.criteria.contact import advance, calm, collide, deepest, mm
-from benchmark.criteria.scene import add_hulls, add_object, blank, place, step_for, tolerance, turned
+from benchmark.criteria.scene import add_hulls, add_object, axes_of, blank, place, step_for, tolerance
 from meshforge.geometry import Box, Cylinder, Pose, Shape, Sphere
 
 SHAPES = ("box", "sphere", "cylinder")
@@ -33,7 +33,7 @@ def failure(case: Case, site: str, shape: str = "box") -> str | None:
     model = spec.compile()
     data = mujoco.MjData(model)
     for name, where in put.items():
-        place(model, data, name, np.asarray(where.at), turned(where))
+        place(model, data, name, np.asarray(where.at), axes_of(where))
     collide(model, data)
     touch = deepest(model, data, tolerance(case.asset))
     if touch:

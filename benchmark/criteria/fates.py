@@ -8,7 +8,7 @@ from typing import Literal
 
 import numpy as np
 
-from benchmark.assets.decomposing import bounds
+from benchmark.assets.decomposition import bounds
 from benchmark.criteria.case import Case
 from benchmark.criteria.scene import tolerance
 from script.samples.part import Part
@@ -50,7 +50,7 @@ def assign(case: Case, fates: Sequence[Fate]) -> list[Fate]:
 
 
 def _fits(case: Case, part: Part, fate: Fate) -> bool:
-    if not _called(part, fate.of):
+    if not _is_called(part, fate.of):
         return False
     for label, wanted in ((fate.touching, True), (fate.far, False)):
         if label is not None and _touches(case, part, label) != wanted:
@@ -58,13 +58,13 @@ def _fits(case: Case, part: Part, fate: Fate) -> bool:
     if fate.extreme is None:
         return True
     axis, side = "XYZ".index(fate.extreme[1]), 1.0 if fate.extreme[0] == "+" else -1.0
-    alike = [other for other in case.asset.parts if _called(other, fate.of)]
+    alike = [other for other in case.asset.parts if _is_called(other, fate.of)]
     low, high = bounds(alike)
     reach = _reach(part, axis, side)
     return reach >= max(_reach(other, axis, side) for other in alike) - 0.05 * float(np.linalg.norm(high - low))
 
 
-def _called(part: Part, name: str) -> bool:
+def _is_called(part: Part, name: str) -> bool:
     return part.label == name or part.name == name or part.name.rstrip("-_0123456789") == name
 
 
@@ -75,5 +75,5 @@ def _reach(part: Part, axis: int, side: float) -> float:
 
 def _touches(case: Case, part: Part, label: str) -> bool:
     slack = tolerance(case.asset)
-    others = (other for other in case.asset.parts if other is not part and _called(other, label))
+    others = (other for other in case.asset.parts if other is not part and _is_called(other, label))
     return any(float(part.solid.min_gap(other.solid, 2 * slack)) <= slack for other in others)

@@ -10,7 +10,7 @@ import numpy as np
 from benchmark.assets.asset import Site
 from benchmark.criteria.case import Case
 from benchmark.criteria.contact import advance, collide, deepest, mm
-from benchmark.criteria.scene import add_hulls, add_shape, blank, step_for, tolerance, turned, weigh
+from benchmark.criteria.scene import add_hulls, add_shape, axes_of, blank, step_for, tolerance, weigh
 from meshforge.geometry import Box, Floats, Pose
 
 _PULL, _SECONDS = 0.05, 0.4
@@ -28,14 +28,14 @@ def failure(case: Case, site: str, pull: str = "back") -> str | None:
     if sites and not case.mesh.hulls:
         return f"{site}: no hull is left"
     for number, where in enumerate(sites, 1):
-        why = _held(case, where, pull)
+        why = _hold(case, where, pull)
         if why:
             return f"{site} {number}: {why}"
     return None
 
 
-def _held(case: Case, site: Site, pull: str) -> str | None:
-    axes = turned(site)
+def _hold(case: Case, site: Site, pull: str) -> str | None:
+    axes = axes_of(site)
     way = np.array([0.0, 0.0, 1.0]) if pull == "up" else -axes[:, 0]
     model = _scene(case, site, way)
     data = mujoco.MjData(model)
@@ -56,7 +56,7 @@ def _scene(case: Case, site: Site, way: Floats) -> Any:
     gripper = spec.worldbody.add_body(name="gripper")
     gripper.add_joint(name="gripper", type=mujoco.mjtJoint.mjJNT_SLIDE, axis=way)
     weigh(gripper, [Box(Pose.identity(), np.full(3, 0.1))], 1000.0)
-    axes = turned(site)
+    axes = axes_of(site)
     for side in _SIDES:
         _finger(spec, gripper, site, axes, side)
     rule = spec.add_equality(type=mujoco.mjtEq.mjEQ_JOINT, name1=_name(1.0), name2=_name(-1.0))

@@ -2,20 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from typing import Any
 
 import numpy as np
 from manifold3d import Manifold
-from trimesh.bounds import oriented_bounds
 
-from benchmark.assets.decomposing import bounds
+from benchmark.criteria.bodies import Body, bodies_of, smallest_box
 from benchmark.criteria.case import Case
 from benchmark.criteria.fates import Fate, assign
 from benchmark.criteria.solid import near, solid
-from meshforge.geometry import tight_box
 from meshforge.symbolic import Hull, SymbolicMesh
 from script.samples.part import Part
 from script.samples.solids import union
@@ -32,16 +30,6 @@ _LEFT = 0.5
 """A new hull is a part that should be gone where more than this of what it adds to all the rest is in such parts."""
 
 
-@dataclass(frozen=True, eq=False)
-class _Body:
-    """What is to be made: of parts (by number, with their union), in a room."""
-
-    fate: Fate
-    parts: tuple[int, ...]
-    union: Manifold
-    room: Manifold
-
-
 def failure(case: Case, fates: Sequence[Mapping[str, Any]] = (), added: Sequence[Mapping[str, Any]] = ()) -> str | None:
     """Why a part is not what it should be, by the first fate that fits it; where none does, it is kept.
 
@@ -49,7 +37,16 @@ def failure(case: Case, fates: Sequence[Mapping[str, Any]] = (), added: Sequence
     `hulls` at most.
     """
     edit = _Edit(case, [Fate(**row) for row in fates], added)
-    checks = (edit.still, edit.lost, edit.left, edit.lacking, edit.filled, edit.outside, edit.sunk, edit.miscounted)
+    checks = (
+        edit.check_changed,
+        edit.check_kept,
+        edit.check_gone,
+        edit.check_presence,
+        edit.check_hollow,
+        edit.check_outside,
+        edit.check_overlap,
+        edit.check_count,
+    )
     return next((why for check in checks if (why := check())), None)
 
 
@@ -92,8 +89,8 @@ class _Edit:
         return [hull for hull in self.case.before.hulls if self.fates[self.owner[hull.name]].fate == "kept"]
 
     @cached_property
-    def bodies(self) -> list[_Body]:
-        return list(_bodies(self.parts, self.fates)) + list(_around(self.case, self.added))
+    def bodies(self) -> list[Body]:
+        return bodies_of(self.case, self.fates, self.added)
 
     @cached_property
     def placed(self) -> dict[str, int]:
@@ -106,12 +103,12 @@ class _Edit:
         rows = list(enumerate(self.bodies))
         mine = [row for row in rows if row[1].parts and self.parts[row[1].parts[0]].label == hull.label]
         body = solid(hull)
-        if not rows or (not mine and _shared(body, staying) > _WITHIN * hull.volume):
+        if not rows or (not mine and _common_volume(body, staying) > _WITHIN * hull.volume):
             return -1
         some = [*mine, *(row for row in rows if not row[1].parts)] or rows
-        return some[_best(body, [one.room for _, one in some])][0]
+        return some[_best(body, [one.envelope for _, one in some])][0]
 
-    def still(self) -> str | None:
+    def check_changed(self) -> str | None:
         """Hulls of what is gone, or made of new ones, are not there as they were."""
         for name in sorted(self.same):
             part, fate = self.parts[self.owner[name]], self.fates[self.owner[name]]
@@ -119,8 +116,8 @@ class _Edit:
                 return f"{name} of {part.name} is as it was, {part.name} should be {fate.fate}"
         return None
 
-    def lost(self) -> str | None:
-        """Hulls that are kept may be others in the end, if these fill the same room."""
+    def check_kept(self) -> str | None:
+        """Hulls that are kept may be others in the end, if these fill the same space."""
         for hull in self.kept:
             if hull.name not in self.same:
                 left = 1 - _inside(solid(hull), self.case.mesh.hulls)
@@ -128,7 +125,7 @@ class _Edit:
                     return f"{left:.0%} of {hull.name} ({hull.label}) is gone, which stays"
         return None
 
-    def left(self) -> str | None:
+    def check_gone(self) -> str | None:
         """No new hull is of parts that are gone, or where only these were."""
         rows = list(zip(self.parts, self.fates, strict=True))
         gone = [part for part, fate in rows if fate.fate == "gone"]
@@ -140,53 +137,53 @@ class _Edit:
                 continue
             added = solid(hull) - rest
             volume = float(added.volume())
-            inside = volume > _LOST * hull.volume and _shared(added, where) > _LEFT * volume
+            inside = volume > _LOST * hull.volume and _common_volume(added, where) > _LEFT * volume
             if inside or hull.label in labels:
                 return f"{hull.name} ({hull.label}) is where nothing should be left"
         return None
 
-    def lacking(self) -> str | None:
+    def check_presence(self) -> str | None:
         """So much of each body is in hulls."""
         for body in self.bodies:
             if not body.parts:
                 continue
             inside, fate = _inside(body.union, self.case.mesh.hulls), body.fate
             if not fate.share <= inside <= fate.most + 1e-3:
-                told = f"{inside:.0%} of {_named(self.parts, body)} is in hulls"
+                told = f"{inside:.0%} of {body.describe(self.parts)} is in hulls"
                 return f"{told}, {fate.share:.0%} to {fate.most:.0%} wanted"
         return None
 
-    def filled(self) -> str | None:
+    def check_hollow(self) -> str | None:
         """What is hollow is not filled by new hulls."""
         for body in self.bodies:
-            if body.fate.hollow < 1 and (inside := self.fill(body)) > body.fate.hollow:
-                return f"{inside:.0%} of {_named(self.parts, body)} is filled, {body.fate.hollow:.0%} allowed"
+            if body.fate.hollow < 1 and (inside := self._share_filled(body)) > body.fate.hollow:
+                return f"{inside:.0%} of {body.describe(self.parts)} is filled, {body.fate.hollow:.0%} allowed"
         return None
 
-    def fill(self, body: _Body) -> float:
+    def _share_filled(self, body: Body) -> float:
         """How much of the convex hull of a body that is not in any part is in new hulls."""
-        hollow = body.room - union([part.solid for part in self.parts])
+        hollow = body.envelope - union([part.solid for part in self.parts])
         return _inside(hollow, self.new)
 
-    def outside(self) -> str | None:
+    def check_outside(self) -> str | None:
         """New hulls are where something is made, or where something stays."""
         for place in sorted(set(self.placed.values())):
             mine = [hull for hull in self.new if self.placed[hull.name] == place]
-            around, allowed = self.excess(place, mine), self.bodies[place].fate.excess if place >= 0 else _LOST
+            around, allowed = self._share_outside(place, mine), self.bodies[place].fate.excess if place >= 0 else _LOST
             if around > allowed:
                 told = f"{mine[0].name} ({mine[0].label}) is {around:.0%} larger"
                 return f"{told} than what it is for, {allowed:.0%} allowed"
         return None
 
-    def excess(self, place: int, hulls: Sequence[Hull]) -> float:
-        """How much of hulls is outside of a body, of its room; or of all that stays, of their own volume."""
+    def _share_outside(self, place: int, hulls: Sequence[Hull]) -> float:
+        """How much of hulls is outside of a body, of its envelope; or of all that stays, of their own volume."""
         made = union([solid(hull) for hull in hulls])
         if place >= 0:
-            room = self.bodies[place].room
-            return float((made - room).volume() / room.volume())
+            envelope = self.bodies[place].envelope
+            return float((made - envelope).volume() / envelope.volume())
         return float((made - union([solid(hull) for hull in self.kept])).volume() / made.volume()) if self.kept else 1.0
 
-    def sunk(self) -> str | None:
+    def check_overlap(self) -> str | None:
         """What is added is not in other hulls."""
         for hull in self.new:
             if self.placed[hull.name] >= 0 and not self.bodies[self.placed[hull.name]].parts:
@@ -195,13 +192,13 @@ class _Edit:
                     return f"{inside:.0%} of {hull.name} ({hull.label}), which is added, is in other hulls"
         return None
 
-    def miscounted(self) -> str | None:
+    def check_count(self) -> str | None:
         """There are as many hulls of each body as there should be, of the shape that they should have."""
         for place, body in enumerate(self.bodies):
             hulls = [hull for hull in self.case.mesh.hulls if self._body_of(hull) == place]
             number = body.fate.hulls or (1 if body.fate.fate == "whole" else None)
             if number is not None and not 0 < len(hulls) <= number:
-                return f"{_named(self.parts, body)} is made of {len(hulls)} hulls, {number} wanted"
+                return f"{body.describe(self.parts)} is made of {len(hulls)} hulls, {number} wanted"
             low = min(hulls, key=lambda hull: float(hull.aabb.min[2]), default=None)
             for shape, some in ((body.fate.shape, hulls), (body.fate.lowest, [low] if low else [])):
                 other = next((hull for hull in some if shape and not _is(hull, shape)), None)
@@ -214,9 +211,6 @@ class _Edit:
             return self.placed[hull.name]
         owner = self.owner[hull.name]
         return next((place for place, body in enumerate(self.bodies) if owner in body.parts), -1)
-
-
-_MADE = ("made", "whole")
 
 
 @lru_cache(maxsize=512)
@@ -233,7 +227,7 @@ def _owner(hull: Hull, parts: Sequence[Part]) -> int:
 
 def _best(body: Manifold, others: Sequence[Manifold]) -> int:
     """The number of the solid that one shares most with, else of the nearest."""
-    shared = [_shared(body, other) for other in others]
+    shared = [_common_volume(body, other) for other in others]
     if max(shared) > 0:
         return int(np.argmax(shared))
     return int(np.argmin([body.min_gap(other, 10.0) for other in others]))
@@ -248,10 +242,10 @@ def _is(hull: Hull, shape: str) -> bool:
     """Whether a hull is a primitive of that kind; a capsule may be a polytope that fills no more of a box than it."""
     if shape != "capsule" or hull.primitive:
         return hull.shape.kind == shape
-    return hull.volume <= _ROUND * tight_box(hull.vertices).volume
+    return bool(hull.volume <= _ROUND * np.prod(smallest_box(hull.vertices)[1]))
 
 
-def _shared(one: Manifold, other: Manifold) -> float:
+def _common_volume(one: Manifold, other: Manifold) -> float:
     """The volume that two solids have in common [m^3]."""
     return float((one ^ other).volume()) if near(one, other) else 0.0
 
@@ -260,34 +254,3 @@ def _inside(body: Manifold, hulls: Sequence[Hull]) -> float:
     """The share of a solid that is in hulls."""
     here = [other for other in map(solid, hulls) if near(body, other)]
     return float((body ^ union(here)).volume() / max(body.volume(), 1e-12)) if here else 0.0
-
-
-def _bodies(parts: Sequence[Part], fates: Sequence[Fate]) -> Iterator[_Body]:
-    """Each part that is made, or several together."""
-    groups: dict[tuple[Fate, int], list[int]] = {}
-    for place, fate in enumerate(fates):
-        if fate.fate in _MADE:
-            groups.setdefault((fate, -1 if fate.together else place), []).append(place)
-    for (fate, _), places in groups.items():
-        body = union([parts[place].solid for place in places])
-        yield _Body(fate, tuple(places), body, _box(body) if fate.shape == "box" else body.hull())
-
-
-def _box(body: Manifold) -> Manifold:
-    """The smallest box around a body."""
-    points = np.asarray(body.to_mesh().vert_properties[:, :3], dtype=np.float64)
-    world, sides = oriented_bounds(points)  # type: ignore[no-untyped-call]
-    return Manifold.cube(sides, center=True).transform(np.linalg.inv(world)[:3])
-
-
-def _around(case: Case, added: Sequence[Mapping[str, Any]]) -> Iterator[_Body]:
-    low, high = bounds(case.asset.parts)
-    for row in added:
-        fate = Fate(row["site"], "made", excess=row.get("excess", 0.05), hulls=row.get("hulls"))
-        for site in case.asset.site(row["site"]):
-            ball = Manifold.sphere(row["reach"] * float(np.linalg.norm(high - low)), 24)
-            yield _Body(fate, (), ball.translate(site.at), ball.translate(site.at))
-
-
-def _named(parts: Sequence[Part], body: _Body) -> str:
-    return ", ".join(parts[place].name for place in body.parts) or f"what is added at {body.fate.of}"

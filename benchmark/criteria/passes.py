@@ -8,7 +8,7 @@ import numpy as np
 from benchmark.assets.asset import Site
 from benchmark.criteria.case import Case
 from benchmark.criteria.contact import collide, deepest, mm
-from benchmark.criteria.scene import add_hulls, add_object, blank, place, tolerance, turned
+from benchmark.criteria.scene import add_hulls, add_object, axes_of, blank, place, tolerance
 from meshforge.geometry import Box, Capsule, Pose, Shape
 
 SHAPES = ("box", "sphere")
@@ -31,7 +31,7 @@ def failure(case: Case, site: str, shape: str = "box") -> str | None:
     model = spec.compile()
     data = mujoco.MjData(model)
     for way, where in zip(ways, sites, strict=True):
-        axes = turned(where)
+        axes = axes_of(where)
         place(model, data, way, np.asarray(where.at) + axes[:, 0] * where.size[0] / 2, axes)
     collide(model, data)
     touch = deepest(model, data, tolerance(case.asset))

@@ -9,7 +9,7 @@ import mujoco
 import numpy as np
 
 from benchmark.assets.asset import Asset, Site
-from benchmark.assets.decomposing import bounds
+from benchmark.assets.decomposition import bounds
 from meshforge.geometry import Box, Capsule, Cylinder, Ellipsoid, Floats, Pose, Shape, Sphere, inertia, spans_volume
 from meshforge.symbolic import Hull
 
@@ -26,7 +26,7 @@ def tolerance(asset: Asset) -> float:
     return TOLERANCE * float(np.linalg.norm(high - low))
 
 
-def turned(site: Site) -> Floats:
+def axes_of(site: Site) -> Floats:
     """The axes of a site as the columns of a rotation (3, 3)."""
     x, y, _ = np.asarray(site.axes, dtype=np.float64)
     return np.stack([x, y, np.cross(x, y)], axis=1)
@@ -66,7 +66,7 @@ def weigh(body: Any, shapes: Iterable[Shape], mass: float = 1.0) -> None:
 def add_hulls(spec: Any, body: Any, hulls: Iterable[Hull], object_side: bool = False) -> None:
     """Add the hulls to a body whose frame is the mesh's; they touch objects, or the other side where they are those."""
     for hull in hulls:
-        add_shape(spec, body, told(hull), hull.shape, object_side)
+        add_shape(spec, body, describe_hull(hull), hull.shape, object_side)
 
 
 def add_shape(spec: Any, body: Any, name: str, shape: Shape, object_side: bool = True, **fields: Any) -> Any:
@@ -119,6 +119,6 @@ def place(model: Any, data: Any, name: str, at: Floats, rotation: Floats | None 
     data.qpos[begin : begin + 7] = [*at, *turn.to_quaternion()]
 
 
-def told(hull: Hull) -> str:
+def describe_hull(hull: Hull) -> str:
     """A hull in words: also the name of its geom."""
     return f"{hull.name} ({hull.label or 'no label'})"

@@ -57,12 +57,12 @@ def _scene(case: Case) -> Any:
     body.quat = _LEANING.to_quaternion()
     body.add_freejoint()
     weigh(body, shapes)
-    for k, shape in enumerate(_touching(shapes, _POINT * case.mesh.diagonal)):
+    for k, shape in enumerate(_support_points(shapes, _POINT * case.mesh.diagonal)):
         add_shape(spec, body, f"{shape.kind} {k}", shape, object_side=False)
     return spec.compile()
 
 
-def _touching(shapes: list[Shape], radius: float) -> list[Shape]:
+def _support_points(shapes: list[Shape], radius: float) -> list[Shape]:
     """The corners of the convex hull of all angular shapes as balls within it, and the round shapes."""
     angular = [shape.vertices for shape in shapes if isinstance(shape, Polytope | Box)]
     others = [shape for shape in shapes if not isinstance(shape, Polytope | Box)]

@@ -11,7 +11,7 @@ from scipy.optimize import linear_sum_assignment
 
 from benchmark.criteria.case import Case
 from benchmark.criteria.contact import mm
-from benchmark.criteria.scene import told
+from benchmark.criteria.scene import describe_hull
 from benchmark.criteria.solid import near, solid
 from meshforge.geometry import close_pairs
 from meshforge.symbolic import Hull
@@ -55,7 +55,7 @@ def _single(case: Case, labels: Sequence[str]) -> str | None:
         own = shares[rows, columns]
         worst = int(own.argmin())
         if own[worst] < _OWN:
-            return f"{parts[worst].name} has {own[worst]:.0%} of its volume in {told(hulls[columns[worst]])}"
+            return f"{parts[worst].name} has {own[worst]:.0%} of its volume in {describe_hull(hulls[columns[worst]])}"
     return None
 
 
@@ -66,7 +66,7 @@ def _share(part: Manifold, hull: Manifold) -> float:
 
 def _absent(case: Case, labels: Sequence[str]) -> str | None:
     left = _of(case, labels)
-    return f"{_number(left)} left, such as {told(left[0])}" if left else None
+    return f"{_number(left)} left, such as {describe_hull(left[0])}" if left else None
 
 
 def _present(case: Case, labels: Sequence[str]) -> str | None:
@@ -76,7 +76,7 @@ def _present(case: Case, labels: Sequence[str]) -> str | None:
 
 def _primitives(case: Case, labels: Sequence[str]) -> str | None:
     others = [hull for hull in _of(case, labels) if not hull.primitive]
-    return f"{_number(others)} of another kind, such as {told(others[0])}" if others else None
+    return f"{_number(others)} of another kind, such as {describe_hull(others[0])}" if others else None
 
 
 def _most(case: Case, most: int) -> str | None:
@@ -101,7 +101,7 @@ def _covers(case: Case, rule: Mapping[str, Any]) -> str | None:
     bodies = [body for body in map(solid, case.mesh.hulls) if near(body, whole)]
     inside = float((whole ^ union(bodies)).volume() / whole.volume()) if bodies else 0.0
     share = rule["share"]
-    return f"{inside:.1%} of {_named(rule)} lies in hulls, {share:.0%} wanted" if inside < share else None
+    return f"{inside:.1%} of {_name(rule)} lies in hulls, {share:.0%} wanted" if inside < share else None
 
 
 def _within(case: Case, rule: Mapping[str, Any]) -> str | None:
@@ -112,7 +112,7 @@ def _within(case: Case, rule: Mapping[str, Any]) -> str | None:
     whole = union(bodies)
     room = [part.solid.hull() for part in _parts(case, rule["labels"])]
     outside = float((whole - union(room)).volume() / whole.volume()) if room else 1.0
-    return f"{outside:.1%} of the hulls {_named(rule)} lies outside of the parts" if outside > rule["excess"] else None
+    return f"{outside:.1%} of the hulls {_name(rule)} lies outside of the parts" if outside > rule["excess"] else None
 
 
 def _gap(case: Case, rule: Mapping[str, Any]) -> str | None:
@@ -124,14 +124,14 @@ def _gap(case: Case, rule: Mapping[str, Any]) -> str | None:
     if not across:
         return None
     i, j = min(across, key=across.__getitem__)
-    return f"{told(hulls[i])} is {mm(across[i, j])} from {told(hulls[j])}, {mm(rule['least'])} wanted"
+    return f"{describe_hull(hulls[i])} is {mm(across[i, j])} from {describe_hull(hulls[j])}, {mm(rule['least'])} wanted"
 
 
 def _number(hulls: Sequence[Hull]) -> str:
     return "1 hull" if len(hulls) == 1 else f"{len(hulls)} hulls"
 
 
-def _named(rule: Mapping[str, Any]) -> str:
+def _name(rule: Mapping[str, Any]) -> str:
     return ", ".join(rule["labels"])
 
 

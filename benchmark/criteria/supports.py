@@ -10,7 +10,7 @@ import numpy as np
 from benchmark.assets.asset import Site
 from benchmark.criteria.case import Case
 from benchmark.criteria.contact import advance, calm, collide, deepest, mm
-from benchmark.criteria.scene import add_hulls, add_object, blank, place, step_for, tolerance, turned
+from benchmark.criteria.scene import add_hulls, add_object, axes_of, blank, place, step_for, tolerance
 from meshforge.geometry import Box, Floats, Pose, Shape, Sphere
 
 _SECONDS, _LOOK, _SOONEST = 1.5, 0.05, 0.24  # [s]
@@ -35,7 +35,7 @@ def failure(case: Case, site: str) -> str | None:
     touching = tolerance(case.asset)
     for name, shape, spot, where in objects:
         up = float(shape.aabb.max[2]) + touching + _UNEVEN * where.size[2]
-        place(model, data, name, spot + np.array([0.0, 0.0, up]), turned(where))
+        place(model, data, name, spot + np.array([0.0, 0.0, up]), axes_of(where))
     collide(model, data)
     touch = deepest(model, data, touching)
     if touch:
@@ -49,7 +49,7 @@ Put = tuple[str, Shape, Floats, Site]
 def _objects(name: str, site: Site) -> list[Put]:
     """Name, shape, spot on the surface of each object, and its site."""
     long, wide, radius = site.size
-    axes = turned(site)
+    axes = axes_of(site)
     rows: list[Put] = []
     for k, (x, y) in enumerate(_SPOTS, 1):
         spot = np.asarray(site.at) + axes @ np.array([x * long, y * wide, 0.0])

@@ -12,7 +12,7 @@ from manifold3d import Manifold
 from benchmark.assets.asset import Site
 from benchmark.criteria.case import Case
 from benchmark.criteria.contact import collide, deepest, mm
-from benchmark.criteria.scene import add_hulls, blank, tolerance, turned
+from benchmark.criteria.scene import add_hulls, axes_of, blank, tolerance
 from benchmark.criteria.solid import near, solid
 from meshforge.geometry import Floats
 from meshforge.symbolic import Hull
@@ -75,7 +75,7 @@ def _scene(leaf: list[Hull], rest: list[Hull], site: Site) -> Any:
     spec = blank()
     add_hulls(spec, spec.worldbody, rest)
     body = spec.worldbody.add_body(name="leaf")
-    body.add_joint(name="hinge", type=mujoco.mjtJoint.mjJNT_HINGE, pos=site.at, axis=turned(site)[:, 0])
+    body.add_joint(name="hinge", type=mujoco.mjtJoint.mjJNT_HINGE, pos=site.at, axis=axes_of(site)[:, 0])
     body.explicitinertial, body.mass, body.inertia = True, 1.0, [1.0, 1.0, 1.0]
     add_hulls(spec, body, leaf, object_side=True)
     return spec.compile()
@@ -85,6 +85,6 @@ def _angles(leaf: list[Hull], site: Site, least: float) -> Floats:
     """The angles to be looked at [degrees], so close that nothing is missed."""
     begin, end = site.size[:2]
     points = np.concatenate([hull.vertices for hull in leaf]) - site.at
-    reach = float(np.linalg.norm(np.cross(points, turned(site)[:, 0]), axis=1).max())
+    reach = float(np.linalg.norm(np.cross(points, axes_of(site)[:, 0]), axis=1).max())
     step = float(np.clip(np.degrees(_ARC * least / reach), _FINEST, _COARSEST))
     return np.linspace(begin, end, max(2, int(np.ceil(abs(end - begin) / step)) + 1))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from benchmark.evaluation import paper
-from benchmark.evaluation.figures import Groups, by_task, fpr, shown, solved, spread
+from benchmark.evaluation.figures import Groups, by_task, count_solved, format_pair, fpr, spread
 from benchmark.evaluation.sessions import sessions
 from benchmark.report import Cell, Goal, Result, Table, Tell
 from benchmark.study import CONDITIONS, FULL
@@ -18,7 +18,7 @@ def measure(tell: Tell, quick: bool) -> Result:
     rows = sessions(conditions, tell, quick)
     groups = {condition.options.layers: by_task(rows, condition.name) for condition in conditions}
     columns = ("layers", "SSR (paper)", "SSR", *(f"SSR, {level}" for level in DIFFICULTIES), "FPR", "demonstrations")
-    shares: dict[str, float] = {layers: solved(found) / max(len(found), 1) for layers, found in groups.items()}
+    shares: dict[str, float] = {layers: count_solved(found) / max(len(found), 1) for layers, found in groups.items()}
     missing = {layers: 100 * (shares["S+T+G"] - shares[layers]) for layers in LAYERS}
     return Result(
         "ablation",
@@ -38,8 +38,8 @@ def _row(layers: str, groups: Groups) -> tuple[Cell, ...]:
     return (
         layers,
         paper.LAYERS[layers],
-        f"{solved(groups)}/{len(groups)} = {solved(groups) / max(len(groups), 1):.3f}",
-        *(f"{solved(level)}/{len(level)}" for level in levels),
-        shown(spread(groups, fpr)),
-        shown(spread(groups, lambda row: len(row.shown)), 1),
+        f"{count_solved(groups)}/{len(groups)} = {count_solved(groups) / max(len(groups), 1):.3f}",
+        *(f"{count_solved(level)}/{len(level)}" for level in levels),
+        format_pair(spread(groups, fpr)),
+        format_pair(spread(groups, lambda row: len(row.shown)), 1),
     )

@@ -10,9 +10,9 @@ import numpy as np
 from manifold3d import Manifold
 
 from benchmark.assets import CATEGORIES, Sample, samples
-from benchmark.assets.looking import upright
-from benchmark.evaluation.journal import done
+from benchmark.assets.pictures import upright
 from benchmark.evaluation.sessions import QUICK
+from benchmark.journal import run_units
 from benchmark.report import Goal, Result, Table, Tell
 from benchmark.study.labels import noisy, wrong
 from benchmark.tasks import task
@@ -33,7 +33,9 @@ _ETA = 2
 def measure(tell: Tell, quick: bool) -> Result:
     """Judge the calibration set."""
     names = (QUICK,) if quick else CATEGORIES
-    rows = [row for rows in done("calibration", judged, [(name,) for name in names], tell) for row in rows]
+    rows = [
+        row for rows in run_units("calibration", judge_thresholds, [(name,) for name in names], tell) for row in rows
+    ]
     errors = [row["wrong"] for row in rows]
     few = [row["wrong"] for row in rows if row["hulls"] <= 12]
     touching = tuple((x, _right(rows, f"epsilon {x}")) for x in EPSILONS)
@@ -77,14 +79,14 @@ def _most(errors: Sequence[int]) -> float:
     return float(np.percentile(errors, 95)) if errors else 0.0
 
 
-def judged(category: str) -> list[dict[str, Any]]:
+def judge_thresholds(category: str) -> list[dict[str, Any]]:
     """Counts of each mesh of a category."""
     rows = []
     for place, sample in enumerate(samples(category, True)):
         labelled = noisy(sample.mesh, (1, *category.encode(), place))
         counts: Counter[str] = Counter()
         _contacts(sample, counts)
-        _boundary(sample, _oriented(sample), counts)
+        _boundary(sample, _orient(sample), counts)
         rows.append({"mesh": sample.name, "hulls": len(sample.mesh.hulls), "wrong": wrong(sample.mesh, labelled),
                      **counts})  # fmt: skip
     return rows
@@ -123,7 +125,7 @@ def _contacts(sample: Sample, counts: Counter[str]) -> None:
                 counts[f"epsilon {x} of"] += 1
 
 
-def _oriented(sample: Sample) -> SymbolicMesh | None:
+def _orient(sample: Sample) -> SymbolicMesh | None:
     """The mesh as the category's hard task orients it, which may lean a little; None where it cannot be oriented."""
     try:
         orient = task(f"{sample.asset.category}-hard").program.orient

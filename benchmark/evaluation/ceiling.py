@@ -7,10 +7,10 @@ from collections import Counter
 from collections.abc import Iterator, Sequence
 from typing import Any
 
-from benchmark.evaluation.journal import done
 from benchmark.evaluation.sessions import QUICK
+from benchmark.journal import run_units
 from benchmark.report import Cell, Goal, Result, Table, Tell
-from benchmark.tasks import Edited, task, tasks
+from benchmark.tasks import EditResult, task, tasks
 
 _COLUMNS = (
     "task",
@@ -28,7 +28,7 @@ _COLUMNS = (
 def measure(tell: Tell, quick: bool) -> Result:
     """Judge all meshes of all tasks three times."""
     names = [one.name for one in tasks() if not quick or one.category == QUICK]
-    found = dict(zip(names, done("ceiling", tried, [(name,) for name in names], tell), strict=True))
+    found = dict(zip(names, run_units("ceiling", judge_meshes, [(name,) for name in names], tell), strict=True))
     pure = [row for rows in found.values() for row in rows if not row["impure"]]
     passed = 100 * sum(row["reference"] is None for row in pure) / max(len(pure), 1)
     least = min((_share(rows, "unedited", by_asset=True) for rows in found.values()), default=0.0)
@@ -38,7 +38,9 @@ def measure(tell: Tell, quick: bool) -> Result:
         "The tasks and their criteria",
         (
             Table("Each criterion tested both ways", _COLUMNS, tuple(_row(name, rows) for name, rows in found.items())),
-            Table("What fails under the reference program", ("task", "mesh", "pure", "why"), tuple(_failing(found))),
+            Table(
+                "What fails under the reference program", ("task", "mesh", "pure", "why"), tuple(_list_failures(found))
+            ),
         ),
         (
             Goal("reference on true labels, pure meshes: pass, %", "at least", 99.0, passed),
@@ -53,13 +55,13 @@ def measure(tell: Tell, quick: bool) -> Result:
     )
 
 
-def tried(name: str) -> list[dict[str, Any]]:
+def judge_meshes(name: str) -> list[dict[str, Any]]:
     """Every mesh of a task: why it fails unedited, by the reference and by the wrong program; None: it does not."""
     one = task(name)
     rows = []
     for sample in one.samples():
         edits = {
-            "unedited": Edited(sample.mesh),
+            "unedited": EditResult(sample.mesh),
             "reference": one.run(one.program, sample.mesh),
             "wrong": one.run(one.wrong, sample.mesh),
         }
@@ -87,7 +89,7 @@ def _row(name: str, rows: Sequence[dict[str, Any]]) -> tuple[Cell, ...]:
     )
 
 
-def _failing(found: dict[str, list[dict[str, Any]]]) -> Iterator[tuple[Cell, ...]]:
+def _list_failures(found: dict[str, list[dict[str, Any]]]) -> Iterator[tuple[Cell, ...]]:
     """Meshes that the reference does not mend; of impure ones only how many, by what fails."""
     for name, rows in found.items():
         for row in rows:

@@ -7,16 +7,16 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from benchmark.baselines import agent, scripting
+from benchmark.baselines import agent, blender_model
 from benchmark.baselines.accounts import accounts
-from benchmark.baselines.blender.apart import found
+from benchmark.baselines.blender.apart import find_python
 from benchmark.baselines.blender.process import Blender
-from benchmark.baselines.playing import Played, played, vlm_agent, vlm_blender
-from benchmark.baselines.refining import ROUNDS
+from benchmark.baselines.refinement import ROUNDS
+from benchmark.baselines.run import BaselineRun, run_baseline, vlm_agent, vlm_blender
 from benchmark.evaluation import paper
-from benchmark.evaluation.figures import by_task, fpr, shown, spread
+from benchmark.evaluation.figures import by_task, format_pair, fpr, spread
 from benchmark.evaluation.sessions import sessions
-from benchmark.given import Given
+from benchmark.options import RunOptions
 from benchmark.report import Cell, Result, Table, Tell
 from benchmark.study import FULL, NOISY, Session
 from meshforge.labels import endpoint_of
@@ -30,18 +30,18 @@ class _Row:
     """A baseline: what came of it, None where it was not run, and what there is to say about that."""
 
     name: str
-    played: Played | None
+    played: BaselineRun | None
     about: str = ""
 
     @property
-    def whole(self) -> Played | None:
+    def whole(self) -> BaselineRun | None:
         """What came of all sessions."""
         return None if self.played is None or self.played.missing else self.played
 
 
-def measure(tell: Tell, quick: bool, given: Given | None = None) -> Result:
+def measure(tell: Tell, quick: bool, given: RunOptions | None = None) -> Result:
     """Our row from the same sessions as RQ1, and the rows of the baselines."""
-    given = given or Given()
+    given = given or RunOptions()
     settings = given.settings()
     taught = sessions(_CONDITIONS, tell, quick)
     rows = (_agent(taught, settings, tell), _blender(taught, settings, given.blender, tell))
@@ -49,7 +49,7 @@ def measure(tell: Tell, quick: bool, given: Given | None = None) -> Result:
         "Functional pass rate",
         ("", "FPR (paper)", *(f"FPR, {condition.name}" for condition in _CONDITIONS)),
         (
-            ("MeshForge", paper.RQ2["MeshForge"], *_passed(taught)),
+            ("MeshForge", paper.RQ2["MeshForge"], *_share_that_pass(taught)),
             *((row.name, paper.RQ2[row.name], *_cells(row)) for row in rows),
         ),
     )
@@ -67,28 +67,28 @@ def measure(tell: Tell, quick: bool, given: Given | None = None) -> Result:
 def _agent(taught: Sequence[Session], settings: VlmSettings | None, tell: Tell) -> _Row:
     if settings is None:
         return _Row(agent.NAME, None, "no model was named")
-    return _Row(agent.NAME, played(vlm_agent(), taught, settings, tell))
+    return _Row(agent.NAME, run_baseline(vlm_agent(), taught, settings, tell))
 
 
 def _blender(taught: Sequence[Session], settings: VlmSettings | None, python: Path | None, tell: Tell) -> _Row:
     if settings is None:
-        return _Row(scripting.NAME, None, "no model was named")
-    python = python or found()
+        return _Row(blender_model.NAME, None, "no model was named")
+    python = python or find_python()
     if python is None:
-        return _Row(scripting.NAME, None, "no Python with Blender in it (bpy) was named")
+        return _Row(blender_model.NAME, None, "no Python with Blender in it (bpy) was named")
     with Blender(python) as blender:
         fences = blender.fences
     about = f"Scripts ran in Blender {fences.blender}, fenced in: {fences}"
-    return _Row(scripting.NAME, played(vlm_blender(python), taught, settings, tell), about)
+    return _Row(blender_model.NAME, run_baseline(vlm_blender(python), taught, settings, tell), about)
 
 
-def _passed(rows: Sequence[Session]) -> tuple[Cell, ...]:
-    return tuple(shown(spread(by_task(rows, condition.name), fpr)) for condition in _CONDITIONS)
+def _share_that_pass(rows: Sequence[Session]) -> tuple[Cell, ...]:
+    return tuple(format_pair(spread(by_task(rows, condition.name), fpr)) for condition in _CONDITIONS)
 
 
 def _cells(row: _Row) -> tuple[Cell, ...]:
     if row.whole:
-        return _passed(row.whole.sessions)
+        return _share_that_pass(row.whole.sessions)
     return ("not finished" if row.played else "not run",) * len(_CONDITIONS)
 
 

@@ -7,12 +7,12 @@ from statistics import mean, stdev
 from typing import Any, get_args
 
 from benchmark.evaluation import paper
-from benchmark.evaluation.figures import by_task, confirmations, fpr, shown, solved, spread
-from benchmark.evaluation.journal import done
+from benchmark.evaluation.figures import by_task, confirmations, count_solved, format_pair, fpr, spread
 from benchmark.evaluation.sessions import QUICK, sessions
+from benchmark.journal import run_units
 from benchmark.report import Cell, Goal, Result, Table, Tell
 from benchmark.study import CONDITIONS, NOISY, Session
-from benchmark.study.instances import Way, instance, mended
+from benchmark.study.instances import Way, instance, mend
 from benchmark.tasks import tasks
 
 WAYS: tuple[Way, ...] = get_args(Way)
@@ -24,7 +24,7 @@ def measure(tell: Tell, quick: bool) -> Result:
     """Compare sessions with and without repair, and three ways on the same instances."""
     rows = sessions((NOISY, WITHOUT), tell, quick)
     names = [one.name for one in tasks() if not quick or one.category == QUICK]
-    found = [row for row in done("instances", studied, [(name,) for name in names], tell) if row][:INSTANCES]
+    found = [row for row in run_units("instances", compare_ways, [(name,) for name in names], tell) if row][:INSTANCES]
     ways = {way: [row for instance in found for row in instance if row["way"] == way] for way in WAYS}
     rates = {way: mean(row["right"] for row in mine) if mine else 0.0 for way, mine in ways.items()}
     return Result(
@@ -46,10 +46,10 @@ def measure(tell: Tell, quick: bool) -> Result:
     )
 
 
-def studied(name: str) -> list[dict[str, Any]]:
+def compare_ways(name: str) -> list[dict[str, Any]]:
     """All ways on the instance of a task, nothing where it has none."""
     found = instance(name)
-    return [mended(found, way).to_json() for way in WAYS] if found else []
+    return [mend(found, way).to_json() for way in WAYS] if found else []
 
 
 def _sessions(rows: Sequence[Session]) -> Table:
@@ -67,11 +67,11 @@ def _sessions(rows: Sequence[Session]) -> Table:
         lines.append(
             (
                 condition.name,
-                f"{solved(groups)}/{len(groups)}",
+                f"{count_solved(groups)}/{len(groups)}",
                 f"{sum(row.right for row in every)}/{len(every)}",
-                shown(spread(groups, fpr)),
-                shown(spread(groups, lambda row: len(row.shown)), 1),
-                shown(spread(groups, confirmations), 1),
+                format_pair(spread(groups, fpr)),
+                format_pair(spread(groups, lambda row: len(row.shown)), 1),
+                format_pair(spread(groups, confirmations), 1),
                 100 * sum(row.confirmed for row in every) / asked if asked else "–",
                 mean(triggered) if triggered else 0.0,
             )

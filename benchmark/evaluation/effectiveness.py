@@ -6,26 +6,26 @@ from collections.abc import Iterator, Sequence
 from functools import partial
 
 from benchmark.evaluation import paper
-from benchmark.evaluation.failing import failing
+from benchmark.evaluation.failures import list_failures
 from benchmark.evaluation.figures import (
     LEVELS,
     Groups,
     by_task,
     confirmations,
+    count_solved,
     demonstrations,
+    format_pair,
     fpr,
     fpr_pure,
     of_difficulty,
-    shown,
-    solved,
-    solved_at,
+    share_solved_at,
     spread,
     synthesis,
 )
 from benchmark.evaluation.sessions import sessions
 from benchmark.report import Cell, Goal, Result, Table, Tell
 from benchmark.study import CONDITIONS, FULL, NOISY, Session
-from benchmark.study.keystrokes import modelled
+from benchmark.study.keystrokes import model_seconds
 from benchmark.tasks import DIFFICULTIES, task
 
 OWN, SILENT, NOISY_SILENT = (
@@ -40,10 +40,10 @@ KS = range(1, 9)
 
 def measure(tell: Tell, quick: bool) -> Result:
     """Teach all tasks, with true labels and noisy ones, with questions and without."""
-    return said(sessions(ASKED, tell, quick), "effectiveness", "RQ1: effectiveness")
+    return summarize(sessions(ASKED, tell, quick), "effectiveness", "RQ1: effectiveness")
 
 
-def said(rows: Sequence[Session], part: str, title: str) -> Result:
+def summarize(rows: Sequence[Session], part: str, title: str) -> Result:
     """What sessions under all these conditions come to."""
     groups = {condition.name: by_task(rows, condition.name) for condition in ASKED}
     true, noisy = groups[FULL.name], groups[NOISY.name]
@@ -57,7 +57,7 @@ def said(rows: Sequence[Session], part: str, title: str) -> Result:
             _few_shot(groups),
             _phases(groups),
             _tasks(true, noisy),
-            failing({one.name: groups[one.name] for one in (FULL, RANDOM, OWN, SILENT, NOISY)}),
+            list_failures({one.name: groups[one.name] for one in (FULL, RANDOM, OWN, SILENT, NOISY)}),
         ),
         tuple(_goals(groups)),
         tuple(_notes(true)),
@@ -90,16 +90,16 @@ def _level(level: str, groups: Groups) -> tuple[Cell, ...]:
         level,
         len(groups),
         demos,
-        shown(spread(groups, demonstrations), 1),
-        shown(spread(groups, lambda row: row.answers), 1),
-        shown(spread(groups, lambda row: row.k), 1),
+        format_pair(spread(groups, demonstrations), 1),
+        format_pair(spread(groups, lambda row: row.answers), 1),
+        format_pair(spread(groups, lambda row: row.k), 1),
         ssr,
-        f"{solved(groups)}/{len(groups)}",
+        f"{count_solved(groups)}/{len(groups)}",
         functional,
-        shown(spread(groups, fpr)),
-        shown(spread(groups, fpr_pure)),
+        format_pair(spread(groups, fpr)),
+        format_pair(spread(groups, fpr_pure)),
         seconds,
-        shown(spread(groups, synthesis)),
+        format_pair(spread(groups, synthesis)),
     )
 
 
@@ -115,15 +115,15 @@ def _conditions(groups: dict[str, dict[str, list[Session]]]) -> Table:
         rows.append(
             (
                 name,
-                f"{solved(found)}/{len(found)}",
+                f"{count_solved(found)}/{len(found)}",
                 f"{sum(row.right for row in every)}/{len(every)}",
                 f"{sum(row.right_on_true for row in every)}/{len(every)}",
-                shown(spread(found, lambda row: row.k), 1),
-                shown(spread(found, lambda row: row.typed), 0),
-                shown(spread(found, confirmations), 1),
+                format_pair(spread(found, lambda row: row.k), 1),
+                format_pair(spread(found, lambda row: row.typed), 0),
+                format_pair(spread(found, confirmations), 1),
                 100 * sum(row.confirmed for row in every) / proposed if proposed else "–",
-                shown(spread(found, lambda row: row.f1), 3),
-                shown(spread(found, fpr)),
+                format_pair(spread(found, lambda row: row.f1), 3),
+                format_pair(spread(found, fpr)),
                 100 * sum(row.settled for row in accepted) / max(len(accepted), 1),
                 sum(row.settled and not row.right for row in accepted),
             )
@@ -138,7 +138,7 @@ def _few_shot(groups: dict[str, dict[str, list[Session]]]) -> Table:
     for condition in (FULL, RANDOM, OWN, SILENT, NOISY):
         for level in LEVELS:
             found = of_difficulty(groups[condition.name], level)
-            rows.append((condition.name, level, *(100 * solved_at(found, k) for k in KS)))
+            rows.append((condition.name, level, *(100 * share_solved_at(found, k) for k in KS)))
     return Table("SSR at k demonstrations plus answers, %", columns, tuple(rows))
 
 
@@ -147,19 +147,19 @@ def _phases(groups: dict[str, dict[str, list[Session]]]) -> Table:
     rows = []
     for condition in (FULL, NOISY):
         found = groups[condition.name]
-        tool = [spread(found, partial(_measured, part=part)) for part in ("search", "replay")]
-        person = [spread(found, partial(_modelled, part=part)) for part in spent]
-        rows.append((condition.name, *(shown(x) for x in tool), *(shown(x, 0) for x in person)))
+        tool = [spread(found, partial(_tool_seconds, part=part)) for part in ("search", "replay")]
+        person = [spread(found, partial(_person_seconds, part=part)) for part in spent]
+        rows.append((condition.name, *(format_pair(x) for x in tool), *(format_pair(x, 0) for x in person)))
     title = "Time by phase, s a task: the tool's is measured, the person's is modelled by keystrokes"
     return Table(title, ("condition", "search", "replay", *spent), tuple(rows))
 
 
-def _measured(row: Session, part: str) -> float:
+def _tool_seconds(row: Session, part: str) -> float:
     return sum(r.seconds.get(part, 0.0) for r in row.rounds)
 
 
-def _modelled(row: Session, part: str) -> float:
-    return modelled(row, len(task(row.task).program.rules))[part]
+def _person_seconds(row: Session, part: str) -> float:
+    return model_seconds(row, len(task(row.task).program.rules))[part]
 
 
 def _tasks(true: Groups, noisy: Groups) -> Table:
@@ -202,17 +202,17 @@ def _goals(groups: dict[str, dict[str, list[Session]]]) -> Iterator[Goal]:
     every = [row for rows in true.values() for row in rows]
     accepted = [row for row in every if row.accepted]
     many = max(len(true), 1)
-    yield Goal("tasks synthesized, true labels, %", "at least", 100.0, 100 * solved(true) / many)
-    yield Goal("tasks synthesized, noisy labels with repair, %", "at least", 100.0, 100 * solved(noisy) / many)
+    yield Goal("tasks synthesized, true labels, %", "at least", 100.0, 100 * count_solved(true) / many)
+    yield Goal("tasks synthesized, noisy labels with repair, %", "at least", 100.0, 100 * count_solved(noisy) / many)
     for k, wanted in ((1, 60.0), (2, 90.0), (3, 100.0)):
-        yield Goal(f"SSR at k = {k}, %", "at least", wanted, 100 * solved_at(true, k))
+        yield Goal(f"SSR at k = {k}, %", "at least", wanted, 100 * share_solved_at(true, k))
     yield Goal("demonstrations plus answers a task, mean", "at most", 1.8, spread(true, lambda row: row.k)[0])
     among = [known for row in every for known in row.known_among]
     yield Goal("true behaviour among the readings, % of rules", "at least", 99.0, 100 * sum(among) / max(len(among), 1))
     settled = [row for row in accepted if row.settled]
     yield Goal("settled, % of accepted runs", "at least", 90.0, 100 * len(settled) / max(len(accepted), 1))
     yield Goal("settled, yet wrong", "at most", 0.0, float(sum(not row.right for row in settled)))
-    replayed = max((_measured(row, "replay") / len(row.rounds) for row in every), default=0.0)
+    replayed = max((_tool_seconds(row, "replay") / len(row.rounds) for row in every), default=0.0)
     yield Goal("replay over the batch, slowest task, a round, s", "at most", 1.0, replayed)
     yield Goal("functional pass rate, pure meshes", "at least", 0.98, spread(true, fpr_pure)[0])
     yield Goal("the same, hard tasks", "at least", 0.96, spread(of_difficulty(true, DIFFICULTIES[-1]), fpr_pure)[0])

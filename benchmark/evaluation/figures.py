@@ -30,7 +30,7 @@ def of_difficulty(groups: Groups, difficulty: str) -> dict[str, Sequence[Session
 LEVELS = (*DIFFICULTIES, "all")
 
 
-def solved(groups: Groups) -> int:
+def count_solved(groups: Groups) -> int:
     """Tasks that all demonstrators taught rightly."""
     return sum(all(row.right for row in rows) for rows in groups.values())
 
@@ -40,7 +40,7 @@ def first_right(row: Session) -> int | None:
     return next((r.demonstrations + r.answers for r in row.rounds if r.right), None)
 
 
-def solved_at(groups: Groups, k: int) -> float:
+def share_solved_at(groups: Groups, k: int) -> float:
     """The share of tasks that all demonstrators have had right by then."""
     firsts = [[first_right(row) for row in rows] for rows in groups.values()]
     return mean(all(first is not None and first <= k for first in row) for row in firsts) if firsts else 0.0
@@ -53,7 +53,7 @@ def spread(groups: Groups, figure: Callable[[Session], float | None]) -> tuple[f
     return (mean(means), stdev(means) if len(means) > 1 else 0.0) if means else (0.0, 0.0)
 
 
-def shown(pair: tuple[float, float], digits: int = 2) -> str:
+def format_pair(pair: tuple[float, float], digits: int = 2) -> str:
     """Mean and deviation as text."""
     return f"{pair[0]:.{digits}f} ± {pair[1]:.{digits}f}"
 

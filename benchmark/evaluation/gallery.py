@@ -8,11 +8,11 @@ from html import escape
 from pathlib import Path
 
 from benchmark.assets import Sample
-from benchmark.assets.looking import upright
-from benchmark.evaluation.journal import JOURNALS, ROOT, done
+from benchmark.assets.pictures import upright
 from benchmark.evaluation.sessions import QUICK
+from benchmark.journal import JOURNALS, ROOT, run_units
 from benchmark.report import Result, Table, Tell
-from benchmark.tasks import Edited, Task, task, tasks
+from benchmark.tasks import EditResult, Task, task, tasks
 from meshforge.common import write_atomically
 from meshforge.rendering import encode_webp, render
 from meshforge.rendering.compare import joint_bounds
@@ -27,7 +27,7 @@ def measure(tell: Tell, quick: bool) -> Result:
     """Draw all pictures, and write the page."""
     folder = JOURNALS / "gallery" if quick else GALLERY
     every = [one for one in tasks() if not quick or one.category == QUICK]
-    rows = done("gallery", drawn, [(one.name, str(folder.relative_to(ROOT))) for one in every], tell)
+    rows = run_units("gallery", draw_task, [(one.name, str(folder.relative_to(ROOT))) for one in every], tell)
     text = "".join(row["html"] for row in rows)
     links = " ".join(f'<a href="#{one.name}">{one.name}</a>' for one in every)
     style = _STYLE.read_text("utf-8")
@@ -50,7 +50,7 @@ def measure(tell: Tell, quick: bool) -> Result:
     )
 
 
-def drawn(name: str, folder: str) -> dict[str, object]:
+def draw_task(name: str, folder: str) -> dict[str, object]:
     """The pictures of a task, written, and its piece of the page."""
     one = task(name)
     chosen = handful(one)
@@ -67,17 +67,19 @@ def drawn(name: str, folder: str) -> dict[str, object]:
 def handful(one: Task) -> list[Sample]:
     """One of the rare kind, then coarse, medium and fine ones of different kinds; such as fail unedited, if any."""
     rows = [row for row in one.samples() if not one.impure(row)]
-    found = _telling(one, [row for row in rows if one.rare and row.asset.kind == one.rare])
+    found = _choose_failure(one, [row for row in rows if one.rare and row.asset.kind == one.rare])
     for setting in ("coarse", "medium", "fine", "fine"):
         kinds, names = {row.asset.kind for row in found}, {row.asset.name for row in found}
         able = [row for row in rows if row.setting == setting and row.asset.name not in names]
-        found += _telling(one, [row for row in able if row.asset.kind not in kinds]) or _telling(one, able)
+        found += _choose_failure(one, [row for row in able if row.asset.kind not in kinds]) or _choose_failure(
+            one, able
+        )
     return found[:_HANDFUL]
 
 
-def _telling(one: Task, rows: Sequence[Sample]) -> list[Sample]:
+def _choose_failure(one: Task, rows: Sequence[Sample]) -> list[Sample]:
     """The first that fails unedited, else the first."""
-    failing = (row for row in rows if one.failure(row, Edited(row.mesh)) is not None)
+    failing = (row for row in rows if one.failure(row, EditResult(row.mesh)) is not None)
     first = next(failing, next(iter(rows), None))
     return [first] if first else []
 
@@ -93,7 +95,7 @@ def _cells(one: Task, sample: Sample, folder: Path, pictures: list[str]) -> Iter
     """The figures of a mesh; the names of their pictures are added to those of the task."""
     shown = stages(one, sample)
     box = joint_bounds(*shown)
-    why = [one.failure(sample, Edited(sample.mesh)), one.failure(sample, one.run(one.program, sample.mesh))]
+    why = [one.failure(sample, EditResult(sample.mesh)), one.failure(sample, one.run(one.program, sample.mesh))]
     for k, mesh in enumerate(shown):
         image = render(mesh, color_by="label", size=(_SIDE, _SIDE), legend=False, bounds=box,
                        vocabulary=one.program.labels)  # fmt: skip

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
-from benchmark.assets.looking import upright
-from benchmark.evaluation.journal import done
+from benchmark.assets.pictures import upright
 from benchmark.evaluation.sessions import QUICK
+from benchmark.journal import run_units
 from benchmark.report import Cell, Goal, Result, Table, Tell
 from benchmark.tasks import task, tasks
 from benchmark.tasks.mutants import judge_mutants, mutants
@@ -26,7 +26,7 @@ _SIZE = (170, 150)
 def measure(tell: Tell, quick: bool) -> Result:
     """Judge the edits of all mutants of all tasks."""
     names = [one.name for one in tasks() if not quick or one.category == QUICK]
-    found = dict(zip(names, done("mutation", judge_mutants, [(name,) for name in names], tell), strict=True))
+    found = dict(zip(names, run_units("mutation", judge_mutants, [(name,) for name in names], tell), strict=True))
     every = [{"task": name, **row} for name, rows in found.items() for row in rows]
     other = [row for row in every if row["differs"]]
     alike = [row for row in other if row["reason"]]
@@ -37,7 +37,7 @@ def measure(tell: Tell, quick: bool) -> Result:
         (
             Table("Task by task", _COLUMNS, tuple(_row(name, rows) for name, rows in found.items())),
             Table("The worst mutants", ("task", "mutant", *_COUNTS), tuple(_worst(every))),
-            Table("Mutants that do the same job", ("task", "mutant", *_COUNTS, "why"), tuple(_listed(alike))),
+            Table("Mutants that do the same job", ("task", "mutant", *_COUNTS, "why"), tuple(_list_equivalents(alike))),
         ),
         (
             Goal("mutants that pass on more than a tenth of the meshes", "at most", 0.0, float(len(passing))),
@@ -83,7 +83,7 @@ def _worst(every: Sequence[Mapping[str, Any]]) -> Iterator[tuple[Cell, ...]]:
         yield row["task"], f"`{row['mutant']}`", row["differs"], len(row["pass"]), 100 * share(row)
 
 
-def _listed(alike: Sequence[Mapping[str, Any]]) -> Iterator[tuple[Cell, ...]]:
+def _list_equivalents(alike: Sequence[Mapping[str, Any]]) -> Iterator[tuple[Cell, ...]]:
     for row in alike:
         yield row["task"], f"`{row['mutant']}`", row["differs"], len(row["pass"]), 100 * share(row), row["reason"]
 

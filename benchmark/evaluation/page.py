@@ -6,12 +6,12 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from benchmark.assets.looking import upright
-from benchmark.evaluation import failing, mutation
+from benchmark.assets.pictures import upright
+from benchmark.evaluation import failures, mutation
 from benchmark.evaluation.gallery import overview
-from benchmark.evaluation.journal import digest_protocol
 from benchmark.evaluation.plots import plots
 from benchmark.evaluation.sessions import QUICK
+from benchmark.journal import digest_protocol
 from benchmark.report import Result, as_text
 from benchmark.study import Session
 from benchmark.tasks import task, tasks
@@ -65,7 +65,7 @@ def write(folder: Path, found: Sequence[Mapping[str, Any]], parts: Sequence[str]
             lines.append(f"![{told}](pictures/sessions.png)\n")
         if part == "mutation" and any(row["reason"] for row in result.details):
             lines.append("![Mutants that do the same job](pictures/mutants.png)\n")
-        if part == "ceiling" and _failing(result):
+        if part == "ceiling" and _choose_failures(result):
             lines.append("![What fails under the reference program: before, after](pictures/failures.png)\n")
     if missing := [part for part in parts if part not in results]:
         lines.append(f"Not run yet: `script/bench {' '.join(missing)}`.\n")
@@ -82,21 +82,21 @@ def pictures(folder: Path, results: Mapping[str, Result], quick: bool) -> None:
     ]
     write_png(folder / "tasks.png", make_contact_sheet(shown, 3, [one.name for one in every]))
     ended = [Session.of_json(row) for row in results["effectiveness"].details] if "effectiveness" in results else []
-    if otherwise := list(failing.pictures(ended)):
+    if otherwise := list(failures.pictures(ended)):
         captions, images = zip(*otherwise, strict=True)
         write_png(folder / "sessions.png", make_contact_sheet(images, 2, captions))
     if "mutation" in results and (alike := list(mutation.pictures(results["mutation"].details))):
         captions, images = zip(*alike, strict=True)
         write_png(folder / "mutants.png", make_contact_sheet(images, 2, captions))
-    meshes = _failing(results["ceiling"]) if "ceiling" in results else []
+    meshes = _choose_failures(results["ceiling"]) if "ceiling" in results else []
     if meshes:
         write_png(
             folder / "failures.png",
-            make_contact_sheet([_failed(*row) for row in meshes], 2, [f"{a}, {b}" for a, b in meshes]),
+            make_contact_sheet([_draw_failure(*row) for row in meshes], 2, [f"{a}, {b}" for a, b in meshes]),
         )
 
 
-def _failing(result: Result) -> Sequence[tuple[str, str]]:
+def _choose_failures(result: Result) -> Sequence[tuple[str, str]]:
     """Task and mesh of what fails: pure ones, and of each task's impure ones the first."""
     rows = [row for row in result.details if row["reference"] is not None]
     pure = [(row["task"], row["mesh"]) for row in rows if not row["impure"]]
@@ -104,7 +104,7 @@ def _failing(result: Result) -> Sequence[tuple[str, str]]:
     return [*pure, *first.items()][:12]
 
 
-def _failed(name: str, mesh: str) -> Image:
+def _draw_failure(name: str, mesh: str) -> Image:
     one = task(name)
     sample = next(row for row in one.samples() if row.name == mesh)
     edited = one.run(one.program, sample.mesh)

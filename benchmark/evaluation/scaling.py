@@ -76,7 +76,7 @@ def _point(what: str, value: int, quick: bool) -> Point:
     base = [sample.mesh for sample in one.samples() if not one.impure(sample)]
     meshes: dict[str, SymbolicMesh] = {}
     for k in range(count):
-        mesh = _stretched(base[k % len(base)], rng)
+        mesh = _stretch(base[k % len(base)], rng)
         if what == "hulls a mesh":
             mesh = _with_hulls(mesh, value)
         meshes[f"mesh {k:05}"] = _with_labels(mesh, value, one, rng) if what == "labels" else mesh
@@ -84,12 +84,12 @@ def _point(what: str, value: int, quick: bool) -> Point:
     for mesh in meshes.values():
         assert mesh.contacts is not None
     contacts = perf_counter() - start
-    return _timed(one, value, meshes, contacts)
+    return _time(one, value, meshes, contacts)
 
 
-def _timed(one: Task, value: int, meshes: Mapping[str, SymbolicMesh], contacts: float) -> Point:
+def _time(one: Task, value: int, meshes: Mapping[str, SymbolicMesh], contacts: float) -> Point:
     program = one.program
-    shown = _shown(one, meshes)
+    shown = _choose_demonstrations(one, meshes)
     present = {hull.label for mesh in meshes.values() for hull in mesh.hulls if hull.label}
     vocabulary = sorted(present | set(program.labels))
     demos = [_demonstration(one, name, meshes[name]) for name in shown]
@@ -103,9 +103,9 @@ def _timed(one: Task, value: int, meshes: Mapping[str, SymbolicMesh], contacts: 
     return Point(value, hulls, contacts, spent["search"], spent["replay"], applying, outcome.status)
 
 
-def _shown(one: Task, meshes: Mapping[str, SymbolicMesh]) -> list[str]:
+def _choose_demonstrations(one: Task, meshes: Mapping[str, SymbolicMesh]) -> list[str]:
     """The first two meshes on which every rule has something to do."""
-    rows = ((name, one.selected(one.program, mesh)) for name, mesh in meshes.items())
+    rows = ((name, one.select(one.program, mesh)) for name, mesh in meshes.items())
     able = (name for name, done in rows if done and all(done))
     found = [name for name, _ in zip(able, range(_SHOWN), strict=False)]
     assert found, "the task has a mesh that shows all of its rules"
@@ -113,12 +113,12 @@ def _shown(one: Task, meshes: Mapping[str, SymbolicMesh]) -> list[str]:
 
 
 def _demonstration(one: Task, name: str, mesh: SymbolicMesh) -> Demonstration:
-    chosen = one.selected(one.program, mesh) or ()
+    chosen = one.select(one.program, mesh) or ()
     rows = enumerate(zip(one.program.rules, chosen, strict=True), 1)
     return Demonstration(mesh, [Step(k, names, rule.action, rule.label) for k, (rule, names) in rows], name)
 
 
-def _stretched(mesh: SymbolicMesh, rng: np.random.Generator) -> SymbolicMesh:
+def _stretch(mesh: SymbolicMesh, rng: np.random.Generator) -> SymbolicMesh:
     """The mesh with every side longer or shorter by up to a tenth."""
     linear = np.diag(np.exp(rng.uniform(-0.1, 0.1, 3)))
     return SymbolicMesh(

@@ -6,9 +6,9 @@ from collections.abc import Iterable, Sequence
 from functools import lru_cache
 from typing import Any
 
-from benchmark.evaluation.journal import done
+from benchmark.journal import run_units
 from benchmark.report import Tell
-from benchmark.study import CONDITIONS, REPORTED, TUNING, Bench, Condition, Session, taught
+from benchmark.study import CONDITIONS, REPORTED, TUNING, Bench, Condition, Session, teach_task
 from benchmark.tasks import task, tasks
 
 QUICK = "cup"
@@ -24,14 +24,14 @@ def sessions(conditions: Sequence[Condition], tell: Tell, quick: bool, tuning: b
     names = [one.name for one in tasks() if not quick or one.category == QUICK]
     chosen = list(seeds)[:1] if quick else list(seeds)
     units = [(name, condition.name, chosen, tuning) for name in names for condition in conditions]
-    rows = done("sessions", teach, units, tell)
+    rows = run_units("sessions", teach, units, tell)
     return [Session.of_json(row) for unit in rows for row in unit]
 
 
 def teach(name: str, condition: str, seeds: Iterable[int], calibration: bool = False) -> list[dict[str, Any]]:
     """One task under one condition, by each demonstrator."""
     bench = _bench(name, calibration)
-    return [taught(bench, CONDITIONS[condition], seed).to_json() for seed in seeds]
+    return [teach_task(bench, CONDITIONS[condition], seed).to_json() for seed in seeds]
 
 
 @lru_cache(maxsize=1)

@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from benchmark.assets import CATEGORIES
-from benchmark.given import Given
-from benchmark.labels.asked import Asked
+from benchmark.labels.families import Family, families
 from benchmark.labels.methods import Method, offline
-from benchmark.labels.sampling import Family, families
-from benchmark.labels.scores import Score, scored
+from benchmark.labels.model import ModelLabeller
+from benchmark.labels.scores import Score, score_labels
+from benchmark.options import RunOptions
 from benchmark.report import Cell, Result, Table, Tell
 from meshforge.store.settings import VlmSettings
 
@@ -34,12 +34,12 @@ _PAPER: tuple[tuple[Cell, ...], ...] = (
 _MODEL = "a vision-language model"
 
 
-def measure(tell: Tell, quick: bool, given: Given | None = None) -> Result:
+def measure(tell: Tell, quick: bool, given: RunOptions | None = None) -> Result:
     """Ask each labeller about the same meshes."""
-    given = given or Given()
+    given = given or RunOptions()
     settings = given.settings()
     drawn = families(min(given.sample, _QUICK), CATEGORIES[:1]) if quick else families(given.sample)
-    methods = [*offline(given.folders), *([Asked(settings).method] if settings else [])]
+    methods = [*offline(given.folders), *([ModelLabeller(settings).method] if settings else [])]
     scores = [_score(method, drawn, tell) for method in methods]
     meshes = sum(len(family.drawn) for family in drawn)
     hulls = sum(len(family.bare[place].hulls) for family in drawn for place in family.drawn)
@@ -70,7 +70,7 @@ def _score(method: Method, drawn: Sequence[Family], tell: Tell) -> Score:
         told.append(row)
         if any(one.missing for one in row):  # what comes after would not get far either
             break
-    return scored(method, drawn, told)
+    return score_labels(method, drawn, told)
 
 
 def _row(score: Score) -> tuple[Cell, ...]:
@@ -116,7 +116,7 @@ def _notes(scores: Sequence[Score], settings: VlmSettings | None) -> Iterator[st
             "No model was named. `script/bench labellers --vlm FILE` asks one, as the table `[vlm]` of the file says, "
             "like that of a project's `meshforge.toml`, with no description and no example; `--sample N` takes other "
             "than 200 meshes, `--max-cost` limits what is spent, and answers are kept. `python -m "
-            "benchmark.labels.sampling FOLDER` writes the meshes, and `--labels FOLDER` reads labels that something "
+            "benchmark.labels.families FOLDER` writes the meshes, and `--labels FOLDER` reads labels that something "
             "else gave them."
         )
     else:

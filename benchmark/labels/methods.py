@@ -9,7 +9,7 @@ from functools import partial
 from pathlib import Path
 from time import perf_counter
 
-from benchmark.labels.sampling import LABELLED, Family
+from benchmark.labels.families import LABELLED, Family
 from meshforge.common import UsageError
 from meshforge.labels.names.label_by_names import HullNames, match_names
 from meshforge.symbolic import Label, SymbolicMesh
@@ -21,7 +21,7 @@ Labels = tuple[str | None, ...]
 
 
 @dataclass(frozen=True, slots=True)
-class Told:
+class LabellerOutput:
     """What a labeller says of the drawn meshes of a family, in their order; seconds: for all of them.
 
     cost: what was paid for it, however long ago [$], None where nothing is known of prices; missing: meshes that it
@@ -43,32 +43,32 @@ class Method:
     """
 
     name: str
-    tell: Callable[[Family, int], Told] = field(repr=False)
+    tell: Callable[[Family, int], LabellerOutput] = field(repr=False)
     repeats: int = REPEATS
 
 
 def offline(folders: Sequence[Path]) -> list[Method]:
     """The labellers that ask nobody, and labels that something else wrote into folders."""
     return [
-        *(Method(f"propagation, {count} labelled", partial(_propagated, count)) for count in range(1, LABELLED + 1)),
-        Method("names", _named),
+        *(Method(f"propagation, {count} labelled", partial(_propagate, count)) for count in range(1, LABELLED + 1)),
+        Method("names", _label_by_names),
         Method("majority, 1 labelled", _commonest),
-        *(Method(f"labels of {folder.name}", partial(_written, folder), repeats=1) for folder in folders),
+        *(Method(f"labels of {folder.name}", partial(_label_by_files, folder), repeats=1) for folder in folders),
     ]
 
 
-def _propagated(count: int, family: Family, repeat: int) -> Told:
-    labelled = family.told(family.advised[:count])
+def _propagate(count: int, family: Family, repeat: int) -> LabellerOutput:
+    labelled = family.labels_of(family.advised[:count])
     started = perf_counter()
     found = family.relatives.propagate(labelled)
     seconds = perf_counter() - started
-    return Told(tuple(tuple(map(_name, found.labels(place))) for place in family.drawn), seconds)
+    return LabellerOutput(tuple(tuple(map(_name, found.labels(place))) for place in family.drawn), seconds)
 
 
-def _named(family: Family, repeat: int) -> Told:
+def _label_by_names(family: Family, repeat: int) -> LabellerOutput:
     started = perf_counter()
     labels = tuple(_by_names(family.bare[place], family.vocabulary) for place in family.drawn)
-    return Told(labels, perf_counter() - started)
+    return LabellerOutput(labels, perf_counter() - started)
 
 
 def _by_names(mesh: SymbolicMesh, vocabulary: Sequence[str]) -> Labels:
@@ -76,15 +76,15 @@ def _by_names(mesh: SymbolicMesh, vocabulary: Sequence[str]) -> Labels:
     return tuple(one.label if one else None for one in said)
 
 
-def _commonest(family: Family, repeat: int) -> Told:
+def _commonest(family: Family, repeat: int) -> LabellerOutput:
     started = perf_counter()
     counts = Counter(hull.label for hull in family.samples[family.advised[0]].mesh.hulls)
     label = max(counts, key=lambda name: (counts[name], name or ""))
     labels = tuple((label,) * len(family.bare[place].hulls) for place in family.drawn)
-    return Told(labels, perf_counter() - started)
+    return LabellerOutput(labels, perf_counter() - started)
 
 
-def _written(folder: Path, family: Family, repeat: int) -> Told:
+def _label_by_files(folder: Path, family: Family, repeat: int) -> LabellerOutput:
     """Labels from MESH.labels.json, in the folder or below it; a mesh without a file has none."""
     found = {path.name.removesuffix(".labels.json"): path for path in sorted(folder.rglob("*.labels.json"))}
     if not found:
@@ -95,7 +95,7 @@ def _written(folder: Path, family: Family, repeat: int) -> Told:
         known = read_labels(path).labels if path else {}
         by_hull = {name.rpartition("/")[2]: label.name for name, label in known.items()}
         rows.append(tuple(by_hull.get(hull.name) for hull in mesh.hulls))
-    return Told(tuple(rows), cost=None)
+    return LabellerOutput(tuple(rows), cost=None)
 
 
 def _name(label: Label | None) -> str | None:

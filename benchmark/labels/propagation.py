@@ -11,7 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from benchmark.assets import CATEGORIES, Sample, samples
-from benchmark.labels.fitting import PURE, fitted, rows_of
+from benchmark.labels.metric import PURE, fit_metric, rows_of
 from benchmark.report import Cell, Goal, Result, Table, Tell
 from meshforge.geometry import Floats, Pose
 from meshforge.label_model.posterior import ColumnScale, FamilyTable, refine_by_neighbors, vote_by_similarity
@@ -29,12 +29,12 @@ Strings = npt.NDArray[np.str_]
 Bools = npt.NDArray[np.bool_]
 Told = Sequence[str | None]
 """The label of each hull, None where it is not known."""
-Guess = Callable[["Known", Told], tuple[Strings, Floats]]
+Guess = Callable[["Category", Told], tuple[Strings, Floats]]
 """The label of each hull, and how sure it is."""
 
 
 @dataclass(frozen=True, eq=False)
-class Known:
+class Category:
     """A category with all that is known of it. plain: rows of `descriptors`; asset: of each hull, by number."""
 
     name: str
@@ -49,7 +49,7 @@ class Known:
     def family(self) -> FamilyTable:
         return self.relatives.family
 
-    def told(self, meshes: Sequence[int]) -> list[str | None]:
+    def labels_of(self, meshes: Sequence[int]) -> list[str | None]:
         """The labels of all hulls of some meshes, None for the others."""
         known = np.isin(self.family.owner, meshes)
         return [str(label) if told else None for label, told in zip(self.truth, known, strict=True)]
@@ -59,10 +59,10 @@ class Known:
         """The meshes that are labelled by somebody who always takes the one that is advised, in this order."""
         meshes: list[int] = []
         while len(meshes) < max(COUNTS):
-            meshes += self.relatives.propagate(self.told(meshes)).next_to_label()
+            meshes += self.relatives.propagate(self.labels_of(meshes)).next_to_label()
         return tuple(meshes)
 
-    def drawn(self, count: int, seed: int) -> list[int]:
+    def draw(self, count: int, seed: int) -> list[int]:
         """As many meshes, drawn at random."""
         drawn: list[int] = np.random.default_rng(seed).permutation(self.family.owner[-1] + 1)[:count].tolist()
         return drawn
@@ -71,9 +71,9 @@ class Known:
 def measure(tell: Tell, quick: bool) -> Result:
     """Label some meshes of each category, and see what is made of the others."""
     every = CATEGORIES[:1] if quick else CATEGORIES
-    known = [_known(name, samples(name), tell) for name in every]
+    known = [_read_category(name, samples(name), tell) for name in every]
     rows = [row for guess, name in _METHODS for row in _rows(known, guess, name)]
-    right, sure = (np.concatenate(some) for some in zip(*_advised(known), strict=True))
+    right, sure = (np.concatenate(some) for some in zip(*_advise(known), strict=True))
     at = {row[1]: float(row[2]) for row in rows if row[0] == "propagation"}
     goals = (
         Goal("labels right with 2 meshes labelled, as advised", "at least", 0.93, at[2]),
@@ -85,7 +85,7 @@ def measure(tell: Tell, quick: bool) -> Result:
         Table("As advised, category by category", ("", *(f"{count} labelled" for count in COUNTS), "s"), _each(known)),
     ]
     if not quick:
-        tables += [_lying(tell), _left_out(tell)]
+        tables += [_measure_tilts(tell), _cross_validate(tell)]
     return Result("propagation", "Labels propagated from a few meshes to all others", tuple(tables), goals, _NOTES)
 
 
@@ -104,12 +104,12 @@ _NOTES = (
 )
 
 
-def _known(name: str, rows: Sequence[Sample], tell: Tell, turns: Sequence[Pose] = ()) -> Known:
+def _read_category(name: str, rows: Sequence[Sample], tell: Tell, turns: Sequence[Pose] = ()) -> Category:
     """turns: how each mesh is turned before."""
     tell(f"labels: describing {name}")
     meshes = tuple(sample.mesh for sample in rows)
     if turns:
-        meshes = tuple(_turned(mesh, turn) for mesh, turn in zip(meshes, turns, strict=True))
+        meshes = tuple(_turn(mesh, turn) for mesh, turn in zip(meshes, turns, strict=True))
     for mesh in meshes:
         assert mesh.contacts is not None
     started = perf_counter()
@@ -117,7 +117,7 @@ def _known(name: str, rows: Sequence[Sample], tell: Tell, turns: Sequence[Pose] 
     seconds = perf_counter() - started
     places = {asset: place for place, asset in enumerate(dict.fromkeys(sample.asset.name for sample in rows))}
     plain = descriptors(meshes)
-    return Known(
+    return Category(
         name,
         relatives,
         ColumnScale.of(plain)(plain),
@@ -128,14 +128,14 @@ def _known(name: str, rows: Sequence[Sample], tell: Tell, turns: Sequence[Pose] 
     )
 
 
-def _propagated(metric: Floats | None = None) -> Guess:
-    def guess(known: Known, told: Told) -> tuple[Strings, Floats]:
+def _guess_by(metric: Floats | None = None) -> Guess:
+    def guess(known: Category, told: Told) -> tuple[Strings, Floats]:
         return _likeliest(known.relatives.propagate(told, metric))
 
     return guess
 
 
-def _as_it_lies(known: Known, told: Told) -> tuple[Strings, Floats]:
+def _as_it_lies(known: Category, told: Told) -> tuple[Strings, Floats]:
     """Propagation that takes each mesh to stand as it seems to."""
     family = known.family.with_labels(told)
     return _likeliest(
@@ -147,7 +147,7 @@ def _likeliest(found: FamilyPosterior) -> tuple[Strings, Floats]:
     return np.array(found.family.labels)[found.chances.argmax(axis=1)], found.chances.max(axis=1)
 
 
-def _nearest(known: Known, told: Told) -> tuple[Strings, Floats]:
+def _nearest(known: Category, told: Told) -> tuple[Strings, Floats]:
     from scipy.spatial.distance import cdist
 
     some = _places(told)
@@ -155,7 +155,7 @@ def _nearest(known: Known, told: Told) -> tuple[Strings, Floats]:
     return known.truth[near], np.ones(len(near))
 
 
-def _majority(known: Known, told: Told) -> tuple[Strings, Floats]:
+def _majority(known: Category, told: Told) -> tuple[Strings, Floats]:
     names, counts = np.unique(known.truth[_places(told)], return_counts=True)
     return np.full(len(known.truth), names[counts.argmax()]), np.full(len(known.truth), counts.max() / counts.sum())
 
@@ -165,13 +165,13 @@ def _places(told: Told) -> npt.NDArray[np.int64]:
     return np.flatnonzero([label is not None for label in told])
 
 
-_OURS = _propagated()
+_OURS = _guess_by()
 _METHODS = ((_OURS, "propagation"), (_nearest, "nearest"), (_majority, "majority"))
 
 
-def _tried(known: Known, meshes: Sequence[int], guess: Guess, *, others: bool = False) -> tuple[Bools, Floats]:
+def _try_guess(known: Category, meshes: Sequence[int], guess: Guess, *, others: bool = False) -> tuple[Bools, Floats]:
     """Which hulls of the rest are right, and how sure each was; others: only of assets no mesh of which is labelled."""
-    told = known.told(meshes)
+    told = known.labels_of(meshes)
     found, sure = guess(known, told)
     asked = known.pure & ~np.isin(known.family.owner, meshes)
     if others:
@@ -179,9 +179,9 @@ def _tried(known: Known, meshes: Sequence[int], guess: Guess, *, others: bool = 
     return (found == known.truth)[asked], sure[asked]
 
 
-def _rows(known: Sequence[Known], guess: Guess, name: str) -> Iterator[tuple[Cell, ...]]:
+def _rows(known: Sequence[Category], guess: Guess, name: str) -> Iterator[tuple[Cell, ...]]:
     for count in COUNTS:
-        drawn = [_share(row, row.drawn(count, seed), guess) for row in known for seed in range(_DRAWS)]
+        drawn = [_share(row, row.draw(count, seed), guess) for row in known for seed in range(_DRAWS)]
         advised = [
             float(np.mean([_share(row, row.advised[:count], guess, others=others) for row in known]))
             for others in (False, True)
@@ -189,54 +189,54 @@ def _rows(known: Sequence[Known], guess: Guess, name: str) -> Iterator[tuple[Cel
         yield name, count, *advised, float(np.mean(drawn))
 
 
-def _share(known: Known, meshes: Sequence[int], guess: Guess, *, others: bool = False) -> float:
+def _share(known: Category, meshes: Sequence[int], guess: Guess, *, others: bool = False) -> float:
     """The share of labels that are right."""
-    return float(_tried(known, meshes, guess, others=others)[0].mean())
+    return float(_try_guess(known, meshes, guess, others=others)[0].mean())
 
 
-def _advised(known: Sequence[Known]) -> list[tuple[Bools, Floats]]:
-    return [_tried(row, row.advised[:count], _OURS) for row in known for count in (2, 3)]
+def _advise(known: Sequence[Category]) -> list[tuple[Bools, Floats]]:
+    return [_try_guess(row, row.advised[:count], _OURS) for row in known for count in (2, 3)]
 
 
-def _each(known: Sequence[Known]) -> tuple[tuple[Cell, ...], ...]:
+def _each(known: Sequence[Category]) -> tuple[tuple[Cell, ...], ...]:
     rows: list[tuple[Cell, ...]] = []
     for row in known:
         shares = [_share(row, row.advised[:count], _OURS) for count in COUNTS]
-        three = row.told(row.advised[:3])
+        three = row.labels_of(row.advised[:3])
         started = perf_counter()
         _OURS(row, three)
         rows.append((row.name, *shares, row.seconds + perf_counter() - started))
     return tuple(rows)
 
 
-def _lying(tell: Tell) -> Table:
+def _measure_tilts(tell: Tell) -> Table:
     """The same where every fifth mesh lies on another side than it should."""
     rows: list[tuple[Cell, ...]] = []
-    known = list[Known]()
+    known = list[Category]()
     for place, name in enumerate(CATEGORIES):
         every = samples(name)
         draw = np.random.default_rng(place)
         falls = [_SIDES[draw.integers(len(_SIDES))] if draw.random() < _FALLEN else (0.0, 0.0) for _ in every]
         turns = [Pose.from_rpy((0.0, 0.0, 0.0), (roll, pitch, 0.0)) for roll, pitch in falls]
-        known.append(_known(name, every, tell, turns))
+        known.append(_read_category(name, every, tell, turns))
     for guess, name in ((_OURS, "set upright"), (_as_it_lies, "as they lie")):
         means = (np.mean([_share(row, row.advised[:count], guess) for row in known]) for count in COUNTS)
         rows.append((name, *map(float, means)))
     return Table("Every fifth mesh lies on another side", ("", *(f"{count} labelled" for count in COUNTS)), tuple(rows))
 
 
-def _turned(mesh: SymbolicMesh, turn: Pose) -> SymbolicMesh:
+def _turn(mesh: SymbolicMesh, turn: Pose) -> SymbolicMesh:
     return SymbolicMesh(tuple(hull.move(turn) for hull in mesh.hulls))
 
 
-def _left_out(tell: Tell) -> Table:
+def _cross_validate(tell: Tell) -> Table:
     """The same on the calibration set, each category with a metric of the others."""
     families = {name: rows_of(samples(name, calibration=True)) for name in CATEGORIES}
     rows: list[tuple[Cell, ...]] = []
     for name in CATEGORIES:
         tell(f"labels: a metric without {name}")
-        known = _known(name, samples(name, calibration=True), tell)
-        guess = _propagated(fitted([family for other, family in families.items() if other != name]))
+        known = _read_category(name, samples(name, calibration=True), tell)
+        guess = _guess_by(fit_metric([family for other, family in families.items() if other != name]))
         rows.append((name, *(_share(known, known.advised[:count], guess) for count in COUNTS)))
     means = (float(np.mean([row[place] for row in rows])) for place in range(1, 1 + len(COUNTS)))
     return Table("Left out", ("", *(f"{count} labelled" for count in COUNTS)), (*rows, ("all", *means)))

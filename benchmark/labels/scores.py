@@ -8,9 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from benchmark.labels.fitting import PURE
-from benchmark.labels.methods import Labels, Method, Told
-from benchmark.labels.sampling import Family
+from benchmark.labels.families import Family
+from benchmark.labels.methods import LabellerOutput, Labels, Method
+from benchmark.labels.metric import PURE
 
 _Bools = npt.NDArray[np.bool_]
 
@@ -82,7 +82,7 @@ class Score:
         return float(self.right[0][self.category == category].mean())
 
 
-def scored(method: Method, families: Sequence[Family], told: Sequence[Sequence[Told]]) -> Score:
+def score_labels(method: Method, families: Sequence[Family], told: Sequence[Sequence[LabellerOutput]]) -> Score:
     """What a method said of the families, repeat by repeat, held against the truth."""
     hulls = [hull.label or "" for family in families for k in family.drawn for hull in family.samples[k].mesh.hulls]
     truth, said = np.array(hulls), np.array([[word or "" for word in _words(row)] for row in told])
@@ -111,6 +111,6 @@ def scored(method: Method, families: Sequence[Family], told: Sequence[Sequence[T
     )
 
 
-def _words(row: Sequence[Told]) -> list[str | None]:
+def _words(row: Sequence[LabellerOutput]) -> list[str | None]:
     labels: list[Labels] = [mesh for one in row for mesh in one.labels]
     return [word for mesh in labels for word in mesh]

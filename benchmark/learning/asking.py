@@ -5,9 +5,9 @@ Nothing was fitted or tuned on the families measured here.
 
 from __future__ import annotations
 
-from benchmark.learning.asking_programs import programs_tables
-from benchmark.learning.asking_rules import Asked, asked, percent, rules_tables
 from benchmark.learning.cases import cases
+from benchmark.learning.program_courses import programs_tables
+from benchmark.learning.rule_courses import RuleCourse, learn_rule, percent, rules_tables
 from benchmark.report import Goal, Result, Tell
 
 SEEDS = range(100, 105)
@@ -17,10 +17,10 @@ _PROGRAM_SEEDS, _PROGRAM_COUNTS = range(100, 102), (1, 2)
 
 def measure(tell: Tell, quick: bool) -> Result:
     """Learn every rule and program from few demonstrations, and answer questions by the truth."""
-    rows: list[Asked] = []
+    rows: list[RuleCourse] = []
     for count in COUNTS[:2] if quick else COUNTS:
         for case in cases(SEEDS[:1], count, ("lamp",)) if quick else cases(SEEDS, count):
-            rows.append(asked(case, count))
+            rows.append(learn_rule(case, count))
             tell(f"rules: {len(rows)} learned")
     programs, details = programs_tables(
         tell, _PROGRAM_SEEDS[:1] if quick else _PROGRAM_SEEDS, _PROGRAM_COUNTS, ("lamp",) if quick else None

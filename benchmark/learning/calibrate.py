@@ -15,8 +15,8 @@ from unittest.mock import patch
 import numpy as np
 from scipy.optimize import minimize
 
-from benchmark.learning.asking_rules import percent
 from benchmark.learning.cases import Case, cases
+from benchmark.learning.rule_courses import percent
 from benchmark.learning.task_cases import QUICK, task_cases
 from benchmark.report import Cell, Result, Table, Tell
 from meshforge.geometry import Floats
@@ -60,7 +60,7 @@ def measure(tell: Tell, quick: bool) -> Result:
         tell(f"calibrate: {len(sets[-1])} rules with several readings")
     fitting, judging = sets
     used = np.array([float(getattr(belief, name)) for name in WEIGHTS])
-    fitted, by_size = _fitted(fitting), _fitted(fitting, [0])
+    fitted, by_size = _fit(fitting), _fit(fitting, [0])
     choices = {"size only": by_size, "fitted": fitted, "in use": used}
     return Result(
         "calibrate",
@@ -74,7 +74,7 @@ def measure(tell: Tell, quick: bool) -> Result:
             Table(
                 "How well they do",
                 ("weights", "surprise, fitted", "surprise, judged", "most believed right, %", "taken right, %"),
-                tuple(_judged(name, weights, fitting, judging) for name, weights in choices.items()),
+                tuple(_judge(name, weights, fitting, judging) for name, weights in choices.items()),
             ),
             _reliability("Beliefs in use, judged: every reading", judging, used),
         ),
@@ -117,7 +117,7 @@ def _surprise(weights: Floats, rules: Sequence[Rule]) -> float:
     return float(np.mean([-np.log(max(rule.shares(weights)[rule.right], 1e-300)) for rule in rules]))
 
 
-def _fitted(rules: Sequence[Rule], columns: Sequence[int] | None = None) -> Floats:
+def _fit(rules: Sequence[Rule], columns: Sequence[int] | None = None) -> Floats:
     """The most likely weights; columns: of which weights, all others staying 0."""
     free = list(range(len(WEIGHTS)) if columns is None else columns)
 
@@ -132,7 +132,7 @@ def _fitted(rules: Sequence[Rule], columns: Sequence[int] | None = None) -> Floa
     return whole(minimize(surprise, np.ones(len(free)), method="L-BFGS-B", bounds=[_BOUNDS] * len(free)).x)
 
 
-def _judged(name: str, weights: Floats, fitting: Sequence[Rule], judging: Sequence[Rule]) -> tuple[Cell, ...]:
+def _judge(name: str, weights: Floats, fitting: Sequence[Rule], judging: Sequence[Rule]) -> tuple[Cell, ...]:
     believed = [int(rule.shares(weights).argmax()) == rule.right for rule in judging]
     taken = [belief.choose_reading(rule.terms, rule.shares(weights).tolist()) == rule.right for rule in judging]
     return (name, _surprise(weights, fitting), _surprise(weights, judging), percent(believed), percent(taken))

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from functools import cache
 
 from benchmark.learning.families import FAMILIES, VOCABULARIES, family
-from benchmark.learning.hidden import hidden
+from benchmark.learning.targets import extractors_of
 from meshforge.language import Extractor, select_mask, show
 from meshforge.symbolic import SymbolicMesh
 from meshforge.synthesis.demonstration import Example
@@ -52,7 +52,7 @@ def name_of(place: int) -> str:
     return f"mesh {place:04}"
 
 
-def learned(search: Search) -> RankedReadings:
+def learn(search: Search) -> RankedReadings:
     """The readings of a rule, as learning makes them."""
     found = search.run()
     assert isinstance(found, Hit), "there is an extractor: the hidden one"
@@ -60,7 +60,7 @@ def learned(search: Search) -> RankedReadings:
 
 
 @cache
-def known_family(name: str, seed: int, count: int = FAMILY) -> tuple[SymbolicMesh, ...]:
+def read_family(name: str, seed: int, count: int = FAMILY) -> tuple[SymbolicMesh, ...]:
     """The meshes of a family with their contacts known."""
     meshes = family(name, count, seed)
     assert all(mesh.contacts is not None for mesh in meshes)
@@ -87,7 +87,7 @@ def cases(seeds: Iterable[int], count: int, only: Sequence[str] = tuple(FAMILIES
     """All rules of the families, with families of these seeds, each demonstrated on so many meshes."""
     for seed in seeds:
         for name in only:
-            for extractor in hidden(name):
-                found = case(name, extractor, VOCABULARIES[name], known_family(name, seed), count, seed)
+            for extractor in extractors_of(name):
+                found = case(name, extractor, VOCABULARIES[name], read_family(name, seed), count, seed)
                 if found:
                     yield found

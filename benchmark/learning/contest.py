@@ -10,7 +10,7 @@ from statistics import median
 from typing import Any
 
 from benchmark.clock import Run, in_turns
-from benchmark.learning.cases import Case, learned, name_of
+from benchmark.learning.cases import Case, learn, name_of
 from benchmark.learning.sygus import cvc5_problem
 from meshforge.label_model.odds import LabelBeliefs
 from meshforge.language import Extractor, show, size_of
@@ -42,12 +42,12 @@ class Contest:
         """The median of each contestant; who has not finished counts as having taken the limit at least."""
         works: dict[str, Callable[[], Extractor | None]] = {
             ALONE: self._alone,
-            READINGS: lambda: _smallest(learned(self.case.search())),
+            READINGS: lambda: _smallest(learn(self.case.search())),
             REPAIR: self._with_repair,
             PAPER: partial(self._paper, False),
             PAPER_REPAIR: partial(self._paper, True),
         }
-        turns: dict[str, Run] = {name: self._noted(name, work) for name, work in works.items()}
+        turns: dict[str, Run] = {name: self._record(name, work) for name, work in works.items()}
         if HAS_CVC5:
             turns[CVC5] = self._cvc5
         times = {name: median(seconds) for name, seconds in in_turns(turns, rounds, slow=_SLOW).items()}
@@ -61,7 +61,7 @@ class Contest:
         found = {name: show(extractor) if extractor else None for name, extractor in self.answers.items()}
         return {"problem": self.case.family, "hidden": show(self.case.hidden), "seconds": seconds, "found": found}
 
-    def _noted(self, name: str, work: Callable[[], Extractor | None]) -> Run:
+    def _record(self, name: str, work: Callable[[], Extractor | None]) -> Run:
         def run() -> None:
             self.answers[name] = work()
 
@@ -77,10 +77,10 @@ class Contest:
         search = self.case.search()
         found = search.run()
         assert isinstance(found, Hit)
-        self.alarms = bool(self._explained(found.extractor))
+        self.alarms = bool(self._explain(found.extractor))
         return _smallest(RankedReadings(search, enumerate_consistent(search, found.extractor, search.options.above)))
 
-    def _explained(self, exact: Extractor) -> Explanation | None:
+    def _explain(self, exact: Extractor) -> Explanation | None:
         case = self.case
         known, rest = ({name_of(k): case.meshes[k] for k in some} for some in (case.shown, case.rest()))
         labels = LabelBeliefs(known, rest, case.vocabulary)
@@ -99,7 +99,7 @@ class Contest:
 
     def _cvc5(self) -> Callable[[], object]:
         solve = cvc5_problem(self.case.examples(), self.case.vocabulary, seconds=self.limit)
-        return self._noted(CVC5, solve)()
+        return self._record(CVC5, solve)()
 
 
 def _smallest(weighed: RankedReadings) -> Extractor:

@@ -74,17 +74,19 @@ def measure(tell: Tell, quick: bool) -> Result:
     for name, values in _VARIED.items():
         points = []
         for value in values[:2] if quick else values:
-            points.append(_point(_varied(name, value, quick), 1 if quick else _ROUNDS))
+            points.append(_point(_vary(name, value, quick), 1 if quick else _ROUNDS))
             tell(f"growth: {value} {name}")
         rows = tuple((value, *point.cells()) for value, point in zip(values, points, strict=False))
         tables.append(Table(_TITLES[name], (name, *_COLUMNS), rows))
         notes += list(_growth(name, values, points))
     largest = list(_largest(tell, quick))
     tables.append(_table_of_largest(largest))
-    return Result("growth", "How search and readings grow", tuple(tables), tuple(_goals(largest)), (*_said(), *notes))
+    return Result(
+        "growth", "How search and readings grow", tuple(tables), tuple(_goals(largest)), (*_write_notes(), *notes)
+    )
 
 
-def _varied(name: str, value: int, quick: bool) -> Setting:
+def _vary(name: str, value: int, quick: bool) -> Setting:
     base = Setting(meshes=10) if quick else Setting()
     return replace(base, **{name: value})
 
@@ -161,7 +163,7 @@ def _goals(points: Sequence[Point]) -> Iterator[Goal]:
         yield Goal(what, "at most", 1.0, point.search + point.weighing)
 
 
-def _said() -> tuple[str, ...]:
+def _write_notes() -> tuple[str, ...]:
     base = Setting()
     return (
         f"Boxes at random: {base.meshes} meshes of {base.hulls} hulls, {base.labels} labels, an extractor of "

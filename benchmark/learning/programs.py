@@ -6,9 +6,9 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
-from benchmark.learning.cases import FAMILY, known_family, name_of
+from benchmark.learning.cases import FAMILY, name_of, read_family
 from benchmark.learning.families import FAMILIES, VOCABULARIES
-from benchmark.learning.tables import DEMONSTRATED, PROGRAM, stretched, templates
+from benchmark.learning.tables import DEMONSTRATED, PROGRAM, stretch_tables, templates
 from meshforge.language import Program, Rule, Template, select
 from meshforge.symbolic import SymbolicMesh
 from meshforge.synthesis import Demonstration, LearningOutcome, Step
@@ -48,7 +48,7 @@ _TEXTS: dict[str, tuple[str, ...]] = {
 
 
 @dataclass(frozen=True, eq=False)
-class Wanted:
+class TargetProgram:
     """A program, with the meshes it is meant for by their names."""
 
     name: str
@@ -58,15 +58,15 @@ class Wanted:
 
     def demonstration(self, asset: str) -> Demonstration:
         """The program done by hand on one mesh."""
-        rows = zip(self.program.rules, self.selected(self.program, asset), strict=True)
+        rows = zip(self.program.rules, self.select(self.program, asset), strict=True)
         steps = [Step(k, chosen, rule.action, rule.label) for k, (rule, chosen) in enumerate(rows, 1)]
         return Demonstration(self.meshes[asset], steps, asset)
 
-    def selected(self, program: Program, asset: str) -> list[frozenset[str]]:
+    def select(self, program: Program, asset: str) -> list[frozenset[str]]:
         """The hulls that each rule of a program selects on a mesh, by name."""
         return [frozenset(done.selected) for done in program.run(self.meshes[asset], self.templates).trace]
 
-    def met(self, asset: str, rules: Sequence[Rule]) -> SymbolicMesh:
+    def mesh_before(self, asset: str, rules: Sequence[Rule]) -> SymbolicMesh:
         """A mesh after some rules, as the next one meets it."""
         program = self.program
         replay: Replay = begin_replay(
@@ -76,34 +76,34 @@ class Wanted:
             replay = advance(replay, number, rule, self.templates, program.extremity)
         return replay.mesh
 
-    def meant(self, asset: str, number: int, outcome: LearningOutcome) -> frozenset[str]:
+    def intend(self, asset: str, number: int, outcome: LearningOutcome) -> frozenset[str]:
         """What a person wants a rule to select, on the mesh that the learned rules before it make."""
-        mesh = self.met(asset, outcome.rules[: number - 1])
+        mesh = self.mesh_before(asset, outcome.rules[: number - 1])
         chosen = select(self.program.rules[number - 1].extractor, mesh)
         return frozenset(mesh.hulls[index].name for index in chosen)
 
-    def telling(self) -> list[str]:
+    def find_examples(self) -> list[str]:
         """The names of the meshes on which every rule selects something."""
         return [asset for asset, right in self.right.items() if all(right)]
 
     @cached_property
     def right(self) -> dict[str, list[frozenset[str]]]:
         """What the program selects on each mesh."""
-        return {asset: self.selected(self.program, asset) for asset in self.meshes}
+        return {asset: self.select(self.program, asset) for asset in self.meshes}
 
 
-def wanted(seed: int, only: Iterable[str] = tuple(FAMILIES), count: int = FAMILY) -> list[Wanted]:
+def target_programs(seed: int, only: Iterable[str] = tuple(FAMILIES), count: int = FAMILY) -> list[TargetProgram]:
     """The programs of the families."""
     found = []
     for family in only:
-        meshes = {name_of(k): mesh for k, mesh in enumerate(known_family(family, seed, count))}
+        meshes = {name_of(k): mesh for k, mesh in enumerate(read_family(family, seed, count))}
         for number, text in enumerate(_TEXTS[family], 1):
             rules = Program.parse("\n".join(text.split("; "))).rules
             program = Program(VOCABULARIES[family], None, rules)
-            found.append(Wanted(f"{family} {number}", program, meshes, {}))
+            found.append(TargetProgram(f"{family} {number}", program, meshes, {}))
     return found
 
 
-def wanted_tables(count: int) -> tuple[Wanted, tuple[str, ...]]:
+def target_of_tables(count: int) -> tuple[TargetProgram, tuple[str, ...]]:
     """The program of the bundled tables, for so many of them, and the names of those that are demonstrated."""
-    return Wanted(f"tables, {count}", PROGRAM, stretched(count), templates()), DEMONSTRATED
+    return TargetProgram(f"tables, {count}", PROGRAM, stretch_tables(count), templates()), DEMONSTRATED

@@ -11,7 +11,7 @@ from time import perf_counter
 import numpy as np
 
 from benchmark.learning.families import FAMILIES, VOCABULARIES, family
-from benchmark.learning.hidden import hidden
+from benchmark.learning.targets import extractors_of
 from benchmark.report import Cell, Goal, Result, Table, Tell
 from meshforge.label_model.odds import LabelBeliefs
 from meshforge.language import Extractor, select_mask, size_of
@@ -69,7 +69,7 @@ def spoilt(
     return mesh.with_labels(labels)
 
 
-def found(examples: Sequence[Example], vocabulary: Sequence[str]) -> Extractor | None:
+def find_extractor(examples: Sequence[Example], vocabulary: Sequence[str]) -> Extractor | None:
     """The smallest exact extractor."""
     answer = Search(examples, vocabulary, TimeBudget(30.0), OPTIONS).run()
     return answer.extractor if isinstance(answer, Hit) else None
@@ -91,18 +91,18 @@ def cases(seed: int, noise: Noise, kinds: Sequence[str]) -> Iterator[Case]:
     for kind in kinds:
         rng = np.random.default_rng([seed, *kind.encode()])
         true = family(kind, _MESHES, seed)
-        for extractor in hidden(kind):
+        for extractor in extractors_of(kind):
             able = [k for k, mesh in enumerate(true) if select_mask(extractor, mesh)]
             if not able:
                 continue
             first = int(rng.choice(able))
             chosen = [first, *rng.choice([k for k in range(_MESHES) if k != first], _DEMOS - 1, False).tolist()]
-            errors = [noise.errors if k in chosen else _drawn(mesh, noise, rng) for k, mesh in enumerate(true)]
+            errors = [noise.errors if k in chosen else _draw(mesh, noise, rng) for k, mesh in enumerate(true)]
             noisy = [spoilt(mesh, count, noise, rng) for mesh, count in zip(true, errors, strict=True)]
             yield Case(extractor, VOCABULARIES[kind], true, noisy, chosen)
 
 
-def _drawn(mesh: SymbolicMesh, noise: Noise, rng: np.random.Generator) -> int:
+def _draw(mesh: SymbolicMesh, noise: Noise, rng: np.random.Generator) -> int:
     return int(rng.binomial(len(mesh.hulls), noise.rest))
 
 
@@ -110,10 +110,10 @@ def _learn(case: Case, tally: Tally) -> None:
     """One rule, with a simulated person who answers proposals rightly."""
     true = {f"m{k}": case.true[k] for k in case.chosen}
     shown = {name: select_mask(case.hidden, mesh) for name, mesh in true.items()}
-    best = found([Example(name, mesh, shown[name]) for name, mesh in true.items()], case.vocabulary)
+    best = find_extractor([Example(name, mesh, shown[name]) for name, mesh in true.items()], case.vocabulary)
     assert best, "the hidden extractor matches"
     examples = [Example(f"m{k}", case.noisy[k], shown[f"m{k}"]) for k in case.chosen]
-    exact = found(examples, case.vocabulary)
+    exact = find_extractor(examples, case.vocabulary)
     truth = {(name, hull.name): hull.label for name, mesh in true.items() for hull in mesh.hulls}
     spoiled = any(hull.label != truth[one.name, hull.name] for one in examples for hull in one.mesh.hulls)
     needed = spoiled and (exact is None or size_of(exact) > size_of(best))
@@ -133,13 +133,13 @@ def _learn(case: Case, tally: Tally) -> None:
         tally.counts["right"] += len(agreed)
         rejected |= set(said.corrections) - set(agreed)
         spent.update(c.asset for c in agreed)
-        examples = [_corrected(one, agreed) for one in examples]
-        exact = found(examples, case.vocabulary)
+        examples = [_correct(one, agreed) for one in examples]
+        exact = find_extractor(examples, case.vocabulary)
     same = exact is not None and all(select_mask(exact, mesh) == select_mask(best, mesh) for mesh in case.true)
     tally.counts.update(rules=1, needed=needed, recovered=needed and same)
 
 
-def _corrected(example: Example, rows: Sequence[LabelCorrection]) -> Example:
+def _correct(example: Example, rows: Sequence[LabelCorrection]) -> Example:
     labels = {row.hull: Label(row.to, 1.0, "repair") for row in rows if row.asset == example.name}
     return Example(example.name, example.mesh.with_labels(labels), example.selection)
 

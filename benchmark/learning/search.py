@@ -8,7 +8,7 @@ from statistics import mean
 from benchmark.learning.boxes import boxes_case
 from benchmark.learning.cases import FAMILY, Case, case, cases
 from benchmark.learning.contest import HAS_CVC5, LIMIT, READINGS, Contest
-from benchmark.learning.search_programs import Timed, programs_timed
+from benchmark.learning.search_programs import Times, programs_timed
 from benchmark.learning.search_tables import Row, by_group, by_size, contest_goals, contestants
 from benchmark.learning.tables import PROGRAM, RULES, upright
 from benchmark.report import Goal, Result, Table, Tell
@@ -46,7 +46,7 @@ def _problems(quick: bool) -> Iterator[tuple[str, Case]]:
         yield "boxes at random", boxes_case(nodes, FAMILY, 3)
 
 
-def _programs(rows: Sequence[Timed]) -> Table:
+def _programs(rows: Sequence[Times]) -> Table:
     columns = (
         "program",
         "rules",
@@ -60,7 +60,7 @@ def _programs(rows: Sequence[Timed]) -> Table:
     return Table("Whole programs, demonstrated on two meshes", columns, tuple(row.cells() for row in rows))
 
 
-def _goals(rows: Sequence[Row], programs: Sequence[Timed]) -> Iterator[Goal]:
+def _goals(rows: Sequence[Row], programs: Sequence[Times]) -> Iterator[Goal]:
     yield Goal("search and readings of a rule, mean, s", "at most", 0.05, mean(row.seconds[READINGS] for row in rows))
     yield Goal("search and readings of a program, mean, s", "at most", 0.05, mean(row.readings for row in programs))
     yield Goal("replay of a program over the batch, slowest, s", "at most", 1.0, max(row.replay for row in programs))

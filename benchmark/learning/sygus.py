@@ -48,7 +48,9 @@ def cvc5_problem(
 
     context = get_context("spawn")
     here, there = context.Pipe()
-    process = context.Process(target=_serve, args=(there, stated(examples, vocabulary, extremity, layers)), daemon=True)
+    process = context.Process(
+        target=_serve, args=(there, state_problem(examples, vocabulary, extremity, layers)), daemon=True
+    )
     process.start()
     there.close()
     here.recv()  # it is ready
@@ -68,7 +70,7 @@ def cvc5_problem(
     return solve
 
 
-def stated(
+def state_problem(
     examples: Sequence[Example], vocabulary: Sequence[str], extremity: float = EXTREMITY, layers: Layers = "S+T+G"
 ) -> Problem:
     """The problem of a rule, as truth values."""
@@ -86,7 +88,7 @@ def _column(leaf: Leaf, examples: Sequence[Example], extremity: float) -> list[b
 
 def _serve(pipe: Connection, problem: Problem) -> None:
     """The other process: states the problem, waits for the word, and answers."""
-    search = _prepared(problem)
+    search = _prepare(problem)
     try:
         pipe.send("ready")
         pipe.recv()
@@ -95,7 +97,7 @@ def _serve(pipe: Connection, problem: Problem) -> None:
     pipe.send(search())
 
 
-def _prepared(problem: Problem) -> Callable[[], Extractor | None]:
+def _prepare(problem: Problem) -> Callable[[], Extractor | None]:
     import cvc5
     from cvc5 import Kind
 

@@ -41,7 +41,7 @@ def templates() -> dict[str, Template]:
 
 
 @cache
-def bundled() -> dict[str, SymbolicMesh]:
+def read_tables() -> dict[str, SymbolicMesh]:
     """The tables as they come, by name."""
     paths = sorted(TABLES.glob("table_*.obj"))
     return {path.stem: load(path, path.with_suffix(".labels.json")) for path in paths}
@@ -50,17 +50,17 @@ def bundled() -> dict[str, SymbolicMesh]:
 @cache
 def upright() -> dict[str, SymbolicMesh]:
     """The tables as the first rule of a program sees them, their contacts known."""
-    found = {name: to_canonical_frame(mesh, PROGRAM.orient)[0] for name, mesh in bundled().items()}
+    found = {name: to_canonical_frame(mesh, PROGRAM.orient)[0] for name, mesh in read_tables().items()}
     assert all(mesh.contacts is not None for mesh in found.values())
     return found
 
 
-def stretched(count: int) -> dict[str, SymbolicMesh]:
+def stretch_tables(count: int) -> dict[str, SymbolicMesh]:
     """So many tables: the bundled ones, then the same with each side up to a quarter longer or shorter."""
-    found = dict(bundled())
+    found = dict(read_tables())
     draw = np.random.default_rng(0)
     for k in range(len(found), count):
-        mesh = list(bundled().values())[k % len(bundled())]
+        mesh = list(read_tables().values())[k % len(read_tables())]
         factors = np.diag(draw.uniform(0.8, 1.25, 3))
         hulls = (replace(hull, shape=hull.shape.transform(factors, np.zeros(3))) for hull in mesh.hulls)
         found[f"table_{k + 1:02}"] = SymbolicMesh(tuple(hulls))

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from benchmark.learning.programs import Wanted
+from benchmark.learning.programs import TargetProgram
 from meshforge.synthesis import Ambiguous, Answer, Demonstration, LearningOutcome, Options, Repair, synthesize
 
 _MOST = 30  # answers, should it never end
@@ -26,7 +26,7 @@ class Talk:
         return sum(answer.select is None for answer in self.answers)
 
 
-def talk(task: Wanted, demos: Sequence[Demonstration], options: Options) -> Talk:
+def talk(task: TargetProgram, demos: Sequence[Demonstration], options: Options) -> Talk:
     """Learn from demonstrations, and answer until nothing is asked any more."""
     answers: list[Answer] = []
     refused: list[Repair] = []
@@ -35,19 +35,19 @@ def talk(task: Wanted, demos: Sequence[Demonstration], options: Options) -> Talk
         refused.append(repair)
         return False
 
-    def learned() -> LearningOutcome:
+    def learn() -> LearningOutcome:
         labels, meshes = task.program.labels, task.meshes
         return synthesize(demos, meshes, vocabulary=labels, options=options, confirm=refuse, answers=answers)
 
-    last = first = learned()
+    last = first = learn()
     while isinstance(last, Ambiguous) and len(answers) < _MOST:
         answers.append(_answer(task, last))
-        last = learned()
+        last = learn()
     return Talk(first, last, tuple(answers), len({repair.correction for repair in refused}))
 
 
-def _answer(task: Wanted, outcome: Ambiguous) -> Answer:
+def _answer(task: TargetProgram, outcome: Ambiguous) -> Answer:
     """The choice that is what is wanted, or neither."""
     asks = outcome.question
-    meant = task.meant(asks.asset, asks.rule, outcome)
+    meant = task.intend(asks.asset, asks.rule, outcome)
     return asks.answer_with(next((k for k, choice in enumerate(asks.choices) if set(choice.select) == meant), None))

@@ -35,7 +35,7 @@ def _of_task(name: str, seeds: tuple[int, ...], counts: tuple[int, ...], calibra
     names = [mesh for mesh, done in desk.reference.items() if done is not None]
     found = []
     for place, rule in enumerate(one.program.rules):
-        meshes = tuple(desk.met(mesh, place) for mesh in names)
+        meshes = tuple(desk.mesh_before(mesh, place) for mesh in names)
         assert all(mesh.contacts is not None for mesh in meshes)
         masks = tuple(select_mask(rule.extractor, mesh) for mesh in meshes)
         for seed in seeds:

@@ -12,7 +12,7 @@ from pathlib import Path
 
 from benchmark.report import Cell, Result, Table, Tell
 from benchmark.speed.assets import corpus
-from benchmark.speed.watch import Watched, watched
+from benchmark.speed.watch import Usage, watch_command
 from meshforge.batch.discovery import common_folder
 from meshforge.common import MeshForgeError
 from meshforge.formats import load
@@ -60,7 +60,7 @@ def measure(tell: Tell, quick: bool) -> Result:
     """Run `meshforge apply` on each family."""
     rows: list[dict[str, object]] = []
     with tempfile.TemporaryDirectory() as name:
-        for number, (family, assets) in enumerate(_quick(Path(name)) if quick else _gathered(Path(name))):
+        for number, (family, assets) in enumerate(_quick(Path(name)) if quick else _gather(Path(name))):
             folder = Path(name) / f"run{number}"
             folder.mkdir()
             _label(assets, folder / "labels")
@@ -95,7 +95,7 @@ def _quick(folder: Path) -> list[tuple[str, list[Path]]]:
     return [("OBJ, bundled tables", [Path(shutil.copy(p, place)) for p in sorted(TABLES.glob("*.obj"))[:2]])]
 
 
-def _gathered(folder: Path) -> list[tuple[str, list[Path]]]:
+def _gather(folder: Path) -> list[tuple[str, list[Path]]]:
     """The families that are here, copied into a folder of their own."""
     root = corpus()
     found = []
@@ -132,16 +132,16 @@ def _label(assets: list[Path], labels: Path) -> None:
         target.write_text(json.dumps({"hulls": named}), "utf-8")
 
 
-def _run(assets: list[Path], folder: Path, workers: int) -> Watched:
+def _run(assets: list[Path], folder: Path, workers: int) -> Usage:
     program, out = folder / "program.mf", folder / "out"
     program.write_text(_PROGRAM, "utf-8")
     shutil.rmtree(out, ignore_errors=True)
     paths = [str(asset) for asset in assets]
     options = ["--out", str(out), "--labels", str(folder / "labels"), "--workers", str(workers), "--fresh", "--json"]
-    return watched(["apply", str(program), *paths, *options])
+    return watch_command(["apply", str(program), *paths, *options])
 
 
-def _row(family: str, workers: int, runs: list[Watched], base: str) -> dict[str, object]:
+def _row(family: str, workers: int, runs: list[Usage], base: str) -> dict[str, object]:
     outcomes = [json.loads(line) for line in runs[0].output.splitlines() if line.startswith("{")]
     return {
         "family": family,

@@ -38,12 +38,12 @@ def one_mesh(name: str, mesh: SymbolicMesh, rounds: int) -> dict[str, Any]:
     known = _of(shapes)
     near, pairs = known.contact_distance, near_pairs(shapes, known.contact_distance)
     rivals = [kind(shapes, near, pairs) for kind in _RIVALS]
-    turns: dict[str, Run] = {OURS: lambda: _asking(_of(_anew(shapes)))}
+    turns: dict[str, Run] = {OURS: lambda: _make_query(_of(_anew(shapes)))}
     with closing(next(r for r in rivals if isinstance(r, Bullet))):
         answers = {rival.name: rival.query(rival.build()) for rival in rivals}
         for rival in rivals:
             turns[f"{rival.name}: build"] = partial(_building, rival)
-            turns[f"{rival.name}: ask"] = partial(_querying, rival)
+            turns[f"{rival.name}: ask"] = partial(_make_rival_query, rival)
         seconds = medians(in_turns(turns, rounds, _SECONDS, _REPEATS))
     return {
         "asset": name,
@@ -73,7 +73,7 @@ def _anew(shapes: list[Polytope]) -> list[Polytope]:
     return [Polytope(shape.vertices, shape.faces) for shape in shapes]
 
 
-def _asking(mesh: SymbolicMesh) -> Callable[[], object]:
+def _make_query(mesh: SymbolicMesh) -> Callable[[], object]:
     return lambda: mesh.contacts
 
 
@@ -87,7 +87,7 @@ def _keep(rival: Any, built: Any) -> None:
     rival.built = built
 
 
-def _querying(rival: Any) -> Callable[[], object]:
+def _make_rival_query(rival: Any) -> Callable[[], object]:
     return lambda: rival.query(rival.built)
 
 

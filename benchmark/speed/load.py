@@ -52,7 +52,7 @@ def _quick_files(folder: Path) -> dict[str, list[Path]]:
     for table in tables:
         for suffix, files in made.items():
             files.append(folder / f"{table.stem}{suffix}")
-            _loaded(table).export(files[-1])
+            _load(table).export(files[-1])
     ascii_ = list(_ascii(made[".stl"], folder))
     return {"OBJ": tables, "STL, binary": made[".stl"], "STL, ASCII": ascii_, "GLB, glTF": made[".glb"]}
 
@@ -62,11 +62,11 @@ def _ascii(files: list[Path], folder: Path) -> Iterator[Path]:
 
     for k, path in enumerate(files[:_ASCII]):
         target = folder / f"{k}_{path.name}"
-        target.write_text(_loaded(path).export(file_type="stl_ascii"))
+        target.write_text(_load(path).export(file_type="stl_ascii"))
         yield target
 
 
-def _loaded(path: Path) -> Any:
+def _load(path: Path) -> Any:
     import trimesh
 
     return trimesh.load(path, force="mesh", process=False)

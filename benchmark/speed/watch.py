@@ -14,7 +14,7 @@ _PAUSE = 0.1  # seconds between looks, which cost time themselves
 
 
 @dataclass(frozen=True, slots=True)
-class Watched:
+class Usage:
     """output: of the command; main, worker: the largest resident size [bytes] of it, and of any process below it."""
 
     seconds: float
@@ -23,7 +23,7 @@ class Watched:
     worker: int
 
 
-def watched(arguments: list[str]) -> Watched:
+def watch_command(arguments: list[str]) -> Usage:
     """Run `meshforge` with arguments and watch it; memory is 0 where the system does not tell (not Linux)."""
     command = [str(Path(sys.executable).with_name("meshforge")), *arguments]
     largest: dict[int, int] = {}
@@ -38,7 +38,7 @@ def watched(arguments: list[str]) -> Watched:
         output.seek(0)
         text = output.read().decode("utf-8")
     main = largest.pop(process.pid, 0)
-    return Watched(seconds, text, main, max(largest.values(), default=0))
+    return Usage(seconds, text, main, max(largest.values(), default=0))
 
 
 def look(pid: int, largest: dict[int, int]) -> None:

@@ -61,7 +61,7 @@ def chromium() -> Iterator[Browser]:
         browser.close()
 
 
-def seen(browser: Browser, address: str, asset: str, watch: str = "") -> Page:
+def open_asset(browser: Browser, address: str, asset: str, watch: str = "") -> Page:
     """A page of a browser that knows nothing of the studio yet, once it shows an asset; watch: a script more."""
     page = browser.new_context(viewport={"width": 1440, "height": 900}).new_page()
     page.add_init_script(WATCH + watch)
@@ -72,7 +72,7 @@ def seen(browser: Browser, address: str, asset: str, watch: str = "") -> Page:
 
 def warm(browser: Browser, address: str, asset: str) -> None:
     """Opens the studio once, until the pictures of the family are drawn: server and browser keep much from then on."""
-    page = seen(browser, address, asset)
+    page = open_asset(browser, address, asset)
     page.wait_for_function(_DRAWN)
     page.context.close()
 

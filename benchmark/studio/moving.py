@@ -9,7 +9,7 @@ from pathlib import Path
 from playwright.sync_api import Page
 
 from benchmark.report import Goal, Result, Table, Tell
-from benchmark.studio.browser import chromium, seen, studio
+from benchmark.studio.browser import chromium, open_asset, studio
 from benchmark.studio.families import project_of
 
 _ANSWER = """
@@ -59,9 +59,9 @@ def measure(tell: Tell, quick: bool) -> Result:
         with tempfile.TemporaryDirectory() as folder:
             project = project_of(Path(folder), 1, hulls)
             with studio(project.folder) as address, chromium() as browser:
-                page = seen(browser, address, project.assets()[0])
+                page = open_asset(browser, address, project.assets()[0])
                 page.wait_for_timeout(1500)
-                frames, milliseconds = _hovered(page, hulls, 10 if quick else 60)
+                frames, milliseconds = _hover(page, hulls, 10 if quick else 60)
                 rows.append((f"{hulls} hulls", frames, milliseconds, page.evaluate(_TURN, 1000 if quick else 4000)))
     columns = ("", "frames until a hover shows", "ms until then", "frames a second while turning")
     return Result(
@@ -77,7 +77,7 @@ def measure(tell: Tell, quick: bool) -> Result:
     )
 
 
-def _hovered(page: Page, hulls: int, wanted: int) -> tuple[float, float]:
+def _hover(page: Page, hulls: int, wanted: int) -> tuple[float, float]:
     """The medians of frames and of milliseconds until hulls under the pointer are marked."""
     found = []
     for k in range(hulls):

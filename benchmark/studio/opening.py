@@ -9,7 +9,7 @@ from pathlib import Path
 from playwright.sync_api import Browser
 
 from benchmark.report import Goal, Result, Table, Tell
-from benchmark.studio.browser import chromium, seen, studio, warm
+from benchmark.studio.browser import chromium, open_asset, studio, warm
 from benchmark.studio.families import project_of
 
 HULLS, ASSETS = 60, 12
@@ -22,9 +22,9 @@ def measure(tell: Tell, quick: bool) -> Result:
         first = project.assets()[0]
         with studio(project.folder) as address, chromium() as browser:
             warm(browser, address, first)
-            times = [_opened(browser, address, first) for _ in range(2 if quick else 7)]
+            times = [_open(browser, address, first) for _ in range(2 if quick else 7)]
             tell(f"opening: {len(times)} times opened")
-            switches = _switched(browser, address, project.assets(), tell)
+            switches = _switch(browser, address, project.assets(), tell)
     opening, switching = statistics.median(times), statistics.median(switches)
     rows = (
         (f"first picture of {HULLS} hulls after opening", opening, max(times)),
@@ -45,15 +45,15 @@ def measure(tell: Tell, quick: bool) -> Result:
     )
 
 
-def _opened(browser: Browser, address: str, asset: str) -> float:
-    page = seen(browser, address, asset)
+def _open(browser: Browser, address: str, asset: str) -> float:
+    page = open_asset(browser, address, asset)
     milliseconds: float = page.evaluate("id => window.watched.ready[id]", asset)
     page.context.close()
     return milliseconds
 
 
-def _switched(browser: Browser, address: str, assets: tuple[str, ...], tell: Tell) -> list[float]:
-    page = seen(browser, address, assets[0])
+def _switch(browser: Browser, address: str, assets: tuple[str, ...], tell: Tell) -> list[float]:
+    page = open_asset(browser, address, assets[0])
     times = []
     for asset in assets[1:]:
         page.wait_for_timeout(400)  # a person looks, and the next asset is fetched meanwhile

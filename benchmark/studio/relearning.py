@@ -15,7 +15,7 @@ from playwright.sync_api import Page
 from websockets.sync.client import connect
 
 from benchmark.report import Goal, Result, Table, Tell
-from benchmark.studio.browser import chromium, seen, studio
+from benchmark.studio.browser import chromium, open_asset, studio
 from meshforge.cli.demo import create_tables
 
 OPEN, SHOWN = "table_05.obj", "table_08.obj"
@@ -45,7 +45,7 @@ def measure(tell: Tell, quick: bool) -> Result:
         project = create_tables(Path(folder) / "tables")
         with studio(project.folder) as address:
             with chromium() as browser:
-                page = seen(browser, address, project.assets()[0], OUTCOMES)
+                page = open_asset(browser, address, project.assets()[0], OUTCOMES)
                 page.wait_for_timeout(4000)  # the first outcome is longer than those that are measured
                 rows = []
                 for what, changes in (
@@ -54,9 +54,9 @@ def measure(tell: Tell, quick: bool) -> Result:
                     ("a step taken away, and put back", _steps(page, SHOWN)),
                 ):
                     tell(f"relearning: {what}")
-                    rows.append(_row(what, [_learned(page, next(changes)) for _ in range(2 * turns)]))
+                    rows.append(_row(what, [_time_learning(page, next(changes)) for _ in range(2 * turns)]))
             tell("relearning: without a browser")
-            bare = _row("a label, told to a client that draws nothing", _told(address, 2 * turns))
+            bare = _row("a label, told to a client that draws nothing", _time_answers(address, 2 * turns))
     return Result(
         "relearning",
         "Learning anew while a person works",
@@ -74,7 +74,7 @@ def _row(what: str, times: list[float]) -> tuple[str, float, float]:
     return what, statistics.median(times), max(times)
 
 
-def _told(address: str, turns: int) -> list[float]:
+def _time_answers(address: str, turns: int) -> list[float]:
     """From the request to the outcome, at a client without a picture [ms]."""
     base, _, token = address.partition("/?token=")
     headers, times = {"Authorization": f"Bearer {token}"}, []
@@ -124,7 +124,7 @@ def _open(page: Page, asset: str) -> None:
     page.wait_for_function("id => id in window.watched.ready", arg=asset)
 
 
-def _learned(page: Page, change: Change) -> float:
+def _time_learning(page: Page, change: Change) -> float:
     """The time from the key of a change to the outcome [ms]."""
     page.wait_for_timeout(500)  # a person looks
     before = page.evaluate("() => window.outcomes.length")

@@ -7,7 +7,7 @@ import tempfile
 from pathlib import Path
 
 from benchmark.report import Goal, Result, Table, Tell
-from benchmark.studio.browser import chromium, seen, studio
+from benchmark.studio.browser import chromium, open_asset, studio
 from benchmark.studio.families import project_of
 
 _SCROLL = """
@@ -36,7 +36,7 @@ def measure(tell: Tell, quick: bool) -> Result:
         tell(f"scrolling: making {assets} assets")
         project = project_of(Path(folder), assets, 12)
         with studio(project.folder) as address, chromium() as browser:
-            page = seen(browser, address, project.assets()[0])
+            page = open_asset(browser, address, project.assets()[0])
             page.wait_for_timeout(3000 if quick else 30_000)
             rows = []
             for turn in ("thumbnails not drawn yet", "thumbnails drawn before"):

@@ -2,7 +2,7 @@
 
 from benchmark.study.condition import CONDITIONS, FULL, MOST, NOISY, REPORTED, SEEN, TUNING, Condition
 from benchmark.study.desk import Bench, Desk
-from benchmark.study.session import Round, Session, taught
+from benchmark.study.session import Round, Session, teach_task
 
 __all__ = [
     "CONDITIONS",
@@ -17,5 +17,5 @@ __all__ = [
     "Desk",
     "Round",
     "Session",
-    "taught",
+    "teach_task",
 ]

@@ -10,7 +10,7 @@ from typing import Literal
 
 from benchmark.assets import Sample
 from benchmark.study.labels import noisy
-from benchmark.tasks import Edited, Task
+from benchmark.tasks import EditResult, Task
 from meshforge.labels import Propagator
 from meshforge.language import EXTREMITY, Extractor, Program, select_mask
 from meshforge.symbolic import Label, SymbolicMesh
@@ -62,7 +62,7 @@ class Bench:
         seeds = {name: (seed, *self.task.category.encode(), k) for k, (name, _) in rows}
         return Desk(self, {name: noisy(sample.mesh, seeds[name]) for name, sample in self.samples.items()})
 
-    def failure(self, name: str, edited: Edited) -> str | None:
+    def failure(self, name: str, edited: EditResult) -> str | None:
         """Why an edit of a mesh does not do; the same edit is judged once.
 
         The same selections need not make the same edit: labels decide how a mesh is oriented, too.
@@ -79,27 +79,27 @@ class Desk:
 
     bench: Bench
     meshes: Mapping[str, SymbolicMesh]
-    _edits: dict[tuple[str, str], Edited] = field(default_factory=dict, repr=False)
+    _edits: dict[tuple[str, str], EditResult] = field(default_factory=dict, repr=False)
     _met: dict[tuple[str, int], Replay] = field(default_factory=dict, repr=False)
 
-    def edited(self, program: Program, name: str) -> Edited:
+    def edit(self, program: Program, name: str) -> EditResult:
         """What a program makes of a mesh."""
         key = (str(program), name)
         if key not in self._edits:
             self._edits[key] = self.bench.task.run(program, self.meshes[name])
         return self._edits[key]
 
-    def selected(self, program: Program, name: str) -> Selections | None:
+    def select(self, program: Program, name: str) -> Selections | None:
         """What each rule of a program selects on a mesh, None where it fails."""
-        edited = self.edited(program, name)
+        edited = self.edit(program, name)
         return None if edited.mesh is None else tuple(frozenset(line.selected) for line in edited.trace)
 
     @cached_property
     def reference(self) -> dict[str, Selections | None]:
         """What the reference selects under these labels."""
-        return {name: self.selected(self.bench.task.program, name) for name in self.meshes}
+        return {name: self.select(self.bench.task.program, name) for name in self.meshes}
 
-    def met(self, name: str, place: int) -> SymbolicMesh:
+    def mesh_before(self, name: str, place: int) -> SymbolicMesh:
         """A mesh as a rule of the reference meets it, after the rules before it; place: from 0."""
         key = (name, place)
         if key not in self._met:
@@ -108,13 +108,13 @@ class Desk:
             if not place:
                 replay = begin_replay(name, Demonstration(self.meshes[name], (), name), frame.orient, frame.contact)
             else:
-                self.met(name, place - 1)
+                self.mesh_before(name, place - 1)
                 before, rule = self._met[name, place - 1], frame.rules[place - 1]
                 replay = advance(before, place, rule, task.templates, frame.extremity)
             self._met[key] = replay
         return self._met[key].mesh
 
-    def learned(
+    def learn(
         self,
         demos: Sequence[Demonstration],
         options: Options,
@@ -135,7 +135,7 @@ class Desk:
             answers,
         )
 
-    def proposed(self, names: Iterable[str]) -> str | None:
+    def propose(self, names: Iterable[str]) -> str | None:
         """The mesh that the tool proposes to demonstrate first."""
         one, some = self.bench.task.program, frozenset(names)
         return choose_first_demonstration(self.meshes, one.labels, one.orient, one.contact, one.extremity, some)
@@ -143,16 +143,16 @@ class Desk:
     def behaves(self, extractor: Extractor, place: int, names: Iterable[str]) -> bool:
         """Whether an extractor selects what the reference's rule at a place selects, on all these meshes."""
         right, delta = self.bench.task.program.rules[place].extractor, self.bench.task.program.extremity or EXTREMITY
-        meshes = (self.met(name, place) for name in names)
+        meshes = (self.mesh_before(name, place) for name in names)
         return all(select_mask(extractor, mesh, delta) == select_mask(right, mesh, delta) for mesh in meshes)
 
-    def differing(self, program: Program | None, names: Iterable[str]) -> list[str]:
+    def find_differences(self, program: Program | None, names: Iterable[str]) -> list[str]:
         """The meshes on which a program selects something else than the reference."""
         if program is None:
             return list(names)
-        return [name for name in names if self.selected(program, name) != self.reference[name]]
+        return [name for name in names if self.select(program, name) != self.reference[name]]
 
-    def corrected(self, corrections: Iterable[LabelCorrection]) -> Desk:
+    def correct(self, corrections: Iterable[LabelCorrection]) -> Desk:
         """The same with some labels corrected."""
         meshes = dict(self.meshes)
         for one in corrections:
@@ -161,7 +161,7 @@ class Desk:
         return Desk(self.bench, meshes, kept)
 
 
-def _fingerprint(edited: Edited) -> bytes:
+def _fingerprint(edited: EditResult) -> bytes:
     """Equal where two edits have the same hulls, bit for bit, and called the same the ones that they made."""
     found = blake2b(digest_size=16)
     for hull in edited.mesh.hulls if edited.mesh else ():

@@ -24,7 +24,7 @@ _FIRST = 2  # demonstrations that are there from the start
 
 
 @dataclass(slots=True)
-class Mended:
+class InstanceResult:
     """How one way did on one instance; seconds: of the tool, measured; person: modelled by keystrokes [s]."""
 
     task: str
@@ -72,22 +72,22 @@ def instance(name: str) -> Instance | None:
 
 def _near_miss(one: Instance) -> bool:
     shown = one.pool[:_FIRST]
-    without = _learned(one, one.desk, shown, Options(repair=False))
-    inspected = _learned(one, _inspected(one.desk, shown), shown, Options(repair=False))
+    without = _learn(one, one.desk, shown, Options(repair=False))
+    inspected = _learn(one, _inspect(one.desk, shown), shown, Options(repair=False))
     return not _right(one, without) and _right(one, inspected)
 
 
-def mended(one: Instance, way: Way) -> Mended:
+def mend(one: Instance, way: Way) -> InstanceResult:
     """One way on one instance: from two demonstrations on, as many of the pool as it takes."""
     person = Person(one.desk, one.seed, NOISY)
-    desk, log = one.desk, Mended(one.bench.task.name, way, False, 0, 0, 0, 0, 0, 0.0, 0.0)
+    desk, log = one.desk, InstanceResult(one.bench.task.name, way, False, 0, 0, 0, 0, 0, 0.0, 0.0)
     rejected: list[LabelCorrection] = []
     for count in range(_FIRST, MOST + 1):
         shown = one.pool[:count]
         if way.startswith("all labels"):
             hulls = sum(len(desk.meshes[name].hulls) for name in shown)
             log.inspected, log.typed = hulls, len(list(_wrong(one.desk, shown)))
-            desk = _inspected(desk, shown)
+            desk = _inspect(desk, shown)
         agreed: list[LabelCorrection] = []
 
         def confirm(repair: Repair, agreed: list[LabelCorrection] = agreed) -> bool:
@@ -100,9 +100,9 @@ def mended(one: Instance, way: Way) -> Mended:
             return said
 
         start = perf_counter()
-        outcome = _learned(one, desk, shown, Options(repair=way == "ABI"), confirm, rejected)
+        outcome = _learn(one, desk, shown, Options(repair=way == "ABI"), confirm, rejected)
         log.seconds += perf_counter() - start
-        desk, log.demonstrations = desk.corrected(agreed), count
+        desk, log.demonstrations = desk.correct(agreed), count
         if _right(one, outcome, desk):
             log.right = True
             break
@@ -110,7 +110,7 @@ def mended(one: Instance, way: Way) -> Mended:
     return log
 
 
-def _learned(
+def _learn(
     one: Instance,
     desk: Desk,
     shown: Sequence[str],
@@ -120,7 +120,7 @@ def _learned(
 ) -> Program | None:
     person = Person(one.desk, one.seed, NOISY)
     try:
-        return desk.learned([person.shows(desk, name) for name in shown], options, confirm, (), rejected).program
+        return desk.learn([person.shows(desk, name) for name in shown], options, confirm, (), rejected).program
     except MeshForgeError:
         return None
 
@@ -128,7 +128,7 @@ def _learned(
 def _right(one: Instance, program: Program | None, desk: Desk | None = None) -> bool:
     """Whether a program behaves as the reference on all meshes outside the pool."""
     rest = [name for name, done in one.bench.truth.reference.items() if done is not None and name not in one.pool]
-    return not (desk or one.desk).differing(program, rest)
+    return not (desk or one.desk).find_differences(program, rest)
 
 
 def _wrong(desk: Desk, names: Sequence[str]) -> Iterator[LabelCorrection]:
@@ -140,11 +140,11 @@ def _wrong(desk: Desk, names: Sequence[str]) -> Iterator[LabelCorrection]:
                 yield LabelCorrection(name, hull.name, hull.label, right)
 
 
-def _inspected(desk: Desk, names: Sequence[str]) -> Desk:
-    return desk.corrected(_wrong(desk, names))
+def _inspect(desk: Desk, names: Sequence[str]) -> Desk:
+    return desk.correct(_wrong(desk, names))
 
 
-def _person(one: Instance, log: Mended) -> float:
+def _person(one: Instance, log: InstanceResult) -> float:
     """The keystroke-level model: demonstrations, looks at the result, and what the way asks besides."""
     rules, truth = len(one.bench.task.program.rules), one.bench.truth
     hulls = sum(len(s) for name in one.pool[: log.demonstrations] for s in truth.reference[name] or ())

@@ -27,7 +27,7 @@ LABEL = _CLICK + THINK + 2 * KEY + HOME
 """Selecting a hull and giving it another label by its key."""
 
 
-def modelled(session: Session, rules: int) -> dict[str, float]:
+def model_seconds(session: Session, rules: int) -> dict[str, float]:
     """Seconds by what they are spent on."""
     return {
         "demonstrating": len(session.shown) * (DEMONSTRATION + rules * RULE) + session.hulls_shown * HULL,

@@ -21,7 +21,7 @@ def noisy(mesh: SymbolicMesh, seed: Iterable[int]) -> SymbolicMesh:
     count = int(rng.binomial(len(mesh.hulls), 1 - ACCURACY))
     if len(mesh.hulls) <= FEW:
         count = min(count, MOST)
-    return spoilt(mesh, count, Noise(count), rng, _clustered(mesh, rng))
+    return spoilt(mesh, count, Noise(count), rng, _order_by_contact(mesh, rng))
 
 
 def wrong(true: SymbolicMesh, labelled: SymbolicMesh) -> int:
@@ -29,7 +29,7 @@ def wrong(true: SymbolicMesh, labelled: SymbolicMesh) -> int:
     return sum(a.label != b.label for a, b in zip(true.hulls, labelled.hulls, strict=True))
 
 
-def _clustered(mesh: SymbolicMesh, rng: np.random.Generator) -> list[int]:
+def _order_by_contact(mesh: SymbolicMesh, rng: np.random.Generator) -> list[int]:
     """All hulls in an order in which the next one often touches the one before."""
     left, order = rng.permutation(len(mesh.hulls)).tolist(), list[int]()
     while left:

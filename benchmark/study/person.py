@@ -28,7 +28,7 @@ class Person:
         some = self._draw.sample(list(names), min(SEEN, len(names)))
         most = max(map(self._busy, some))
         busy = [name for name in some if self._busy(name) == most]
-        return (self._advised and desk.proposed(busy)) or busy[0]
+        return (self._advised and desk.propose(busy)) or busy[0]
 
     def _busy(self, name: str) -> int:
         wanted = self._truth.reference[name]
@@ -67,7 +67,7 @@ class Person:
         What is right by the eye is no failure, nor is what the reference gets wrong as well, since a label is wrong.
         """
         for name in names:
-            done, wanted, true = desk.selected(program, name), desk.reference[name], self._truth.reference[name]
+            done, wanted, true = desk.select(program, name), desk.reference[name], self._truth.reference[name]
             if wanted is None or true is None:
                 continue
             rows = list(zip(done or (None,) * len(wanted), wanted, true, strict=True))
@@ -83,16 +83,16 @@ class Person:
         program: what was learned so far, since the rule meets the mesh as the rules before it leave it.
         """
         choices = [frozenset(choice.select) for choice in question.choices]
-        wanted = self._wanted(desk, question, program)
+        wanted = self._answers_to(desk, question, program)
         right = next((choices.index(select) for select in wanted if select in choices), None)
         if self._slips.random() < self._errs:
             right = self._slips.choice([place for place in (*range(len(choices)), None) if place != right])
         return question.answer_with(right)
 
-    def _wanted(self, desk: Desk, question: Question, program: Program) -> Iterator[frozenset[str]]:
+    def _answers_to(self, desk: Desk, question: Question, program: Program) -> Iterator[frozenset[str]]:
         name, place = question.asset, question.rule - 1
         mixed = replace(program, rules=(*program.rules[:place], self._task.program.rules[place]))
-        for done in (self._truth.reference[name], desk.reference[name], desk.selected(mixed, name)):
+        for done in (self._truth.reference[name], desk.reference[name], desk.select(mixed, name)):
             if done is not None:
                 yield done[place]
 

@@ -7,10 +7,10 @@ from dataclasses import asdict, dataclass, field
 from time import perf_counter
 from typing import Any
 
-from benchmark.study.carrying import begun_by_hand, labelled_by_hand
 from benchmark.study.condition import MOST, Condition
 from benchmark.study.desk import Bench, Selections
 from benchmark.study.person import Person
+from benchmark.study.propagation import begin_by_hand, label_by_hand
 from meshforge.common import MeshForgeError
 from meshforge.language import Program
 from meshforge.synthesis import Ambiguous, Answer, Demonstration, LabelCorrection, LearningOutcome, NoProgram, Repair
@@ -81,12 +81,12 @@ class Session:
         return Session(**{**data, "rounds": [Round(**row) for row in data["rounds"]]})
 
 
-def taught(bench: Bench, condition: Condition, seed: int) -> Session:
+def teach_task(bench: Bench, condition: Condition, seed: int) -> Session:
     """A task taught by one person under a condition."""
-    return _Teaching(bench, condition, seed).session()
+    return _Course(bench, condition, seed).session()
 
 
-class _Teaching:
+class _Course:
     """The state of a session on its way."""
 
     def __init__(self, bench: Bench, condition: Condition, seed: int) -> None:
@@ -95,7 +95,7 @@ class _Teaching:
         self.by_hand = frozenset[str]()
         """Meshes that were labelled before any was demonstrated; they are not judged."""
         if condition.labels == "propagated":
-            self.desk, self.by_hand, self.log.typed = begun_by_hand(bench, condition.labelled)
+            self.desk, self.by_hand, self.log.typed = begin_by_hand(bench, condition.labelled)
         else:
             self.desk = bench.desk(condition.labels, seed)
         self.person = Person(self.desk, seed, condition)
@@ -114,7 +114,7 @@ class _Teaching:
         self._begin()
         while True:
             outcome = self._learn()
-            if self._answered(outcome) or self._labelled(outcome):
+            if self._answer(outcome) or self._label_landmarks(outcome):
                 continue
             if isinstance(outcome, MeshForgeError) or outcome.program is None:
                 if not self._another(outcome):
@@ -138,7 +138,7 @@ class _Teaching:
         self.given[name] = new and new | (self.given.get(name) or frozenset())
         self.log.shown.append(name)
         if self.condition.labels == "propagated":
-            self.desk, wrong = labelled_by_hand(self.desk, name)
+            self.desk, wrong = label_by_hand(self.desk, name)
             self.log.typed += wrong
         steps = self.person.shows(self.desk, name, new).steps
         self.log.hulls_shown += sum(len(step.select or ()) for step in steps)
@@ -162,20 +162,20 @@ class _Teaching:
             outcome = error
         seconds = {"all": perf_counter() - start}
         if self.corrections:
-            self.desk, self.corrections = self.desk.corrected(self.corrections), []
+            self.desk, self.corrections = self.desk.correct(self.corrections), []
         if isinstance(outcome, MeshForgeError):
             self._note("refused", None, False, seconds)
             return outcome
         if outcome.program and not self.log.known_among:
-            self.log.known_among = self._known_among(outcome)
+            self.log.known_among = self._find_right_readings(outcome)
         self._note(outcome.status, outcome.program, outcome.settled, {**seconds, **outcome.seconds})
         return outcome
 
     def _note(self, status: str, program: Program | None, settled: bool, seconds: dict[str, float]) -> None:
-        log, differs = self.log, len(self.desk.differing(program, self._rest()))
+        log, differs = self.log, len(self.desk.find_differences(program, self._rest()))
         log.rounds.append(Round(len(log.shown), log.answers, status, _text(program), settled, differs, seconds))
 
-    def _labelled(self, outcome: LearningOutcome | MeshForgeError) -> bool:
+    def _label_landmarks(self, outcome: LearningOutcome | MeshForgeError) -> bool:
         """Whether labels were given by hand: to the landmarks of a demonstrated mesh that could not be oriented."""
         if not isinstance(outcome, MeshForgeError) or outcome.where not in self.given:
             return False
@@ -185,23 +185,23 @@ class _Teaching:
         wrong = [
             LabelCorrection(outcome.where, h.name, h.label, to) for h, to in pairs if to in landmarks and h.label != to
         ]
-        self.desk = self.desk.corrected(wrong)
+        self.desk = self.desk.correct(wrong)
         self.log.typed += len(wrong)
         return bool(wrong)
 
     def _outcome(self, demos: list[Demonstration]) -> LearningOutcome:
         """What the tool learns; where no program keeps all that was accepted, that is forgotten, as a project does."""
-        found = self._synthesized(demos)
+        found = self._synthesize(demos)
         if isinstance(found, NoProgram) and self.accepted:
             self.accepted.clear()
-            found = self._synthesized(demos)
+            found = self._synthesize(demos)
         return found
 
-    def _synthesized(self, demos: list[Demonstration]) -> LearningOutcome:
+    def _synthesize(self, demos: list[Demonstration]) -> LearningOutcome:
         said = [*self._verdicts(), *self.answers]
-        return self.desk.learned(demos, self.condition.options, self._confirm, said, self.rejected)
+        return self.desk.learn(demos, self.condition.options, self._confirm, said, self.rejected)
 
-    def _known_among(self, outcome: LearningOutcome) -> list[bool]:
+    def _find_right_readings(self, outcome: LearningOutcome) -> list[bool]:
         """For each rule, whether one of its readings behaves as the reference does on every mesh."""
         rules, readings = range(len(self.bench.task.program.rules)), outcome.readings
         able = [name for name in self.able if self.desk.reference[name] is not None]
@@ -220,7 +220,7 @@ class _Teaching:
             self.rejected.add(repair.correction)
         return said
 
-    def _answered(self, outcome: LearningOutcome | MeshForgeError) -> bool:
+    def _answer(self, outcome: LearningOutcome | MeshForgeError) -> bool:
         """Whether a question of the tool was answered."""
         since = self.log.answers - self.log.rounds[-1].answers if self.log.rounds else 0
         if not self.condition.questions or not isinstance(outcome, Ambiguous) or since >= _ANSWERS:
@@ -295,7 +295,7 @@ class _Teaching:
 
     def _accept(self, program: Program, names: Iterable[str]) -> None:
         for name in names:
-            done = self.desk.selected(program, name)
+            done = self.desk.select(program, name)
             if done is not None and self.person.accepts(name, done):
                 self.accepted[name] = done
 
@@ -309,11 +309,11 @@ class _Teaching:
         rest = [name for name in self._rest() if name not in self.by_hand]
         program = None if isinstance(outcome, MeshForgeError) else outcome.program
         log.program, log.right, log.settled = _text(program), log.rounds[-1].right, log.rounds[-1].settled
-        log.right_on_true = bool(program) and not bench.truth.differing(program, rest)
+        log.right_on_true = bool(program) and not bench.truth.find_differences(program, rest)
         log.judged, log.judged_pure = len(rest), sum(name in bench.pure for name in rest)
         log.f1 = self._f1(program, rest)
         for name in rest:
-            why = bench.failure(name, self.desk.edited(program, name)) if program else "no program was learned"
+            why = bench.failure(name, self.desk.edit(program, name)) if program else "no program was learned"
             if why:
                 log.failures[name] = why
                 log.failed_pure += name in bench.pure
@@ -325,7 +325,7 @@ class _Teaching:
             wanted = self.bench.truth.reference[name]
             if wanted is None:
                 continue
-            done = (self.desk.selected(program, name) if program else None) or ((frozenset(),) * len(wanted))
+            done = (self.desk.select(program, name) if program else None) or ((frozenset(),) * len(wanted))
             hit += sum(len(a & b) for a, b in zip(done, wanted, strict=True))
             chosen, meant = chosen + sum(map(len, done)), meant + sum(map(len, wanted))
         return 2 * hit / (chosen + meant) if chosen + meant else 1.0

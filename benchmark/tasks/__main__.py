@@ -11,9 +11,9 @@ from pathlib import Path
 from time import perf_counter
 
 from benchmark.assets import CATEGORIES, Sample
-from benchmark.assets.frozen import read
-from benchmark.assets.looking import upright
-from benchmark.tasks import Edited, Task, task, tasks
+from benchmark.assets.pictures import upright
+from benchmark.assets.storage import read
+from benchmark.tasks import EditResult, Task, task, tasks
 from meshforge.rendering import draw_before_after, make_contact_sheet, write_png
 
 
@@ -27,25 +27,25 @@ def main() -> None:
     given = parser.parse_args()
     for one in [task(name) for name in given.names] or tasks():
         rows = read(given.data, one.category) if given.data else one.samples(given.calibration)
-        tried(one, rows)
+        tell_results(one, rows)
         if given.picture:
             picture(one, rows, given.picture / f"{one.name}.png")
 
 
-def tried(one: Task, rows: Sequence[Sample]) -> None:
+def tell_results(one: Task, rows: Sequence[Sample]) -> None:
     """Tell how the meshes fare."""
     print(f"{one.name}: {one.says}")
     for about, made in (
-        ("unedited", lambda row: Edited(row.mesh)),
+        ("unedited", lambda row: EditResult(row.mesh)),
         ("reference", lambda row: one.run(one.program, row.mesh)),
         ("wrong", lambda row: one.run(one.wrong, row.mesh)),
     ):
-        _told(one, rows, about, made)
+        _tell_row(one, rows, about, made)
     simpler = sum(bool(one.impure(row)) for row in rows)
     print(f"  {simpler} of {len(rows)} meshes have hulls of several parts that matter")
 
 
-def _told(one: Task, rows: Sequence[Sample], about: str, made: Callable[[Sample], Edited]) -> None:
+def _tell_row(one: Task, rows: Sequence[Sample], about: str, made: Callable[[Sample], EditResult]) -> None:
     start, failures = perf_counter(), dict[str, str]()
     for row in rows:
         if why := one.failure(row, made(row)):

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from benchmark.tasks.task import Edited, Task, task
+from benchmark.tasks.task import EditResult, Task, task
 from meshforge.geometry import Floats
 from meshforge.language import (
     DIRECTIONS,
@@ -72,7 +72,7 @@ def judge_mutants(name: str, calibration: bool = False) -> list[dict[str, Any]]:
     ]
     for sample in one.samples(calibration):
         right = one.run(one.program, sample.mesh)
-        seen: list[tuple[Edited, bool]] = []
+        seen: list[tuple[EditResult, bool]] = []
         for mutant, row in zip(programs, rows, strict=True):
             edited = one.run(mutant.program, sample.mesh)
             least = _SAME * sample.mesh.diagonal
@@ -88,7 +88,7 @@ def judge_mutants(name: str, calibration: bool = False) -> list[dict[str, Any]]:
     return rows
 
 
-def have_same_shapes(one: Edited, other: Edited, least: float) -> bool:
+def have_same_shapes(one: EditResult, other: EditResult, least: float) -> bool:
     """Whether two edits have the same shapes, each to within a distance [m], whatever they are called."""
     if one.mesh is None or other.mesh is None:
         return one.mesh is other.mesh
@@ -103,7 +103,7 @@ def have_same_shapes(one: Edited, other: Edited, least: float) -> bool:
     return bool((apart.min(axis=0) <= least).all() and (apart.min(axis=1) <= least).all())
 
 
-def _extents(edited: Edited, without: set[str]) -> Floats:
+def _extents(edited: EditResult, without: set[str]) -> Floats:
     """Of each hull its box, its centroid and the side of a cube of its volume (n, 10) [m]."""
     assert edited.mesh
     hulls = [hull for hull in edited.mesh.hulls if hull.name not in without]

@@ -10,8 +10,8 @@ from pathlib import Path
 from typing import Any
 
 from benchmark.assets import CATEGORIES, Sample, samples
-from benchmark.assets.looking import upright
-from benchmark.criteria import Case, judged
+from benchmark.assets.pictures import upright
+from benchmark.criteria import Case, judge
 from meshforge.common import MeshForgeError
 from meshforge.formats import read
 from meshforge.language import Program, RuleTrace, Template, labels_of
@@ -25,7 +25,7 @@ _TOUCHED = 0.02  # share of a hull in parts of a label from which on the hull is
 
 
 @dataclass(frozen=True, eq=False)
-class Edited:
+class EditResult:
     """What a program makes of a mesh; mesh: None where it fails, error: why; named: made hulls that it labelled."""
 
     mesh: SymbolicMesh | None
@@ -73,28 +73,28 @@ class Task:
             if max(share.values()) < PURE and sum(share.get(label, 0.0) for label in self.labels) > _TOUCHED
         ]
 
-    def run(self, program: Program, mesh: SymbolicMesh) -> Edited:
+    def run(self, program: Program, mesh: SymbolicMesh) -> EditResult:
         """A program's edit of a mesh."""
         try:
             result = program.run(mesh, self.templates)
         except MeshForgeError as error:
-            return Edited(None, error=str(error))
+            return EditResult(None, error=str(error))
         rules = zip(program.rules, result.trace, strict=True)
         named = frozenset(name for rule, line in rules if rule.label for name in line.made)
-        return Edited(result.mesh, result.trace, named)
+        return EditResult(result.mesh, result.trace, named)
 
-    def selected(self, program: Program, mesh: SymbolicMesh) -> tuple[frozenset[str], ...] | None:
+    def select(self, program: Program, mesh: SymbolicMesh) -> tuple[frozenset[str], ...] | None:
         """What each rule selects on a mesh, None where the program fails."""
         edited = self.run(program, mesh)
         return None if edited.mesh is None else tuple(frozenset(line.selected) for line in edited.trace)
 
-    def failure(self, sample: Sample, edited: Edited) -> str | None:
+    def failure(self, sample: Sample, edited: EditResult) -> str | None:
         """Why an edit of a sample does not do, judged by the criterion; None where it does."""
         if edited.mesh is None:
             return edited.error or "the program fails"
         truth = {hull.name: hull.annotation for hull in sample.mesh.hulls}
         mesh = upright(sample, _truly_labelled(edited, truth))
-        return judged(Case(mesh, sample.asset, _before(sample)), self.criterion)
+        return judge(Case(mesh, sample.asset, _before(sample)), self.criterion)
 
 
 @lru_cache(maxsize=128)
@@ -103,7 +103,7 @@ def _before(sample: Sample) -> SymbolicMesh:
     return upright(sample)
 
 
-def _truly_labelled(edited: Edited, truth: Mapping[str, Label | None]) -> SymbolicMesh:
+def _truly_labelled(edited: EditResult, truth: Mapping[str, Label | None]) -> SymbolicMesh:
     """Hulls with their true labels; made ones with that of the hull they are named after, or what the program says."""
     assert edited.mesh
     names = [hull.name for hull in edited.mesh.hulls if hull.name not in edited.named]

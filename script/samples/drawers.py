@@ -6,8 +6,8 @@ from collections.abc import Callable
 
 from manifold3d import Manifold
 
-from script.samples.part import Part, moved
-from script.samples.solids import bar, block, box, tube, turned, union
+from script.samples.part import Part, move_parts
+from script.samples.solids import bar, block, box, revolve, tube, union
 
 FRONT = 0.02
 WALL = 0.012
@@ -35,13 +35,13 @@ def drawer(
         Part(name, "drawer", tray + front),
         Part(f"{name}_handle", "handle", handle().translate((0, 0, height / 2))),
     ]
-    return moved(parts, x, y, z, turn)
+    return move_parts(parts, x, y, z, turn)
 
 
 def knob(radius: float = 0.017) -> Manifold:
     """A mushroom knob."""
     r = radius
-    return turned([(0.45 * r, -SUNK), (0.45 * r, 0.9 * r), (r, 1.2 * r), (r, 1.7 * r), (0.6 * r, 2.1 * r)], 10).rotate(
+    return revolve([(0.45 * r, -SUNK), (0.45 * r, 0.9 * r), (r, 1.2 * r), (r, 1.7 * r), (0.6 * r, 2.1 * r)], 10).rotate(
         (90, 0, 0)
     )
 
@@ -71,8 +71,8 @@ def rod(width: float = 0.16, reach: float = 0.03, thickness: float = 0.014) -> M
 
 def cup(width: float = 0.09, reach: float = 0.03) -> Manifold:
     """A cup pull, hollow from below."""
-    outer = turned([(width / 2, 0), (width / 2 * 0.9, 0.02), (width / 2 * 0.5, 0.032)], 14)
-    inner = turned(
+    outer = revolve([(width / 2, 0), (width / 2 * 0.9, 0.02), (width / 2 * 0.5, 0.032)], 14)
+    inner = revolve(
         [(width / 2 - 0.006, -0.01), (width / 2 - 0.006, 0.004), (width / 2 * 0.8, 0.02), (width / 2 * 0.4, 0.027)], 14
     )
     shell = (outer - inner).scale((1, 2 * reach / width, 1))

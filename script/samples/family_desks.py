@@ -7,7 +7,7 @@ import numpy as np
 from script.samples import drawers, extras, legs, tops
 from script.samples.layout import corners, legs_at, row
 from script.samples.recipes import BLOCK, CHUNKS, COARSE, FINE, MEDIUM, PLUGGED, SHATTERED, UNMERGED, coacd
-from script.samples.table import Table, listed
+from script.samples.table import Table, join_parts
 
 
 def writing_desk() -> Table:
@@ -16,8 +16,8 @@ def writing_desk() -> Table:
     return Table(
         "table_03",
         "writing desk, notched top, shelf, towel bar",
-        listed(
-            tops.notched(1.4, 0.7, 0.75, 0.03, (0.16, 0.06)),
+        join_parts(
+            tops.notch_top(1.4, 0.7, 0.75, 0.03, (0.16, 0.06)),
             tops.shelf(1.27, 0.6, 0.2),
             legs_at(corners(1.25, 0.58), lambda x, y: legs.square(0.724, 0.05, 0.08, 0.16)),
             row(2, 0.04, (0.5, 0.5, 0.12), drawers.bow, 0.31, 0.582, pulled=(0.0, 0.28)),
@@ -39,8 +39,8 @@ def workbench() -> Table:
     return Table(
         "table_07",
         "workbench, pierced top, six legs, shelf, four drawers, rail at an end",
-        listed(
-            tops.pierced(1.9, 0.72, 0.9, 0.05, 0.07, holes),
+        join_parts(
+            tops.pierce_top(1.9, 0.72, 0.9, 0.05, 0.07, holes),
             tops.shelf(1.7, 0.56, 0.24, 0.025),
             legs_at(
                 [(x, y) for x in (-0.8, 0.0, 0.8) for y in (-0.27, 0.27)],
@@ -74,7 +74,7 @@ def partners_desk() -> Table:
     return Table(
         "table_08",
         "partners' desk, boarded top, turned legs, drawers on both sides, grips at the ends",
-        listed(
+        join_parts(
             tops.boards(1.6, 0.82, 0.76, 0.028, 5, 0.008, 0.02),
             legs_at(corners(1.44, 0.68), lambda x, y: legs.lathe(0.735, 0.08)),
             row(2, 0.06, (0.5, 0.34, 0.12), drawers.rod, 0.37, 0.574, pulled=(0.2, 0.0)),
@@ -105,12 +105,12 @@ def console() -> Table:
     return Table(
         "table_09",
         "console, bordered top, leaning legs, shelf, three drawers",
-        listed(
-            tops.rimmed(1.25, 0.38, 0.86, 0.022, 0.04, 0.02),
+        join_parts(
+            tops.rim_top(1.25, 0.38, 0.86, 0.022, 0.04, 0.02),
             tops.shelf(1.12, 0.28, 0.25),
             legs_at(
                 corners(1.12, 0.28),
-                lambda x, y: legs.splayed(0.83, 0.05, (0.02 * np.sign(x), 0.01 * np.sign(y), 0), 4, 0.018),
+                lambda x, y: legs.splay_leg(0.83, 0.05, (0.02 * np.sign(x), 0.01 * np.sign(y), 0), 4, 0.018),
             ),
             row(3, 0.03, (0.3, 0.26, 0.1), drawers.knob, 0.165, 0.7, pulled=(0.0, 0.13, 0.0)),
             extras.bowl(-0.3, 0.0, 0.86),
@@ -135,7 +135,7 @@ def conference() -> Table:
     return Table(
         "table_05",
         "conference table, three leaves, eight legs, a drawer on each side",
-        listed(
+        join_parts(
             tops.leaves(2.5, 1.05, 0.75, 0.03, 3, 0.007),
             legs_at(
                 [(x, y) for x in (-1.05, -0.38, 0.38, 1.05) for y in (-0.42, 0.42)],
@@ -147,7 +147,7 @@ def conference() -> Table:
                 [(-0.6, -0.1, 0.01), (-0.3, 0.15, 0.01), (0.0, 0.1, 0.01), (0.2, -0.1, 0.01), (0.6, -0.05, 0.01)], 0.018
             ),
             extras.mug(-0.8, -0.3, 0.75, 130),
-            extras.mug(0.7, 0.25, 0.75, 300).named("mug_2"),
+            extras.mug(0.7, 0.25, 0.75, 300).rename("mug_2"),
             extras.crumbs([(0.9, 0.0, 0.04), (-0.9, 0.2, 0.1)], 0.07, rng),
         ),
         (0, 0, 12),
@@ -162,13 +162,13 @@ def drafting_table() -> Table:
     return Table(
         "table_14",
         "drafting table, waisted top, five legs, two drawers on each side",
-        listed(
-            tops.waisted(1.6, 0.95, 0.8, 0.03, 0.05),
+        join_parts(
+            tops.waist_top(1.6, 0.95, 0.8, 0.03, 0.05),
             legs_at([*corners(1.4, 0.78), (0.0, 0.0)], lambda x, y: legs.square(0.774, 0.06, 0.09, 0.12)),
             row(2, 0.16, (0.42, 0.34, 0.1), drawers.bow, 0.4, 0.652, pulled=(0.0, 0.2)),
             row(2, 0.16, (0.42, 0.34, 0.1), drawers.bow, 0.4, 0.652, pulled=(0.2, 0.0), turn=180, first=3),
             extras.book(0.3, -0.1, 0.8, 70),
-            extras.book(0.32, -0.12, 0.831, 95, (0.17, 0.12, 0.02)).named("book_2"),
+            extras.book(0.32, -0.12, 0.831, 95, (0.17, 0.12, 0.02)).rename("book_2"),
             extras.crumbs([(0.3, 0.1, 0.02), (-0.4, 0.15, 0.02), (-0.35, -0.2, 0.3)], 0.05, rng),
         ),
         (0, 0, 40),

@@ -14,7 +14,7 @@ from script.samples.part import Part
 
 def legs_at(places: list[tuple[float, float]], make: Callable[[float, float], Manifold]) -> list[Part]:
     """A leg at each place (x, y), made by `make(x, y)` about the origin."""
-    return [leg(f"leg_{k + 1}", make(x, y)).moved(x, y) for k, (x, y) in enumerate(places)]
+    return [leg(f"leg_{k + 1}", make(x, y)).move(x, y) for k, (x, y) in enumerate(places)]
 
 
 def corners(width: float, depth: float) -> list[tuple[float, float]]:
@@ -47,4 +47,4 @@ def row(
         x = (k - (count - 1) / 2) * (size[0] + gap)
         out = pulled[k] if k < len(pulled) else 0.0
         parts += drawer(f"drawer_{first + k}", size, handle, x, -front - out, z)
-    return [part.moved(turn=turn) for part in parts]
+    return [part.move(turn=turn) for part in parts]

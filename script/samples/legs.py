@@ -6,7 +6,7 @@ import numpy as np
 from manifold3d import CrossSection, Manifold
 
 from script.samples.part import Part
-from script.samples.solids import Point, block, box, tapered, turned, union
+from script.samples.solids import Point, block, box, revolve, taper, union
 
 
 def leg(name: str, solid: Manifold) -> Part:
@@ -20,7 +20,7 @@ def square(height: float, width: float, block_size: float, block_height: float) 
         [
             block((-width / 2, -width / 2, 0.02), (width / 2, width / 2, height)),
             box((block_size, block_size, block_height), (0, 0, height - block_height / 2)),
-            tapered((0, 0, 0), (0, 0, 0.05), width * 1.2, width * 1.7),
+            taper((0, 0, 0), (0, 0, 0.05), width * 1.2, width * 1.7),
         ]
     )
 
@@ -28,7 +28,7 @@ def square(height: float, width: float, block_size: float, block_height: float) 
 def lathe(height: float, width: float) -> Manifold:
     """A turned leg: foot, vase, ring and block."""
     r, h = width / 2, height
-    shaft = turned(
+    shaft = revolve(
         [(0.5 * r, 0), (0.75 * r, 0.06 * h), (0.5 * r, 0.1 * h), (0.62 * r, 0.3 * h), (0.95 * r, 0.55 * h),
          (1.0 * r, 0.62 * h), (0.55 * r, 0.7 * h), (0.95 * r, 0.74 * h), (0.55 * r, 0.78 * h), (0.55 * r, 0.86 * h)]
     )  # fmt: skip
@@ -41,17 +41,17 @@ def sabre(height: float, width: float, sweep: float, heading: Point, steps: int 
     out = [sweep * (1 - z / height) ** 2 for z in levels]
     at = [(heading[0] * s, heading[1] * s, z) for s, z in zip(out, levels, strict=True)]
     sizes = [width * (0.55 + 0.45 * z / height) for z in levels]
-    return union([tapered(at[k + 1], at[k], sizes[k + 1], sizes[k]) for k in range(steps)])
+    return union([taper(at[k + 1], at[k], sizes[k + 1], sizes[k]) for k in range(steps)])
 
 
-def splayed(height: float, width: float, splay: Point, sides: int = 4, collar: float = 0.0) -> Manifold:
+def splay_leg(height: float, width: float, splay: Point, sides: int = 4, collar: float = 0.0) -> Manifold:
     """A straight leg that leans outwards, tapered to its foot; collar: extra width of a ring in the middle."""
-    shaft = tapered(splay, (0, 0, height), width * 0.6, width, sides)
+    shaft = taper(splay, (0, 0, height), width * 0.6, width, sides)
     if not collar:
         return shaft
     middle: Point = (splay[0] * 0.45, splay[1] * 0.45, height * 0.55)
     below: Point = (splay[0] * 0.55, splay[1] * 0.55, height * 0.45)
-    return shaft + tapered(below, middle, width + collar, width + collar, sides)
+    return shaft + taper(below, middle, width + collar, width + collar, sides)
 
 
 def lyre(height: float, width: float, thickness: float) -> Manifold:
@@ -69,7 +69,7 @@ def lyre(height: float, width: float, thickness: float) -> Manifold:
 def drum(height: float, radius: float) -> Manifold:
     """A stout turned column with a plinth, a waist and a ring below the top."""
     r, h = radius, height
-    return turned(
+    return revolve(
         [(1.08 * r, 0), (1.08 * r, 0.08 * h), (0.95 * r, 0.1 * h), (0.95 * r, 0.2 * h), (0.82 * r, 0.35 * h),
          (0.82 * r, 0.65 * h), (0.95 * r, 0.8 * h), (0.95 * r, 0.9 * h), (1.05 * r, 0.92 * h), (1.05 * r, h)], 20
     )  # fmt: skip

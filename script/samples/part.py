@@ -21,15 +21,15 @@ class Part:
     def __post_init__(self) -> None:
         self.solid.num_tri()  # evaluated as it was built: a lazy one would round otherwise once it is moved
 
-    def moved(self, x: float = 0.0, y: float = 0.0, z: float = 0.0, turn: float = 0.0) -> Part:
+    def move(self, x: float = 0.0, y: float = 0.0, z: float = 0.0, turn: float = 0.0) -> Part:
         """The part turned about Z [degrees], then shifted [m]."""
         return replace(self, solid=self.solid.rotate((0, 0, turn)).translate((x, y, z)))
 
-    def named(self, name: str) -> Part:
+    def rename(self, name: str) -> Part:
         """The part under another name."""
         return replace(self, name=name)
 
 
-def moved(parts: Iterable[Part], x: float = 0.0, y: float = 0.0, z: float = 0.0, turn: float = 0.0) -> list[Part]:
+def move_parts(parts: Iterable[Part], x: float = 0.0, y: float = 0.0, z: float = 0.0, turn: float = 0.0) -> list[Part]:
     """All parts turned about Z [degrees], then shifted [m]."""
-    return [part.moved(x, y, z, turn) for part in parts]
+    return [part.move(x, y, z, turn) for part in parts]

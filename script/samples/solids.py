@@ -39,7 +39,7 @@ def rectangle(width: float, depth: float, radius: float = 0.0, segments: int = 1
     return inner.offset(radius, JoinType.Round, circular_segments=segments)
 
 
-def chamfered(width: float, depth: float, cut: float) -> CrossSection:
+def chamfer(width: float, depth: float, cut: float) -> CrossSection:
     """A rectangle about the origin without its corners."""
     w, d = width / 2, depth / 2
     corners = [(w, d - cut), (w - cut, d), (cut - w, d), (-w, d - cut), (-w, cut - d), (cut - w, -d), (w - cut, -d)]
@@ -54,13 +54,13 @@ def superellipse(width: float, depth: float, power: float = 4.0, points: int = 4
     return CrossSection([np.stack(outline, axis=1)])
 
 
-def turned(profile: Sequence[tuple[float, float]], segments: int = 12) -> Manifold:
+def revolve(profile: Sequence[tuple[float, float]], segments: int = 12) -> Manifold:
     """A solid of revolution about Z: (radius, height) from below."""
     points = [(0.0, profile[0][1]), *profile, (0.0, profile[-1][1])]
     return CrossSection([np.array(points)]).revolve(segments)
 
 
-def tapered(low: Point, high: Point, low_size: float, high_size: float, sides: int = 4) -> Manifold:
+def taper(low: Point, high: Point, low_size: float, high_size: float, sides: int = 4) -> Manifold:
     """A straight post between two points with level ends, of `sides` sides; sizes are widths [m]."""
     turn = (np.arange(sides) + 0.5) * 2 * np.pi / sides
     rim = np.stack([np.cos(turn), np.sin(turn), np.zeros(sides)], axis=1) / (2 * np.cos(np.pi / sides))

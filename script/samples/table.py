@@ -38,7 +38,7 @@ class Table:
         return self.other.get(part.name, self.other.get(part.label, self.coacd))
 
 
-def listed(*parts: Part | Iterable[Part]) -> tuple[Part, ...]:
+def join_parts(*parts: Part | Iterable[Part]) -> tuple[Part, ...]:
     """Parts and lists of parts as one tuple."""
     flat: list[Part] = []
     for item in parts:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from manifold3d import CrossSection, Manifold
 
 from script.samples.part import Part
-from script.samples.solids import block, box, chamfered, plate, rectangle, superellipse, union
+from script.samples.solids import block, box, chamfer, plate, rectangle, superellipse, union
 
 
 def shelf(width: float, depth: float, z: float, thickness: float = 0.018, name: str = "shelf") -> Part:
@@ -18,7 +18,7 @@ def top(solid: Manifold) -> Part:
     return Part("top", "panel", solid)
 
 
-def quartered(width: float, depth: float, height: float, thickness: float, gap: float) -> list[Part]:
+def quarter_top(width: float, depth: float, height: float, thickness: float, gap: float) -> list[Part]:
     """Softly rounded, sawn into four along both middles, on a cross below."""
     outline = superellipse(width, depth, 6.0)
     whole = plate(outline, height, thickness)
@@ -51,7 +51,7 @@ def boards(
     return [Part(name, "panel", solid) for name, solid in named]
 
 
-def waisted(width: float, depth: float, height: float, thickness: float, waist: float) -> Part:
+def waist_top(width: float, depth: float, height: float, thickness: float, waist: float) -> Part:
     """A plate whose long sides curve inwards by `waist`."""
     radius = (width * width / 4 + waist * waist) / (2 * waist)
     outline = rectangle(width, depth, 0.03)
@@ -60,15 +60,15 @@ def waisted(width: float, depth: float, height: float, thickness: float, waist: 
     return top(plate(outline, height, thickness))
 
 
-def notched(width: float, depth: float, height: float, thickness: float, notch: tuple[float, float]) -> Part:
+def notch_top(width: float, depth: float, height: float, thickness: float, notch: tuple[float, float]) -> Part:
     """A plate with a rectangular cable notch in the middle of each long side."""
-    outline = chamfered(width, depth, 0.05)
+    outline = chamfer(width, depth, 0.05)
     for side in (-1, 1):
         outline -= rectangle(notch[0], 2 * notch[1], 0.02).translate((0, side * depth / 2))
     return top(plate(outline, height, thickness))
 
 
-def pierced(
+def pierce_top(
     width: float, depth: float, height: float, thickness: float, hole: float, places: list[tuple[float, float]]
 ) -> Part:
     """A plate with round holes for cables."""
@@ -78,7 +78,7 @@ def pierced(
     return top(plate(outline, height, thickness))
 
 
-def rimmed(width: float, depth: float, height: float, thickness: float, rim: float, drop: float) -> Part:
+def rim_top(width: float, depth: float, height: float, thickness: float, rim: float, drop: float) -> Part:
     """A plate with a border that hangs down below it."""
     low = height - thickness - drop
     recess = rectangle(width - 2 * rim, depth - 2 * rim).extrude(drop).translate((0, 0, low))
@@ -88,7 +88,7 @@ def rimmed(width: float, depth: float, height: float, thickness: float, rim: flo
 def leaves(width: float, depth: float, height: float, thickness: float, count: int, gap: float) -> list[Part]:
     """Leaves side by side along X with a narrow gap, without their corners, on two runners below."""
     each = (width - gap * (count - 1)) / count
-    outline = chamfered(each, depth, 0.05)
+    outline = chamfer(each, depth, 0.05)
     middles = [-width / 2 + each / 2 + k * (each + gap) for k in range(count)]
     under = height - thickness
     runners = [

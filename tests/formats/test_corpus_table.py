@@ -5,14 +5,14 @@ from __future__ import annotations
 import pytest
 
 from script.corpus_rows import entries, row
-from script.corpus_table import PAGE, TABLE, differences, page, parsed, rows, table
+from script.corpus_table import PAGE, TABLE, differences, page, parse, rows, table
 from tests.corpus_path import corpus
 
 _EVERY = 8  # one file in so many is read again; `script/corpus --check` reads all
 
 
 def committed() -> dict[str, str]:
-    return parsed(TABLE.read_text(encoding="utf-8"))
+    return parse(TABLE.read_text(encoding="utf-8"))
 
 
 def test_every_file_of_the_corpus_has_a_row() -> None:
@@ -32,7 +32,7 @@ def test_no_row_holds_nothing_and_none_is_a_fault_of_ours() -> None:
 def test_files_read_as_the_table_says(start: int) -> None:
     root = corpus()
     names = [name for name in list(committed())[start::_EVERY] if not name.endswith("/")]
-    after = parsed(table(row((str(root), name)) for name in names))
+    after = parse(table(row((str(root), name)) for name in names))
     assert differences({name: committed()[name] for name in names}, after) == []
 
 

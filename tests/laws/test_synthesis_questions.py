@@ -9,7 +9,7 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from benchmark.learning.families import FAMILIES, VOCABULARIES, family
-from benchmark.learning.hidden import hidden
+from benchmark.learning.targets import extractors_of
 from meshforge.language import Delete, Extractor, Program, select
 from meshforge.symbolic import Label, SymbolicMesh
 from meshforge.synthesis import Ambiguous, Answer, Demonstration, Found, LearningOutcome, Repair, Step, synthesize
@@ -92,7 +92,7 @@ def test_answers_and_a_look_at_what_is_proposed_lead_to_what_is_meant_on_every_a
     """What is not asked about is seen: of the proposed results a wrong one is shown next, the others are told."""
     meshes = {f"{name} {k}": mesh for k, mesh in enumerate(family(name, 25, seed=7))}
     at_once = right = asked = demonstrated = rules = 0
-    for meant in hidden(name):
+    for meant in extractors_of(name):
         names = [asset for asset, mesh in meshes.items() if select(meant, mesh)][:1]
         if not names:
             continue

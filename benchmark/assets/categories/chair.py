@@ -5,11 +5,11 @@ from __future__ import annotations
 import numpy as np
 from manifold3d import CrossSection, Manifold
 
-from benchmark.assets.asset import Built, Site
+from benchmark.assets.asset import Design, Site
 from benchmark.assets.categories.chair_legs import GAP, Chair, inset, leg_width, on_casters, on_legs
 from benchmark.assets.draw import Draw
 from script.samples.part import Part
-from script.samples.solids import Point, bar, block, box, pebble, plate, rectangle, turned, union
+from script.samples.solids import Point, bar, block, box, pebble, plate, rectangle, revolve, union
 
 LABELS = ("seat", "back", "leg", "arm", "rail", "misc")
 KINDS = {"plain": 8, "slatted": 4, "stool": 3, "settee": 3, "swivel": 4, "shelf": 3}
@@ -18,9 +18,9 @@ RARE = frozenset({"shelf"})
 Spot = tuple[float, float]
 
 
-def build(kind: str, draw: Draw) -> Built:
+def build(kind: str, draw: Draw) -> Design:
     """One chair."""
-    chair = _sized(kind, draw)
+    chair = _draw_size(kind, draw)
     style, legs, spots = on_casters(chair) if kind == "swivel" else on_legs(chair)
     seat_style, seat = _seat(chair)
     back_style, back = _back(chair)
@@ -28,10 +28,10 @@ def build(kind: str, draw: Draw) -> Built:
     parts = [*seat, back, *legs, *_arms(chair), *rails]
     residue = _residue(chair, back_style, legs)
     about = f"{seat_style} seat, {back_style} back, {style} legs, glued: {chair.glued or 'nothing'}"
-    return Built(about, (*parts, *residue), _sites(chair, spots, low))
+    return Design(about, (*parts, *residue), _sites(chair, spots, low))
 
 
-def _sized(kind: str, draw: Draw) -> Chair:
+def _draw_size(kind: str, draw: Draw) -> Chair:
     width = draw.ratio(0.85, 1.1) if kind == "settee" else draw.ratio(0.3, 0.55)
     depth = draw.ratio(0.36, 0.48) if kind == "settee" else width * draw.length(0.85, 1.05)
     tall = 0.42 * draw.ratio(0.9, 1.7) if kind in ("stool", "plain") else 0.42 * draw.ratio(0.85, 1.15)
@@ -146,7 +146,7 @@ def _back(chair: Chair) -> tuple[str, Part]:
     if style == "panel":
         solid = plate(rectangle(w, t), h, h) - box((0.3 * w, 1, 0.1 * h), (0, 0, 0.8 * h))
     elif style == "curved":
-        solid = _curved(w, t, h)
+        solid = _bend(w, t, h)
     elif style == "slats":
         n = draw.number(2, 6)
         slats = [box((0.4 * w / n, 0.7 * t, h), ((k - (n - 1) / 2) * w / (n + 0.6), 0, h / 2)) for k in range(n)]
@@ -160,17 +160,17 @@ def _back(chair: Chair) -> tuple[str, Part]:
         points = np.array([*outline, *((-x, z) for x, z in reversed(outline[2:]))])
         splat = CrossSection([points]).extrude(0.6 * t).rotate((90, 0, 0)).translate((0, 0.3 * t, 0))
         solid = union([*posts, head, splat])
-    return style, Part("back", "back", _leaning(chair, solid))
+    return style, Part("back", "back", _lean(chair, solid))
 
 
-def _curved(w: float, t: float, h: float) -> Manifold:
+def _bend(w: float, t: float, h: float) -> Manifold:
     """A panel that bends round whoever sits there."""
     turn, r = np.linspace(-0.3, 0.3, 6), w / 2 / np.sin(0.3)
     inner, outer = (np.stack([k * np.sin(turn), k * np.cos(turn) - r], axis=1) for k in (r - t, r))
     return CrossSection([np.concatenate([inner, outer[::-1]])]).extrude(h).translate((0, t / 2, 0))
 
 
-def _leaning(chair: Chair, solid: Manifold) -> Manifold:
+def _lean(chair: Chair, solid: Manifold) -> Manifold:
     """What was built upright about x = y = 0 as part of the back, on the rear of the seat, leaning."""
     t = 0.055 * min(chair.width, 0.5)
     y = chair.depth / 2 * (0.8 if chair.round else 1.0) - 0.7 * t
@@ -198,7 +198,7 @@ def _residue(chair: Chair, back: str, legs: list[Part]) -> list[Part]:
         parts.append(Part("book", "misc", solid.translate((x, y, chair.top + 0.03 * size + GAP))))
     elif left == "mug":
         ear = block((0.03, -0.006, 0.03), (0.065, 0.006, 0.075))
-        solid = turned([(0.037, 0), (0.04, 0.095)], 12) + ear
+        solid = revolve([(0.037, 0), (0.04, 0.095)], 12) + ear
         parts.append(Part("mug", "misc", solid.rotate((0, 0, draw.length(0, 360))).translate((x, y, chair.top + GAP))))
     elif left == "cushion":
         lump = Manifold.sphere(1.0, 12).scale((0.32 * size, 0.3 * size, 0.08 * size))
@@ -229,7 +229,7 @@ def _jacket(chair: Chair) -> Part:
     w, h, t = 0.4 * chair.width, chair.rise, 0.055 * min(chair.width, 0.5)
     x = chair.draw.length(-0.2, 0.2) * w
     hung = block((x - w / 2, t / 2 + GAP, 0.3 * h), (x + w / 2, t / 2 + 0.04, 1.02 * h))
-    return Part("jacket", "misc", _leaning(chair, hung))
+    return Part("jacket", "misc", _lean(chair, hung))
 
 
 def _sites(chair: Chair, spots: list[Spot], low: float) -> tuple[Site, ...]:

@@ -8,9 +8,9 @@ import numpy as np
 from manifold3d import CrossSection, Manifold
 
 from benchmark.assets.draw import Draw
-from script.samples.legs import lathe, sabre, splayed, square
+from script.samples.legs import lathe, sabre, splay_leg, square
 from script.samples.part import Part
-from script.samples.solids import Point, bar, box, tapered, turned, union
+from script.samples.solids import Point, bar, box, revolve, taper, union
 
 GAP, SUNK = 0.0008, 0.004  # between parts that are fitted together; how far glued ones reach into each other [m]
 
@@ -99,14 +99,14 @@ def _shaft(style: str, tall: float, width: float, splay: float, heading: Point) 
     if style == "sabre":
         return sabre(tall, width, splay, heading)
     if style == "splayed":
-        return splayed(tall, 0.8 * width, foot, 6, collar=0.35 * width)
+        return splay_leg(tall, 0.8 * width, foot, 6, collar=0.35 * width)
     if style == "cabriole":
         out = [splay, 0.3 * splay, 0.45 * splay, 1.1 * splay, 0.9 * splay, 0.0]
         sizes = [0.6, 0.5, 0.55, 0.85, 1.0, 0.95]
         levels = [(heading[0] * s, heading[1] * s, tall * k / 5) for k, s in enumerate(out)]
-        return union([tapered(levels[k], levels[k + 1], sizes[k] * width, sizes[k + 1] * width) for k in range(5)])
+        return union([taper(levels[k], levels[k + 1], sizes[k] * width, sizes[k + 1] * width) for k in range(5)])
     side = (-heading[1] * 1.1 * width, heading[0] * 1.1 * width)
-    ends = [tapered(foot, (s * side[0], s * side[1], tall), 0.5 * width, 0.45 * width, 6) for s in (-1, 1)]
+    ends = [taper(foot, (s * side[0], s * side[1], tall), 0.5 * width, 0.45 * width, 6) for s in (-1, 1)]
     return union(ends)
 
 
@@ -117,9 +117,9 @@ def _foot(style: str, high: float, width: float) -> Manifold:
         stem = box((0.7 * r, 0.7 * r, 0.1 * high), (0, 0, 0.95 * high))
         return Manifold.batch_hull([wheel.translate((0, 0, -wheel.bounding_box()[2])), stem])
     if style == "bun":
-        return turned([(0.7 * r, 0), (1.1 * r, 0.3 * high), (1.1 * r, 0.6 * high), (0.6 * r, high)], 12)
+        return revolve([(0.7 * r, 0), (1.1 * r, 0.3 * high), (1.1 * r, 0.6 * high), (0.6 * r, high)], 12)
     sides = 4 if style == "block" else 8
-    return tapered((0, 0, 0), (0, 0, high), (1.8 if sides == 4 else 1.1) * r, 1.5 * r, sides)
+    return taper((0, 0, 0), (0, 0, high), (1.8 if sides == 4 else 1.1) * r, 1.5 * r, sides)
 
 
 def on_casters(chair: Chair) -> tuple[str, list[Part], list[tuple[float, float]]]:
@@ -136,6 +136,6 @@ def on_casters(chair: Chair) -> tuple[str, list[Part], list[tuple[float, float]]
     parts = [Part(f"leg_{k}", "leg", (spoke + caster).rotate((0, 0, turn))) for k, turn in enumerate(turns)]
     top = chair.under - GAP
     profile = [(hub, 1.5 * high), (hub, 2.2 * high), (0.6 * hub, 2.3 * high), (0.6 * hub, 0.9 * top), (2 * hub, top)]
-    parts.append(Part("column", "rail", turned(profile, 12)))
+    parts.append(Part("column", "rail", revolve(profile, 12)))
     spots = [(reach * float(np.cos(np.radians(t))), reach * float(np.sin(np.radians(t)))) for t in turns]
     return f"{count} spoke", parts, spots

@@ -8,10 +8,10 @@ from math import cos, pi
 import numpy as np
 from manifold3d import CrossSection, Manifold
 
-from benchmark.assets.asset import Built, Site
+from benchmark.assets.asset import Design, Site
 from benchmark.assets.draw import Draw
 from script.samples.part import Part
-from script.samples.solids import Point, bar, box, chamfered, pebble, tapered, turned, union
+from script.samples.solids import Point, bar, box, chamfer, pebble, revolve, taper, union
 
 LABELS = ("wall", "base", "handle", "lid", "spoon", "misc")
 KINDS = {"mug": 9, "teacup": 5, "square": 3, "lidded": 5, "spooned": 3}
@@ -40,18 +40,18 @@ class _Wall:
     @property
     def solid(self) -> Manifold:
         """The wall, open above and below."""
-        return self._filled(0.0) - self._filled(self.thick)
+        return self._fill(0.0) - self._fill(self.thick)
 
-    def _filled(self, inset: float) -> Manifold:
+    def _fill(self, inset: float) -> Manifold:
         more = 0.002 if inset else 0.0
         bottom, top = (self.half(z) - inset for z in (self.low - more, self.high + more))
-        outline = outlined(bottom, self.sides)
+        outline = outline_polygon(bottom, self.sides)
         return outline.extrude(self.high - self.low + 2 * more, scale_top=(top / bottom,) * 2).translate(
             (0, 0, self.low - more)
         )
 
 
-def build(kind: str, draw: Draw) -> Built:
+def build(kind: str, draw: Draw) -> Design:
     """A cup of that kind, its ears at +X."""
     half = draw.ratio(0.028, 0.055)
     sides = 4 if kind == "square" else draw.one((20, 20, 16, 12, 8))
@@ -69,13 +69,13 @@ def build(kind: str, draw: Draw) -> Built:
     parts += _residue(wall, draw, [part.solid for part in parts])
     sites += _rooms(wall, empty=kind != "spooned", top=_top(parts))
     about = f"{sides} sides, {len(ears)} ears, {1e3 * half:.0f} x {1e3 * height:.0f} mm"
-    return Built(about, tuple(parts), tuple(sites))
+    return Design(about, tuple(parts), tuple(sites))
 
 
-def outlined(half: float, sides: int) -> CrossSection:
+def outline_polygon(half: float, sides: int) -> CrossSection:
     """A regular polygon by half its width across flats, a flat to +X; of four sides, a square without its corners."""
     if sides == 4:
-        return chamfered(2 * half, 2 * half, 0.3 * half)
+        return chamfer(2 * half, 2 * half, 0.3 * half)
     return CrossSection.circle(half / cos(pi / sides), sides).rotate(180 / sides)
 
 
@@ -97,19 +97,19 @@ def _base(wall: _Wall, draw: Draw) -> list[Part]:
     fused = draw.chance(0.15)
     top, r = (wall.low + 0.0005 if fused else wall.low - SEAM), wall.below
     about = 16 if wall.sides != 4 else 4
-    disc = outlined(r, about).extrude(top * 0.6).translate((0, 0, top * 0.4))
+    disc = outline_polygon(r, about).extrude(top * 0.6).translate((0, 0, top * 0.4))
     style = draw.one(("disc", "plinth", "ring", "feet"))
     if style == "disc":
-        solid = outlined(r * draw.length(0.9, 1.0), about).extrude(top)
+        solid = outline_polygon(r * draw.length(0.9, 1.0), about).extrude(top)
     elif style == "plinth":
         spread = draw.length(1.05, 1.25)
-        solid = outlined(r * spread, about).extrude(top, scale_top=(1 / spread, 1 / spread))
+        solid = outline_polygon(r * spread, about).extrude(top, scale_top=(1 / spread, 1 / spread))
     elif style == "ring":
-        solid = disc + (outlined(0.85 * r, about) - outlined(0.6 * r, about)).extrude(top * 0.5)
+        solid = disc + (outline_polygon(0.85 * r, about) - outline_polygon(0.6 * r, about)).extrude(top * 0.5)
     else:
         turns = (np.arange(count := draw.number(3, 5)) + 0.25) * 2 * pi / count
         spots = [(0.75 * r * np.cos(a), 0.75 * r * np.sin(a)) for a in turns]
-        solid = union([disc, *(tapered((x, y, 0), (x, y, top * 0.5), 0.2 * r, 0.3 * r, 6) for x, y in spots)])
+        solid = union([disc, *(taper((x, y, 0), (x, y, top * 0.5), 0.2 * r, 0.3 * r, 6) for x, y in spots)])
     return [Part("base", "base", solid)]
 
 
@@ -152,10 +152,10 @@ def _arm(
 def _lid(wall: _Wall, draw: Draw) -> list[Part]:
     """A lid that lies on the rim, and a knob on it."""
     z, r, thick = wall.high + 0.001, wall.above * draw.length(0.95, 1.06), draw.length(0.003, 0.006)
-    plate = outlined(r, 16).extrude(thick, scale_top=(draw.length(0.75, 1.0),) * 2).translate((0, 0, z))
+    plate = outline_polygon(r, 16).extrude(thick, scale_top=(draw.length(0.75, 1.0),) * 2).translate((0, 0, z))
     w, h = r * draw.length(0.18, 0.35), draw.length(0.01, 0.02)
     waist = draw.length(0.6, 1.0)
-    knob = turned([(w * waist, 0), (w, 0.5 * h), (0.7 * w, h)], 10).translate((0, 0, z + thick + SEAM))
+    knob = revolve([(w * waist, 0), (w, 0.5 * h), (0.7 * w, h)], 10).translate((0, 0, z + thick + SEAM))
     return [Part("lid", "lid", plate), Part("knob", "handle", knob)]
 
 
@@ -182,7 +182,7 @@ def _residue(wall: _Wall, draw: Draw, others: list[Manifold]) -> list[Part]:
         way = (float(np.cos(turn)), float(np.sin(turn)), 0.0)
         z = draw.one((size / 2, wall.low + 0.5 * (wall.high - wall.low)))
         at = (1.15 * r * way[0], 1.15 * r * way[1], z)
-        made.append(lump(at, way, size, [*others, *(part.solid for part in made)], draw).named(f"crumb_{k}"))
+        made.append(lump(at, way, size, [*others, *(part.solid for part in made)], draw).rename(f"crumb_{k}"))
     if draw.chance(0.35):
         face = max(wall.below, wall.above) / (cos(pi / wall.sides) if wall.sides != 4 else 1.0)
         tag = box((0.35 * r, 0.0012, 0.5 * r), (0, -face - 0.0018, wall.low + 0.55 * (wall.high - wall.low)))
@@ -191,7 +191,7 @@ def _residue(wall: _Wall, draw: Draw, others: list[Manifold]) -> list[Part]:
         ear = others[2].bounding_box()
         at = ((ear[0] + ear[3]) / 2, 0.0, (ear[2] + ear[5]) / 2)
         whole = [*others, *(part.solid for part in made)]
-        made.append(lump(at, (0, draw.one((-1.0, 1.0)), 0), size, whole, draw, SEAM).named("gum"))
+        made.append(lump(at, (0, draw.one((-1.0, 1.0)), 0), size, whole, draw, SEAM).rename("gum"))
     return made
 
 

@@ -7,10 +7,10 @@ from dataclasses import dataclass, field
 import numpy as np
 from manifold3d import Manifold
 
-from benchmark.assets.asset import LEVEL, Built, Site
+from benchmark.assets.asset import LEVEL, Design, Site
 from benchmark.assets.draw import Draw
 from script.samples.part import Part
-from script.samples.solids import Point, bar, block, box, pebble, plate, rectangle, tube, turned
+from script.samples.solids import Point, bar, block, box, pebble, plate, rectangle, revolve, tube
 
 LABELS = ("body", "base", "lever", "nozzle", "tray", "misc")
 KINDS = {"pump": 8, "tap": 8, "press": 4, "twin": 3, "pedestal": 2}
@@ -22,7 +22,7 @@ _FLOOR = 0.2  # of a tray's height
 
 
 @dataclass
-class _Made:
+class _Work:
     """What has been made so far."""
 
     draw: Draw
@@ -41,33 +41,33 @@ class _Made:
         self.add("misc", lump.translate(low))
 
 
-def build(kind: str, draw: Draw) -> Built:
+def build(kind: str, draw: Draw) -> Design:
     """One dispenser."""
-    made = _Made(draw)
-    about = _pump(made) if kind == "pump" else _tapped(made, kind)
-    return Built(about, tuple(made.parts), tuple(made.sites))
+    made = _Work(draw)
+    about = _pump(made) if kind == "pump" else _tank_with_taps(made, kind)
+    return Design(about, tuple(made.parts), tuple(made.sites))
 
 
-def _pump(made: _Made) -> str:
+def _pump(made: _Work) -> str:
     """A bottle with a pump head, on a foot."""
     draw = made.draw
     radius, height = draw.ratio(0.026, 0.048), draw.ratio(0.07, 0.2)
     foot, style = draw.length(0.006, 0.014), draw.one(("round", "square", "waisted"))
     wide = 2 * radius + draw.length(0.006, 0.03)
     round_foot = style != "square"
-    made.add("base", turned([(wide / 2, 0), (wide / 2, foot)], 16) if round_foot else _slab(wide, wide, 0, foot))
+    made.add("base", revolve([(wide / 2, 0), (wide / 2, foot)], 16) if round_foot else _slab(wide, wide, 0, foot))
     z = foot + _JOINT
     made.add("body", _bottle(style, radius, z, height))
     z, r = z + height + _JOINT, draw.length(0.011, 0.016)
     collar = draw.length(0.018, 0.028)
-    made.add("body", turned([(r, z), (r, z + collar)], 12))
+    made.add("body", revolve([(r, z), (r, z + collar)], 12))
     z, stem, s = z + collar + 0.0003, draw.length(0.014, 0.035), draw.length(0.018, 0.03)
     if draw.chance(0.5):
         made.lump((0.0047, -0.004, z + 0.0003), (r - 0.0055, 0.008, stem * 0.6))
-    made.add("lever", turned([(0.0045, z), (0.0045, z + stem)], 8))
+    made.add("lever", revolve([(0.0045, z), (0.0045, z + stem)], 8))
     z += stem + _JOINT
     thick = draw.length(0.011, 0.016)
-    made.add("lever", _slab(s, s, z, thick) if draw.chance(0.5) else turned([(s / 2, z), (s / 2, z + thick)], 12))
+    made.add("lever", _slab(s, s, z, thick) if draw.chance(0.5) else revolve([(s / 2, z), (s / 2, z + thick)], 12))
     _knob(made, (0, 0, z + thick), s)
     y, reach, drop = (
         -s / 2 - (_JOINT if draw.chance(0.85) else -0.001),
@@ -85,10 +85,10 @@ def _bottle(style: str, radius: float, z: float, height: float) -> Manifold:
         return Manifold.batch_hull([lower, _slab(radius, radius, z, height)])
     r, h, waist = radius, height, 0.7 if style == "waisted" else 1.0
     profile = [(r, z), (r, z + 0.3 * h), (r * waist, z + 0.55 * h), (r, z + 0.78 * h), (0.5 * r, z + h)]
-    return turned(profile if style == "waisted" else [(r, z), (r, z + 0.78 * h), (0.5 * r, z + h)], 16)
+    return revolve(profile if style == "waisted" else [(r, z), (r, z + 0.78 * h), (0.5 * r, z + h)], 16)
 
 
-def _tapped(made: _Made, kind: str) -> str:
+def _tank_with_taps(made: _Work, kind: str) -> str:
     """A tank with a tap or two; the place for a cup below."""
     draw, twin = made.draw, kind == "twin"
     wide, deep = draw.ratio(0.1, 0.2) * (1.6 if twin else 1.0), draw.ratio(0.09, 0.17)
@@ -118,7 +118,7 @@ def _tapped(made: _Made, kind: str) -> str:
     return f"{style} tank with {len(taps)} tap{'s' * twin}"
 
 
-def _foot(made: _Made, wide: float, deep: float, flat: bool) -> float:
+def _foot(made: _Work, wide: float, deep: float, flat: bool) -> float:
     """Make a foot all on the ground, a little larger than the body; its height."""
     draw, w, d = made.draw, wide + 0.024, deep + 0.024
     style = "plate" if flat else draw.one(("plate", "feet", "feet", "skids", "three"))
@@ -131,11 +131,11 @@ def _foot(made: _Made, wide: float, deep: float, flat: bool) -> float:
         r = draw.length(0.009, 0.014)
         x, y = w / 2 - r, d / 2 - r
         places = [(-x, -y), (x, -y), (x, y), (-x, y)] if style == "feet" else [(-x, y / 2), (x, y / 2), (0, -y)]
-        made.add("base", *(turned([(0.8 * r, 0), (r, h)], 8).translate((px, py, 0)) for px, py in places))
+        made.add("base", *(revolve([(0.8 * r, 0), (r, h)], 8).translate((px, py, 0)) for px, py in places))
     return h
 
 
-def _stand(made: _Made, wide: float, deep: float, reach: float) -> tuple[float, float]:
+def _stand(made: _Work, wide: float, deep: float, reach: float) -> tuple[float, float]:
     """Make a stand of two storeys: a foot for cups, posts, a shelf for the tank; heights of shelf and foot."""
     draw = made.draw
     w, d = wide + draw.length(0.1, 0.14), deep + 2 * reach
@@ -149,7 +149,7 @@ def _stand(made: _Made, wide: float, deep: float, reach: float) -> tuple[float, 
     return z + shelf, foot + _JOINT
 
 
-def _tank(made: _Made, wide: float, deep: float, z: float, high: float) -> str:
+def _tank(made: _Work, wide: float, deep: float, z: float, high: float) -> str:
     """Make the body; its style."""
     draw = made.draw
     style = draw.one(("solid", "rounded", "lidded", "open"))
@@ -173,7 +173,7 @@ def _boards(wide: float, deep: float, z: float, high: float, t: float) -> list[M
     ]
 
 
-def _tap(made: _Made, at: Point, s: float, spout_y: float, drop: float, arm: float) -> None:
+def _tap(made: _Work, at: Point, s: float, spout_y: float, drop: float, arm: float) -> None:
     """Make a tap at a tank's face: boss, lever, nozzle; s: its width, arm: of its lever [m]."""
     draw, (x, y, z) = made.draw, at
     made.add("body", box((s, 0.8 * s, s), (x, y - 0.4 * s, z)))
@@ -192,7 +192,7 @@ def _tap(made: _Made, at: Point, s: float, spout_y: float, drop: float, arm: flo
     _nozzle(made, (x, front, z), front - spout_y, drop, 0.45 * s)
 
 
-def _nozzle(made: _Made, at: Point, reach: float, drop: float, width: float) -> None:
+def _nozzle(made: _Work, at: Point, reach: float, drop: float, width: float) -> None:
     """Make a pipe that goes forward and down; sometimes a drip cap hangs at its end."""
     draw, (x, y, z) = made.draw, at
     end: Point = (x, y - reach, z - drop)
@@ -202,10 +202,10 @@ def _nozzle(made: _Made, at: Point, reach: float, drop: float, width: float) -> 
     made.sites.append(Site("outlet", (x, end[1], end[2] - 0.003), (0.024, 0.25 * width, 0.25 * width), below))
     if draw.chance(0.6):
         r, h, low = 0.7 * width, draw.length(0.012, 0.02), end[2] - _JOINT
-        made.add("tray", turned([(0.6 * r, low - h), (r, low)], 10).translate((x, end[1], 0)))
+        made.add("tray", revolve([(0.6 * r, low - h), (r, low)], 10).translate((x, end[1], 0)))
 
 
-def _tray(made: _Made, taps: list[float], y: float, z: float, wide: float, deep: float, tip: float) -> None:
+def _tray(made: _Work, taps: list[float], y: float, z: float, wide: float, deep: float, tip: float) -> None:
     """Make a drip tray below the nozzles, and the places of the cups in it."""
     draw, h = made.draw, made.draw.length(0.014, 0.026)
     inner = block((0.003 - wide / 2, y - deep / 2 + 0.003, z + _FLOOR * h), (wide / 2 - 0.003, y + deep / 2 - 0.003, 1))
@@ -218,7 +218,7 @@ def _tray(made: _Made, taps: list[float], y: float, z: float, wide: float, deep:
             made.lump((x + 0.01, y - 0.02, low + 0.0005), (0.02, 0.025, 0.012))
 
 
-def _residue(made: _Made, wide: float, deep: float) -> None:
+def _residue(made: _Work, wide: float, deep: float) -> None:
     """Make what sticks under a foot and what lies about."""
     draw = made.draw
     if draw.chance(0.8):
@@ -236,7 +236,7 @@ def _residue(made: _Made, wide: float, deep: float) -> None:
         made.add("misc", tube(path, 0.008, 6))
 
 
-def _knob(made: _Made, at: Point, width: float) -> None:
+def _knob(made: _Work, at: Point, width: float) -> None:
     """The place of a knob that would be put there, for fingers from above."""
     x, y, z = at
     middle: Point = (x, y, z + _KNOB[1] * width)

@@ -9,12 +9,12 @@ from __future__ import annotations
 import numpy as np
 from manifold3d import CrossSection, Manifold
 
-from benchmark.assets.asset import Built, Site
+from benchmark.assets.asset import Design, Site
 from benchmark.assets.categories.door_leaves import HAIRLINE, LEAVES, Size
 from benchmark.assets.draw import Draw
 from meshforge.geometry import convex_hull
 from script.samples.part import Part
-from script.samples.solids import Point, block, box, pebble, tapered, union
+from script.samples.solids import Point, block, box, pebble, taper, union
 
 LABELS = ("frame", "sill", "leaf", "handle", "hinge", "misc")
 KINDS = {"panelled": 6, "boarded": 6, "louvred": 5, "glazed": 5, "pegged": 3}
@@ -24,7 +24,7 @@ _AXIS = ((0.0, 0.0, -1.0), (1.0, 0.0, 0.0), (0.0, -1.0, 0.0))
 _MOVING = ("leaf", "handle", "hinge")
 
 
-def build(kind: str, draw: Draw) -> Built:
+def build(kind: str, draw: Draw) -> Design:
     """One door."""
     size = _size(draw)
     style = kind if kind != "pegged" else draw.one(("panelled", "boarded", "louvred", "glazed", "flush"))
@@ -41,7 +41,7 @@ def build(kind: str, draw: Draw) -> Built:
         parts, sites = parts + pegs, sites + more
     parts += _residue(size, axis, draw)
     about = f"{style}, {'rebated' if size.stop else 'plain'} frame, {len(handles)} handle{'s' * (len(handles) > 1)}"
-    return Built(about, tuple(parts), tuple(sites))
+    return Design(about, tuple(parts), tuple(sites))
 
 
 def _size(draw: Draw) -> Size:
@@ -120,7 +120,7 @@ def _hinges(size: Size, stile: float, draw: Draw) -> tuple[Point, list[Part]]:
     radius, slim = 0.011 * size.scale, 0.005 * size.scale
     x, y, half = -size.width / 2 - size.gap / 2, -radius - HAIRLINE, size.thick / 2
     tall, strap = 0.045 * size.height, draw.length(0.7, 1.0) * stile if draw.chance(0.5) else 0.0
-    barrel = tapered((x, y, -tall), (x, y, tall), 2 * radius, 2 * radius, 10)
+    barrel = taper((x, y, -tall), (x, y, tall), 2 * radius, 2 * radius, 10)
     arm = half + HAIRLINE + slim / 2
     moment = barrel.volume() * (half - y) + strap * slim * tall * arm
     start = -size.width / 2 + size.stop + 0.01 * size.scale

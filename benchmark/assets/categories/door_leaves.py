@@ -44,19 +44,19 @@ class Size:
         return self.thick + (0.003 + 0.025 * self.scale if self.stop else 0.0)
 
 
-def _panelled(size: Size, stile: float, draw: Draw) -> list[Part]:
+def _panel_leaf(size: Size, stile: float, draw: Draw) -> list[Part]:
     """Stiles, rails and thinner panels."""
     rows, columns = draw.number(2, 3), draw.one((1, 1, 2))
-    return _framed(size, stile, rows, columns, 0.5, solid=draw.chance(0.5))
+    return _frame(size, stile, rows, columns, 0.5, solid=draw.chance(0.5))
 
 
-def _glazed(size: Size, stile: float, draw: Draw) -> list[Part]:
+def _glass_leaf(size: Size, stile: float, draw: Draw) -> list[Part]:
     """One solid with openings, and a pane in each."""
     rows = draw.number(1, 3)
-    return _framed(size, stile, rows, 1, 0.15, solid=True)
+    return _frame(size, stile, rows, 1, 0.15, solid=True)
 
 
-def _framed(size: Size, stile: float, rows: int, columns: int, thin: float, solid: bool = False) -> list[Part]:
+def _frame(size: Size, stile: float, rows: int, columns: int, thin: float, solid: bool = False) -> list[Part]:
     """Stiles and rails, as one solid or jointed, and in every opening a pane of a share of their thickness."""
     w, h, t, f = size.width / 2, size.height, size.thick, size.foot
     rail = 0.8 * stile
@@ -79,9 +79,9 @@ def _framed(size: Size, stile: float, rows: int, columns: int, thin: float, soli
     return [Part(f"leaf_{k}", "leaf", piece) for k, piece in enumerate([*bones, *panes], 1)]
 
 
-def _louvred(size: Size, stile: float, draw: Draw) -> list[Part]:
+def _louvre_leaf(size: Size, stile: float, draw: Draw) -> list[Part]:
     """A frame with slanted slats in it."""
-    bones = _framed(size, stile, 1, 1, 0.5, solid=draw.chance(0.5))[:-1]
+    bones = _frame(size, stile, 1, 1, 0.5, solid=draw.chance(0.5))[:-1]
     count, rail = draw.number(4, 8), 0.8 * stile
     inner, pitch = size.width / 2 - stile - HAIRLINE, (size.height - 2 * rail) / count
     middle = size.thick / 2
@@ -91,7 +91,7 @@ def _louvred(size: Size, stile: float, draw: Draw) -> list[Part]:
     return [*bones, *slats]
 
 
-def _boarded(size: Size, stile: float, draw: Draw) -> list[Part]:
+def _board_leaf(size: Size, stile: float, draw: Draw) -> list[Part]:
     """Upright boards with a gap between them, on ledges in front and behind."""
     count, gap = draw.number(3, 5), draw.one((2 * HAIRLINE, 0.006 * size.width))
     each = (size.width - gap * (count - 1)) / count
@@ -113,5 +113,11 @@ def _flush(size: Size, stile: float, draw: Draw) -> list[Part]:
     return [Part("leaf", "leaf", block((-w, 0, size.foot), (w, t, size.head)))]
 
 
-LEAVES = {"panelled": _panelled, "boarded": _boarded, "louvred": _louvred, "glazed": _glazed, "flush": _flush}
+LEAVES = {
+    "panelled": _panel_leaf,
+    "boarded": _board_leaf,
+    "louvred": _louvre_leaf,
+    "glazed": _glass_leaf,
+    "flush": _flush,
+}
 """Makes the parts of a leaf, by style, from its size, the width of its stiles and a draw."""

@@ -8,11 +8,11 @@ from math import atan, cos, hypot, sin
 import numpy as np
 from manifold3d import Manifold
 
-from benchmark.assets.asset import Built, Site
-from benchmark.assets.categories.cup import LIFT, SEAM, lump, outlined
+from benchmark.assets.asset import Design, Site
+from benchmark.assets.categories.cup import LIFT, SEAM, lump, outline_polygon
 from benchmark.assets.draw import Draw
 from script.samples.part import Part
-from script.samples.solids import Point, block, pebble, tube, turned, union
+from script.samples.solids import Point, block, pebble, revolve, tube, union
 
 LABELS = ("body", "base", "spout", "handle", "lid", "misc")
 KINDS = {"stove": 8, "electric": 8, "pot": 6, "vented": 3}
@@ -56,10 +56,10 @@ class _Body:
 
     def _between(self, low: float, high: float, inset: float) -> Manifold:
         bottom, top = self.half(low) - inset, self.half(high) - inset
-        return outlined(bottom, _SIDES).extrude(high - low, scale_top=(top / bottom,) * 2).translate((0, 0, low))
+        return outline_polygon(bottom, _SIDES).extrude(high - low, scale_top=(top / bottom,) * 2).translate((0, 0, low))
 
 
-def build(kind: str, draw: Draw) -> Built:
+def build(kind: str, draw: Draw) -> Design:
     """A kettle of that kind, its spout at +X, its handle at -X."""
     below = draw.ratio(0.05, 0.1)
     taper = draw.length(0.72, 0.9) if kind == "stove" else draw.length(0.88, 1.04)
@@ -81,14 +81,14 @@ def build(kind: str, draw: Draw) -> Built:
     parts += _residue(kind, body, way, draw, [part.solid for part in parts])
     knob = Site("knob", (0.0, 0.0, top + 0.0125), (0.004, 0.014, 0.004), _DOWN)
     about = f"{2e3 * below:.0f} x {1e3 * height:.0f} mm, {'a' if knobbed else 'no'} knob"
-    return Built(about, tuple(parts), (way, grip, knob))
+    return Design(about, tuple(parts), (way, grip, knob))
 
 
 def _base(body: _Body, draw: Draw) -> Part:
     """A plate below the body."""
     top = body.low + (SEAM if draw.chance(0.1) else -SEAM)
     spread = draw.length(0.9, 1.2)
-    foot = outlined(body.below * spread, _SIDES).extrude(top, scale_top=(draw.length(0.85, 1.0),) * 2)
+    foot = outline_polygon(body.below * spread, _SIDES).extrude(top, scale_top=(draw.length(0.85, 1.0),) * 2)
     return Part("base", "base", foot)
 
 
@@ -140,10 +140,10 @@ def _handle(body: _Body, draw: Draw) -> tuple[Part, Site]:
 def _lid(body: _Body, draw: Draw) -> tuple[Part, float]:
     """A disc that lies loosely over the mouth, on some a plug below it; and the height of its upper face."""
     z, r, thick = body.high + 0.0012, body.above * draw.length(0.9, 1.05), draw.length(0.004, 0.01)
-    solid = outlined(r, _SIDES).extrude(thick, scale_top=(draw.length(0.85, 1.0),) * 2).translate((0, 0, z))
+    solid = outline_polygon(r, _SIDES).extrude(thick, scale_top=(draw.length(0.85, 1.0),) * 2).translate((0, 0, z))
     if draw.chance(0.4):
         deep = 1.2 * body.thick
-        solid += outlined(body.mouth - 0.0015, _SIDES).extrude(deep + 0.001).translate((0, 0, z - deep))
+        solid += outline_polygon(body.mouth - 0.0015, _SIDES).extrude(deep + 0.001).translate((0, 0, z - deep))
     return Part("lid", "lid", solid), z + thick
 
 
@@ -151,13 +151,13 @@ def _knob(body: _Body, top: float, draw: Draw) -> Part:
     """A knob on the lid."""
     w, h = body.mouth * draw.length(0.15, 0.3), draw.length(0.01, 0.022)
     profile = [(w * draw.length(0.5, 1.0), 0.0), (w, 0.6 * h), (0.7 * w, h)]
-    return Part("knob", "handle", turned(profile, 10).translate((0, 0, top + SEAM)))
+    return Part("knob", "handle", revolve(profile, 10).translate((0, 0, top + SEAM)))
 
 
 def _vent(body: _Body, top: float, draw: Draw) -> Part:
     """A small nozzle for steam on the lid's front."""
     w, h = body.mouth * draw.length(0.1, 0.16), draw.length(0.008, 0.018)
-    return Part("vent", "spout", turned([(w, 0.0), (0.6 * w, h)], 10).translate((0.68 * body.mouth, 0, top + SEAM)))
+    return Part("vent", "spout", revolve([(w, 0.0), (0.6 * w, h)], 10).translate((0.68 * body.mouth, 0, top + SEAM)))
 
 
 def _residue(kind: str, body: _Body, way: Site, draw: Draw, others: list[Manifold]) -> list[Part]:
@@ -169,7 +169,7 @@ def _residue(kind: str, body: _Body, way: Site, draw: Draw, others: list[Manifol
         out = (float(np.cos(turn)), float(np.sin(turn)), 0.0)
         z = draw.one((size / 2, body.low + 0.5 * (body.high - body.low)))
         at = (1.25 * body.below * out[0], 1.25 * body.below * out[1], z)
-        made.append(lump(at, out, size, [*others, *(part.solid for part in made)], draw).named(f"crumb_{k}"))
+        made.append(lump(at, out, size, [*others, *(part.solid for part in made)], draw).rename(f"crumb_{k}"))
     if kind == "electric" and draw.chance(0.6):
         edge = -others[1].bounding_box()[0] + LIFT
         first = block((-edge - 0.02, -0.003, 0), (-edge, 0.003, 0.006))
@@ -183,5 +183,5 @@ def _residue(kind: str, body: _Body, way: Site, draw: Draw, others: list[Manifol
         low = others[3].bounding_box()
         spot = (low[0] + 0.1 * (low[3] - low[0]), 0.0, (low[2] + low[5]) / 2)
         whole = [*others, *(part.solid for part in made)]
-        made.append(lump(spot, (0, draw.one((-1.0, 1.0)), 0), 0.8 * size, whole, draw, SEAM).named("gum"))
+        made.append(lump(spot, (0, draw.one((-1.0, 1.0)), 0), 0.8 * size, whole, draw, SEAM).rename("gum"))
     return made

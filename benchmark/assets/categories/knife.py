@@ -7,11 +7,11 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from manifold3d import CrossSection, Manifold
 
-from benchmark.assets.asset import Built, Site
+from benchmark.assets.asset import Design, Site
 from benchmark.assets.categories.knife_blades import EDGE, blade
 from benchmark.assets.draw import Draw
 from script.samples.part import Part
-from script.samples.solids import Point, block, box, tube, turned, union
+from script.samples.solids import Point, block, box, revolve, tube, union
 
 LABELS = ("blade", "handle", "guard", "sheath", "clip", "misc")
 KINDS = {"chef": 5, "cleaver": 3, "bread": 3, "hunting": 4, "dagger": 4, "folding": 3, "belted": 3}
@@ -25,7 +25,7 @@ _MOUTH = 0.02  # of a sheath, from the guard [m]
 
 
 @dataclass
-class _Made:
+class _Work:
     """What has been made so far, about the plane z = 0, the guard's face at x = 0, and its measures [m].
 
     thick: of the blade; long, wide, high: of the handle; end: how thick it is at its end, of its thickness;
@@ -53,9 +53,9 @@ class _Made:
         self.add("misc", Manifold.hull_points(np.concatenate([foot, cloud]) * size + at))
 
 
-def build(kind: str, draw: Draw) -> Built:
+def build(kind: str, draw: Draw) -> Design:
     """One knife."""
-    made = _Made(
+    made = _Work(
         draw,
         thick=draw.length(0.0038, 0.006),
         long=draw.ratio(0.085, 0.15),
@@ -64,26 +64,26 @@ def build(kind: str, draw: Draw) -> Built:
     )
     shape = draw.one(("chef", "hunting", "dagger")) if kind == "belted" else kind
     if kind == "folding":
-        about, sheathed = _folding(made), False
+        about, sheathed = _pocket_knife(made), False
     else:
-        about = _fixed(made, shape)
+        about = _rigid_knife(made, shape)
         sheathed = kind == "belted" or draw.chance(0.65)
     if sheathed:
         _sheath(made, kind == "belted")
     _clips(made, kind == "belted")
     _residue(made, sheathed)
     _places(made)
-    return _lying(made, f"{about}, sheathed" if sheathed else about)
+    return _lay(made, f"{about}, sheathed" if sheathed else about)
 
 
-def _lying(made: _Made, about: str) -> Built:
+def _lay(made: _Work, about: str) -> Design:
     """Lift all so that it lies on z = 0."""
     up = -min(part.solid.bounding_box()[2] for part in made.parts)
     sites = [replace(site, at=(site.at[0], site.at[1], site.at[2] + up)) for site in made.sites]
-    return Built(about, tuple(part.moved(z=up) for part in made.parts), tuple(sites))
+    return Design(about, tuple(part.move(z=up) for part in made.parts), tuple(sites))
 
 
-def _fixed(made: _Made, shape: str) -> str:
+def _rigid_knife(made: _Work, shape: str) -> str:
     """A blade that is fixed, by a tang between scales or in front of a grip."""
     draw = made.draw
     scales, g = draw.chance(0.6), draw.length(0.006, 0.016)
@@ -110,10 +110,10 @@ def _fixed(made: _Made, shape: str) -> str:
 
 def _along(y: float, z: float, begin: float, end: float) -> Manifold:
     """An oval disc about the X axis."""
-    return turned([(1.0, begin), (1.0, end)], 12).rotate((0, 90, 0)).scale((1, y, z))
+    return revolve([(1.0, begin), (1.0, end)], 12).rotate((0, 90, 0)).scale((1, y, z))
 
 
-def _scales(made: _Made, front: float, half: float) -> None:
+def _scales(made: _Work, front: float, half: float) -> None:
     """Two plates of wood, sometimes hollowed for the fingers."""
     draw, back, w = made.draw, -made.long, made.wide / 2
     top = made.high / 2
@@ -129,7 +129,7 @@ def _scales(made: _Made, front: float, half: float) -> None:
     made.add("handle", *(outline.extrude(top - half).translate((0, 0, low)) for low in (half, -top)))
 
 
-def _grip(made: _Made, front: float) -> None:
+def _grip(made: _Work, front: float) -> None:
     """A handle in one piece."""
     draw, back, w, h = made.draw, -made.long, made.wide / 2, made.high / 2
     style = draw.one(("block", "oval", "barrel", "bobbin"))
@@ -142,11 +142,11 @@ def _grip(made: _Made, front: float) -> None:
         "bobbin": [(1.0, 0.0), (1.0, 0.15), (0.72, 0.35), (0.72, 0.6), (0.95, 1.0)],
     }[style]
     profile = [(r, back + t * (front - back)) for r, t in rows]
-    made.add("handle", turned(profile, 12).rotate((0, 90, 0)).scale((1, w, h)))
+    made.add("handle", revolve(profile, 12).rotate((0, 90, 0)).scale((1, w, h)))
     made.end = 0.9 if style == "barrel" else 1.0
 
 
-def _folding(made: _Made) -> str:
+def _pocket_knife(made: _Work) -> str:
     """A blade that turns about a pivot between the bolsters, into the handle."""
     draw = made.draw
     made.wide, made.high = 0.042, made.thick + draw.length(0.01, 0.014)
@@ -170,7 +170,7 @@ def _folding(made: _Made) -> str:
 _ABOUT_Z: tuple[Point, Point, Point] = ((0.0, 0.0, 1.0), (1.0, 0.0, 0.0), (0.0, 1.0, 0.0))
 
 
-def _sheath(made: _Made, belted: bool) -> None:
+def _sheath(made: _Work, belted: bool) -> None:
     """Two boards and what keeps them apart; of a belted one, two hooks that a belt lies on."""
     draw, (low, top, long) = made.draw, made.blade
     half, t, rim = made.thick / 2 + _AIR, draw.length(0.0025, 0.005), draw.length(0.004, 0.008)
@@ -192,7 +192,7 @@ def _sheath(made: _Made, belted: bool) -> None:
     made.sites.append(Site("draw", middle, (0.0, angle, 0.0), _ABOUT_Z, ("blade", "handle", "guard", "clip", "misc")))
 
 
-def _clips(made: _Made, always: bool) -> None:
+def _clips(made: _Work, always: bool) -> None:
     """What sticks out of the handle: a ring at its end, a clip on its side."""
     draw, back = made.draw, -made.long
     if always or draw.chance(0.5):
@@ -206,7 +206,7 @@ def _clips(made: _Made, always: bool) -> None:
         made.add("clip", union([foot, block((x, -0.004, z + 0.004), (x + s, 0.004, z + 0.006))]))
 
 
-def _residue(made: _Made, sheathed: bool) -> None:
+def _residue(made: _Work, sheathed: bool) -> None:
     """Crumbs on the blade, a label on the handle, bits about."""
     draw, (low, top, long) = made.draw, made.blade
     if draw.chance(0.7):
@@ -225,7 +225,7 @@ def _residue(made: _Made, sheathed: bool) -> None:
         made.crumb((-draw.length(0.2, 1.0) * made.long, made.wide + s, -made.high / 2), (s, s, s))
 
 
-def _places(made: _Made) -> None:
+def _places(made: _Work) -> None:
     """Where grippers would hold the handle, and a knob at its end."""
     m = min(made.wide, made.high) * made.end
     grip = ((0.0, -1.0, 0.0), (0.0, 0.0, 1.0), (-1.0, 0.0, 0.0))

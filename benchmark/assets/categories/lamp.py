@@ -8,11 +8,11 @@ from dataclasses import dataclass
 import numpy as np
 from manifold3d import CrossSection, Manifold
 
-from benchmark.assets.asset import Built, Site
+from benchmark.assets.asset import Design, Site
 from benchmark.assets.categories.lamp_shades import GAP, Shade, bars, draw_shade, struts
 from benchmark.assets.draw import Draw
 from script.samples.part import Part
-from script.samples.solids import Point, bar, block, box, pebble, turned, union
+from script.samples.solids import Point, bar, block, box, pebble, revolve, union
 
 LABELS = ("base", "pole", "shade", "cord", "switch", "misc")
 KINDS = {"floor": 9, "desk": 9, "twin": 4, "ceiling": 3}
@@ -32,10 +32,10 @@ class _Lamp:
     draw: Draw
 
 
-def build(kind: str, draw: Draw) -> Built:
+def build(kind: str, draw: Draw) -> Design:
     """One lamp."""
     if kind == "ceiling":
-        return _hanging(draw)
+        return _pendant(draw)
     tall = kind == "floor" or (kind == "twin" and draw.chance(0.5))
     height = draw.ratio(0.75, 1.45) if tall else draw.ratio(0.24, 0.45)
     foot = draw.ratio(0.13, 0.19) if tall else draw.ratio(0.075, 0.12)
@@ -54,12 +54,12 @@ def build(kind: str, draw: Draw) -> Built:
         top = float(parts[-1].solid.bounding_box()[5])
     sites = [_grip(lamp, plate, height)]
     for k, (x, y) in enumerate(spots):
-        made, site = _headed(lamp, shade, top + GAP, k)
-        parts += [part.moved(x, y) for part in made]
+        made, site = _head(lamp, shade, top + GAP, k)
+        parts += [part.move(x, y) for part in made]
         sites.append(Site(site.name, (x, y, site.at[2]), site.size, site.axes))
-    parts += [_switch(lamp, 0.45 * height), _cord(lamp), *_stuck(lamp, parts)]
+    parts += [_switch(lamp, 0.45 * height), _cord(lamp), *_residue(lamp, parts)]
     about = f"{style} base, {shade.style} shade, {len(spots)} of them, glued: {lamp.glued or 'nothing'}"
-    return Built(about, tuple(parts), tuple(sites))
+    return Design(about, tuple(parts), tuple(sites))
 
 
 def _base(lamp: _Lamp) -> tuple[str, list[Part]]:
@@ -69,7 +69,7 @@ def _base(lamp: _Lamp) -> tuple[str, list[Part]]:
     disc = CrossSection.circle(r, 20)
     solids: list[Manifold] = []
     if style == "disc":
-        solids = [turned([(r, 0), (r, 0.5 * t), (0.85 * r, t)], 20)]
+        solids = [revolve([(r, 0), (r, 0.5 * t), (0.85 * r, t)], 20)]
     elif style == "square":
         solids = [box((1.8 * r, 1.8 * r, t), (0, 0, t / 2))]
     elif style == "ring":
@@ -88,14 +88,14 @@ def _base(lamp: _Lamp) -> tuple[str, list[Part]]:
 def _rod(lamp: _Lamp) -> list[Part]:
     """A rod on the base, with a collar below."""
     start = lamp.plate + (-0.003 if lamp.glued == "rod" else GAP)
-    solid = turned([(lamp.rod, start), (lamp.rod, lamp.height)], 12)
+    solid = revolve([(lamp.rod, start), (lamp.rod, lamp.height)], 12)
     return [Part("rod", "pole", solid)]
 
 
-def _headed(lamp: _Lamp, shade: Shade, top: float, number: int) -> tuple[list[Part], Site]:
+def _head(lamp: _Lamp, shade: Shade, top: float, number: int) -> tuple[list[Part], Site]:
     """A socket, a shade about and above it, and what holds the shade; where a bulb goes in from above."""
     cup, high = 2.2 * lamp.rod, 3.0 * lamp.rod
-    socket = turned([(0.8 * lamp.rod, top), (cup, top + 0.6 * high), (cup, top + high)], 12)
+    socket = revolve([(0.8 * lamp.rod, top), (cup, top + 0.6 * high), (cup, top + high)], 12)
     low = top + high + 0.01 + 0.004 * lamp.height
     body = shade.solid.translate((0, 0, low))
     parts = [Part(f"socket_{number}", "pole", socket), Part(f"shade_{number}", "shade", body)]
@@ -119,7 +119,7 @@ def _switch(lamp: _Lamp, z: float) -> Part:
     size = 2.2 * lamp.rod
     if lamp.draw.chance(0.5):
         return Part("switch", "switch", box((0.7 * size, size, 1.6 * size), (lamp.rod + GAP + 0.35 * size, 0, z)))
-    knob = turned([(0.25 * size, 0), (0.6 * size, 0.3 * size), (0.5 * size, size)], 10).rotate((0, 90, 0))
+    knob = revolve([(0.25 * size, 0), (0.6 * size, 0.3 * size), (0.5 * size, size)], 10).rotate((0, 90, 0))
     return Part("switch", "switch", knob.translate((lamp.rod + GAP, 0, z)))
 
 
@@ -137,7 +137,7 @@ def _cord(lamp: _Lamp) -> Part:
     return Part("cord", "cord", union([bar(a, b, thick, 6) for a, b in itertools.pairwise(path)]))
 
 
-def _stuck(lamp: _Lamp, parts: list[Part]) -> list[Part]:
+def _residue(lamp: _Lamp, parts: list[Part]) -> list[Part]:
     """A price tag on the rod, lumps on the shade and beside the lamp."""
     draw, r, made = lamp.draw, lamp.foot, list[Part]()
     if draw.chance(0.6):
@@ -157,7 +157,7 @@ def _stuck(lamp: _Lamp, parts: list[Part]) -> list[Part]:
     return made
 
 
-def _hanging(draw: Draw) -> Built:
+def _pendant(draw: Draw) -> Design:
     """A lamp that hangs: a canopy at the ceiling, a hub on two hangers, a rod, a shade that is closed above."""
     canopy, top = draw.ratio(0.06, 0.1), draw.length(2.0, 2.5)
     lamp = _Lamp("ceiling", top, draw.length(0.008, 0.012), canopy, 0.25 * canopy, "", draw)
@@ -165,15 +165,15 @@ def _hanging(draw: Draw) -> Built:
     under = top - lamp.plate
     room, deep, wide = canopy * draw.length(0.9, 1.3), 0.6 * canopy, 0.6 * canopy
     hub_top = under - room
-    hub = turned([(0.6 * wide, hub_top - deep), (wide, hub_top - 0.6 * deep), (wide, hub_top)], 14)
+    hub = revolve([(0.6 * wide, hub_top - deep), (wide, hub_top - 0.6 * deep), (wide, hub_top)], 14)
     rod_top = hub_top - deep - GAP
     rod_low = rod_top - draw.ratio(0.14, 0.32)
     low = rod_low - GAP - shade.height
     wire = 0.35 * lamp.rod
     parts = [
-        Part("canopy", "base", turned([(0.8 * canopy, under), (canopy, under + 0.4 * lamp.plate), (canopy, top)], 18)),
+        Part("canopy", "base", revolve([(0.8 * canopy, under), (canopy, under + 0.4 * lamp.plate), (canopy, top)], 18)),
         Part("hub", "base", hub),
-        Part("rod", "pole", turned([(lamp.rod, rod_low), (lamp.rod, rod_top)], 12)),
+        Part("rod", "pole", revolve([(lamp.rod, rod_low), (lamp.rod, rod_top)], 12)),
         Part("shade_0", "shade", shade.solid.translate((0, 0, low))),
     ]
     for k, s in enumerate((-1, 1)):
@@ -197,7 +197,7 @@ def _hanging(draw: Draw) -> Built:
     if draw.chance(0.6):
         at = (0.0, -shade.radius - 0.012 - GAP, low + 0.1 * shade.height)
         parts.append(Part("leaf", "misc", box((0.02, 0.024, 0.02), at)))
-    return Built(f"{shade.style} shade below a canopy, a hub and a rod", tuple(parts), tuple(sites))
+    return Design(f"{shade.style} shade below a canopy, a hub and a rod", tuple(parts), tuple(sites))
 
 
 _ACROSS: tuple[Point, Point, Point] = ((0, 1, 0), (-1, 0, 0), (0, 0, 1))

@@ -10,7 +10,7 @@ from manifold3d import Manifold
 
 from benchmark.assets.draw import Draw
 from meshforge.geometry import Floats
-from script.samples.solids import Point, bar, block, turned
+from script.samples.solids import Point, bar, block, revolve
 
 GAP, SUNK = 0.0006, 0.002  # between parts that are fitted together; how far glued ones reach into each other [m]
 Row = tuple[float, float]
@@ -55,7 +55,7 @@ def draw_shade(draw: Draw, radius: float, glued: bool, closed: bool = False) -> 
     else:
         inside = [(r - wall, z) for r, z in outline]
         inside = [_on(inside[0], inside[1], -1e-3), *inside[1:-1], _on(inside[-2], inside[-1], top)]
-        solid = (turned(outline, 16) - turned(inside, 16)).rotate((0, 0, 11.25))  # flat where wires end
+        solid = (revolve(outline, 16) - revolve(inside, 16)).rotate((0, 0, 11.25))  # flat where wires end
     return Shade(style, radius, height, wall, tuple(outline), solid, draw.one((2, 4)), draw.number(1, 2), glued)
 
 
@@ -84,7 +84,7 @@ def _room(shade: Shade, share: float) -> Manifold:
     if shade.style == "square":
         side = ends[0][0]
         return block((-side, -side, below), (side, side, ends[1][1]))
-    return turned(ends, 16).rotate((0, 0, 11.25))
+    return revolve(ends, 16).rotate((0, 0, 11.25))
 
 
 def _on(low: Row, high: Row, z: float) -> Row:

@@ -11,7 +11,7 @@ from collections.abc import Callable
 import numpy as np
 from manifold3d import CrossSection, Manifold
 
-from benchmark.assets.asset import Built, Site
+from benchmark.assets.asset import Design, Site
 from benchmark.assets.categories.table_legs import HAIRLINE, Size, stand
 from benchmark.assets.categories.table_tops import top
 from benchmark.assets.draw import Draw
@@ -24,7 +24,7 @@ from script.samples.solids import (
     block,
     box,
     pebble,
-    turned,
+    revolve,
     union,
 )
 
@@ -39,7 +39,7 @@ _GRIP = ((0.0, 1.0, 0.0), (0.0, 0.0, 1.0), (1.0, 0.0, 0.0))
 _DOWN = ((0.0, 0.0, -1.0), (1.0, 0.0, 0.0), (0.0, -1.0, 0.0))
 
 
-def build(kind: str, draw: Draw) -> Built:
+def build(kind: str, draw: Draw) -> Design:
     """One table."""
     size, round_ = _size(kind, draw), kind == "round"
     board, slit, told = top(size, round_, draw)
@@ -61,7 +61,7 @@ def build(kind: str, draw: Draw) -> Built:
         about.append("rails")
     surface = Site("surface", (0, 0, size.height), (0.2 * size.width, 0.2 * size.depth, slit))
     residue, more = _residue(size, below, draw)
-    return Built(f"{kind}, " + ", ".join(about), (*parts, *residue), (surface, *sites, *more))
+    return Design(f"{kind}, " + ", ".join(about), (*parts, *residue), (surface, *sites, *more))
 
 
 def _size(kind: str, draw: Draw) -> Size:
@@ -107,7 +107,7 @@ def _drawers(size: Size, kind: str, draw: Draw) -> tuple[list[Part], list[Site]]
             z = size.low - 0.008 - (tall + _APART) * (k + 1)
             front = -0.4 * d - (draw.length(0.2, 0.6) * deep if draw.chance(0.4) else 0.0)
             whole, pull = drawer(f"drawer_{len(parts) // 2 + 1}", (wide, deep, tall), make, x * w, front, z)
-            parts += [_jointed(whole) if jointed else whole, pull]
+            parts += [_saw(whole) if jointed else whole, pull]
             rise = 0.3 * tall
             inside = (x * w, front + 0.5 * deep, z + 0.024 + rise)
             sites += [
@@ -117,7 +117,7 @@ def _drawers(size: Size, kind: str, draw: Draw) -> tuple[list[Part], list[Site]]
     return parts, sites
 
 
-def _jointed(drawer: Part) -> Part:
+def _saw(drawer: Part) -> Part:
     """A drawer sawn into its boards: its front, its sides, and its bottom with its back."""
     x0, y0, z0, x1, y1, z1 = drawer.solid.bounding_box()
     tall, deep, thin = 2 * (z1 - z0), 2 * (y1 - y0 - FRONT), WALL + 0.004
@@ -192,7 +192,7 @@ def _residue(size: Size, below: list[Part], draw: Draw) -> tuple[list[Part], lis
     for k in draw.rng.permutation(4)[: draw.number(2, 3)]:
         x, y = spots[k]
         thing = _thing(scale, draw)
-        parts.append(thing.named(f"{thing.name}_{k}").moved(x, y, size.height + extras.LIFT))
+        parts.append(thing.rename(f"{thing.name}_{k}").move(x, y, size.height + extras.LIFT))
         sites.append(Site("cleared", (x, y, size.height), (0.04 * w, 0.04 * d, 0.025)))
     for k in range(draw.number(0, 2)):
         at = (draw.one((-1, 1)) * draw.length(0.2, 0.33) * w, draw.length(0.4, 0.46) * d, 0.06 * size.height)
@@ -211,7 +211,7 @@ def _thing(scale: float, draw: Draw) -> Part:
     if name == "book":
         solid = extras.book(0, 0, 0, 0).solid
     elif name == "vase":
-        solid = turned([(0.04, 0), (0.055, 0.06), (0.02, 0.12), (0.03, 0.16)], 8)
+        solid = revolve([(0.04, 0), (0.055, 0.06), (0.02, 0.12), (0.03, 0.16)], 8)
     elif name == "parcel":
         solid = block((-0.08, -0.06, 0), (0.08, 0.06, 0.07)) + block((-0.02, -0.03, 0), (0.07, 0.05, 0.11))
     solid = solid.rotate((0, 0, draw.length(0, 360))).scale((scale,) * 3)

@@ -12,7 +12,7 @@ from benchmark.assets.draw import Draw
 from script.samples import legs
 from script.samples.layout import corners, outward, ring
 from script.samples.part import Part
-from script.samples.solids import block, box, tapered, turned, union
+from script.samples.solids import block, box, revolve, taper, union
 
 HAIRLINE = 0.0008
 """Between parts that are joined and yet no single solid [m]."""
@@ -56,7 +56,7 @@ def stand(size: Size, round_: bool, kind: str, draw: Draw) -> tuple[list[Part], 
     elif kind == "dining" and draw.chance(0.4):
         places = [*places, (-0.43 * w, 0.0), (0.43 * w, 0.0)]
     name, make = _leg(h, wide, 0.15 * d, draw)
-    found = [Part(f"leg_{k}", "leg", make(x, y)).moved(x, y) for k, (x, y) in enumerate(places, 1)]
+    found = [Part(f"leg_{k}", "leg", make(x, y)).move(x, y) for k, (x, y) in enumerate(places, 1)]
     return found, f"{len(found)} {name} legs"
 
 
@@ -69,18 +69,18 @@ def _leg(h: float, wide: float, reach: float, draw: Draw) -> tuple[str, Callable
         sx, sy = float(np.sign(x)), float(np.sign(y))
         if style == "turned":
             vase = [(0.5 * r, 0.1), (0.65 * r, 0.25), (r, 0.6), (0.55 * r, 0.8)]
-            shaft = turned([(0.5 * r, 0), (0.75 * r, 0.05 * h), *((a, b * h) for a, b in vase)])
+            shaft = revolve([(0.5 * r, 0), (0.75 * r, 0.05 * h), *((a, b * h) for a, b in vase)])
             return _cut(shaft + box((wide, wide, 0.2 * h), (0, 0, 0.9 * h)), 0.1 * h, 0.25 * h, 0.8 * h)
         if style == "curved":
             return _cut(legs.sabre(h, 0.9 * wide, out, outward(x, y), 3), h / 3, 2 * h / 3)
         if style == "block":
-            shaft = tapered((0, 0, 0), (0, 0, h), 0.5 * wide, 0.7 * wide)
+            shaft = taper((0, 0, 0), (0, 0, h), 0.5 * wide, 0.7 * wide)
             return _cut(shaft + box((wide, wide, 0.14 * h), (0, 0, 0.93 * h)), 0.86 * h)
         if style == "splayed":
-            shaft = tapered((0.7 * out * sx, 0.7 * out * sy, 0), (0, 0, h), 0.4 * wide, 0.8 * wide, 6)
+            shaft = taper((0.7 * out * sx, 0.7 * out * sy, 0), (0, 0, h), 0.4 * wide, 0.8 * wide, 6)
             return _cut(shaft, 0.12 * h)
         ends = [(0.0, side * min(0.8 * out, reach), h) for side in (-1, 1)]
-        both = union([tapered((0, 0, 0), end, 0.45 * wide, 0.45 * wide) for end in ends])
+        both = union([taper((0, 0, 0), end, 0.45 * wide, 0.45 * wide) for end in ends])
         return (both - box((1, HAIRLINE, 3), (0, 0, 0))).translate((0, -ends[1][1] * sy, 0))
 
     return style, make

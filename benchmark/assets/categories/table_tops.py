@@ -7,7 +7,7 @@ from manifold3d import CrossSection
 from benchmark.assets.categories.table_legs import HAIRLINE, Size
 from benchmark.assets.draw import Draw
 from script.samples.part import Part
-from script.samples.solids import block, chamfered, plate, rectangle, superellipse
+from script.samples.solids import block, chamfer, plate, rectangle, superellipse
 
 
 def top(size: Size, round_: bool, draw: Draw) -> tuple[list[Part], float, str]:
@@ -48,7 +48,7 @@ def _outline(w: float, d: float, round_: bool, whole: bool, draw: Draw) -> Cross
         return superellipse(w, d, draw.one((2.0, 2.5)), 24)
     shape = draw.number(0, 3)
     if shape == 0:
-        return chamfered(w, d, 0.06 * d)
+        return chamfer(w, d, 0.06 * d)
     if shape == 1:
         return rectangle(w, d, 0.15 * d, 12)
     waisted = rectangle(w, d, 0.04 * d, 8)

@@ -17,7 +17,7 @@ _ONES = ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MALLOC_ARENA_MAX", "PYTHOND
 _OWN = Path(".bench") / "blender" / "bin" / "python"
 
 
-def found(variables: Mapping[str, str] = os.environ) -> Path | None:
+def find_python(variables: Mapping[str, str] = os.environ) -> Path | None:
     """A Python with Blender: that of BENCH_BLENDER, `.bench/blender` if it is there, or this one; None where none has.
 
     Whether the first two have it shows when it is started.

@@ -39,7 +39,7 @@ def main() -> None:
     for line in requests:
         job = json.loads(line)
         os.chdir(scratch)  # from wherever the last script went
-        _send(replies, {"number": job["number"], **objects.edited(job["script"], job["scene"])})
+        _send(replies, {"number": job["number"], **objects.edit_scene(job["script"], job["scene"])})
 
 
 def _hush(*numbers: int) -> None:

@@ -18,22 +18,22 @@ _PROPERTIES = ("label", "primitive")
 _LONG = 2000  # characters of a complaint
 
 
-def edited(script: str, scene: Any) -> dict[str, Any]:
+def edit_scene(script: str, scene: Any) -> dict[str, Any]:
     """What a script makes of a scene: `objects`, or `error` where it fails."""
     import bpy
 
     bpy.ops.wm.read_factory_settings(use_empty=True)
     templates = {name: [_mesh(bpy, name, **part) for part in parts] for name, parts in scene["templates"].items()}
     made = {row["name"]: _object(bpy, row) for row in scene["hulls"]}
-    before = {name: _told(one.data, one.matrix_world) for name, one in made.items()}
+    before = {name: _describe(one.data, one.matrix_world) for name, one in made.items()}
     del made
     error = _run(script, {"__name__": "__main__", "bpy": bpy, "templates": templates})
     if error:
         return {"error": error}
     try:
-        return {"objects": list(_left(bpy, before))}
+        return {"objects": list(_read_objects(bpy, before))}
     except Exception as problem:  # whatever a script did to the scene
-        return {"error": f"the objects cannot be read when the script has ended: {_said(problem)}"}
+        return {"error": f"the objects cannot be read when the script has ended: {_format_traceback(problem)}"}
 
 
 def _run(script: str, names: dict[str, Any]) -> str | None:
@@ -44,11 +44,11 @@ def _run(script: str, names: dict[str, Any]) -> str | None:
     except SystemExit as end:
         return f"the script ends itself: {end.code}" if end.code else None
     except BaseException as problem:
-        return _said(problem)
+        return _format_traceback(problem)
     return None
 
 
-def _said(problem: BaseException) -> str:
+def _format_traceback(problem: BaseException) -> str:
     """A traceback with the script's own lines only, the same each time."""
     told = traceback.TracebackException.from_exception(problem, capture_locals=False)
     told.stack = traceback.StackSummary.from_list([row for row in told.stack if row.filename == SCRIPT])
@@ -80,7 +80,7 @@ def _mesh(bpy: Any, name: str, vertices: Any, faces: Any) -> Any:
     return mesh
 
 
-def _left(bpy: Any, before: dict[str, Any]) -> Any:
+def _read_objects(bpy: Any, before: dict[str, Any]) -> Any:
     """The mesh objects of the scene, as they are with their modifiers, in their own coordinates."""
     if bpy.context.object and bpy.context.object.mode != "OBJECT":
         bpy.ops.object.mode_set(mode="OBJECT")
@@ -90,14 +90,14 @@ def _left(bpy: Any, before: dict[str, Any]) -> Any:
             continue
         final = one.evaluated_get(graph)
         mesh = final.to_mesh()
-        told = _told(mesh, final.matrix_world)
+        told = _describe(mesh, final.matrix_world)
         final.to_mesh_clear()
         said = {name: str(one[name]) for name in _PROPERTIES if one.get(name) is not None}
         same = told == before.get(one.name)
         yield {"name": one.name, "same": True, **said} if same else {"name": one.name, **told, **said}
 
 
-def _told(mesh: Any, matrix: Any) -> dict[str, Any]:
+def _describe(mesh: Any, matrix: Any) -> dict[str, Any]:
     mesh.calc_loop_triangles()
     return {
         "vertices": [list(vertex.co) for vertex in mesh.vertices],

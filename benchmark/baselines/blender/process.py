@@ -28,7 +28,7 @@ from types import TracebackType
 from typing import Any
 
 from benchmark.baselines.blender.apart import alone, environment
-from benchmark.baselines.blender.exchanging import exchanged
+from benchmark.baselines.blender.exchange import exchange
 from meshforge.common import UsageError
 
 _INSIDE = "benchmark.baselines.blender.inside"
@@ -86,16 +86,16 @@ class Blender:
     @property
     def fences(self) -> Fences:
         """What is in force."""
-        self._started()
+        self._start()
         assert self._fences
         return self._fences
 
     def run(self, script: str, scene: Mapping[str, Any]) -> Mapping[str, Any]:
-        """What a script makes of a scene, as of `objects.edited`."""
-        process, self._count = self._started(), self._count + 1
+        """What a script makes of a scene, as of `objects.edit_scene`."""
+        process, self._count = self._start(), self._count + 1
         request = json.dumps({"number": self._count, "script": script, "scene": scene}).encode() + b"\n"
         try:
-            answer = json.loads(exchanged(process, request, self.limits.seconds))
+            answer = json.loads(exchange(process, request, self.limits.seconds))
             match answer:
                 case {"number": self._count, "objects": [*_]} | {"number": self._count, "error": str()}:
                     return dict(answer)
@@ -121,7 +121,7 @@ class Blender:
             shutil.rmtree(self._scratch, ignore_errors=True)
             self._scratch = ""
 
-    def _started(self) -> subprocess.Popen[bytes]:
+    def _start(self) -> subprocess.Popen[bytes]:
         if self._process and self._process.poll() is None:
             return self._process
         self.close()
@@ -149,7 +149,7 @@ class Blender:
                 raise UsageError(why, where=where, remedy=_INSTALL) from error
             self._process = process
             try:
-                told = json.loads(exchanged(process, b"", most.start))
+                told = json.loads(exchange(process, b"", most.start))
             except (TimeoutError, EOFError):
                 self.close()
                 complaints.seek(0)

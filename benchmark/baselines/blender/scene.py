@@ -35,7 +35,7 @@ class _Object(BaseModel):
 
 
 def scene_of(mesh: SymbolicMesh, templates: Mapping[str, Template]) -> dict[str, Any]:
-    """The scene, as of `objects.edited`."""
+    """The scene, as of `objects.edit_scene`."""
     return {
         "hulls": [
             {"name": hull.name, "label": hull.label, "contacts": _contacts(mesh, place), **_mesh(hull.shape)}

@@ -61,7 +61,7 @@ class Body:
 
     def _polytope(self) -> Shape:
         """The polytope; where rounding alone keeps it from being convex, or all its faces look inwards, its hull."""
-        shape = Polytope(*self._welded())
+        shape = Polytope(*self._weld())
         try:
             hull = convex_hull(shape.vertices)
         except GeometryError:
@@ -69,7 +69,7 @@ class Body:
         is_hull = is_closed(shape.faces) and abs(hull.volume - abs(shape.volume)) <= _HOLLOW * hull.volume
         return hull if is_hull else shape
 
-    def _welded(self) -> tuple[Floats, Ints]:
+    def _weld(self) -> tuple[Floats, Ints]:
         """Corners at one place made one, those of no face left out."""
         points = self.points @ self.linear.T + self.offset
         used, place = np.unique(points[self.faces.ravel()], axis=0, return_inverse=True)

@@ -9,9 +9,9 @@ from typing import Any, Self
 
 import pytest
 
-from benchmark.baselines import showing
-from benchmark.baselines.demonstrated import Shown
-from benchmark.evaluation import journal
+from benchmark import journal
+from benchmark.baselines import prompts
+from benchmark.baselines.replay import Replay
 from benchmark.study import Bench
 from benchmark.tasks import Task, task
 from meshforge.language import Program
@@ -67,27 +67,27 @@ def _few_samples(one: Task, calibration: bool = False) -> tuple[Any, ...]:
 def few_meshes(monkeypatch: pytest.MonkeyPatch, here: None) -> None:
     """A quarter of the meshes of each category, and all work in this process."""
     monkeypatch.setattr("benchmark.evaluation.sessions._bench", few)
-    monkeypatch.setattr("benchmark.baselines.judging._bench", few)
-    monkeypatch.setattr("benchmark.baselines.playing.Bench", lambda one: few(one.name))
+    monkeypatch.setattr("benchmark.baselines.verdicts._bench", few)
+    monkeypatch.setattr("benchmark.baselines.run.Bench", lambda one: few(one.name))
     monkeypatch.setattr("benchmark.learning.task_cases.Bench", lambda one, calibration: few(one.name, calibration))
 
 
 _drawn: dict[str, list[Any]] = {}
-_told = showing.told
+_describe = prompts.describe_demonstrations
 
 
-def _told_once(shown: Sequence[Shown], frame: Program) -> list[Any]:
+def _describe_once(shown: Sequence[Replay], frame: Program) -> list[Any]:
     key = "\n".join(
-        [str(frame), *(f"{one.name}\n{showing.described(one.before)}\n{showing.steps(one)}" for one in shown)]
+        [str(frame), *(f"{one.name}\n{prompts.describe_mesh(one.before)}\n{prompts.steps(one)}" for one in shown)]
     )
     if key not in _drawn:
-        _drawn[key] = list(_told(shown, frame))
+        _drawn[key] = list(_describe(shown, frame))
     return _drawn[key]
 
 
 @pytest.fixture
 def small_pictures(monkeypatch: pytest.MonkeyPatch) -> None:
     """Pictures for models that write programs are as small as may be, and each is drawn once."""
-    monkeypatch.setattr(showing, "_SIZE", 256)
-    monkeypatch.setattr(showing, "_PAIR", (160, 140))
-    monkeypatch.setattr(showing, "told", _told_once)
+    monkeypatch.setattr(prompts, "_SIZE", 256)
+    monkeypatch.setattr(prompts, "_PAIR", (160, 140))
+    monkeypatch.setattr(prompts, "describe_demonstrations", _describe_once)

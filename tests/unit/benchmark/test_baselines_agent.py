@@ -8,9 +8,9 @@ from dataclasses import replace
 import pytest
 
 from benchmark.baselines.agent import Agent
-from benchmark.baselines.demonstrated import Shown, demonstrated
-from benchmark.baselines.judging import programmed
-from benchmark.baselines.refining import ROUNDS, fenced, refined
+from benchmark.baselines.refinement import ROUNDS, find_code, refine
+from benchmark.baselines.replay import Replay, replay_demonstrations
+from benchmark.baselines.verdicts import judge_program
 from benchmark.study import FULL, NOISY, Bench, Session
 from meshforge.language import ACTIONS, Program, show
 from tests.loopback import CUT, Asked
@@ -36,12 +36,12 @@ def taught(bench: Bench) -> Session:
 
 
 @pytest.fixture(scope="module")
-def shown(bench: Bench, taught: Session) -> list[Shown]:
-    return demonstrated(bench, taught)
+def shown(bench: Bench, taught: Session) -> list[Replay]:
+    return replay_demonstrations(bench, taught)
 
 
 @pytest.fixture(scope="module")
-def agent(bench: Bench, shown: list[Shown]) -> Agent:
+def agent(bench: Bench, shown: list[Replay]) -> Agent:
     return Agent(bench.task, shown)
 
 
@@ -52,7 +52,7 @@ def right(bench: Bench) -> str:
 
 
 def test_the_model_is_told_the_language_as_it_is_documented_and_all_that_was_shown(
-    bench: Bench, agent: Agent, shown: list[Shown]
+    bench: Bench, agent: Agent, shown: list[Replay]
 ) -> None:
     system, user = agent.opening
     told = str(system.parts[0])
@@ -71,7 +71,7 @@ def test_the_model_is_told_the_language_as_it_is_documented_and_all_that_was_sho
             assert f"\n{hull.name}, {hull.label}, (" in words
         for step in one.demo.steps:
             assert f"{step.rule}. {step.action}: on {', '.join(sorted(step.select or ()))}" in words
-        made = [name for rule in range(1, len(one.stages)) for name in one.made(rule)]
+        made = [name for rule in range(1, len(one.stages)) for name in one.find_products(rule)]
         assert made
         assert all(f" {name}, " in words for name in made[:3])
     pictures = [part for part in user.parts if isinstance(part, bytes)]
@@ -82,12 +82,12 @@ def test_the_model_is_told_the_language_as_it_is_documented_and_all_that_was_sho
 
 @pytest.mark.usefixtures("small_pictures")
 def test_an_agent_that_is_wrong_at_first_is_told_why_and_ends_right(
-    bench: Bench, agent: Agent, shown: list[Shown], right: str
+    bench: Bench, agent: Agent, shown: list[Replay], right: str
 ) -> None:
     wrong = right.replace("Is(misc)", "Is(wall)", 1)
     answers = [block("Is(base => Delete"), block(wrong), block(right)]
     with asking(by_turn(*answers)) as (server, client):
-        written = refined(client, agent.opening, agent.tried, ROOM)
+        written = refine(client, agent.opening, agent.try_answer, ROOM)
         assert client.usage.cost is not None
     assert (written.fits, written.rounds, written.wrong) == (True, 3, [None, len(shown), 0])
     assert Program.parse(written.text or "") == bench.task.program
@@ -116,10 +116,10 @@ def test_a_model_that_never_gets_it_ends_as_failure_within_the_rounds(
     bench: Bench, taught: Session, agent: Agent, answer: str
 ) -> None:
     with asking(lambda asked: answer) as (server, client):
-        written = refined(client, agent.opening, agent.tried, ROOM)
+        written = refine(client, agent.opening, agent.try_answer, ROOM)
     assert (written.fits, written.text, written.rounds) == (False, None, ROUNDS)
     assert len(server.answered) == ROUNDS
-    judged = Session.of_json(json.loads(json.dumps(programmed(NAME, FULL.name, 100, taught.shown, written.text))))
+    judged = Session.of_json(json.loads(json.dumps(judge_program(NAME, FULL.name, 100, taught.shown, written.text))))
     assert (judged.right, judged.judged) == (False, len(bench.samples) - 2)
     assert judged.failures.keys() == bench.samples.keys() - set(taught.shown)
 
@@ -131,31 +131,31 @@ def test_of_answers_that_are_all_wrong_the_one_that_did_best_counts_and_is_judge
     worst = right.replace("Is(misc)", "All", 1)
     better = right.replace("Attach(Is(handle), Is(wall))", "Geo(Is(handle), +Z)")
     with asking(by_turn(block(worst), block(better), "nonsense")) as (_, client):
-        written = refined(client, agent.opening, agent.tried, ROOM)
+        written = refine(client, agent.opening, agent.try_answer, ROOM)
     assert not written.fits
     assert written.text is not None
     assert Program.parse(written.text).rules == Program.parse(better).rules
-    assert written.wrong[:2] == [2, agent.tried(better).wrong]
+    assert written.wrong[:2] == [2, agent.try_answer(better).wrong]
     assert written.wrong[2:] == [None] * (ROUNDS - 2)
-    judged = Session.of_json(programmed(NAME, FULL.name, 100, taught.shown, written.text))
+    judged = Session.of_json(judge_program(NAME, FULL.name, 100, taught.shown, written.text))
     assert not judged.right
-    best = Session.of_json(programmed(NAME, FULL.name, 100, taught.shown, str(bench.task.program)))
+    best = Session.of_json(judge_program(NAME, FULL.name, 100, taught.shown, str(bench.task.program)))
     assert best.right
     assert len(best.failures) < len(judged.failures) <= judged.judged
 
 
-def test_programs_with_other_rules_that_do_the_same_are_right(bench: Bench, shown: list[Shown], agent: Agent) -> None:
+def test_programs_with_other_rules_that_do_the_same_are_right(bench: Bench, shown: list[Replay], agent: Agent) -> None:
     one, two = bench.task.program.rules
     other = replace(bench.task.program, rules=(one, one, two))
-    tried = agent.tried(str(other))
+    tried = agent.try_answer(str(other))
     assert (tried.wrong, tried.said) == (0, ())
-    less = agent.tried(str(replace(bench.task.program, rules=(one,))))
+    less = agent.try_answer(str(replace(bench.task.program, rules=(one,))))
     assert less.wrong == len(shown)
     assert 'The steps were: Delete, then Each(Replace("eye.obj")); each is a rule.' in str(less.said[0])
-    unknown = agent.tried("Is(hadle) => Delete")
+    unknown = agent.try_answer("Is(hadle) => Delete")
     assert unknown.text is None
     assert "Did you mean 'handle'?" in str(unknown.said[0])
-    missing = agent.tried('All => Replace("gear.obj")')
+    missing = agent.try_answer('All => Replace("gear.obj")')
     assert missing.wrong == len(shown)
     assert "it fails: there is no template" in str(missing.said[0])
 
@@ -168,7 +168,7 @@ def test_labels_that_are_wrong_stay_so_but_for_landmarks_that_a_person_could_sho
     for seed in seeds:
         desk = bench.desk("noisy", seed)
         names = [name for name, done in bench.truth.reference.items() if done][:8]
-        for one in demonstrated(bench, Session(NAME, NOISY.name, seed, shown=names)):
+        for one in replay_demonstrations(bench, Session(NAME, NOISY.name, seed, shown=names)):
             noisy, true = desk.meshes[one.name], bench.truth.meshes[one.name]
             for hull, was, right in zip(one.demo.mesh.hulls, noisy.hulls, true.hulls, strict=True):
                 assert hull.label in (was.label, right.label)
@@ -183,7 +183,7 @@ def test_an_answer_that_is_cut_off_is_said_to_be(agent: Agent, right: str) -> No
 
     long = "".join(f"# thought {k}\n" for k in range(100)) + right
     with asking(by_turn(block(long), block(right)), fault=fault) as (server, client):
-        written = refined(client, agent.opening, agent.tried, ROOM)
+        written = refine(client, agent.opening, agent.try_answer, ROOM)
     assert (written.fits, written.wrong) == (True, [None, 0])
     assert "Your answer was cut off: answer more briefly." in server.answered[-1].text
 
@@ -202,4 +202,4 @@ def test_an_answer_that_is_cut_off_is_said_to_be(agent: Agent, right: str) -> No
     ],
 )
 def test_the_last_block_of_code_is_the_answer(answer: str, text: str) -> None:
-    assert fenced(answer) == text
+    assert find_code(answer) == text

@@ -14,8 +14,8 @@ import numpy as np
 import pytest
 
 from benchmark.assets import samples
-from benchmark.baselines.blender.apart import found
-from benchmark.baselines.blender.editing import edited
+from benchmark.baselines.blender.apart import find_python
+from benchmark.baselines.blender.edit import edit_task
 from benchmark.baselines.blender.process import Blender, Limits
 from benchmark.baselines.blender.scene import mesh_of, scene_of
 from benchmark.baselines.blender.shapes import Illegal
@@ -25,7 +25,7 @@ from meshforge.geometry import convex_hull, digest
 from meshforge.symbolic import SymbolicMesh
 from tests.unit.benchmark.blender_script import SHELLS
 
-PYTHON = found()
+PYTHON = find_python()
 needs_blender = pytest.mark.skipif(PYTHON is None, reason="no Python with bpy: set BENCH_BLENDER")
 MESH = samples("cup")[3].mesh
 SCENE = scene_of(MESH, {})
@@ -247,7 +247,7 @@ def test_a_whole_task_is_done_by_a_right_script_as_by_its_program() -> None:
     one = task("cup-easy")
     with Blender(PYTHON) as blender:
         for sample in one.samples()[:12:3]:
-            by_program, by_script = one.run(one.program, sample.mesh), edited(blender, SHELLS, one, sample.mesh)
+            by_program, by_script = one.run(one.program, sample.mesh), edit_task(blender, SHELLS, one, sample.mesh)
             assert by_script.mesh, by_script.error
             assert by_program.mesh
             assert len(by_script.mesh.hulls) == len(by_program.mesh.hulls)
@@ -268,7 +268,7 @@ def test_a_python_without_blender_and_none_at_all_are_one_message(tmp_path: Path
 
 
 def test_blender_is_looked_for_where_it_is_said_to_be() -> None:
-    assert found({"BENCH_BLENDER": "/opt/python"}) == Path("/opt/python")
+    assert find_python({"BENCH_BLENDER": "/opt/python"}) == Path("/opt/python")
 
 
 @needs_blender

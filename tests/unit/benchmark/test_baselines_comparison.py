@@ -10,8 +10,9 @@ from typing import Any
 import pytest
 
 from benchmark import __main__ as bench
-from benchmark.baselines.blender.apart import found
-from benchmark.evaluation import comparison, journal
+from benchmark import journal
+from benchmark.baselines.blender.apart import find_python
+from benchmark.evaluation import comparison
 from benchmark.evaluation.figures import fpr
 from benchmark.study import FULL, NOISY, Condition, Session
 from benchmark.tasks import Task, task
@@ -23,7 +24,7 @@ from tests.unit.benchmark.model_asking import block, cost, key, settings_file, t
 __all__ = ["key"]
 pytestmark = pytest.mark.usefixtures("key", "few_meshes", "small_pictures")
 CUPS = [task("cup-easy"), task("cup-medium")]
-PYTHON = found()
+PYTHON = find_python()
 FIELDS = Session("", "", 0).to_json().keys()
 
 
@@ -31,8 +32,8 @@ FIELDS = Session("", "", 0).to_json().keys()
 def few_sessions(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Sessions in which nobody was taught, since only what was shown counts here."""
     monkeypatch.setattr(journal, "JOURNALS", tmp_path / "journals")
-    monkeypatch.setattr("benchmark.baselines.playing.JOURNALS", tmp_path / "journals")
-    monkeypatch.setattr(comparison, "found", lambda: None)
+    monkeypatch.setattr("benchmark.baselines.run.JOURNALS", tmp_path / "journals")
+    monkeypatch.setattr(comparison, "find_python", lambda: None)
 
     def sessions(conditions: list[Condition], tell: object, quick: bool) -> list[Session]:
         return [session(one, condition) for one in CUPS for condition in conditions]

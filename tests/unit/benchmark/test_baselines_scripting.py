@@ -8,14 +8,14 @@ from pathlib import Path
 
 import pytest
 
-from benchmark.baselines.blender.apart import found
+from benchmark import journal
+from benchmark.baselines.blender.apart import find_python
 from benchmark.baselines.blender.process import Blender, Limits
-from benchmark.baselines.demonstrated import Shown, demonstrated
-from benchmark.baselines.judging import scripted
-from benchmark.baselines.playing import played, vlm_blender
-from benchmark.baselines.refining import ROUNDS, refined
-from benchmark.baselines.scripting import Scripting, actions, differences
-from benchmark.evaluation import journal
+from benchmark.baselines.blender_model import BlenderModel, actions, differences
+from benchmark.baselines.refinement import ROUNDS, refine
+from benchmark.baselines.replay import Replay, replay_demonstrations
+from benchmark.baselines.run import run_baseline, vlm_blender
+from benchmark.baselines.verdicts import judge_script
 from benchmark.study import FULL, Bench, Session
 from benchmark.tasks import task
 from meshforge.language import ACTIONS
@@ -26,7 +26,7 @@ from tests.unit.benchmark.model_asking import PRICES, VARIABLE, asking, block, b
 
 __all__ = ["key"]
 pytestmark = pytest.mark.usefixtures("key")
-PYTHON = found()
+PYTHON = find_python()
 needs_blender = pytest.mark.skipif(PYTHON is None, reason="no Python with bpy: set BENCH_BLENDER")
 NAME = "cup-easy"
 ROOM = 500
@@ -44,15 +44,15 @@ def taught(bench: Bench) -> Session:
 
 
 @pytest.fixture(scope="module")
-def shown(bench: Bench, taught: Session) -> list[Shown]:
-    return demonstrated(bench, taught)
+def shown(bench: Bench, taught: Session) -> list[Replay]:
+    return replay_demonstrations(bench, taught)
 
 
 @pytest.fixture(scope="module")
-def work(bench: Bench, shown: list[Shown]) -> Iterator[Scripting]:
+def work(bench: Bench, shown: list[Replay]) -> Iterator[BlenderModel]:
     assert PYTHON
     with Blender(PYTHON, Limits(seconds=5.0)) as blender:
-        yield Scripting(bench.task, shown, blender)
+        yield BlenderModel(bench.task, shown, blender)
 
 
 def test_the_actions_are_told_as_the_project_documents_them() -> None:
@@ -61,7 +61,7 @@ def test_the_actions_are_told_as_the_project_documents_them() -> None:
     assert "## Orientation" not in actions()
 
 
-def test_meshes_that_are_the_same_do_not_differ_and_others_do_in_words(shown: list[Shown]) -> None:
+def test_meshes_that_are_the_same_do_not_differ_and_others_do_in_words(shown: list[Replay]) -> None:
     before, after = shown[0].before, shown[0].after
     assert differences(before, before) == differences(after, after) == []
     lacking, left = differences(before, after)
@@ -75,13 +75,13 @@ def test_meshes_that_are_the_same_do_not_differ_and_others_do_in_words(shown: li
 
 @needs_blender
 def test_a_script_that_is_wrong_at_first_is_told_why_and_ends_right(
-    bench: Bench, taught: Session, shown: list[Shown], work: Scripting
+    bench: Bench, taught: Session, shown: list[Replay], work: BlenderModel
 ) -> None:
     open_shell = SHELLS.replace("for part in parts:", "for part in parts[1:]:")
     torus = "bpy.ops.mesh.primitive_torus_add()"
     answers = [block("objects = nowhere"), block(torus), block(open_shell), block(SHELLS)]
     with asking(by_turn(*answers)) as (server, client):
-        written = refined(client, work.opening, work.tried, ROOM)
+        written = refine(client, work.opening, work.try_answer, ROOM)
     assert (written.fits, written.wrong, written.text) == (True, [2, 2, 2, 0], SHELLS.strip())
     first, *again = server.answered
     assert "headless Blender 5" in first.text
@@ -95,9 +95,9 @@ def test_a_script_that_is_wrong_at_first_is_told_why_and_ends_right(
     assert all(f"{name}: there should be, and is not: " in lacking for name in names)
     assert [len(asked.pictures) - len(first.pictures) for asked in again] == [0, 0, 2]
     judged = Session.of_json(
-        json.loads(json.dumps(scripted(NAME, FULL.name, 100, taught.shown, written.text, str(PYTHON))))
+        json.loads(json.dumps(judge_script(NAME, FULL.name, 100, taught.shown, written.text, str(PYTHON))))
     )
-    program = {n for n in bench.samples if bench.failure(n, bench.truth.edited(bench.task.program, n))} - set(
+    program = {n for n in bench.samples if bench.failure(n, bench.truth.edit(bench.task.program, n))} - set(
         taught.shown
     )
     assert judged.failures.keys() == program
@@ -107,7 +107,7 @@ def test_a_script_that_is_wrong_at_first_is_told_why_and_ends_right(
 @needs_blender
 def test_of_a_script_that_fails_the_reason_is_kept(bench: Bench, taught: Session) -> None:
     script = "if len(bpy.data.objects) % 2:\n    raise ValueError('odd')"
-    judged = Session.of_json(scripted(NAME, FULL.name, 100, taught.shown, script, str(PYTHON)))
+    judged = Session.of_json(judge_script(NAME, FULL.name, 100, taught.shown, script, str(PYTHON)))
     odd = {name for name, mesh in bench.truth.meshes.items() if len(mesh.hulls) % 2} - set(taught.shown)
     assert {name for name, why in judged.failures.items() if why == "ValueError: odd"} == odd
 
@@ -117,7 +117,7 @@ def test_a_script_that_never_ends_is_given_up_and_fails_everywhere(
     bench: Bench, taught: Session, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(Blender.__init__, "__defaults__", (Limits(seconds=1.0),))
-    judged = Session.of_json(scripted(NAME, FULL.name, 100, taught.shown, "while True: pass", str(PYTHON)))
+    judged = Session.of_json(judge_script(NAME, FULL.name, 100, taught.shown, "while True: pass", str(PYTHON)))
     reasons = list(judged.failures.values())
     assert len(reasons) == judged.judged
     assert reasons[:3] == ["it took longer than 1 seconds"] * 3
@@ -127,10 +127,10 @@ def test_a_script_that_never_ends_is_given_up_and_fails_everywhere(
 @needs_blender
 @pytest.mark.parametrize("answer", ["", "```python\n```"])
 def test_a_model_that_writes_nothing_ends_as_failure_within_the_rounds(
-    taught: Session, work: Scripting, answer: str
+    taught: Session, work: BlenderModel, answer: str
 ) -> None:
     with asking(lambda asked: answer) as (server, client):
-        written = refined(client, work.opening, work.tried, ROOM)
+        written = refine(client, work.opening, work.try_answer, ROOM)
     assert (written.fits, written.text, written.rounds, len(server.answered)) == (False, None, ROUNDS, ROUNDS)
 
 
@@ -139,14 +139,14 @@ def test_all_sessions_are_played_and_what_was_asked_is_not_asked_again(
     taught: Session, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(journal, "JOURNALS", tmp_path)
-    monkeypatch.setattr("benchmark.baselines.playing.JOURNALS", tmp_path)
+    monkeypatch.setattr("benchmark.baselines.run.JOURNALS", tmp_path)
     monkeypatch.setattr("os.cpu_count", lambda: 1)
     assert PYTHON
     with asking(by_turn(block("1 / 0"), block(SHELLS))) as (server, _):
         settings = VlmSettings(
             base_url=server.base_url, model=MODEL, key_env=VARIABLE, input_price=PRICES[0], output_price=PRICES[1]
         )
-        one, other = (played(vlm_blender(PYTHON), [taught], settings, lambda line: None) for _ in range(2))
+        one, other = (run_baseline(vlm_blender(PYTHON), [taught], settings, lambda line: None) for _ in range(2))
         assert len(server.answered) == 2
     assert one == other
     assert not one.missing

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from benchmark.assets.asset import LEVEL, Asset, Site
-from benchmark.criteria import Case, judged
+from benchmark.criteria import Case, judge
 from benchmark.criteria.scene import add_object, add_shape, blank, place, tolerance
 from meshforge.geometry import Aabb, Box, Capsule, Cylinder, Ellipsoid, Polytope, Pose, Shape, Sphere, convex_hull
 from meshforge.symbolic import Hull, Label, SymbolicMesh
@@ -49,8 +49,8 @@ def why(it: Case, kind: str, **fields: Any) -> str:
     """Why a criterion fails, empty where it holds; the same when it is asked again."""
     if kind not in ("stands", "structural"):
         fields = {"site": "place", **fields}
-    said = judged(it, [{"kind": kind, **fields}])
-    assert said == judged(it, [{"kind": kind, **fields}])
+    said = judge(it, [{"kind": kind, **fields}])
+    assert said == judge(it, [{"kind": kind, **fields}])
     return said or ""
 
 

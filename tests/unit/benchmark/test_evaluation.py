@@ -9,11 +9,11 @@ from typing import Any
 import pytest
 
 from benchmark import __main__ as bench
-from benchmark.evaluation import journal
-from benchmark.evaluation.failing import failing, reason
-from benchmark.evaluation.figures import solved_at
-from benchmark.evaluation.journal import done
+from benchmark import journal
+from benchmark.evaluation.failures import list_failures, reason
+from benchmark.evaluation.figures import share_solved_at
 from benchmark.evaluation.page import write
+from benchmark.journal import run_units
 from benchmark.study import Round, Session
 from benchmark.tasks import task
 
@@ -81,9 +81,9 @@ def doubled(number: int) -> int:
 
 def test_units_come_in_order_and_are_worked_out_once(journals: Path) -> None:
     told: list[str] = []
-    assert done("numbers", doubled, [(3,), (1,)], told.append) == [6, 2]
+    assert run_units("numbers", doubled, [(3,), (1,)], told.append) == [6, 2]
     assert len(told) == 2
-    assert done("numbers", doubled, [(1,), (2,), (3,)], told.append) == [2, 4, 6]
+    assert run_units("numbers", doubled, [(1,), (2,), (3,)], told.append) == [2, 4, 6]
     assert len(told) == 3
 
 
@@ -94,9 +94,9 @@ def session(seed: int, ks: list[tuple[int, int, int]]) -> Session:
 
 def test_a_task_is_solved_once_all_demonstrators_have_had_it_right() -> None:
     groups = {"cup-easy": [session(0, [(1, 0, 0)]), session(1, [(1, 0, 4), (1, 1, 2), (2, 1, 0)])]}
-    assert [solved_at(groups, k) for k in (1, 2, 3)] == [0.0, 0.0, 1.0]
+    assert [share_solved_at(groups, k) for k in (1, 2, 3)] == [0.0, 0.0, 1.0]
     groups["cup-hard"] = [session(0, [(1, 0, 1)])]
-    assert solved_at(groups, 9) == 0.5
+    assert share_solved_at(groups, 9) == 0.5
 
 
 def test_the_reason_of_a_failing_session_is_what_is_kept_of_it() -> None:
@@ -109,5 +109,5 @@ def test_the_reason_of_a_failing_session_is_what_is_kept_of_it() -> None:
     assert reason(row) == "a larger rule was learned, under noisy labels; given up after 0 demonstrations"
     row.program = None
     assert reason(row).startswith("no program fits what was shown, under noisy labels")
-    table = failing({"noisy labels": {"cup-easy": [row]}})
+    table = list_failures({"noisy labels": {"cup-easy": [row]}})
     assert [line[:3] for line in table.rows] == [("cup-easy", "noisy labels", 0)]

@@ -9,12 +9,12 @@ from typing import Any
 import pytest
 
 from benchmark import __main__ as bench
-from benchmark.labels import asked as asked_module
 from benchmark.labels import labellers
-from benchmark.labels.methods import REPEATS, Method, Told, offline
-from benchmark.labels.sampling import LABELLED, Family, families
-from benchmark.labels.sampling import main as write_sample
-from benchmark.labels.scores import scored
+from benchmark.labels import model as model_module
+from benchmark.labels.families import LABELLED, Family, families
+from benchmark.labels.families import main as write_sample
+from benchmark.labels.methods import REPEATS, LabellerOutput, Method, offline
+from benchmark.labels.scores import score_labels
 from meshforge.common import UsageError
 from meshforge.formats import read
 from meshforge.labels.vlm.prompt import MODES
@@ -62,8 +62,8 @@ def test_none_and_foreign_words_count_as_wrong_and_repeats_are_held_against_each
     hulls = sum(map(len, right))
     first = tuple(tuple(row) for row in right)
     other = (("gizmo", None, *right[0][2:]), *first[1:])
-    told = [[Told(other, cost=0.4)], [Told(first)], [Told(first)]]
-    score = scored(Method("one", lambda family, repeat: told[repeat][0]), [cups], told)
+    told = [[LabellerOutput(other, cost=0.4)], [LabellerOutput(first)], [LabellerOutput(first)]]
+    score = score_labels(Method("one", lambda family, repeat: told[repeat][0]), [cups], told)
     assert score.accuracy == pytest.approx(1 - 2 / hulls)
     assert score.unlabelled == pytest.approx(1 / hulls)
     assert score.foreign == pytest.approx(1 / hulls)
@@ -72,9 +72,9 @@ def test_none_and_foreign_words_count_as_wrong_and_repeats_are_held_against_each
     assert (score.meshes, score.cost, score.of("cup")) == (4, 0.4, score.accuracy)
     pure = [p >= 0.8 for place in cups.drawn for p in cups.samples[place].purities]
     assert score.accuracy_pure == pytest.approx(1 - sum(pure[:2]) / sum(pure))
-    same = scored(Method("one", lambda family, repeat: told[1][0]), [cups], told[1:] * 2)
+    same = score_labels(Method("one", lambda family, repeat: told[1][0]), [cups], told[1:] * 2)
     assert (same.accuracy, same.agreement, same.friedman) == (1.0, 1.0, None)
-    alone = scored(Method("one", lambda family, repeat: told[0][0]), [cups], told[:1])
+    alone = score_labels(Method("one", lambda family, repeat: told[0][0]), [cups], told[:1])
     assert (alone.agreement, alone.friedman) == (None, None)
 
 
@@ -82,7 +82,7 @@ def test_labellers_that_ask_nobody(cups: Family) -> None:
     scores = {}
     for method in offline(()):
         assert method.repeats == REPEATS
-        scores[method.name] = scored(method, [cups], [[method.tell(cups, repeat)] for repeat in range(3)])
+        scores[method.name] = score_labels(method, [cups], [[method.tell(cups, repeat)] for repeat in range(3)])
     assert all(score.agreement == 1.0 and score.friedman is None for score in scores.values())
     assert scores["propagation, 1 labelled"].accuracy > 0.9
     assert scores["propagation, 3 labelled"].accuracy > scores["majority, 1 labelled"].accuracy > 0.2
@@ -95,7 +95,7 @@ def test_labels_that_something_else_made_are_read_from_a_folder(cups: Family, tm
     for sample in known:
         write_labels(tmp_path / "made" / "deep" / f"{sample.name}.labels.json", sample.mesh, ["wall"])
     method = offline([tmp_path / "made"])[-1]
-    score = scored(method, [cups], [[method.tell(cups, 0)]])
+    score = score_labels(method, [cups], [[method.tell(cups, 0)]])
     hulls = [len(cups.bare[place].hulls) for place in cups.drawn]
     assert method.name == "labels of made"
     assert score.accuracy == pytest.approx(sum(hulls[:2]) / sum(hulls))
@@ -138,7 +138,7 @@ class Model:
 def answers(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """Where answers are kept; of the labellers that ask nobody only the quickest is tried beside the model."""
     monkeypatch.setattr(labellers, "offline", lambda folders: [row for row in offline(folders) if row.name == "names"])
-    monkeypatch.setattr(asked_module, "JOURNALS", tmp_path / "journals")
+    monkeypatch.setattr(model_module, "JOURNALS", tmp_path / "journals")
     return tmp_path / "journals"
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from benchmark.assets import samples
-from benchmark.labels.fitting import Rows, fitted, rows_of
+from benchmark.labels.metric import Rows, fit_metric, rows_of
 from meshforge.geometry import Floats
 
 
@@ -19,8 +19,8 @@ def nearest_right(family: Rows, weights: Floats) -> float:
 
 def test_weights_learned_on_one_family_help_on_another_and_come_out_the_same_again() -> None:
     knives, cups = (rows_of(samples(name, calibration=True)) for name in ("knife", "cup"))
-    learned = fitted([cups])
-    assert np.array_equal(learned, fitted([cups]))
+    learned = fit_metric([cups])
+    assert np.array_equal(learned, fit_metric([cups]))
     even = np.full(len(learned), learned.mean())
     assert nearest_right(knives, learned) > nearest_right(knives, even) - 0.02
     assert nearest_right(cups, learned) >= nearest_right(cups, even)

@@ -13,14 +13,14 @@ import pytest
 from benchmark import __main__ as bench
 from benchmark.clock import in_turns
 from benchmark.learning import asking, calibrate, growth, repairs
-from benchmark.learning.asking_programs import taught
-from benchmark.learning.asking_rules import asked
 from benchmark.learning.boxes import SIZED, boxes, boxes_case
 from benchmark.learning.calibrate import WEIGHTS
-from benchmark.learning.cases import cases, learned
+from benchmark.learning.cases import cases, learn
 from benchmark.learning.contest import HAS_CVC5
-from benchmark.learning.programs import wanted, wanted_tables
-from benchmark.learning.tables import DEMONSTRATED, bundled, stretched
+from benchmark.learning.program_courses import teach_program
+from benchmark.learning.programs import target_of_tables, target_programs
+from benchmark.learning.rule_courses import learn_rule
+from benchmark.learning.tables import DEMONSTRATED, read_tables, stretch_tables
 from benchmark.report import Result, as_text
 from meshforge.language import size_of
 from meshforge.synthesis.readings import belief
@@ -65,7 +65,7 @@ def test_draws_are_the_same_every_time_and_longer_rows_begin_with_shorter_ones()
     assert one.shown == other.shown
     assert all(one.masks[k] for k in one.shown)
     assert boxes(1)[0].labels == boxes(2)[0].labels
-    assert list(stretched(16))[:14] == list(bundled())
+    assert list(stretch_tables(16))[:14] == list(read_tables())
 
 
 @pytest.mark.parametrize("nodes", SIZED)
@@ -74,26 +74,26 @@ def test_the_extractors_on_boxes_have_their_sizes(nodes: int) -> None:
 
 
 def test_the_case_of_the_goal_needs_all_its_nodes() -> None:
-    found = learned(boxes_case(9, 12, 12).search())
+    found = learn(boxes_case(9, 12, 12).search())
     assert found.consistent.terms[0].size == 9
 
 
 def test_a_rule_that_no_question_is_open_about_is_right() -> None:
-    row = asked(next(cases([100], 3, ("cup",))), 3)
+    row = learn_rule(next(cases([100], 3, ("cup",))), 3)
     assert row.among
     assert row.right == (row.wrong == 0.0)
     assert row.neither <= row.answers
 
 
 def test_a_program_is_taught_by_answers() -> None:
-    (row,) = taught(wanted(100, ("lamp",))[0], 100, 2)
+    (row,) = teach_program(target_programs(100, ("lamp",))[0], 100, 2)
     assert row.status == "found"
     assert (row.rules, row.refused) == (3, 0)
     assert row.wrong == 0.0
 
 
 def test_the_bundled_demonstrations_are_what_their_program_does() -> None:
-    task, shown = wanted_tables(14)
+    task, shown = target_of_tables(14)
     assert shown == DEMONSTRATED
     asset = next(iter(task.meshes.values())).asset
     assert asset
@@ -109,4 +109,4 @@ def test_features_are_what_the_weights_multiply() -> None:
     rule = calibrate._rule(case)
     assert rule is not None
     used = np.array([float(getattr(belief, name)) for name in WEIGHTS])
-    assert sorted(rule.shares(used)) == pytest.approx(sorted(learned(case.search()).beliefs))
+    assert sorted(rule.shares(used)) == pytest.approx(sorted(learn(case.search()).beliefs))

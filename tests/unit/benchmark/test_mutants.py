@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from benchmark.evaluation import mutation
-from benchmark.tasks import Edited, Task, task, tasks
+from benchmark.tasks import EditResult, Task, task, tasks
 from benchmark.tasks.mutants import ACTIONS, EXTRACTORS, have_same_shapes, judge_mutants, mutants
 from meshforge.geometry import Box, Pose
 from meshforge.language import size_of
@@ -59,8 +59,8 @@ def test_edits_are_alike_whatever_their_hulls_are_called() -> None:
     sample = task("cup-easy").samples()[0]
     hulls = sample.mesh.hulls
     turned = [Hull(f"other{k}", "body", hull.shape) for k, hull in enumerate(reversed(hulls))]
-    assert have_same_shapes(Edited(sample.mesh), Edited(SymbolicMesh(tuple(turned))), 1e-6)
-    assert not have_same_shapes(Edited(sample.mesh), Edited(SymbolicMesh(tuple(turned[1:]))), 1e-6)
-    assert not have_same_shapes(Edited(sample.mesh), Edited(None, error="none"), 1e-6)
+    assert have_same_shapes(EditResult(sample.mesh), EditResult(SymbolicMesh(tuple(turned))), 1e-6)
+    assert not have_same_shapes(EditResult(sample.mesh), EditResult(SymbolicMesh(tuple(turned[1:]))), 1e-6)
+    assert not have_same_shapes(EditResult(sample.mesh), EditResult(None, error="none"), 1e-6)
     moved = [Hull("new", "body", Box(Pose.identity(), np.array([1.0, 1.0, 1.0]))), *turned[1:]]
-    assert not have_same_shapes(Edited(sample.mesh), Edited(SymbolicMesh(tuple(moved))), 1e-6)
+    assert not have_same_shapes(EditResult(sample.mesh), EditResult(SymbolicMesh(tuple(moved))), 1e-6)

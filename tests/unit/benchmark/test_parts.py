@@ -9,36 +9,36 @@ import numpy as np
 import pytest
 
 from benchmark.assets.asset import Asset, Site
-from benchmark.criteria import Case, judged
+from benchmark.criteria import Case, judge
 from meshforge.geometry import Aabb, Box, Pose, Shape, convex_hull
 from meshforge.symbolic import Hull, Label, SymbolicMesh
 from script.samples.part import Part
 from script.samples.solids import Point, block
 
-Room = tuple[Point, Point]
-TOP: Room = ((-0.5, -0.3, 0.7), (0.5, 0.3, 0.74))
-SHELF: Room = ((-0.45, -0.25, 0.3), (0.45, 0.25, 0.33))
-LEGS: list[Room] = [
+Corners = tuple[Point, Point]
+TOP: Corners = ((-0.5, -0.3, 0.7), (0.5, 0.3, 0.74))
+SHELF: Corners = ((-0.45, -0.25, 0.3), (0.45, 0.25, 0.33))
+LEGS: list[Corners] = [
     ((x - 0.03, y - 0.03, 0.0), (x + 0.03, y + 0.03, 0.7)) for x in (-0.45, 0.45) for y in (-0.25, 0.25)
 ]
-CRUMB: Room = ((0.1, 0.1, 0.74), (0.14, 0.13, 0.77))
+CRUMB: Corners = ((0.1, 0.1, 0.74), (0.14, 0.13, 0.77))
 SITE = Site("knob", (0.0, 0.0, 0.8), (0.01, 0.01, 0.01))
 
 
-def box(room: Room) -> Box:
-    return Box.of_bounds(Aabb(np.array(room[0]), np.array(room[1])))
+def box(corners: Corners) -> Box:
+    return Box.of_bounds(Aabb(np.array(corners[0]), np.array(corners[1])))
 
 
 def hull(name: str, label: str, shape: Shape) -> Hull:
     return Hull(name, "body", shape, Label(label))
 
 
-def halves(room: Room, label: str, name: str) -> list[Hull]:
-    """The room as two hulls, one above the other."""
-    (x, y, z), (a, b, c) = room
+def halves(corners: Corners, label: str, name: str) -> list[Hull]:
+    """A box as two hulls, one above the other."""
+    (x, y, z), (a, b, c) = corners
     middle = (z + c) / 2
-    rooms = [((x, y, z), (a, b, middle)), ((x, y, middle), (a, b, c))]
-    return [hull(f"{name}{k}", label, box(row).tessellate()) for k, row in enumerate(rooms)]
+    boxes = [((x, y, z), (a, b, middle)), ((x, y, middle), (a, b, c))]
+    return [hull(f"{name}{k}", label, box(row).tessellate()) for k, row in enumerate(boxes)]
 
 
 BEFORE = [
@@ -55,7 +55,7 @@ ASSET = Asset(
     "plain",
     False,
     "",
-    tuple(Part(name, label, block(*room)) for name, label, room in PARTS),
+    tuple(Part(name, label, block(*corners)) for name, label, corners in PARTS),
     (SITE,),
     Pose.identity(),
     False,
@@ -65,7 +65,7 @@ ASSET = Asset(
 def failure(after: Sequence[Hull], *fates: dict[str, Any], **fields: Any) -> str | None:
     """Why the table does not do, edited so."""
     case = Case(SymbolicMesh(tuple(after)), ASSET, SymbolicMesh(tuple(BEFORE)))
-    return judged(case, [{"kind": "parts", "fates": list(fates), **fields}])
+    return judge(case, [{"kind": "parts", "fates": list(fates), **fields}])
 
 
 def without(*names: str) -> list[Hull]:
@@ -141,10 +141,10 @@ def test_a_part_is_whole_when_it_is_one_hull() -> None:
 @pytest.mark.parametrize(("filled", "why"), [(False, None), (True, "is filled")])
 def test_what_is_hollow_is_not_filled(filled: bool, why: str | None) -> None:
     legs = {"of": "leg", "fate": "made", "together": True, "hollow": 0.2}
-    rooms = [((-0.48, -0.28, 0.0), (0.48, 0.28, 0.29))] if filled else LEGS
-    made = [hull(f"leg{k}0~1", "leg", box(room)) for k, room in enumerate([*LEGS, *rooms][len(LEGS) :])]
+    boxes = [((-0.48, -0.28, 0.0), (0.48, 0.28, 0.29))] if filled else LEGS
+    made = [hull(f"leg{k}0~1", "leg", box(corners)) for k, corners in enumerate([*LEGS, *boxes][len(LEGS) :])]
     if filled:
-        made += [hull(f"leg{k}1~1", "leg", box(room)) for k, room in enumerate(LEGS)]
+        made += [hull(f"leg{k}1~1", "leg", box(corners)) for k, corners in enumerate(LEGS)]
     said = failure([*without("leg"), *made], legs)
     assert said is None if why is None else why in str(said)
 

@@ -9,12 +9,12 @@ import numpy as np
 import pytest
 
 from benchmark.assets import CATEGORIES, samples
-from benchmark.study import CONDITIONS, FULL, NOISY, Bench, Session, taught
-from benchmark.study.carrying import begun_by_hand, labelled_by_hand
-from benchmark.study.instances import instance, mended
-from benchmark.study.keystrokes import modelled
+from benchmark.study import CONDITIONS, FULL, NOISY, Bench, Session, teach_task
+from benchmark.study.instances import instance, mend
+from benchmark.study.keystrokes import model_seconds
 from benchmark.study.labels import ACCURACY, FEW, MOST, noisy, wrong
 from benchmark.study.person import Person
+from benchmark.study.propagation import begin_by_hand, label_by_hand
 from benchmark.tasks import task
 from meshforge.language import Is
 from tests.unit.benchmark.conftest import few
@@ -33,7 +33,7 @@ def without_times(session: Session) -> Session:
 
 @pytest.mark.parametrize("condition", [FULL, NOISY, CONDITIONS["noisy labels, errs in 5%"]])
 def test_a_session_is_the_same_every_time_and_survives_json(bench: Bench, condition: object) -> None:
-    one, other = (taught(bench, condition, 0) for _ in range(2))  # type: ignore[arg-type]
+    one, other = (teach_task(bench, condition, 0) for _ in range(2))  # type: ignore[arg-type]
     assert without_times(one) == without_times(other)
     assert Session.of_json(json.loads(json.dumps(one.to_json()))) == one
     assert one.k == len(one.shown) + one.answers
@@ -44,15 +44,15 @@ CARRIED = CONDITIONS["propagated labels, 3 labelled"]
 
 
 def test_labels_that_are_carried_over_leave_what_was_labelled_by_hand_and_judge_the_rest(bench: Bench) -> None:
-    one, other = (taught(bench, CARRIED, 0) for _ in range(2))
+    one, other = (teach_task(bench, CARRIED, 0) for _ in range(2))
     assert without_times(one) == without_times(other)
-    begun, by_hand, given = begun_by_hand(bench, 3)
+    begun, by_hand, given = begin_by_hand(bench, 3)
     assert len(by_hand) == 3
     assert sum(len(bench.samples[name].mesh.hulls) for name in by_hand) >= given > 0
     assert one.judged == len(bench.samples) - len(by_hand | set(one.shown))
     assert one.typed >= given
     name = one.shown[0]
-    desk, wrong = labelled_by_hand(begun, name)
+    desk, wrong = label_by_hand(begun, name)
     for known in (*by_hand, name):
         true = bench.truth.meshes[known]
         assert [hull.label for hull in desk.meshes[known].hulls] == [hull.label for hull in true.hulls]
@@ -64,24 +64,24 @@ def test_labels_that_are_carried_over_leave_what_was_labelled_by_hand_and_judge_
 
 
 def test_with_true_labels_nobody_confirms_anything_wrong_and_accepts_only_what_looks_right(bench: Bench) -> None:
-    session = taught(bench, FULL, 1)
+    session = teach_task(bench, FULL, 1)
     assert session.confirmed == 0
     assert session.f1 == pytest.approx(1.0) or not session.right
     assert session.right == (session.rounds[-1].differs == 0)
 
 
 def test_a_right_program_fails_only_where_the_reference_does(bench: Bench) -> None:
-    session = taught(bench, FULL, 1)
+    session = teach_task(bench, FULL, 1)
     assert session.right
     program = bench.task.program
     rest = set(bench.samples) - set(session.shown)
-    failing = {name for name in rest if bench.failure(name, bench.truth.edited(program, name))}
+    failing = {name for name in rest if bench.failure(name, bench.truth.edit(program, name))}
     assert set(session.failures) == failing
 
 
 def test_edits_that_select_the_same_are_judged_apart_where_they_differ(bench: Bench) -> None:
     name, sample = next((name, row) for name, row in bench.samples.items() if any(bench.truth.reference[name] or ()))
-    edited = bench.truth.edited(bench.task.program, name)
+    edited = bench.truth.edit(bench.task.program, name)
     idle = replace(edited, mesh=sample.mesh, named=frozenset())
     fresh = [bench.task.failure(sample, edit) for edit in (edited, idle)]
     assert fresh[0] != fresh[1]
@@ -95,7 +95,7 @@ def test_no_failure_is_seen_in_what_is_right_by_the_eye_or_what_the_reference_ge
     other = replace(one, rules=(one.rules[0], replace(one.rules[1], extractor=Is("handle"))))
     unlike = 0
     for name in names:
-        done, wanted, true = desk.selected(other, name), desk.reference[name], bench.truth.reference[name]
+        done, wanted, true = desk.select(other, name), desk.reference[name], bench.truth.reference[name]
         seen = person.sees(desk, other, [name])
         if done is None or wanted is None or true is None:
             continue
@@ -111,7 +111,7 @@ def test_no_failure_is_seen_in_what_is_right_by_the_eye_or_what_the_reference_ge
 
 
 def test_without_questions_nothing_is_answered(bench: Bench) -> None:
-    assert taught(bench, CONDITIONS["true labels, no questions"], 2).answers == 0
+    assert teach_task(bench, CONDITIONS["true labels, no questions"], 2).answers == 0
 
 
 def test_the_noisy_labeller_is_as_noisy_as_it_says() -> None:
@@ -137,11 +137,11 @@ def test_wrong_labels_come_together() -> None:
 
 
 def test_a_persons_time_is_modelled_from_what_was_done(bench: Bench) -> None:
-    session = taught(bench, FULL, 0)
-    spent = modelled(session, len(bench.task.program.rules))
+    session = teach_task(bench, FULL, 0)
+    spent = model_seconds(session, len(bench.task.program.rules))
     assert spent["answering"] == pytest.approx(session.answers * 4.0)
     assert spent["demonstrating"] > 0
-    assert modelled(Session("cup-medium", "", 0), 2) == dict.fromkeys(spent, 0.0)
+    assert model_seconds(Session("cup-medium", "", 0), 2) == dict.fromkeys(spent, 0.0)
 
 
 def test_an_instance_of_the_repair_study_is_a_near_miss() -> None:
@@ -149,7 +149,7 @@ def test_an_instance_of_the_repair_study_is_a_near_miss() -> None:
     if found is None:
         pytest.skip("no draw of this task is a near miss")
     without, inspected, repaired = (
-        mended(found, way) for way in ("no correction", "all labels inspected (Standard PBE)", "ABI")
+        mend(found, way) for way in ("no correction", "all labels inspected (Standard PBE)", "ABI")
     )
     assert inspected.right
     assert inspected.demonstrations == 2

@@ -6,7 +6,7 @@ import time
 
 import pytest
 
-from benchmark.learning.sygus import cvc5_problem, stated
+from benchmark.learning.sygus import cvc5_problem, state_problem
 from meshforge.language import All, Attach, Diff, Extractor, Geo, Intersect, Is, Union, select_mask
 from meshforge.symbolic import SymbolicMesh
 from meshforge.synthesis.demonstration import Example
@@ -21,7 +21,7 @@ def shown(extractor: Extractor, *meshes: SymbolicMesh) -> list[Example]:
 
 
 def test_a_problem_has_a_row_for_each_demonstrated_hull_and_no_leaf_that_tells_nothing() -> None:
-    problem = stated(shown(Is("leg"), *TABLES), (*LABELS, "door"))
+    problem = state_problem(shown(Is("leg"), *TABLES), (*LABELS, "door"))
     assert len(problem.rows) == sum(len(mesh.hulls) for mesh in TABLES)
     assert {len(values) for values, _ in problem.rows} == {len(problem.leaves)}
     assert All() in problem.leaves

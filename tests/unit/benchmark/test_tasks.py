@@ -9,9 +9,9 @@ import pytest
 
 from benchmark.assets import CATEGORIES, SETTINGS, samples
 from benchmark.assets.__main__ import main as make
-from benchmark.assets.frozen import DATA, read
-from benchmark.assets.making import COUNT, category, kinds
-from benchmark.tasks import DIFFICULTIES, Edited, Task, task, tasks
+from benchmark.assets.generation import COUNT, category, kinds
+from benchmark.assets.storage import DATA, read
+from benchmark.tasks import DIFFICULTIES, EditResult, Task, task, tasks
 from meshforge.geometry import Floats, is_closed, is_convex
 from meshforge.language import Attach, BaseExtractor, Diff, Each, Extractor, Geo, Intersect, Union, size_of
 
@@ -139,5 +139,5 @@ def test_the_reference_runs_on_every_pure_mesh_and_mends_the_first_pure_ones(one
 def test_the_criterion_refuses_what_is_unedited_and_a_wrong_edit(name: str) -> None:
     one = task(name)
     rows = one.samples()[:12]
-    assert any(one.failure(row, Edited(row.mesh)) for row in rows)
+    assert any(one.failure(row, EditResult(row.mesh)) for row in rows)
     assert any(one.failure(row, one.run(one.wrong, row.mesh)) for row in rows)

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from benchmark.assets import Sample, samples
-from benchmark.labels.fitting import PURE
+from benchmark.labels.metric import PURE
 from meshforge.geometry import Pose
 from meshforge.labels import FamilyPosterior, propagate
 from meshforge.symbolic import Label, SymbolicMesh

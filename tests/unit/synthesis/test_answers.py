@@ -7,7 +7,7 @@ import json
 import pytest
 
 from benchmark.learning.families import family
-from benchmark.learning.hidden import hidden
+from benchmark.learning.targets import extractors_of
 from meshforge.language import Delete, Merge, show
 from meshforge.synthesis import (
     Ambiguous,
@@ -51,7 +51,7 @@ def test_a_choice_that_is_taken_is_what_the_program_selects(choice: int) -> None
 def test_every_choice_of_every_question_about_a_family_can_be_taken() -> None:
     meshes = {f"t{k}": mesh for k, mesh in enumerate(family("table", 12, seed=5))}
     asked = 0
-    for extractor in map(show, hidden("table")):
+    for extractor in map(show, extractors_of("table")):
         names = [name for name, mesh in meshes.items() if meant(extractor, mesh)][:1]
         demos = shown(meshes, names, f"{extractor} => Delete")
         outcome = synthesize(demos, meshes, options=Options(repair=False)) if demos else None

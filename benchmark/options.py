@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, slots=True)
-class Given:
+class RunOptions:
     """vlm: a TOML file with a table [vlm], as that of meshforge.toml, None where no model is asked.
 
     max_cost: the most that asking may cost [$], instead of the table's; blender: a Python that has the module bpy;

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING
 
-from benchmark.baselines.demonstrated import Shown
+from benchmark.baselines.replay import Replay
 from meshforge.common import join_names, pluralize
 from meshforge.geometry import Aabb
 from meshforge.language import Program, Template
@@ -21,12 +21,12 @@ _PAIR = (640, 560)
 _FEW = 8  # made hulls that are told
 
 
-def told(shown: Sequence[Shown], frame: Program) -> Iterator[Part]:
+def describe_demonstrations(shown: Sequence[Replay], frame: Program) -> Iterator[Part]:
     """All demonstrations, each with its hulls, its steps, and pictures before and after."""
     from meshforge.rendering import draw_labeling_pictures, encode_png
 
     for number, one in enumerate(shown, 1):
-        yield f"## Demonstration {number}: {one.name}\n\n{described(one.before)}\n"
+        yield f"## Demonstration {number}: {one.name}\n\n{describe_mesh(one.before)}\n"
         for shot in draw_labeling_pictures(one.before, most=_PICTURES, size=_SIZE):
             yield f"{one.name} before, {shot.name}; hull_07 has the number 7."
             yield encode_png(shot.marked)
@@ -35,7 +35,7 @@ def told(shown: Sequence[Shown], frame: Program) -> Iterator[Part]:
         yield encode_png(_pair(one.before, one.after, frame))
 
 
-def described(mesh: SymbolicMesh) -> str:
+def describe_mesh(mesh: SymbolicMesh) -> str:
     """The symbolic mesh as text: a line a hull, with its label, its box, and what it touches."""
     lines = [f"{pluralize(len(mesh.hulls), 'hull')}: name, label, box, hulls in contact with it"]
     for place, one in enumerate(mesh.hulls):
@@ -44,7 +44,7 @@ def described(mesh: SymbolicMesh) -> str:
     return "\n".join(lines)
 
 
-def steps(shown: Shown) -> str:
+def steps(shown: Replay) -> str:
     """What a person did, step by step."""
     lines = []
     for step in shown.demo.steps:
@@ -53,7 +53,7 @@ def steps(shown: Shown) -> str:
         if not step.select:
             lines.append(f"{what}: on no hull of this mesh")
             continue
-        made = [hull(shown.stages[step.rule].hull_of(name)) for name in shown.made(step.rule)]
+        made = [hull(shown.stages[step.rule].hull_of(name)) for name in shown.find_products(step.rule)]
         more = [f"and {len(made) - _FEW} more"] if len(made) > _FEW else []
         end = f"\n   made {'; '.join([*made[:_FEW], *more])}" if made else ""
         lines.append(f"{what}: on {', '.join(sorted(step.select))}{end}")
@@ -69,12 +69,12 @@ def templates(given: Mapping[str, Template]) -> str:
     return "\n".join(rows) or "none"
 
 
-def compared(got: SymbolicMesh, wanted: SymbolicMesh, frame: Program) -> Image:
+def draw_comparison(got: SymbolicMesh, wanted: SymbolicMesh, frame: Program) -> Image:
     """What came out beside what was shown."""
     return _pair(got, wanted, frame, ("what came out", "as it was shown"))
 
 
-def named(hulls: Sequence[Hull]) -> str:
+def list_hulls(hulls: Sequence[Hull]) -> str:
     """Hulls by name and label."""
     return join_names([f"{one.name} ({one.label or 'no label'})" for one in hulls], most=12)
 

@@ -9,11 +9,11 @@ from pathlib import Path
 
 import numpy as np
 
-from benchmark.baselines import showing
-from benchmark.baselines.blender.editing import ran
+from benchmark.baselines import prompts
+from benchmark.baselines.blender.edit import ran
 from benchmark.baselines.blender.process import Blender
-from benchmark.baselines.demonstrated import Shown
-from benchmark.baselines.refining import Tried, fenced
+from benchmark.baselines.refinement import Trial, find_code
+from benchmark.baselines.replay import Replay
 from benchmark.tasks import Task
 from meshforge.labels.vlm.request import Message, Part
 from meshforge.language import show
@@ -67,11 +67,11 @@ _AGAIN = "Answer with the whole script again."
 
 
 @dataclass(frozen=True, eq=False)
-class Scripting:
+class BlenderModel:
     """The model's work on one task and some demonstrations; blender: what its scripts are tried in."""
 
     task: Task
-    shown: Sequence[Shown]
+    shown: Sequence[Replay]
     blender: Blender
 
     @property
@@ -80,7 +80,7 @@ class Scripting:
         frame = self.task.program
         turned = f"Every mesh lies so: {show(frame.orient)}." if frame.orient else "Meshes lie as in their files."
         begun = _OPENING.format(
-            labels=", ".join(frame.labels), frame=turned, templates=showing.templates(self.task.templates)
+            labels=", ".join(frame.labels), frame=turned, templates=prompts.templates(self.task.templates)
         )
         told = _TASK.format(
             version=self.blender.fences.blender,
@@ -88,21 +88,21 @@ class Scripting:
             seconds=self.blender.limits.seconds,
             actions=actions(),
         )
-        return Message.system(told), Message.user(begun, *showing.told(self.shown, frame), _CLOSING)
+        return Message.system(told), Message.user(begun, *prompts.describe_demonstrations(self.shown, frame), _CLOSING)
 
-    def tried(self, answer: str) -> Tried:
+    def try_answer(self, answer: str) -> Trial:
         """An answer on the demonstrations."""
-        script = fenced(answer)
+        script = find_code(answer)
         if not script:
-            return Tried(None, 0, (f"There is no script in your answer. {_CLOSING}",))
+            return Trial(None, 0, (f"There is no script in your answer. {_CLOSING}",))
         said, wrong = list[Part](), 0
         for one in self.shown:
             faults = tuple(self._faults(script, one))
             wrong += bool(faults)
             said += faults
-        return Tried(script, wrong, ("The script does not do what was shown.", *said, _AGAIN) if wrong else ())
+        return Trial(script, wrong, ("The script does not do what was shown.", *said, _AGAIN) if wrong else ())
 
-    def _faults(self, script: str, one: Shown) -> Iterator[Part]:
+    def _faults(self, script: str, one: Replay) -> Iterator[Part]:
         """What a script does otherwise than was shown on a mesh, with a picture of what came out."""
         from meshforge.rendering import encode_png
 
@@ -113,7 +113,7 @@ class Scripting:
         faults = differences(done.mesh, one.after)
         if faults:
             yield f"{one.name}: " + "; ".join(faults) + ". What came out, and what should have:"
-            yield encode_png(showing.compared(done.mesh, one.after, self.task.program))
+            yield encode_png(prompts.draw_comparison(done.mesh, one.after, self.task.program))
 
 
 @cache
@@ -135,7 +135,7 @@ def differences(got: SymbolicMesh, wanted: SymbolicMesh) -> list[str]:
         else:
             lacking.append(hull)
     rows = ((lacking, "there should be, and is not:"), (left, "there is, and should not be:"))
-    return [f"{what} {_listed(hulls)}" for hulls, what in rows if hulls]
+    return [f"{what} {_list(hulls)}" for hulls, what in rows if hulls]
 
 
 def _same(one: Hull, other: Hull, reach: float) -> bool:
@@ -145,6 +145,6 @@ def _same(one: Hull, other: Hull, reach: float) -> bool:
     return bool(near) and alike and abs(one.volume - other.volume) <= _LIKE * one.volume
 
 
-def _listed(hulls: Sequence[Hull]) -> str:
+def _list(hulls: Sequence[Hull]) -> str:
     more = len(hulls) - _FEW
-    return ", ".join(showing.hull(one) for one in hulls[:_FEW]) + (f" and {more} more" if more > 0 else "")
+    return ", ".join(prompts.hull(one) for one in hulls[:_FEW]) + (f" and {more} more" if more > 0 else "")

@@ -70,6 +70,6 @@ _TEXTS: dict[str, tuple[str, ...]] = {
 }
 
 
-def hidden(family: str) -> tuple[Extractor, ...]:
+def extractors_of(family: str) -> tuple[Extractor, ...]:
     """The extractors of a family, the smaller ones first."""
     return tuple(Program.parse(f"{text} => Delete").rules[0].extractor for text in _TEXTS[family])

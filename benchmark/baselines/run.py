@@ -11,14 +11,14 @@ from itertools import groupby
 from pathlib import Path
 from typing import Any, Protocol
 
-from benchmark.baselines import agent, scripting
+from benchmark.baselines import agent, blender_model
 from benchmark.baselines.agent import Agent
 from benchmark.baselines.blender.process import Blender
-from benchmark.baselines.demonstrated import Shown, demonstrated
-from benchmark.baselines.judging import programmed, scripted
-from benchmark.baselines.refining import Tried, Written, refined
-from benchmark.baselines.scripting import Scripting
-from benchmark.evaluation.journal import JOURNALS, done
+from benchmark.baselines.blender_model import BlenderModel
+from benchmark.baselines.refinement import Answer, Trial, refine
+from benchmark.baselines.replay import Replay, replay_demonstrations
+from benchmark.baselines.verdicts import judge_program, judge_script
+from benchmark.journal import JOURNALS, run_units
 from benchmark.report import Tell
 from benchmark.study import Bench, Session
 from benchmark.tasks import Task, task
@@ -37,7 +37,7 @@ class Work(Protocol):
     @property
     def opening(self) -> tuple[Message, ...]: ...
 
-    def tried(self, answer: str) -> Tried: ...
+    def try_answer(self, answer: str) -> Trial: ...
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,7 +48,7 @@ class Baseline:
     """
 
     name: str
-    work: Callable[[Task, Sequence[Shown]], AbstractContextManager[Work]]
+    work: Callable[[Task, Sequence[Replay]], AbstractContextManager[Work]]
     kind: str
     judge: Callable[..., Any]
     more: tuple[str, ...] = ()
@@ -56,14 +56,14 @@ class Baseline:
 
 
 @dataclass(frozen=True, slots=True)
-class Played:
+class BaselineRun:
     """What came of a baseline. sessions: judged, and written: what came of asking in each.
 
     missing: sessions that were not come to, or whose question got no answer, and why: the first reason.
     """
 
     sessions: Sequence[Session] = ()
-    written: Sequence[Written] = ()
+    written: Sequence[Answer] = ()
     missing: int = 0
     why: str = ""
 
@@ -72,24 +72,24 @@ def vlm_agent() -> Baseline:
     """A model that writes programs."""
 
     @contextmanager
-    def work(one: Task, shown: Sequence[Shown]) -> Iterator[Work]:
+    def work(one: Task, shown: Sequence[Replay]) -> Iterator[Work]:
         yield Agent(one, shown)
 
-    return Baseline(agent.NAME, work, "vlm-agent", programmed)
+    return Baseline(agent.NAME, work, "vlm-agent", judge_program)
 
 
 def vlm_blender(python: Path) -> Baseline:
     """A model that writes Blender scripts; python: one that has the module bpy."""
 
     @contextmanager
-    def work(one: Task, shown: Sequence[Shown]) -> Iterator[Work]:
+    def work(one: Task, shown: Sequence[Replay]) -> Iterator[Work]:
         with Blender(python) as blender:
-            yield Scripting(one, shown, blender)
+            yield BlenderModel(one, shown, blender)
 
-    return Baseline(scripting.NAME, work, "vlm-blender", scripted, (str(python),), room=5000)
+    return Baseline(blender_model.NAME, work, "vlm-blender", judge_script, (str(python),), room=5000)
 
 
-def played(baseline: Baseline, taught: Sequence[Session], settings: VlmSettings, tell: Tell) -> Played:
+def run_baseline(baseline: Baseline, taught: Sequence[Session], settings: VlmSettings, tell: Tell) -> BaselineRun:
     """Ask a model in all sessions, and judge what it wrote; nothing is judged where some session is missing."""
     taught = sorted(taught, key=lambda row: row.task)  # so that a task's meshes are read once
     client = Client(endpoint_of(settings), JOURNALS / ANSWERS, max_cost=settings.max_cost)
@@ -97,19 +97,21 @@ def played(baseline: Baseline, taught: Sequence[Session], settings: VlmSettings,
         answers = list(_answers(baseline, taught, client, baseline.room + settings.room, tell))
     missing = [answer for answer in answers if isinstance(answer, QuestionError)]
     if missing:
-        return Played(missing=len(missing), why=missing[0].sentence)
-    written = [answer for answer in answers if isinstance(answer, Written)]
+        return BaselineRun(missing=len(missing), why=missing[0].sentence)
+    written = [answer for answer in answers if isinstance(answer, Answer)]
     units = [
         (row.task, row.condition, row.seed, row.shown, one.text, *baseline.more)
         for row, one in zip(taught, written, strict=True)
     ]
-    rows = done(baseline.kind, baseline.judge, units, lambda line: tell(line.partition(" [")[0]))  # without the text
-    return Played([Session.of_json(row) for row in rows], written)
+    rows = run_units(
+        baseline.kind, baseline.judge, units, lambda line: tell(line.partition(" [")[0])
+    )  # without the text
+    return BaselineRun([Session.of_json(row) for row in rows], written)
 
 
 def _answers(
     baseline: Baseline, taught: Sequence[Session], client: Client, room: int, tell: Tell
-) -> Iterator[Written | QuestionError]:
+) -> Iterator[Answer | QuestionError]:
     """What came of asking, session by session; task by task, so that meshes are read once."""
     count = 0
     with ThreadPoolExecutor(client.endpoint.concurrency) as pool:
@@ -121,11 +123,11 @@ def _answers(
                 yield answer
 
 
-def _answer(baseline: Baseline, bench: Bench, client: Client, room: int, row: Session) -> Written | QuestionError:
+def _answer(baseline: Baseline, bench: Bench, client: Client, room: int, row: Session) -> Answer | QuestionError:
     if client.end:
         return client.end
     try:
-        with baseline.work(bench.task, demonstrated(bench, row)) as work:
-            return refined(client, work.opening, work.tried, room)
+        with baseline.work(bench.task, replay_demonstrations(bench, row)) as work:
+            return refine(client, work.opening, work.try_answer, room)
     except QuestionError as error:
         return error

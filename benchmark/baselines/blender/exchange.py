@@ -11,7 +11,7 @@ _LONGEST = 64 << 20  # bytes of an answer
 _BLOCK = 1 << 16
 
 
-def exchanged(process: subprocess.Popen[bytes], request: bytes, seconds: float) -> bytes:
+def exchange(process: subprocess.Popen[bytes], request: bytes, seconds: float) -> bytes:
     """The line that comes back for a line. Raises TimeoutError, and EOFError where none comes, or one far too long."""
     assert process.stdin
     assert process.stdout
@@ -25,7 +25,7 @@ def exchanged(process: subprocess.Popen[bytes], request: bytes, seconds: float) 
         while (left := deadline - time.monotonic()) > 0:
             for key, _ in ready.select(left):
                 if key.fd == sink:
-                    rest = rest[_written(sink, rest[:_BLOCK]) :]
+                    rest = rest[_write(sink, rest[:_BLOCK]) :]
                     if not rest:
                         ready.unregister(sink)
                     continue
@@ -38,7 +38,7 @@ def exchanged(process: subprocess.Popen[bytes], request: bytes, seconds: float) 
     raise TimeoutError
 
 
-def _written(sink: int, block: memoryview) -> int:
+def _write(sink: int, block: memoryview) -> int:
     """How much of a block went through."""
     try:
         return os.write(sink, block)

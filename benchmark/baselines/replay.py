@@ -14,7 +14,7 @@ from meshforge.synthesis.task import advance, begin_replay
 
 
 @dataclass(frozen=True, eq=False)
-class Shown:
+class Replay:
     """A demonstration. stages: the mesh before its steps, and after each, in the frame that the rules reason in."""
 
     name: str
@@ -29,7 +29,7 @@ class Shown:
     def after(self) -> SymbolicMesh:
         return self.stages[-1]
 
-    def made(self, rule: int) -> tuple[str, ...]:
+    def find_products(self, rule: int) -> tuple[str, ...]:
         """The hulls that a step made, by its number."""
         old, new = self.stages[rule - 1 : rule + 1]
         return tuple(name for name in new.index if name not in old.index)
@@ -42,14 +42,14 @@ def desk_of(bench: Bench, session: Session) -> Desk:
     return bench.desk(labels, session.seed)
 
 
-def demonstrated(bench: Bench, session: Session) -> list[Shown]:
+def replay_demonstrations(bench: Bench, session: Session) -> list[Replay]:
     """What the person of a session showed, mesh by mesh, all steps of each."""
     desk = desk_of(bench, session)
     person = Person(desk, session.seed, CONDITIONS[session.condition])
-    return [_shown(bench, desk, person, name) for name in dict.fromkeys(session.shown)]
+    return [_replay(bench, desk, person, name) for name in dict.fromkeys(session.shown)]
 
 
-def _shown(bench: Bench, desk: Desk, person: Person, name: str) -> Shown:
+def _replay(bench: Bench, desk: Desk, person: Person, name: str) -> Replay:
     frame = bench.task.program
     try:
         demo = person.shows(desk, name)
@@ -61,7 +61,7 @@ def _shown(bench: Bench, desk: Desk, person: Person, name: str) -> Shown:
     for number, rule in enumerate(frame.rules, 1):
         replay = advance(replay, number, rule, bench.task.templates, frame.extremity)
         stages.append(replay.mesh)
-    return Shown(name, demo, tuple(stages))
+    return Replay(name, demo, tuple(stages))
 
 
 def _landmarks_right(bench: Bench, desk: Desk, name: str) -> Desk:

@@ -7,8 +7,8 @@ from dataclasses import asdict, dataclass
 from statistics import mean
 from typing import Any
 
-from benchmark.learning.cases import Case, learned, name_of
-from benchmark.learning.programs import Wanted
+from benchmark.learning.cases import Case, learn, name_of
+from benchmark.learning.programs import TargetProgram
 from benchmark.learning.talk import talk
 from benchmark.report import Cell, Table
 from meshforge.language import Delete, Program, Rule, select_mask, show, size_of
@@ -16,7 +16,7 @@ from meshforge.synthesis import LearningOutcome, Options
 
 
 @dataclass(frozen=True, slots=True)
-class Asked:
+class RuleCourse:
     """How one rule was learned.
 
     near: whether readings as large as the hidden extractor are looked for; among: whether one does what it does;
@@ -42,14 +42,14 @@ class Asked:
         return asdict(self)
 
 
-def asked(case: Case, count: int) -> Asked:
+def learn_rule(case: Case, count: int) -> RuleCourse:
     """Learn a rule, and answer until nothing is asked any more."""
-    weighed, task = learned(case.search()), _task(case)
+    weighed, task = learn(case.search()), _task(case)
     done = talk(task, [task.demonstration(name_of(k)) for k in case.shown], Options(repair=False))
     smallest, truth = weighed.consistent.terms[0], weighed.field.bits(case.hidden)
     believed = max(range(len(weighed.terms)), key=weighed.beliefs.__getitem__)
     wrong = _wrong(case, done.last)
-    return Asked(
+    return RuleCourse(
         f"{case.family}: {show(case.hidden)}",
         count,
         len(weighed.terms),
@@ -66,10 +66,10 @@ def asked(case: Case, count: int) -> Asked:
     )
 
 
-def _task(case: Case) -> Wanted:
+def _task(case: Case) -> TargetProgram:
     """The rule as a program of its own."""
     program = Program(case.vocabulary, None, (Rule(case.hidden, Delete()),))
-    return Wanted(case.family, program, {name_of(k): mesh for k, mesh in enumerate(case.meshes)}, {})
+    return TargetProgram(case.family, program, {name_of(k): mesh for k, mesh in enumerate(case.meshes)}, {})
 
 
 def _wrong(case: Case, outcome: LearningOutcome) -> float:
@@ -78,7 +78,7 @@ def _wrong(case: Case, outcome: LearningOutcome) -> float:
     return mean(select_mask(extractor, mesh) != mask for mesh, mask in zip(case.meshes, case.masks, strict=True))
 
 
-def rules_tables(rows: Sequence[Asked]) -> tuple[Table, ...]:
+def rules_tables(rows: Sequence[RuleCourse]) -> tuple[Table, ...]:
     """What is open at first, and after all answers."""
     counts = sorted({row.count for row in rows})
     by_count = [(count, [row for row in rows if row.count == count]) for count in counts]
@@ -101,7 +101,7 @@ def rules_tables(rows: Sequence[Asked]) -> tuple[Table, ...]:
                 "settled, %",
                 "settled but wrong",
             ),
-            tuple(_answered(count, few) for count, few in by_count),
+            tuple(_count_answers(count, few) for count, few in by_count),
         ),
     )
 
@@ -111,7 +111,7 @@ def percent(some: Sequence[bool] | Sequence[float]) -> float:
     return 100 * mean(map(float, some)) if some else 0.0
 
 
-def _open(count: int, rows: Sequence[Asked]) -> tuple[Cell, ...]:
+def _open(count: int, rows: Sequence[RuleCourse]) -> tuple[Cell, ...]:
     near = [row.among for row in rows if row.near]
     return (
         count,
@@ -125,7 +125,7 @@ def _open(count: int, rows: Sequence[Asked]) -> tuple[Cell, ...]:
     )
 
 
-def _answered(count: int, rows: Sequence[Asked]) -> tuple[Cell, ...]:
+def _count_answers(count: int, rows: Sequence[RuleCourse]) -> tuple[Cell, ...]:
     answers = sum(row.answers for row in rows)
     return (
         count,

@@ -1,6 +1,6 @@
 """The meshes that labellers are tried on: drawn from all categories, none of which a person labelled for any of them.
 
-    python -m benchmark.labels.sampling FOLDER [--sample N]
+    python -m benchmark.labels.families FOLDER [--sample N]
 
 writes them as OBJ files with the labels that there are to choose from, for labellers that run elsewhere.
 """
@@ -55,11 +55,11 @@ class Family:
     @property
     def advised(self) -> tuple[int, ...]:
         """The meshes that a person labels who always takes the one that is advised, in this order."""
-        return _advised(self.name)
+        return _advise(self.name)
 
-    def told(self, meshes: Sequence[int]) -> list[str | None]:
+    def labels_of(self, meshes: Sequence[int]) -> list[str | None]:
         """The labels of all hulls of some meshes, None for all others."""
-        return _told(self.name, meshes)
+        return _labels_of(self.name, meshes)
 
     @cached_property
     def drawn(self) -> tuple[int, ...]:
@@ -95,21 +95,21 @@ def _relatives(name: str) -> Propagator:
 
 
 @cache
-def _advised(name: str) -> tuple[int, ...]:
+def _advise(name: str) -> tuple[int, ...]:
     chosen = list[int]()
     while len(chosen) < LABELLED:
-        chosen += _relatives(name).propagate(_told(name, chosen)).next_to_label()
+        chosen += _relatives(name).propagate(_labels_of(name, chosen)).next_to_label()
     return tuple(chosen)
 
 
-def _told(name: str, meshes: Sequence[int]) -> list[str | None]:
+def _labels_of(name: str, meshes: Sequence[int]) -> list[str | None]:
     rows = enumerate(sample.mesh for sample in samples(name))
     return [hull.label if place in meshes else None for place, mesh in rows for hull in mesh.hulls]
 
 
 def main(arguments: list[str] | None = None) -> None:
     """Write the sample."""
-    parser = argparse.ArgumentParser(prog="python -m benchmark.labels.sampling", description=__doc__)
+    parser = argparse.ArgumentParser(prog="python -m benchmark.labels.families", description=__doc__)
     parser.add_argument("folder", type=Path)
     parser.add_argument("--sample", type=int, default=200, metavar="N")
     given = parser.parse_args(arguments)

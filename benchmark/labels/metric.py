@@ -49,7 +49,7 @@ def rows_of(samples: Sequence[Sample]) -> Rows:
     )
 
 
-def fitted(families: Sequence[Rows], seed: int = 0) -> Floats:
+def fit_metric(families: Sequence[Rows], seed: int = 0) -> Floats:
     """The weights (WIDTH,) under which hulls of the same label are near, across assets (neighbourhood components).
 
     In each draw some meshes are labelled; the chance that the hulls of other assets find their label among theirs is

@@ -5,20 +5,20 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
-from benchmark.assets.frozen import Sample
+from benchmark.assets.storage import Sample
 from meshforge.geometry import Pose
 from meshforge.rendering import make_contact_sheet, render, write_png
 from meshforge.symbolic import SymbolicMesh
 
 
-def moved(mesh: SymbolicMesh, pose: Pose) -> SymbolicMesh:
+def move(mesh: SymbolicMesh, pose: Pose) -> SymbolicMesh:
     """The mesh moved rigidly."""
     return mesh.with_hulls(hull.move(pose) for hull in mesh.hulls)
 
 
 def upright(sample: Sample, mesh: SymbolicMesh | None = None) -> SymbolicMesh:
     """A mesh of the sample's file, by default its own, in the frame in which the asset stands."""
-    return moved(mesh or sample.mesh, sample.asset.pose.inverse())
+    return move(mesh or sample.mesh, sample.asset.pose.inverse())
 
 
 def look(rows: Sequence[Sample], path: Path, side: int = 260, columns: int = 6) -> None:

@@ -8,9 +8,9 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from time import perf_counter
 
-from benchmark.evaluation.journal import JOURNALS
-from benchmark.labels.methods import Labels, Method, Told
-from benchmark.labels.sampling import Family
+from benchmark.journal import JOURNALS
+from benchmark.labels.families import Family
+from benchmark.labels.methods import LabellerOutput, Labels, Method
 from meshforge.labels.vlm.answer import VlmAnswers
 from meshforge.labels.vlm.client import Client
 from meshforge.labels.vlm.endpoint import Endpoint, endpoint_of
@@ -22,7 +22,7 @@ from meshforge.store.settings import VlmSettings
 from meshforge.symbolic import SymbolicMesh
 
 
-class CountingClient(Client):
+class CostClient(Client):
     """A client that counts what its answers cost when they were given, also those that it had already [$]."""
 
     def __init__(self, endpoint: Endpoint, folder: Path, max_cost: float | None) -> None:
@@ -38,7 +38,7 @@ class CountingClient(Client):
 
 
 @dataclass
-class Asked:
+class ModelLabeller:
     """A model that labels; what is spent counts over all families and repeats."""
 
     settings: VlmSettings
@@ -46,15 +46,15 @@ class Asked:
 
     @property
     def method(self) -> Method:
-        return Method(f"{self.settings.model}, {self.settings.mode}", self._told)
+        return Method(f"{self.settings.model}, {self.settings.mode}", self._ask)
 
-    def _told(self, family: Family, repeat: int) -> Told:
+    def _ask(self, family: Family, repeat: int) -> LabellerOutput:
         """Each repeat has its own answers on disk, so that it is asked anew, yet goes on where it was interrupted."""
         endpoint, most = endpoint_of(self.settings), self.settings.max_cost
         left = None if most is None else max(0.0, most - self.spent)
         manner = prompt_config_of(self.settings.model_copy(update={"about": "", "descriptions": {}}), family.vocabulary)
         started = perf_counter()
-        client = CountingClient(endpoint, JOURNALS / "vlm" / f"labels-{repeat}", left)
+        client = CostClient(endpoint, JOURNALS / "vlm" / f"labels-{repeat}", left)
         with closing(client), closing(Labeller(client, manner)) as labeller:
             pending = [labeller.begin(family.bare[place]) for place in family.drawn]
             said = [one.result() for one in pending]
@@ -62,7 +62,7 @@ class Asked:
         labels = tuple(_labels(family.bare[place], one) for place, one in zip(family.drawn, said, strict=True))
         why = next((problem for one in said for problem in one.failed), "")
         cost = client.cost if endpoint.is_priced else None
-        return Told(labels, perf_counter() - started, cost, sum(bool(one.failed) for one in said), why)
+        return LabellerOutput(labels, perf_counter() - started, cost, sum(bool(one.failed) for one in said), why)
 
 
 def _labels(mesh: SymbolicMesh, said: VlmAnswers) -> Labels:

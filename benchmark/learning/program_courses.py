@@ -8,9 +8,9 @@ from dataclasses import asdict, dataclass
 from statistics import mean
 from typing import Any
 
-from benchmark.learning.asking_rules import percent
 from benchmark.learning.families import FAMILIES
-from benchmark.learning.programs import Wanted, wanted
+from benchmark.learning.programs import TargetProgram, target_programs
+from benchmark.learning.rule_courses import percent
 from benchmark.learning.talk import talk
 from benchmark.report import Cell, Table, Tell
 from meshforge.language import Program
@@ -18,7 +18,7 @@ from meshforge.synthesis import Demonstration, Options
 
 
 @dataclass(frozen=True, slots=True)
-class Taught:
+class ProgramCourse:
     """How one program was learned; at_once: right before any answer; wrong: share of the meshes edited wrongly."""
 
     program: str
@@ -38,11 +38,11 @@ def programs_tables(
     tell: Tell, seeds: Iterable[int], counts: Sequence[int], only: Sequence[str] | None
 ) -> tuple[tuple[Table, ...], list[dict[str, Any]]]:
     """Teach the programs of all families from so many demonstrations each."""
-    rows: list[Taught] = []
+    rows: list[ProgramCourse] = []
     for seed in seeds:
-        for task in wanted(seed, only or tuple(FAMILIES)):
+        for task in target_programs(seed, only or tuple(FAMILIES)):
             for count in counts:
-                rows += taught(task, seed, count)
+                rows += teach_program(task, seed, count)
             tell(f"programs: {len(rows)} learned")
     columns = (
         "demonstrations",
@@ -62,20 +62,20 @@ def programs_tables(
     return (table,), [asdict(row) for row in rows]
 
 
-def taught(task: Wanted, seed: int, count: int) -> list[Taught]:
+def teach_program(task: TargetProgram, seed: int, count: int) -> list[ProgramCourse]:
     """Teach one program; nothing where no mesh has all that it is about."""
     draw = random.Random(f"{seed}{task.name}")
-    telling = task.telling()
+    telling = task.find_examples()
     if not telling:
         return []
     first = draw.choice(telling)
     shown = [first, *draw.sample([name for name in task.meshes if name != first], count - 1)]
-    return [_taught(task, seed, [task.demonstration(name) for name in shown])]
+    return [_teach(task, seed, [task.demonstration(name) for name in shown])]
 
 
-def _taught(task: Wanted, seed: int, demos: Sequence[Demonstration]) -> Taught:
+def _teach(task: TargetProgram, seed: int, demos: Sequence[Demonstration]) -> ProgramCourse:
     done = talk(task, demos, Options())
-    return Taught(
+    return ProgramCourse(
         task.name,
         seed,
         len(demos),
@@ -90,14 +90,14 @@ def _taught(task: Wanted, seed: int, demos: Sequence[Demonstration]) -> Taught:
     )
 
 
-def _wrong(task: Wanted, program: Program | None) -> float:
+def _wrong(task: TargetProgram, program: Program | None) -> float:
     """The share of the meshes on which a rule of a program selects something else than is wanted."""
     if program is None:
         return 1.0
-    return mean(task.selected(program, asset) != right for asset, right in task.right.items())
+    return mean(task.select(program, asset) != right for asset, right in task.right.items())
 
 
-def _row(count: int, rows: Sequence[Taught]) -> tuple[Cell, ...]:
+def _row(count: int, rows: Sequence[ProgramCourse]) -> tuple[Cell, ...]:
     many = max(len(rows), 1)
     answers = sum(row.answers for row in rows) / many
     return (

@@ -13,7 +13,7 @@ from typing import Any
 
 from benchmark.report import Tell
 
-ROOT = Path(__file__).resolve().parents[2]
+ROOT = Path(__file__).resolve().parents[1]
 JOURNALS = ROOT / ".bench"
 _SOURCES = ("src/meshforge/**/*.py", "src/meshforge/**/*.lark", "benchmark/**/*.py", "benchmark/**/*.toml")
 _APART = {"batch", "checks", "cli", "preparation", "project", "samples", "studio", "evaluation", "results"}
@@ -45,13 +45,13 @@ def _digest(patterns: Iterable[str]) -> str:
     return found.hexdigest()
 
 
-def done(kind: str, work: Callable[..., Any], units: Sequence[Unit], tell: Tell) -> list[Any]:
+def run_units(kind: str, work: Callable[..., Any], units: Sequence[Unit], tell: Tell) -> list[Any]:
     """The results of all units, in order, as JSON-able data; those in the journal are not worked out again.
 
     work: a function of a module, called with the unit. A unit that raises ends the run; what was done stays kept.
     """
     path = JOURNALS / f"{digest()}-{kind}.jsonl"
-    known = dict(_kept(path))
+    known = dict(_read(path))
     missing = [unit for unit in units if _key(unit) not in known]
     if missing:
         path.parent.mkdir(parents=True, exist_ok=True)
@@ -76,7 +76,7 @@ def _finished(pool: ProcessPoolExecutor, work: Callable[..., Any], units: Sequen
         pool.shutdown(wait=False, cancel_futures=True)
 
 
-def _kept(path: Path) -> Iterable[tuple[str, Any]]:
+def _read(path: Path) -> Iterable[tuple[str, Any]]:
     """What the journal holds; a last line that was cut off is passed over."""
     for line in path.read_text("utf-8").splitlines() if path.is_file() else ():
         try:

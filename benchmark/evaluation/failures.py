@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING
 
-from benchmark.assets.looking import upright
+from benchmark.assets.pictures import upright
 from benchmark.report import Table
 from benchmark.study import CONDITIONS, Bench, Session
-from benchmark.tasks import Edited, task
+from benchmark.tasks import EditResult, task
 from meshforge.language import Program, Rule, show, size_of
 from meshforge.rendering import make_contact_sheet, render
 from meshforge.rendering.compare import joint_bounds
@@ -22,7 +22,7 @@ _SIZE = (170, 150)
 COLUMNS = ("task", "condition", "seed", "demonstrations + answers", "meshes that differ", "rules that differ", "reason")
 
 
-def failing(groups: Mapping[str, Mapping[str, Sequence[Session]]]) -> Table:
+def list_failures(groups: Mapping[str, Mapping[str, Sequence[Session]]]) -> Table:
     """Every session that ended otherwise; groups: sessions by task, by condition."""
     every = (row for found in groups.values() for sessions in found.values() for row in sessions)
     rows = tuple(
@@ -32,7 +32,7 @@ def failing(groups: Mapping[str, Mapping[str, Sequence[Session]]]) -> Table:
             row.seed,
             f"{len(row.shown)} + {row.answers}",
             row.rounds[-1].differs,
-            "; ".join(f"`{_short(learned)}` for `{_short(wanted)}`" for learned, wanted in _differing(row)) or "–",
+            "; ".join(f"`{_short(learned)}` for `{_short(wanted)}`" for learned, wanted in _compare_rules(row)) or "–",
             reason(row),
         )
         for row in every
@@ -50,7 +50,7 @@ def reason(row: Session) -> str:
     noisy = CONDITIONS[row.condition].labels == "noisy"
     if row.program is None:
         return "no program fits what was shown" + (", under noisy labels" if noisy else "")
-    why = list(dict.fromkeys(_why(learned, wanted, noisy) for learned, wanted in _differing(row)))
+    why = list(dict.fromkeys(_why(learned, wanted, noisy) for learned, wanted in _compare_rules(row)))
     if row.accepted:
         why.append("accepted, as no difference was among the twelve results looked at")
     else:
@@ -68,7 +68,7 @@ def _why(learned: Rule, wanted: Rule, noisy: bool) -> str:
     return "a rule of the same size fits as well"
 
 
-def _differing(row: Session) -> list[tuple[Rule, Rule]]:
+def _compare_rules(row: Session) -> list[tuple[Rule, Rule]]:
     if row.program is None:
         return []
     pairs = zip(Program.parse(row.program).rules, task(row.task).program.rules, strict=False)
@@ -85,7 +85,7 @@ def pictures(rows: Sequence[Session], most: int = 12) -> Iterator[tuple[str, Ima
     for row in sorted((r for r in rows if not r.right and r.program), key=lambda r: [*CONDITIONS].index(r.condition)):
         first.setdefault(row.task, row)
     for row in list(first.values())[:most]:
-        if found := _shown(row):
+        if found := _choose_mesh(row):
             name, *meshes = found
             box, words = joint_bounds(*meshes), task(row.task).program.labels
             images = [
@@ -96,7 +96,7 @@ def pictures(rows: Sequence[Session], most: int = 12) -> Iterator[tuple[str, Ima
             yield told, make_contact_sheet(images, 3, ["before", "as learned", "as meant"])
 
 
-def _shown(row: Session) -> tuple[str, SymbolicMesh, SymbolicMesh, SymbolicMesh] | None:
+def _choose_mesh(row: Session) -> tuple[str, SymbolicMesh, SymbolicMesh, SymbolicMesh] | None:
     """The first mesh, of those that fail by the criterion before the others, that was edited otherwise."""
     labels = CONDITIONS[row.condition].labels
     if labels == "propagated":  # these changed on the way
@@ -105,12 +105,12 @@ def _shown(row: Session) -> tuple[str, SymbolicMesh, SymbolicMesh, SymbolicMesh]
     desk = bench.desk(labels, row.seed)
     program = Program.parse(row.program or "")
     for name in dict.fromkeys([*row.failures, *bench.samples]):
-        done, wanted = desk.edited(program, name), desk.edited(bench.task.program, name)
-        if name not in row.shown and done.mesh and wanted.mesh and _selected(done) != _selected(wanted):
+        done, wanted = desk.edit(program, name), desk.edit(bench.task.program, name)
+        if name not in row.shown and done.mesh and wanted.mesh and _list_selections(done) != _list_selections(wanted):
             sample = bench.samples[name]
             return name, upright(sample), upright(sample, done.mesh), upright(sample, wanted.mesh)
     return None
 
 
-def _selected(edited: Edited) -> list[tuple[str, ...]]:
+def _list_selections(edited: EditResult) -> list[tuple[str, ...]]:
     return [tuple(sorted(line.selected)) for line in edited.trace]

@@ -8,7 +8,7 @@ from typing import Protocol, cast
 
 import numpy as np
 
-from benchmark.assets.asset import Asset, Built
+from benchmark.assets.asset import Asset, Design
 from benchmark.assets.draw import Draw
 from meshforge.geometry import Pose
 
@@ -29,7 +29,7 @@ class Category(Protocol):
     KINDS: Mapping[str, int]
     RARE: frozenset[str]
 
-    def build(self, kind: str, draw: Draw) -> Built:
+    def build(self, kind: str, draw: Draw) -> Design:
         """One asset."""
 
 
@@ -64,12 +64,12 @@ def _asset(name: str, module: Category, number: int, kind: str, seed: int) -> As
     built = module.build(kind, draw)
     for part in built.parts:
         assert part.label in module.LABELS, f"{name} {number}: {part.label}"
-    pose, scanned = _lying(draw)
+    pose, scanned = _draw_pose(draw)
     called = f"{name}_{number:02}"
     return Asset(called, name, kind, kind in module.RARE, built.about, built.parts, built.sites, pose, scanned)
 
 
-def _lying(draw: Draw) -> tuple[Pose, bool]:
+def _draw_pose(draw: Draw) -> tuple[Pose, bool]:
     """Any yaw, a tilt for a third, somewhere near the origin; one in five is decomposed as it lies."""
     yaw, tilted = draw.length(-np.pi, np.pi), draw.chance(1 / 3)
     roll, pitch = (draw.length(-0.5, 0.5), draw.length(-0.5, 0.5)) if tilted else (0.0, 0.0)

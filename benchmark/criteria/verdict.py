@@ -12,7 +12,7 @@ CRITERIA = ("stands", "supports", "contains", "graspable", "passes", "swings", "
 """Each a module with `failure(case, **fields)`: why the case does not do, None where it does."""
 
 
-def judged(case: Case, checks: Sequence[Mapping[str, Any]]) -> str | None:
+def judge(case: Case, checks: Sequence[Mapping[str, Any]]) -> str | None:
     """Why a case does not do: the first check that fails, in words; None where all hold."""
     for check in checks:
         fields = dict(check)

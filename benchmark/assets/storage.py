@@ -14,7 +14,7 @@ import numpy as np
 from manifold3d import Manifold, Mesh
 
 from benchmark.assets.asset import Asset, Site
-from benchmark.assets.decomposing import SETTINGS, Decomposed
+from benchmark.assets.decomposition import SETTINGS, Decomposition
 from meshforge.common import write_atomically
 from meshforge.geometry import Floats, Ints, Polytope, Pose
 from meshforge.symbolic import Hull, Label, SymbolicMesh
@@ -68,7 +68,7 @@ class _Meshes:
         self.faces.append(faces.astype(np.uint16))
         return len(self.points) - 1
 
-    def packed(self) -> bytes:
+    def pack(self) -> bytes:
         buffer = io.BytesIO()
         counts = [[len(p), len(f)] for p, f in zip(self.points, self.faces, strict=True)]
         points, faces = np.concatenate(self.points), np.concatenate(self.faces)
@@ -76,7 +76,7 @@ class _Meshes:
         return buffer.getvalue()
 
 
-def write(folder: Path, stem: str, rows: Iterable[tuple[Asset, Mapping[str, Decomposed]]]) -> None:
+def write(folder: Path, stem: str, rows: Iterable[tuple[Asset, Mapping[str, Decomposition]]]) -> None:
     """Write assets with their collision meshes by setting: STEM.npz, and STEM.json with all that is not geometry."""
     meshes, told = _Meshes(), []
     for asset, by_setting in rows:
@@ -102,7 +102,7 @@ def write(folder: Path, stem: str, rows: Iterable[tuple[Asset, Mapping[str, Deco
             }
         )
     lines = ",\n".join(json.dumps(row) for row in told)
-    write_atomically(folder / f"{stem}.npz", meshes.packed())
+    write_atomically(folder / f"{stem}.npz", meshes.pack())
     write_atomically(folder / f"{stem}.json", f"[\n{lines}\n]\n")
 
 

@@ -20,7 +20,7 @@ _BEGUN = re.compile(r"^[ \t]*```[^\n]*\n(.*)\Z", re.DOTALL | re.MULTILINE)
 
 
 @dataclass(frozen=True, slots=True)
-class Tried:
+class Trial:
     """An answer on the demonstrations. text: the program or script, None where there is none that can be read.
 
     wrong: how much of it is wrong there, 0 where it does as was shown; said: what the model is told about that.
@@ -32,7 +32,7 @@ class Tried:
 
 
 @dataclass(slots=True)
-class Written:
+class Answer:
     """What came of asking. text: the answer that did best, None where none could be read; fits: whether it does on the
     demonstrations what was shown.
 
@@ -51,16 +51,16 @@ class Written:
         return asdict(self)
 
 
-def refined(client: Client, opening: tuple[Message, ...], tried: Callable[[str], Tried], room: int) -> Written:
+def refine(client: Client, opening: tuple[Message, ...], try_answer: Callable[[str], Trial], room: int) -> Answer:
     """Ask until an answer does as was shown, or for so many rounds. Raises AskingError.
 
     room: tokens for an answer.
     """
-    written, messages, least = Written(), opening, 0
+    written, messages, least = Answer(), opening, 0
     while not written.fits and written.rounds < ROUNDS:
         reply = client.ask(VlmQuestion(messages, limit=room))
         _count(written, reply)
-        one = tried(reply.text)
+        one = try_answer(reply.text)
         written.wrong.append(None if one.text is None else one.wrong)
         if one.text is not None and (written.text is None or one.wrong <= least):
             written.text, least = one.text, one.wrong
@@ -71,13 +71,13 @@ def refined(client: Client, opening: tuple[Message, ...], tried: Callable[[str],
     return written
 
 
-def fenced(text: str) -> str:
+def find_code(text: str) -> str:
     """The last block of code in an answer, be it closed or not; where there is none, all of it."""
     blocks = _FENCED.findall(text) or _BEGUN.findall(text)
     return str(blocks[-1] if blocks else text).strip()
 
 
-def _count(written: Written, reply: Reply) -> None:
+def _count(written: Answer, reply: Reply) -> None:
     usage = reply.usage or TokenCount()
     written.rounds += 1
     written.input, written.output = written.input + usage.input, written.output + usage.output

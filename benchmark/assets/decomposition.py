@@ -38,19 +38,19 @@ SETTINGS = {"coarse": coacd(0.3), "medium": coacd(0.12), "fine": coacd(0.05)}
 
 
 @dataclass(frozen=True)
-class Decomposed:
+class Decomposition:
     """One collision mesh in the frame of the file; shares: for each hull, of its volume in parts, by label."""
 
     hulls: tuple[Polytope, ...]
     shares: tuple[dict[str, float], ...]
 
 
-def decomposed(asset: Asset, setting: str, cache: Path | None = None) -> Decomposed:
+def decompose_asset(asset: Asset, setting: str, cache: Path | None = None) -> Decomposition:
     """The collision mesh of an asset at one setting; cache: where CoACD's results are kept (default: nowhere)."""
     hulls = [hull for solid in _solids(asset) for hull in _hulls(solid, asset, SETTINGS[setting], cache)]
     order = sorted(range(len(hulls)), key=lambda k: tuple(hulls[k].centroid.round(4)))  # tells nothing of parts
-    placed = [_rounded(hulls[k], asset) for k in order]
-    return Decomposed(tuple(placed), tuple(shares(hull, asset.parts, asset.pose) for hull in placed))
+    placed = [_round(hulls[k], asset) for k in order]
+    return Decomposition(tuple(placed), tuple(shares(hull, asset.parts, asset.pose) for hull in placed))
 
 
 def _solids(asset: Asset) -> list[Manifold]:
@@ -68,16 +68,16 @@ def _hulls(solid: Manifold, asset: Asset, settings: CoacdSettings, cache: Path |
         return decompose(points, faces, settings, cache=cache)
     lying = np.round(points @ asset.pose.rotation.T + asset.pose.translation, 7)
     back = asset.pose.inverse()
-    return [_moved(piece, back) for piece in decompose(lying, faces, settings, cache=cache)]
+    return [_move(piece, back) for piece in decompose(lying, faces, settings, cache=cache)]
 
 
-def _moved(hull: Polytope, pose: Pose) -> Polytope:
+def _move(hull: Polytope, pose: Pose) -> Polytope:
     return Polytope(hull.vertices @ pose.rotation.T + pose.translation, hull.faces)
 
 
-def _rounded(hull: Polytope, asset: Asset) -> Polytope:
+def _round(hull: Polytope, asset: Asset) -> Polytope:
     """The hull in the frame of the file, its coordinates in hundredths of a millimetre."""
-    return convex_hull(np.round(_moved(hull, asset.pose).vertices, DIGITS), name=asset.name)
+    return convex_hull(np.round(_move(hull, asset.pose).vertices, DIGITS), name=asset.name)
 
 
 def shares(hull: Polytope, parts: Sequence[Part], pose: Pose) -> dict[str, float]:

@@ -7,11 +7,11 @@ from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
-from benchmark.baselines.blender.editing import edited
+from benchmark.baselines.blender.edit import edit_task
 from benchmark.baselines.blender.process import Blender
-from benchmark.baselines.demonstrated import desk_of
+from benchmark.baselines.replay import desk_of
 from benchmark.study import Bench, Session
-from benchmark.tasks import Edited, task
+from benchmark.tasks import EditResult, task
 from meshforge.language import Program
 from meshforge.symbolic import SymbolicMesh
 
@@ -21,17 +21,17 @@ _TOLD = 200  # characters
 _SPOILT = ("it took longer", "Blender broke down")
 
 
-def programmed(name: str, condition: str, seed: int, shown: Sequence[str], text: str | None) -> dict[str, Any]:
+def judge_program(name: str, condition: str, seed: int, shown: Sequence[str], text: str | None) -> dict[str, Any]:
     """A program in the language, judged; JSON of a session."""
     bench, log = _bench(name), Session(name, condition, seed, shown=list(shown), program=text)
     desk = desk_of(bench, log)
     program = Program.parse(text) if text else None
-    _judge(bench, log, lambda mesh: desk.edited(program, mesh) if program else _nothing())
-    log.right = program is not None and not desk.differing(program, _rest(bench, log))
+    _judge(bench, log, lambda mesh: desk.edit(program, mesh) if program else _nothing())
+    log.right = program is not None and not desk.find_differences(program, _rest(bench, log))
     return log.to_json()
 
 
-def scripted(
+def judge_script(
     name: str, condition: str, seed: int, shown: Sequence[str], text: str | None, python: str
 ) -> dict[str, Any]:
     """A Blender script, judged; JSON of a session. `right` says nothing, since a script has no rules."""
@@ -50,17 +50,17 @@ class _Edits:
         self._blender, self._task, self._script = blender, bench.task, script
         self._spoilt = 0
 
-    def of(self, mesh: SymbolicMesh) -> Edited:
+    def of(self, mesh: SymbolicMesh) -> EditResult:
         if self._script is None:
             return _nothing()
         if self._spoilt == _PATIENCE:
-            return Edited(None, error=f"not tried: {_PATIENCE} meshes in a row took too long or broke Blender")
-        done = edited(self._blender, self._script, self._task, mesh)
+            return EditResult(None, error=f"not tried: {_PATIENCE} meshes in a row took too long or broke Blender")
+        done = edit_task(self._blender, self._script, self._task, mesh)
         self._spoilt = self._spoilt + 1 if (done.error or "").startswith(_SPOILT) else 0
         return done
 
 
-def _judge(bench: Bench, log: Session, edit: Callable[[str], Edited]) -> None:
+def _judge(bench: Bench, log: Session, edit: Callable[[str], EditResult]) -> None:
     """Write down on which of the meshes that were not demonstrated an edit fails."""
     rest = _rest(bench, log)
     log.judged, log.judged_pure = len(rest), sum(name in bench.pure for name in rest)
@@ -71,8 +71,8 @@ def _judge(bench: Bench, log: Session, edit: Callable[[str], Edited]) -> None:
             log.failed_pure += name in bench.pure
 
 
-def _nothing() -> Edited:
-    return Edited(None, error="the model wrote nothing that can be read")
+def _nothing() -> EditResult:
+    return EditResult(None, error="the model wrote nothing that can be read")
 
 
 def _rest(bench: Bench, log: Session) -> list[str]:
