@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ast
 import hashlib
 import json
 import os
@@ -15,19 +16,23 @@ from benchmark.report import Tell
 
 ROOT = Path(__file__).resolve().parents[1]
 JOURNALS = ROOT / ".bench"
-_SOURCES = ("src/meshforge/**/*.py", "src/meshforge/**/*.lark", "benchmark/**/*.py", "benchmark/**/*.toml")
-_APART = {"batch", "checks", "cli", "preparation", "project", "samples", "studio", "evaluation", "results"}
-"""Rooms that no unit of work comes from: what they do is to use, or only shows, what is measured."""
-_DATA = ("benchmark/assets/data/*", "benchmark/tasks/*/templates/*")
-_PROTOCOL = ("benchmark/criteria/*.py", "benchmark/tasks/*/task.toml", *_DATA)
+_FOLDERS = {"meshforge": ROOT / "src", "benchmark": ROOT, "script": ROOT}
+"""Where the packages lie whose code results depend on."""
+_PROTOCOL = ("benchmark/criteria/*.py", "benchmark/tasks/*/task.toml", "benchmark/tasks/*/templates/*",
+             "benchmark/assets/data/*")  # fmt: skip
+_DATA = ("src/meshforge/**/*.lark", *_PROTOCOL)
+_REAL = ("benchmark/real/**/*.toml",)
 Unit = tuple[Any, ...]
 """What a unit of work is given: JSON-able."""
 
 
 @cache
-def digest() -> str:
-    """A digest of the code and the data that results depend on, but for what only shows them."""
-    return _digest((*_SOURCES, *_DATA))
+def digest(module: str) -> str:
+    """A digest of a module, of all of ours that it imports, however far down, and of the data that these read."""
+    sources = list_sources(module)
+    return _digest(
+        [*(f"{path}" for path in sources), *_DATA, *(_REAL if "benchmark/real/family.py" in sources else ())]
+    )
 
 
 @cache
@@ -36,12 +41,41 @@ def digest_protocol() -> str:
     return _digest(_PROTOCOL)
 
 
+def list_sources(module: str) -> list[str]:
+    """The files of a module and of all of ours that it imports, also inside functions; relative to the checkout."""
+    found, waiting = dict[str, Path](), [module]
+    while waiting:
+        name = waiting.pop()
+        path = _find_source(name)
+        if name in found or path is None:
+            continue
+        found[name] = path
+        waiting += [".".join(name.split(".")[:k]) for k in range(1, name.count(".") + 1)]
+        waiting += list(_list_imports(path))
+    return sorted(str(path.relative_to(ROOT)) for path in found.values())
+
+
+def _find_source(name: str) -> Path | None:
+    top, *rest = name.split(".")
+    if top not in _FOLDERS:
+        return None
+    path = _FOLDERS[top].joinpath(top, *rest)
+    return next((p for p in (path / "__init__.py", path.with_suffix(".py")) if p.is_file()), None)
+
+
+def _list_imports(path: Path) -> Iterable[str]:
+    for node in ast.walk(ast.parse(path.read_text("utf-8"))):
+        if isinstance(node, ast.Import):
+            yield from (alias.name for alias in node.names)
+        elif isinstance(node, ast.ImportFrom) and node.module:
+            yield from (node.module, *(f"{node.module}.{alias.name}" for alias in node.names))
+
+
 def _digest(patterns: Iterable[str]) -> str:
     found = hashlib.blake2b(digest_size=8)
     for pattern in patterns:
         for path in sorted(ROOT.glob(pattern)):
-            if not _APART & set(path.relative_to(ROOT).parts):
-                found.update(f"{path.relative_to(ROOT)} {path.stat().st_size} ".encode() + path.read_bytes())
+            found.update(f"{path.relative_to(ROOT)} {path.stat().st_size} ".encode() + path.read_bytes())
     return found.hexdigest()
 
 
@@ -50,7 +84,7 @@ def run_units(kind: str, work: Callable[..., Any], units: Sequence[Unit], tell: 
 
     work: a function of a module, called with the unit. A unit that raises ends the run; what was done stays kept.
     """
-    path = JOURNALS / f"{digest()}-{kind}.jsonl"
+    path = JOURNALS / f"{digest(work.__module__)}-{kind}.jsonl"
     known = dict(_read(path))
     missing = [unit for unit in units if _key(unit) not in known]
     if missing:

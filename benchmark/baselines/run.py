@@ -20,8 +20,8 @@ from benchmark.baselines.replay import Replay, replay_demonstrations
 from benchmark.baselines.verdicts import judge_program, judge_script
 from benchmark.journal import JOURNALS, run_units
 from benchmark.report import Tell
-from benchmark.study import Bench, Session
-from benchmark.tasks import Task, task
+from benchmark.study import Bench, Session, open_bench
+from benchmark.tasks import Task
 from meshforge.labels.vlm.client import Client
 from meshforge.labels.vlm.endpoint import QuestionError, endpoint_of
 from meshforge.labels.vlm.request import Message
@@ -91,7 +91,7 @@ def vlm_blender(python: Path) -> Baseline:
 
 def run_baseline(baseline: Baseline, taught: Sequence[Session], settings: VlmSettings, tell: Tell) -> BaselineRun:
     """Ask a model in all sessions, and judge what it wrote; nothing is judged where some session is missing."""
-    taught = sorted(taught, key=lambda row: row.task)  # so that a task's meshes are read once
+    taught = sorted(taught, key=lambda row: (row.task, row.setting))  # so that a task's meshes are read once
     client = Client(endpoint_of(settings), JOURNALS / ANSWERS, max_cost=settings.max_cost)
     with closing(client):
         answers = list(_answers(baseline, taught, client, baseline.room + settings.room, tell))
@@ -115,8 +115,8 @@ def _answers(
     """What came of asking, session by session; task by task, so that meshes are read once."""
     count = 0
     with ThreadPoolExecutor(client.endpoint.concurrency) as pool:
-        for name, rows in groupby(taught, key=lambda row: row.task):
-            bench = Bench(task(name))
+        for (name, setting), rows in groupby(taught, key=lambda row: (row.task, row.setting)):
+            bench = open_bench(name, setting)
             for answer in pool.map(partial(_answer, baseline, bench, client, room), list(rows)):
                 count += 1
                 tell(f"{baseline.name}: asked in {count} of {len(taught)} sessions, {name}")

@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
 from benchmark.baselines.blender.edit import edit_task
 from benchmark.baselines.blender.process import Blender
 from benchmark.baselines.replay import desk_of
-from benchmark.study import Bench, Session
-from benchmark.tasks import EditResult, task
+from benchmark.study import CONDITIONS, Bench, Session, open_bench
+from benchmark.tasks import EditResult
 from meshforge.language import Program
 from meshforge.symbolic import SymbolicMesh
 
@@ -23,7 +22,7 @@ _SPOILT = ("it took longer", "Blender broke down")
 
 def judge_program(name: str, condition: str, seed: int, shown: Sequence[str], text: str | None) -> dict[str, Any]:
     """A program in the language, judged; JSON of a session."""
-    bench, log = _bench(name), Session(name, condition, seed, shown=list(shown), program=text)
+    bench, log = _begin(name, condition, seed, shown, text)
     desk = desk_of(bench, log)
     program = Program.parse(text) if text else None
     _judge(bench, log, lambda mesh: desk.edit(program, mesh) if program else _nothing())
@@ -35,7 +34,7 @@ def judge_script(
     name: str, condition: str, seed: int, shown: Sequence[str], text: str | None, python: str
 ) -> dict[str, Any]:
     """A Blender script, judged; JSON of a session. `right` says nothing, since a script has no rules."""
-    bench, log = _bench(name), Session(name, condition, seed, shown=list(shown), program=text)
+    bench, log = _begin(name, condition, seed, shown, text)
     desk = desk_of(bench, log)
     with Blender(Path(python)) as blender:
         edits = _Edits(blender, bench, text)
@@ -79,6 +78,7 @@ def _rest(bench: Bench, log: Session) -> list[str]:
     return [name for name in bench.samples if name not in log.shown]
 
 
-@lru_cache(maxsize=1)
-def _bench(name: str) -> Bench:
-    return Bench(task(name))
+def _begin(name: str, condition: str, seed: int, shown: Sequence[str], text: str | None) -> tuple[Bench, Session]:
+    """The meshes of the person, and a session to write down in."""
+    setting = CONDITIONS[condition].setting(seed)
+    return open_bench(name, setting), Session(name, condition, seed, setting, shown=list(shown), program=text)

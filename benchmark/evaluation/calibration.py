@@ -13,8 +13,8 @@ from benchmark.assets import CATEGORIES, Sample, samples
 from benchmark.assets.pictures import upright
 from benchmark.evaluation.sessions import QUICK
 from benchmark.journal import run_units
-from benchmark.report import Goal, Result, Table, Tell
-from benchmark.study.labels import noisy, wrong
+from benchmark.report import Result, Table, Tell
+from benchmark.study.labels import count_wrong, noisy
 from benchmark.tasks import task
 from meshforge.common import MeshForgeError
 from meshforge.geometry import distance
@@ -27,7 +27,6 @@ DELTAS = (0.01, 0.02, 0.05, 0.1, 0.2)
 _FACE = 0.01  # of a label's extent: what lies in this outermost slice is at the boundary
 _JOINT = 0.001  # m: parts that the generators join are no farther apart
 _HELD = 0.02  # of a hull's volume: less of a part than this is not held by it
-_ETA = 2
 
 
 def measure(tell: Tell, quick: bool) -> Result:
@@ -62,7 +61,7 @@ def measure(tell: Tell, quick: bool) -> Result:
                 ),
             ),
         ),
-        (Goal("meshes of up to 12 hulls: 95th percentile of wrong labels", "at most", _ETA, _most(few)),),
+        (),
         (
             f"{len(rows)} meshes of other seeds than the 600. Two parts touch if their solids are within 1 mm, as "
             "the generators join parts; they are classified as touching if hulls of both are within epsilon, leaving "
@@ -70,6 +69,8 @@ def measure(tell: Tell, quick: bool) -> Result:
             "contains some of the outermost hundredth of that label's parts, upright; it is classified on the mesh as "
             "landmarks orient it, which is slightly tilted. The paper, by annotators: 100% for epsilon = 0.002, 96% "
             "for delta = 0.05.",
+            "At most two labels of a mesh of up to twelve hulls are wrong since the simulated labeller draws no more, "
+            "after the paper; so the percentile of these has no goal.",
         ),
     )
 
@@ -83,11 +84,11 @@ def judge_thresholds(category: str) -> list[dict[str, Any]]:
     """Counts of each mesh of a category."""
     rows = []
     for place, sample in enumerate(samples(category, True)):
-        labelled = noisy(sample.mesh, (1, *category.encode(), place))
+        labelled = noisy(sample.mesh, (1, *category.encode(), place), telling=False)
         counts: Counter[str] = Counter()
         _contacts(sample, counts)
         _boundary(sample, _orient(sample), counts)
-        rows.append({"mesh": sample.name, "hulls": len(sample.mesh.hulls), "wrong": wrong(sample.mesh, labelled),
+        rows.append({"mesh": sample.name, "hulls": len(sample.mesh.hulls), "wrong": count_wrong(sample.mesh, labelled),
                      **counts})  # fmt: skip
     return rows
 

@@ -18,11 +18,11 @@ from benchmark.evaluation.figures import by_task, format_pair, fpr, spread
 from benchmark.evaluation.sessions import sessions
 from benchmark.options import RunOptions
 from benchmark.report import Cell, Result, Table, Tell
-from benchmark.study import FULL, NOISY, Session
+from benchmark.study import FLAT, TRUE, Session
 from meshforge.labels import endpoint_of
 from meshforge.store.settings import VlmSettings
 
-_CONDITIONS = (FULL, NOISY)
+_CONDITIONS = (TRUE, FLAT)
 
 
 @dataclass(frozen=True, slots=True)

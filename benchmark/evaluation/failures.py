@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from benchmark.assets.pictures import upright
 from benchmark.report import Table
-from benchmark.study import CONDITIONS, Bench, Session
+from benchmark.study import CONDITIONS, Session, open_bench
 from benchmark.tasks import EditResult, task
 from meshforge.language import Program, Rule, show, size_of
 from meshforge.rendering import make_contact_sheet, render
@@ -39,7 +39,7 @@ def list_failures(groups: Mapping[str, Mapping[str, Sequence[Session]]]) -> Tabl
         if not row.right
     )
     return Table(
-        "Sessions that ended with another behaviour than the reference's (of other conditions: in the JSON)",
+        "Sessions under true labels that ended with another behaviour (of other conditions: in the JSON)",
         COLUMNS,
         rows,
     )
@@ -47,9 +47,9 @@ def list_failures(groups: Mapping[str, Mapping[str, Sequence[Session]]]) -> Tabl
 
 def reason(row: Session) -> str:
     """Why a session ended otherwise, read off how large the rules are and how it ended; nothing is traced."""
-    noisy = CONDITIONS[row.condition].labels == "noisy"
+    noisy = CONDITIONS[row.condition].labels != "true"
     if row.program is None:
-        return "no program fits what was shown" + (", under noisy labels" if noisy else "")
+        return "no program fits what was shown" + (", under wrong labels" if noisy else "")
     why = list(dict.fromkeys(_why(learned, wanted, noisy) for learned, wanted in _compare_rules(row)))
     if row.accepted:
         why.append("accepted, as no difference was among the twelve results looked at")
@@ -61,7 +61,7 @@ def reason(row: Session) -> str:
 def _why(learned: Rule, wanted: Rule, noisy: bool) -> str:
     ours, theirs = size_of(learned.extractor), size_of(wanted.extractor)
     if ours > theirs:
-        return "a larger rule was learned, under noisy labels" if noisy else "a larger rule fits as well"
+        return "a larger rule was learned, under wrong labels" if noisy else "a larger rule fits as well"
     if ours < theirs:
         told = "no demonstrated mesh tells the smaller rule from the one that is meant"
         return f"{told}, under its labels" if noisy else told
@@ -101,7 +101,7 @@ def _choose_mesh(row: Session) -> tuple[str, SymbolicMesh, SymbolicMesh, Symboli
     labels = CONDITIONS[row.condition].labels
     if labels == "propagated":  # these changed on the way
         return None
-    bench = Bench(task(row.task))
+    bench = open_bench(row.task, row.setting)
     desk = bench.desk(labels, row.seed)
     program = Program.parse(row.program or "")
     for name in dict.fromkeys([*row.failures, *bench.samples]):

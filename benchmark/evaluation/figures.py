@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from statistics import mean, stdev
 
 from benchmark.study import Session
+from benchmark.study.keystrokes import count_acts, model_seconds
 from benchmark.tasks import DIFFICULTIES, task
 
 Groups = Mapping[str, Sequence[Session]]
@@ -30,9 +31,14 @@ def of_difficulty(groups: Groups, difficulty: str) -> dict[str, Sequence[Session
 LEVELS = (*DIFFICULTIES, "all")
 
 
-def count_solved(groups: Groups) -> int:
+def count_solved(groups: Groups, is_right: Callable[[Session], bool] = lambda row: row.right) -> int:
     """Tasks that all demonstrators taught rightly."""
-    return sum(all(row.right for row in rows) for rows in groups.values())
+    return sum(all(map(is_right, rows)) for rows in groups.values())
+
+
+def is_right_everywhere(row: Session) -> bool:
+    """Whether a program is right under true labels, and on the other decompositions of the assets as well."""
+    return row.right_on_true and row.right_elsewhere is not False
 
 
 def first_right(row: Session) -> int | None:
@@ -59,13 +65,23 @@ def format_pair(pair: tuple[float, float], digits: int = 2) -> str:
 
 
 def fpr(row: Session) -> float:
-    """The share of the meshes, not demonstrated, that meet the criterion."""
+    """The share of the meshes, neither demonstrated nor labelled before, whose edit meets the criterion."""
     return 1 - len(row.failures) / max(row.judged, 1)
 
 
 def fpr_pure(row: Session) -> float | None:
     """The same of the meshes whose hulls that matter are of one part each."""
     return 1 - row.failed_pure / row.judged_pure if row.judged_pure else None
+
+
+def fpr_of_reference(row: Session) -> float:
+    """The same by the reference program under the same labels."""
+    return 1 - row.reference_failed / max(row.judged, 1)
+
+
+def fpr_on_true(row: Session) -> float:
+    """The same by the reference program under true labels."""
+    return 1 - row.ceiling_failed / max(row.judged, 1)
 
 
 def synthesis(row: Session) -> float:
@@ -81,3 +97,13 @@ def demonstrations(row: Session) -> float:
 def confirmations(row: Session) -> float:
     """How many labels a person was asked about."""
     return float(row.confirmed + row.refused)
+
+
+def acts(row: Session) -> float:
+    """All that the person did."""
+    return float(count_acts(row))
+
+
+def person_seconds(row: Session) -> float:
+    """The person's time, modelled."""
+    return sum(model_seconds(row).values())

@@ -50,15 +50,14 @@ def _few_shot_and_phases(result: Result, path: Path) -> None:
     figure, axes = _figure(3)
     table = _table(result, "SSR at k")
     ks = [int(column.split("=")[1]) for column in table.columns[2:]]
-    titles = {"true labels": "true labels", "noisy labels": "noisy labels, repair on"}
-    for place, (condition, title) in enumerate(titles.items()):
+    for place, condition in enumerate(("true labels", "noisy labels, flat confidence")):
         axis = axes[place]
         for row in table.rows:
             if row[0] == condition:
                 axis.plot(ks, row[2:], marker="o", ms=3, color=_COLORS[str(row[1])], label=str(row[1]))
         paper = {k: float(str(x)) for k, x in zip(ks, table.rows[0][2:], strict=True) if str(x) not in ("", "–")}
         axis.plot(list(paper), list(paper.values()), "s", mfc="none", color=_COLORS["paper"], label="paper, all")
-        axis.set(title=title, xlabel="demonstrations plus answers", ylabel="SSR, %", ylim=(-3, 103))
+        axis.set(title=condition, xlabel="demonstrations plus answers", ylabel="SSR, %", ylim=(-3, 103))
     axes[0].legend(frameon=False, fontsize=7)  # once: the same in both
     _phases(_table(result, "Time by phase"), axes[2])
     _save(figure, path)

@@ -38,11 +38,15 @@ class Tally:
 
 @dataclass(frozen=True, slots=True)
 class Noise:
-    """How labels are spoilt: errors on each demonstrated mesh, share of wrong labels in the rest, and who says so."""
+    """How labels are spoilt: errors on each demonstrated mesh, share of wrong labels in the rest, and who says so.
+
+    telling: wrong labels are less confident than right ones on average, else both are drawn from one distribution.
+    """
 
     errors: int
     rest: float = 0.08
     source: LabelSource = "vlm"
+    telling: bool = True
 
 
 def spoilt(
@@ -64,7 +68,11 @@ def spoilt(
             wrong[index] = str(choice[int(rng.integers(len(choice)))])
     labels = {}
     for index, hull in enumerate(mesh.hulls):
-        sure = 1.0 if noise.source == "file" else float(rng.beta(6, 3) if index in wrong else rng.beta(18, 2))
+        sure = (
+            1.0
+            if noise.source == "file"
+            else float(rng.beta(6, 3) if noise.telling and index in wrong else rng.beta(18, 2))
+        )
         labels[hull.name] = Label(wrong.get(index) or str(hull.label), sure, noise.source)
     return mesh.with_labels(labels)
 

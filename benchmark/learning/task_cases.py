@@ -7,7 +7,8 @@ from collections.abc import Iterable, Iterator
 from functools import lru_cache
 
 from benchmark.learning.cases import Case
-from benchmark.study import FULL, Bench
+from benchmark.study import Bench
+from benchmark.study.condition import KIND
 from benchmark.study.person import Person
 from benchmark.tasks import tasks
 from meshforge.language import select_mask
@@ -31,7 +32,7 @@ def task_cases(
 @lru_cache(maxsize=1)
 def _of_task(name: str, seeds: tuple[int, ...], counts: tuple[int, ...], calibration: bool) -> tuple[Case, ...]:
     one = next(row for row in tasks() if row.name == name)
-    desk = Bench(one, calibration).truth
+    desk = Bench(one, one.samples(calibration)).truth
     names = [mesh for mesh, done in desk.reference.items() if done is not None]
     found = []
     for place, rule in enumerate(one.program.rules):
@@ -39,7 +40,7 @@ def _of_task(name: str, seeds: tuple[int, ...], counts: tuple[int, ...], calibra
         assert all(mesh.contacts is not None for mesh in meshes)
         masks = tuple(select_mask(rule.extractor, mesh) for mesh in meshes)
         for seed in seeds:
-            first = names.index(Person(desk, seed, FULL).begins_with(desk, names))
+            first = names.index(Person(desk, seed, KIND).begins_with(desk, names))
             rest = [k for k in range(len(names)) if k != first]
             for count in counts:
                 shown = (first, *random.Random(f"{seed} {name} {place}").sample(rest, count - 1))

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from functools import cached_property
+from functools import cached_property, lru_cache
 from hashlib import blake2b
-from typing import Literal
 
-from benchmark.assets import Sample
-from benchmark.study.labels import noisy
-from benchmark.tasks import EditResult, Task
+from benchmark.assets import SEPARATE, Sample, family
+from benchmark.study.condition import Labels
+from benchmark.study.labels import mislabel, noisy
+from benchmark.tasks import EditResult, Task, task
 from meshforge.labels import Propagator
 from meshforge.language import EXTREMITY, Extractor, Program, select_mask
 from meshforge.symbolic import Label, SymbolicMesh
@@ -31,11 +31,14 @@ Selections = tuple[frozenset[str], ...]
 
 
 class Bench:
-    """What all desks of a task share: true meshes, their contacts known, and what was judged before."""
+    """What all desks of a task share: the true meshes of a family, their contacts known, and what was judged before.
 
-    def __init__(self, task: Task, calibration: bool = False) -> None:
+    samples: of different assets.
+    """
+
+    def __init__(self, task: Task, samples: Iterable[Sample]) -> None:
         self.task = task
-        self.samples: dict[str, Sample] = {sample.name: sample for sample in task.samples(calibration)}
+        self.samples: dict[str, Sample] = {sample.name: sample for sample in samples}
         assert all(sample.mesh.contacts is not None for sample in self.samples.values())
         self._judged: dict[tuple[str, str | None, bytes], str | None] = {}
 
@@ -54,13 +57,18 @@ class Bench:
         """The meshes as propagation sees them."""
         return Propagator([sample.mesh for sample in self.samples.values()])
 
-    def desk(self, labels: Literal["true", "noisy"], seed: int) -> Desk:
+    def desk(self, labels: Labels, seed: int) -> Desk:
         """The meshes as a demonstrator gets them who labels nothing."""
         if labels == "true":
             return self.truth
+        if labels == "systematic":
+            meshes = {name: sample.mesh for name, sample in self.samples.items()}
+            return Desk(self, mislabel(meshes, (seed, *self.task.category.encode())))
+        assert labels in ("telling", "flat"), f"nobody gives {labels} labels at the start"
         rows = enumerate(self.samples.items())
         seeds = {name: (seed, *self.task.category.encode(), k) for k, (name, _) in rows}
-        return Desk(self, {name: noisy(sample.mesh, seeds[name]) for name, sample in self.samples.items()})
+        told = labels == "telling"
+        return Desk(self, {name: noisy(row.mesh, seeds[name], telling=told) for name, row in self.samples.items()})
 
     def failure(self, name: str, edited: EditResult) -> str | None:
         """Why an edit of a mesh does not do; the same edit is judged once.
@@ -159,6 +167,13 @@ class Desk:
             meshes[one.asset] = meshes[one.asset].with_labels({one.hull: Label(one.to, 1.0, "repair")})
         kept = {key: done for key, done in self._edits.items() if meshes[key[1]] is self.meshes[key[1]]}
         return Desk(self.bench, meshes, kept)
+
+
+@lru_cache(maxsize=2 * len(SEPARATE))
+def open_bench(name: str, setting: str, calibration: bool = False) -> Bench:
+    """A task with the family at one decomposition."""
+    one = task(name)
+    return Bench(one, family(one.category, setting, calibration))
 
 
 def _fingerprint(edited: EditResult) -> bytes:

@@ -9,11 +9,11 @@ from functools import cached_property
 from time import perf_counter
 from typing import Any, Literal
 
-from benchmark.study.condition import MOST, NOISY
-from benchmark.study.desk import Bench, Desk
-from benchmark.study.keystrokes import CONFIRMATION, DEMONSTRATION, HULL, INSPECTION, LABEL, LOOK, RULE
+from benchmark.assets import SEPARATE
+from benchmark.study.condition import FLAT, MOST, SEEN
+from benchmark.study.desk import Bench, Desk, open_bench
+from benchmark.study.keystrokes import CONFIRMATION, DEMONSTRATION, GLANCE, HULL, INSPECTION, PAINT, RULE, STROKE
 from benchmark.study.person import Person
-from benchmark.tasks import task
 from meshforge.common import MeshForgeError
 from meshforge.language import Program
 from meshforge.synthesis import LabelCorrection, Options, Repair
@@ -52,17 +52,17 @@ class Instance:
 
     @cached_property
     def desk(self) -> Desk:
-        return self.bench.desk("noisy", self.seed)
+        return self.bench.desk("flat", self.seed)
 
 
 def instance(name: str) -> Instance | None:
     """The first draw of a task in which two demonstrations do not suffice without repair, though they would if all
     their labels were right; None where a dozen draws have none."""
-    bench = Bench(task(name))
-    able = [mesh for mesh, done in bench.truth.reference.items() if done is not None and all(done)]
     for draw in range(_DRAWS):
+        bench = open_bench(name, SEPARATE[draw % len(SEPARATE)])
+        able = [mesh for mesh, done in bench.truth.reference.items() if done is not None and all(done)]
         if len(able) < MOST:
-            return None
+            continue
         pool = tuple(random.Random(f"{_SEED + draw} {name}").sample(able, MOST))
         found = Instance(bench, _SEED + draw, pool)
         if _near_miss(found):
@@ -79,7 +79,7 @@ def _near_miss(one: Instance) -> bool:
 
 def mend(one: Instance, way: Way) -> InstanceResult:
     """One way on one instance: from two demonstrations on, as many of the pool as it takes."""
-    person = Person(one.desk, one.seed, NOISY)
+    person = Person(one.desk, one.seed, FLAT)
     desk, log = one.desk, InstanceResult(one.bench.task.name, way, False, 0, 0, 0, 0, 0, 0.0, 0.0)
     rejected: list[LabelCorrection] = []
     for count in range(_FIRST, MOST + 1):
@@ -118,7 +118,7 @@ def _learn(
     confirm: Callable[[Repair], bool] | None = None,
     rejected: Sequence[LabelCorrection] = (),
 ) -> Program | None:
-    person = Person(one.desk, one.seed, NOISY)
+    person = Person(one.desk, one.seed, FLAT)
     try:
         return desk.learn([person.shows(desk, name) for name in shown], options, confirm, (), rejected).program
     except MeshForgeError:
@@ -149,5 +149,5 @@ def _person(one: Instance, log: InstanceResult) -> float:
     rules, truth = len(one.bench.task.program.rules), one.bench.truth
     hulls = sum(len(s) for name in one.pool[: log.demonstrations] for s in truth.reference[name] or ())
     shown = log.demonstrations * (DEMONSTRATION + rules * RULE) + hulls * HULL
-    asked = (log.confirmed + log.refused) * CONFIRMATION + log.inspected * INSPECTION + log.typed * LABEL
-    return shown + asked + (log.demonstrations - _FIRST + 1) * LOOK
+    asked = (log.confirmed + log.refused) * CONFIRMATION + log.inspected * INSPECTION + log.typed * (STROKE + PAINT)
+    return shown + asked + (log.demonstrations - _FIRST + 1) * SEEN * GLANCE

@@ -5,33 +5,66 @@ K a key 0.28 s, P pointing 1.1 s, B a press or release 0.1 s, H between mouse an
 
 from __future__ import annotations
 
-from benchmark.study.condition import SEEN
 from benchmark.study.session import Session
 
 KEY, POINT, PRESS, HOME, THINK = 0.28, 1.1, 0.1, 0.4, 1.35
-_CLICK = POINT + 2 * PRESS
-DEMONSTRATION = THINK + _CLICK
+CLICK = POINT + 2 * PRESS
+DEMONSTRATION = THINK + CLICK
 """Opening a mesh and seeing what it is."""
-HULL = _CLICK
+HULL = CLICK
 """Selecting a hull."""
-RULE = THINK + _CLICK
+RULE = THINK + CLICK
 """Choosing what is done with a selection."""
-ANSWER = 2 * THINK + _CLICK
+ANSWER = 2 * THINK + CLICK
 """Comparing pictures, and taking one."""
-CONFIRMATION = THINK + _CLICK
-LOOK = SEEN * THINK
-"""A glance at each result of a sample."""
+CONFIRMATION = THINK + CLICK
+"""Yes or no; also taking something back."""
+GLANCE = THINK
+"""A look at one result."""
+APPROVAL = CLICK
+"""Reporting a result that was looked at as right."""
 INSPECTION = THINK
 """Looking whether the label of one hull is right."""
-LABEL = _CLICK + THINK + 2 * KEY + HOME
-"""Selecting a hull and giving it another label by its key."""
+STROKE, PAINT = KEY, CLICK
+"""Labels are painted: the key of a label, then a click a hull."""
+GROUP_HULL = 0.5
+"""A look at one more hull of a group of look-alikes."""
+
+PRICES = {
+    "opening a mesh to demonstrate": DEMONSTRATION,
+    "a step of an edit": RULE,
+    "selecting a hull": HULL,
+    "an answer between pictures": ANSWER,
+    "yes or no to a correction; taking something back": CONFIRMATION,
+    "a look at a result": GLANCE,
+    "reporting it as right": APPROVAL,
+    "looking whether a label is right": INSPECTION,
+    "painting a label: the key, and each hull": STROKE + PAINT,
+    "a group of ten look-alike hulls, confirmed": THINK + 10 * GROUP_HULL + CLICK,
+}
+"""Seconds, as the page lists them."""
 
 
-def model_seconds(session: Session, rules: int) -> dict[str, float]:
+def price_group(hulls: int, exceptions: int = 0) -> float:
+    """Seconds for a group of look-alike hulls that is shown and confirmed, but for some that are clicked."""
+    return THINK + GROUP_HULL * hulls + CLICK * (1 + exceptions)
+
+
+def model_seconds(session: Session) -> dict[str, float]:
     """Seconds by what they are spent on."""
     return {
-        "demonstrating": len(session.shown) * (DEMONSTRATION + rules * RULE) + session.hulls_shown * HULL,
+        "demonstrating": len(session.shown) * DEMONSTRATION + session.steps_shown * RULE + session.hulls_shown * HULL,
+        "labelling": session.inspected * INSPECTION + session.strokes * STROKE + session.typed * PAINT,
         "answering": session.answers * ANSWER,
-        "confirming": (session.confirmed + session.refused) * CONFIRMATION + session.typed * LABEL,
-        "looking at results": session.looked * LOOK,
+        "confirming": (session.confirmed + session.refused + session.taken_back + session.set_aside) * CONFIRMATION,
+        "looking": session.glances * GLANCE,
+        "approving": session.approvals * APPROVAL,
     }
+
+
+def count_acts(session: Session) -> int:
+    """All that a person did, one by one: meshes opened, steps, hulls, labels, answers, confirmations, looks, approvals;
+    not the labels that were only looked at."""
+    done = len(session.shown) + session.steps_shown + session.hulls_shown + session.typed + session.strokes
+    said = session.answers + session.confirmed + session.refused + session.taken_back + session.set_aside
+    return done + said + session.glances + session.approvals

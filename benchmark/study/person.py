@@ -19,16 +19,18 @@ class Person:
         self._draw = random.Random(f"{seed} {desk.bench.task.name}")
         self._slips = random.Random(f"slips {seed} {desk.bench.task.name}")
         self._task, self._truth, self._errs = desk.bench.task, desk.bench.truth, condition.errs
-        self._advised = condition.advised
+        self._first, self._names_rules, self._excuses = condition.first, condition.names_rules, condition.excuses
 
     def begins_with(self, desk: Desk, names: Sequence[str]) -> str:
-        """Of a dozen meshes one on which most rules have something to do; of several such the one that the tool
-        proposes, else the first.
+        """Any mesh; or of a dozen one on which most rules have something to do: of several such the first, or the one
+        that the tool proposes.
         """
+        if self._first == "random":
+            return self._draw.choice(list(names))
         some = self._draw.sample(list(names), min(SEEN, len(names)))
         most = max(map(self._busy, some))
         busy = [name for name in some if self._busy(name) == most]
-        return (self._advised and desk.propose(busy)) or busy[0]
+        return (self._first == "advised" and desk.propose(busy)) or busy[0]
 
     def _busy(self, name: str) -> int:
         wanted = self._truth.reference[name]
@@ -59,22 +61,23 @@ class Person:
         """Whether a result is as it should be, by the eye."""
         return done is not None and done == self._truth.reference[name]
 
-    def sees(self, desk: Desk, program: Program, names: Sequence[str]) -> tuple[str, frozenset[int]] | None:
-        """The first mesh on which a rule does not do as it should, and what to show there: the first such rule, and
-        those before it that do something else than is wanted by the eye, as they may take its hulls away. None: all
-        well.
+    def sees(self, desk: Desk, program: Program, names: Sequence[str]) -> tuple[str, frozenset[int] | None] | None:
+        """The first mesh whose result is not as it should be by the eye, and what to show there; None: all well.
 
-        What is right by the eye is no failure, nor is what the reference gets wrong as well, since a label is wrong.
+        All of the edit is shown (None); or, by a person who names the rule that failed, the first such rule and those
+        before it that do something else than is wanted by the eye, as they may take its hulls away. A person who
+        excuses passes over what the reference gets wrong as well, since a label is wrong.
         """
         for name in names:
             done, wanted, true = desk.select(program, name), desk.reference[name], self._truth.reference[name]
-            if wanted is None or true is None:
+            if true is None or (self._excuses and wanted is None):
                 continue
-            rows = list(zip(done or (None,) * len(wanted), wanted, true, strict=True))
-            wrong = next((place for place, (one, *right) in enumerate(rows) if one not in right), None)
+            rows = list(zip(done or (None,) * len(true), wanted or (None,) * len(true), true, strict=True))
+            allowed = [{eye, same} if self._excuses else {eye} for _, same, eye in rows]
+            wrong = next((place for place, row in enumerate(rows) if row[0] not in allowed[place]), None)
             if wrong is not None:
                 before = [place for place, (one, _, eye) in enumerate(rows[:wrong]) if one != eye]
-                return name, frozenset(place + 1 for place in [*before, wrong])
+                return name, frozenset(place + 1 for place in [*before, wrong]) if self._names_rules else None
         return None
 
     def answers(self, desk: Desk, question: Question, program: Program) -> Answer:

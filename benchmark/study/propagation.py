@@ -2,38 +2,55 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 from benchmark.study.desk import Bench, Desk
 from meshforge.label_model import reference_label
 from meshforge.symbolic import Label, SymbolicMesh
 
 
-def begin_by_hand(bench: Bench, count: int) -> tuple[Desk, frozenset[str], int]:
-    """All meshes once as many are labelled by hand as `count`, each the one that is advised.
+@dataclass(frozen=True, slots=True)
+class Painting:
+    """What a person did to label a mesh: labels looked at, hulls given another, and different labels among these."""
 
-    With the names of those, and how many labels a person gave for that.
+    inspected: int = 0
+    typed: int = 0
+    strokes: int = 0
+
+    def __add__(self, other: Painting) -> Painting:
+        return Painting(self.inspected + other.inspected, self.typed + other.typed, self.strokes + other.strokes)
+
+
+def begin_by_hand(bench: Bench, count: int) -> tuple[Desk, frozenset[str], Painting]:
+    """All meshes once as many are labelled by hand as `count`, each the one that is advised; the others have none yet
+    where it is 0.
+
+    With the names of those, and what a person did for that.
     """
     desk = Desk(bench, {name: mesh.with_labels(dict.fromkeys(mesh.index)) for name, mesh in bench.truth.meshes.items()})
-    names, done, given = list(desk.meshes), list[str](), 0
+    names, done, painted = list(desk.meshes), list[str](), Painting()
     for _ in range(count):
         (advised,) = bench.relatives.propagate(_labels_of(desk)).next_to_label()
         done.append(names[advised])
         desk, more = label_by_hand(desk, names[advised])
-        given += more
-    return desk, frozenset(done), given
+        painted += more
+    return desk, frozenset(done), painted
 
 
-def label_by_hand(desk: Desk, name: str) -> tuple[Desk, int]:
+def label_by_hand(desk: Desk, name: str) -> tuple[Desk, Painting]:
     """The meshes when a person has looked through the labels of one, and they were carried over again.
 
-    With the number of labels that were not right there. What a person said before stays.
+    What a person said before stays.
     """
     true = desk.bench.truth.meshes[name]
-    wrong = sum(a.label != b.label for a, b in zip(true.hulls, desk.meshes[name].hulls, strict=True))
+    pairs = list(zip(true.hulls, desk.meshes[name].hulls, strict=True))
+    wrong = [right.label for right, hull in pairs if hull.label != right.label]
     meshes = {**desk.meshes, name: true.with_labels({hull.name: Label(hull.label or "") for hull in true.hulls})}
     looked_through = Desk(desk.bench, meshes)
     found = desk.bench.relatives.propagate(_labels_of(looked_through))
     rows = enumerate(looked_through.meshes.items())
-    return Desk(desk.bench, {name: _with(mesh, found.labels(place)) for place, (name, mesh) in rows}), wrong
+    labelled = Desk(desk.bench, {name: _with(mesh, found.labels(place)) for place, (name, mesh) in rows})
+    return labelled, Painting(sum(hull.label is not None for _, hull in pairs), len(wrong), len(set(wrong)))
 
 
 def _labels_of(desk: Desk) -> list[str | None]:

@@ -10,7 +10,7 @@ from typing import Any
 from benchmark.study.condition import MOST, Condition
 from benchmark.study.desk import Bench, Selections
 from benchmark.study.person import Person
-from benchmark.study.propagation import begin_by_hand, label_by_hand
+from benchmark.study.propagation import Painting, begin_by_hand, label_by_hand
 from meshforge.common import MeshForgeError
 from meshforge.language import Program
 from meshforge.synthesis import Ambiguous, Answer, Demonstration, LabelCorrection, LearningOutcome, NoProgram, Repair
@@ -25,27 +25,37 @@ class Round:
 
     demonstrations: int
     answers: int
-    status: str
-    program: str | None
-    settled: bool
     differs: int
-    seconds: dict[str, float]
+    status: str = ""
+    program: str | None = None
+    settled: bool = False
+    seconds: dict[str, float] = field(default_factory=dict)
 
     @property
     def right(self) -> bool:
-        return self.program is not None and not self.differs
+        return not self.differs
 
 
 @dataclass(slots=True)
 class Session:
-    """All that happened; accepted: whether the person saw nothing wrong in the end; passed, failed: meshes, not
-    demonstrated, whose edit does or does not meet the criterion."""
+    """All that happened.
+
+    typed, strokes, inspected: labels that were given by hand, different ones of these a mesh, and labels that were
+    looked at; glances: results that were looked at; approvals: those that were reported as right; accepted: whether the
+    person saw nothing wrong in the end; right: on the meshes that were not demonstrated, under the same labels;
+    right_on_true: there under true labels; right_elsewhere: under true labels on the other decompositions of those
+    assets, None where there are none; failures: of the judged meshes those that do not meet the criterion, and why;
+    reference_failed, ceiling_failed: how many of these fail by the reference program, under the same labels, and under
+    true ones; labels_right: the share of labels that are right on the judged meshes in the end.
+    """
 
     task: str
     condition: str
     seed: int
+    setting: str = ""
     rounds: list[Round] = field(default_factory=list)
     shown: list[str] = field(default_factory=list)
+    steps_shown: int = 0
     hulls_shown: int = 0
     answers: int = 0
     neither: int = 0
@@ -55,17 +65,24 @@ class Session:
     refused: int = 0
     rightly: int = 0
     typed: int = 0
-    looked: int = 0
+    strokes: int = 0
+    inspected: int = 0
+    glances: int = 0
+    approvals: int = 0
     accepted: bool = False
     settled: bool = False
     right: bool = False
     right_on_true: bool = False
+    right_elsewhere: bool | None = None
     program: str | None = None
     f1: float = 0.0
     failures: dict[str, str] = field(default_factory=dict)
     judged: int = 0
     judged_pure: int = 0
     failed_pure: int = 0
+    reference_failed: int = 0
+    ceiling_failed: int = 0
+    labels_right: float = 1.0
     known_among: list[bool] = field(default_factory=list)
 
     @property
@@ -76,14 +93,21 @@ class Session:
     def to_json(self) -> dict[str, Any]:
         return asdict(self)
 
+    def summarize(self) -> dict[str, Any]:
+        """The same, short enough to be kept: of a round only what it was about and whether it was right, of a failure
+        only which check fails, and no times."""
+        rounds = [{key: asdict(row)[key] for key in ("demonstrations", "answers", "differs")} for row in self.rounds]
+        failures = {name: why.split(":")[0] for name, why in self.failures.items()}
+        return {**asdict(self), "rounds": rounds, "failures": failures}
+
     @staticmethod
     def of_json(data: dict[str, Any]) -> Session:
         return Session(**{**data, "rounds": [Round(**row) for row in data["rounds"]]})
 
 
-def teach_task(bench: Bench, condition: Condition, seed: int) -> Session:
-    """A task taught by one person under a condition."""
-    return _Course(bench, condition, seed).session()
+def teach_task(bench: Bench, condition: Condition, seed: int, others: Sequence[Bench] = ()) -> Session:
+    """A task taught by one person under a condition; others: further decompositions of the same assets."""
+    return _Course(bench, condition, seed).session(others)
 
 
 class _Course:
@@ -91,11 +115,12 @@ class _Course:
 
     def __init__(self, bench: Bench, condition: Condition, seed: int) -> None:
         self.bench, self.condition = bench, condition
-        self.log = Session(bench.task.name, condition.name, seed)
+        self.log = Session(bench.task.name, condition.name, seed, next(iter(bench.samples.values())).setting)
         self.by_hand = frozenset[str]()
         """Meshes that were labelled before any was demonstrated; they are not judged."""
         if condition.labels == "propagated":
-            self.desk, self.by_hand, self.log.typed = begin_by_hand(bench, condition.labelled)
+            self.desk, self.by_hand, painted = begin_by_hand(bench, condition.labelled)
+            self._count(painted)
         else:
             self.desk = bench.desk(condition.labels, seed)
         self.person = Person(self.desk, seed, condition)
@@ -110,7 +135,7 @@ class _Course:
         self.clean: Program | None = None
         """The last program of which all results that were looked at were right."""
 
-    def session(self) -> Session:
+    def session(self, others: Sequence[Bench]) -> Session:
         self._begin()
         while True:
             outcome = self._learn()
@@ -122,8 +147,13 @@ class _Course:
                 continue
             if not self._looks_on(outcome, outcome.program):
                 break
-        self._judge(outcome)
+        self._judge(outcome, others)
         return self.log
+
+    def _count(self, painted: Painting) -> None:
+        self.log.inspected += painted.inspected
+        self.log.typed += painted.typed
+        self.log.strokes += painted.strokes
 
     def _rest(self) -> list[str]:
         """The meshes that are not demonstrated."""
@@ -138,10 +168,11 @@ class _Course:
         self.given[name] = new and new | (self.given.get(name) or frozenset())
         self.log.shown.append(name)
         if self.condition.labels == "propagated":
-            self.desk, wrong = label_by_hand(self.desk, name)
-            self.log.typed += wrong
-        steps = self.person.shows(self.desk, name, new).steps
-        self.log.hulls_shown += sum(len(step.select or ()) for step in steps)
+            self.desk, painted = label_by_hand(self.desk, name)
+            self._count(painted)
+        steps = [step.select for step in self.person.shows(self.desk, name, new).steps if step.select]
+        self.log.steps_shown += len(steps)
+        self.log.hulls_shown += sum(map(len, steps))
 
     def _begin(self) -> None:
         """Show a mesh, and another one while there is a rule that had nothing to do on any."""
@@ -173,7 +204,7 @@ class _Course:
 
     def _note(self, status: str, program: Program | None, settled: bool, seconds: dict[str, float]) -> None:
         log, differs = self.log, len(self.desk.find_differences(program, self._rest()))
-        log.rounds.append(Round(len(log.shown), log.answers, status, _text(program), settled, differs, seconds))
+        log.rounds.append(Round(len(log.shown), log.answers, differs, status, _text(program), settled, seconds))
 
     def _label_landmarks(self, outcome: LearningOutcome | MeshForgeError) -> bool:
         """Whether labels were given by hand: to the landmarks of a demonstrated mesh that could not be oriented."""
@@ -186,7 +217,7 @@ class _Course:
             LabelCorrection(outcome.where, h.name, h.label, to) for h, to in pairs if to in landmarks and h.label != to
         ]
         self.desk = self.desk.correct(wrong)
-        self.log.typed += len(wrong)
+        self._count(Painting(len(mesh.hulls), len(wrong), len({one.to for one in wrong})))
         return bool(wrong)
 
     def _outcome(self, demos: list[Demonstration]) -> LearningOutcome:
@@ -262,24 +293,25 @@ class _Course:
         return False
 
     def _looks_on(self, outcome: LearningOutcome, program: Program) -> bool:
-        """Look at a dozen results; go on where one is wrong: take an answer back, or demonstrate the rule there.
+        """Look at a dozen results; go on where one is wrong: take an answer back, or demonstrate what is wanted there.
 
-        Where all are right they are told to the tool; if it keeps the program then, it is accepted.
+        A guided person reports those that are right to the tool, and accepts the program if it keeps it then.
         """
         self.log.accepted = program == self.clean
         if self.log.accepted:
             return False
-        self.log.looked += 1
         guided = self.condition.guided
         names = self._worth_a_look(outcome.sample) if guided else self.person.looks_at(self._showable())
         seen = self.person.sees(self.desk, program, names)
+        looked_at = names[: names.index(seen[0])] if seen else names
+        self.log.glances += len(looked_at) + (seen is not None)
         if guided:
-            self._accept(program, names[: names.index(seen[0])] if seen else names)
+            self._accept(program, looked_at)
         if seen is None:
             self.clean, self.log.accepted = program, not guided
             return guided
         name, rules = seen
-        wrong = self.person.takes_back(self.desk, self.answers, max(rules))
+        wrong = rules and self.person.takes_back(self.desk, self.answers, max(rules))
         if wrong:
             self.answers.remove(wrong)
             self.log.taken_back += 1
@@ -297,26 +329,49 @@ class _Course:
         for name in names:
             done = self.desk.select(program, name)
             if done is not None and self.person.accepts(name, done):
+                self.log.approvals += self.accepted.get(name) != done
                 self.accepted[name] = done
 
     def _verdicts(self) -> Iterator[Answer]:
         for name, done in self.accepted.items():
             yield from (Answer(rule, name, select) for rule, select in enumerate(done, 1))
 
-    def _judge(self, outcome: LearningOutcome | MeshForgeError) -> None:
-        """How good the last program is on all meshes that were not demonstrated."""
+    def _judge(self, outcome: LearningOutcome | MeshForgeError, others: Sequence[Bench]) -> None:
+        """How good the last program is on all meshes that were neither demonstrated nor labelled before."""
         log, bench = self.log, self.bench
         rest = [name for name in self._rest() if name not in self.by_hand]
         program = None if isinstance(outcome, MeshForgeError) else outcome.program
         log.program, log.right, log.settled = _text(program), log.rounds[-1].right, log.rounds[-1].settled
         log.right_on_true = bool(program) and not bench.truth.find_differences(program, rest)
+        log.right_elsewhere = self._is_right_on(program, others) if others else None
         log.judged, log.judged_pure = len(rest), sum(name in bench.pure for name in rest)
-        log.f1 = self._f1(program, rest)
+        log.f1, log.labels_right = self._f1(program, rest), self._share_labels_right(rest)
         for name in rest:
             why = bench.failure(name, self.desk.edit(program, name)) if program else "no program was learned"
             if why:
                 log.failures[name] = why
                 log.failed_pure += name in bench.pure
+        reference = bench.task.program
+        log.reference_failed = sum(bool(bench.failure(name, self.desk.edit(reference, name))) for name in rest)
+        log.ceiling_failed = sum(bool(bench.failure(name, bench.truth.edit(reference, name))) for name in rest)
+
+    def _is_right_on(self, program: Program | None, others: Sequence[Bench]) -> bool:
+        """Whether a program behaves as the reference on other decompositions of what was not shown, true labels."""
+        known = {self.bench.samples[name].asset.name for name in [*self.log.shown, *self.by_hand]}
+        return not any(
+            other.truth.find_differences(
+                program, [n for n, row in other.samples.items() if row.asset.name not in known]
+            )
+            for other in others
+        )
+
+    def _share_labels_right(self, names: Sequence[str]) -> float:
+        pairs = [
+            (true.label, hull.label)
+            for name in names
+            for true, hull in zip(self.bench.samples[name].mesh.hulls, self.desk.meshes[name].hulls, strict=True)
+        ]
+        return sum(a == b for a, b in pairs) / max(len(pairs), 1)
 
     def _f1(self, program: Program | None, names: list[str]) -> float:
         """F1 of what the rules select, hull by hull, against the truth, where the reference runs."""

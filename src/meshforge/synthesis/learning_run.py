@@ -169,7 +169,7 @@ class LearningRun:
             why=miss.why,
             nearest=nearest,
             advice=give_advice(miss.nearest, examples, self._replays.assets_with_answers(spec.number)),
-            suggested=self._suggest_orientation(),
+            suggested=self._suggest_orientation() if self._task.options.suggest_orientation else None,
             **self._common_fields(),
         )
 

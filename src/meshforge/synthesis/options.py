@@ -60,6 +60,7 @@ class Options:
     max_size: in syntax nodes; budget: for the whole program [s].
     above: readings have up to so many nodes more than the smallest; effort: how many operands they may take to find.
     contact, extremity: thresholds that the program is to set.
+    suggest_orientation: whether landmarks that would help are looked for where no program fits.
     rejected: corrections that a person refused, so the labels stand.
     follow: a program somebody had in mind; the outcome says what became of each of its rules.
     stop: asked now and then; when it says so, what was found so far is returned, as when the time runs out.
@@ -76,6 +77,7 @@ class Options:
     shortcuts: Shortcuts = Shortcuts()
     contact: float | None = None
     extremity: float | None = None
+    suggest_orientation: bool = True
     rejected: Collection[LabelCorrection] = ()
     follow: Program | None = None
     clock: Clock = time.monotonic

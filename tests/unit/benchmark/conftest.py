@@ -10,15 +10,15 @@ from typing import Any, Self
 import pytest
 
 from benchmark import journal
+from benchmark.assets import family
 from benchmark.baselines import prompts
 from benchmark.baselines.replay import Replay
 from benchmark.study import Bench
 from benchmark.tasks import Task, task
 from meshforge.language import Program
 
-STEP = 4
-"""Of every so many meshes of a category one is taken: of most assets one, coarse, medium and fine by turns."""
-_samples = Task.samples
+STEP = 2
+"""Of every so many assets of a family one is taken."""
 
 
 class Here:
@@ -52,24 +52,19 @@ def here(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 @cache
-def few(name: str, calibration: bool = False) -> Bench:
-    """A task with a quarter of its meshes; the same for all tests, since what it remembers depends on nothing else."""
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(Task, "samples", _few_samples)
-        return Bench(task(name), calibration)
-
-
-def _few_samples(one: Task, calibration: bool = False) -> tuple[Any, ...]:
-    return _samples(one, calibration)[::STEP]
+def few(name: str, setting: str = "medium", calibration: bool = False) -> Bench:
+    """A task with half of its assets; the same for all tests, since what it remembers depends on nothing else."""
+    one = task(name)
+    return Bench(one, family(one.category, setting, calibration)[::STEP])
 
 
 @pytest.fixture
 def few_meshes(monkeypatch: pytest.MonkeyPatch, here: None) -> None:
-    """A quarter of the meshes of each category, and all work in this process."""
-    monkeypatch.setattr("benchmark.evaluation.sessions._bench", few)
-    monkeypatch.setattr("benchmark.baselines.verdicts._bench", few)
-    monkeypatch.setattr("benchmark.baselines.run.Bench", lambda one: few(one.name))
-    monkeypatch.setattr("benchmark.learning.task_cases.Bench", lambda one, calibration: few(one.name, calibration))
+    """Half of the assets of each category, and all work in this process."""
+    for module in ("baselines.run", "baselines.verdicts", "evaluation.failures", "evaluation.sessions"):
+        monkeypatch.setattr(f"benchmark.{module}.open_bench", few)
+    samples = Task.samples
+    monkeypatch.setattr(Task, "samples", lambda *given: samples(*given)[::4])
 
 
 _drawn: dict[str, list[Any]] = {}

@@ -11,7 +11,7 @@ from benchmark.baselines.agent import Agent
 from benchmark.baselines.refinement import ROUNDS, find_code, refine
 from benchmark.baselines.replay import Replay, replay_demonstrations
 from benchmark.baselines.verdicts import judge_program
-from benchmark.study import FULL, NOISY, Bench, Session
+from benchmark.study import FLAT, TRUE, Bench, Session
 from meshforge.language import ACTIONS, Program, show
 from tests.loopback import CUT, Asked
 from tests.unit.benchmark.conftest import few
@@ -32,7 +32,7 @@ def bench() -> Bench:
 def taught(bench: Bench) -> Session:
     """Two meshes shown, on which every rule has something to do; few hulls, so that two pictures show all."""
     busy = [name for name, done in bench.truth.reference.items() if done and all(done) and "fine" not in name]
-    return Session(NAME, FULL.name, 100, shown=[busy[0], busy[1], busy[0]])
+    return Session(NAME, TRUE.name, 100, "medium", shown=[busy[0], busy[1], busy[0]])
 
 
 @pytest.fixture(scope="module")
@@ -119,7 +119,7 @@ def test_a_model_that_never_gets_it_ends_as_failure_within_the_rounds(
         written = refine(client, agent.opening, agent.try_answer, ROOM)
     assert (written.fits, written.text, written.rounds) == (False, None, ROUNDS)
     assert len(server.answered) == ROUNDS
-    judged = Session.of_json(json.loads(json.dumps(judge_program(NAME, FULL.name, 100, taught.shown, written.text))))
+    judged = Session.of_json(json.loads(json.dumps(judge_program(NAME, TRUE.name, 100, taught.shown, written.text))))
     assert (judged.right, judged.judged) == (False, len(bench.samples) - 2)
     assert judged.failures.keys() == bench.samples.keys() - set(taught.shown)
 
@@ -137,9 +137,9 @@ def test_of_answers_that_are_all_wrong_the_one_that_did_best_counts_and_is_judge
     assert Program.parse(written.text).rules == Program.parse(better).rules
     assert written.wrong[:2] == [2, agent.try_answer(better).wrong]
     assert written.wrong[2:] == [None] * (ROUNDS - 2)
-    judged = Session.of_json(judge_program(NAME, FULL.name, 100, taught.shown, written.text))
+    judged = Session.of_json(judge_program(NAME, TRUE.name, 100, taught.shown, written.text))
     assert not judged.right
-    best = Session.of_json(judge_program(NAME, FULL.name, 100, taught.shown, str(bench.task.program)))
+    best = Session.of_json(judge_program(NAME, TRUE.name, 100, taught.shown, str(bench.task.program)))
     assert best.right
     assert len(best.failures) < len(judged.failures) <= judged.judged
 
@@ -166,9 +166,9 @@ def test_labels_that_are_wrong_stay_so_but_for_landmarks_that_a_person_could_sho
     seeds = range(100, 104)
     changed = 0
     for seed in seeds:
-        desk = bench.desk("noisy", seed)
+        desk = bench.desk("flat", seed)
         names = [name for name, done in bench.truth.reference.items() if done][:8]
-        for one in replay_demonstrations(bench, Session(NAME, NOISY.name, seed, shown=names)):
+        for one in replay_demonstrations(bench, Session(NAME, FLAT.name, seed, shown=names)):
             noisy, true = desk.meshes[one.name], bench.truth.meshes[one.name]
             for hull, was, right in zip(one.demo.mesh.hulls, noisy.hulls, true.hulls, strict=True):
                 assert hull.label in (was.label, right.label)

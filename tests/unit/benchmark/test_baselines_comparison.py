@@ -14,7 +14,7 @@ from benchmark import journal
 from benchmark.baselines.blender.apart import find_python
 from benchmark.evaluation import comparison
 from benchmark.evaluation.figures import fpr
-from benchmark.study import FULL, NOISY, Condition, Session
+from benchmark.study import FLAT, TRUE, Condition, Session
 from benchmark.tasks import Task, task
 from tests.loopback import Asked, Fault, serving, status
 from tests.unit.benchmark.blender_script import SHELLS
@@ -43,8 +43,10 @@ def few_sessions(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
 
 def session(one: Task, condition: Condition) -> Session:
     able = [name for name, selected in few(one.name).truth.reference.items() if selected is not None]
-    begin = (FULL, NOISY).index(condition) * 4
-    return Session(one.name, condition.name, 100, shown=able[begin : begin + 2], judged=len(few(one.name).samples) - 2)
+    begin = (TRUE, FLAT).index(condition) * 4
+    return Session(
+        one.name, condition.name, 100, "medium", shown=able[begin : begin + 2], judged=len(few(one.name).samples) - 2
+    )
 
 
 def asked_about(asked: Asked) -> Task:
@@ -89,10 +91,10 @@ def test_an_agent_that_is_right_passes_as_the_references_do_and_its_cost_is_told
     assert {part: again[part] for part in ("tables", "details")} == {
         part: found[part] for part in ("tables", "details")
     }
-    filled, true = functional(found), [row for row in judged(found) if row.condition == FULL.name]
+    filled, true = functional(found), [row for row in judged(found) if row.condition == TRUE.name]
     assert filled["VLM Blender"] == ["not run", "not run"]
     assert Counter((row.task, row.condition) for row in judged(found)) == Counter(
-        (one.name, condition.name) for one in CUPS for condition in (FULL, NOISY)
+        (one.name, condition.name) for one in CUPS for condition in (TRUE, FLAT)
     )
     assert all(row.right for row in true)
     assert min(map(fpr, true)) > 0.8
@@ -106,8 +108,8 @@ def test_an_agent_that_is_right_passes_as_the_references_do_and_its_cost_is_told
     table = found["tables"][1]
     cells = [dict(zip(table["columns"], row, strict=True)) for row in table["rows"]]
     assert [(row[""], row["condition"], row["SSR"]) for row in cells] == [
-        ("VLM Agent", FULL.name, "2/2"),
-        ("VLM Agent", NOISY.name, cells[1]["SSR"]),
+        ("VLM Agent", TRUE.name, "2/2"),
+        ("VLM Agent", FLAT.name, cells[1]["SSR"]),
     ]
     assert (cells[0]["sessions"], cells[0]["do as was shown, %"], cells[0]["rounds"]) == (2, 100, 1)
     assert sum(row["$ in all"] for row in cells) == pytest.approx(cost(tokens_in(server), made))

@@ -16,8 +16,7 @@ from benchmark.baselines.refinement import ROUNDS, refine
 from benchmark.baselines.replay import Replay, replay_demonstrations
 from benchmark.baselines.run import run_baseline, vlm_blender
 from benchmark.baselines.verdicts import judge_script
-from benchmark.study import FULL, Bench, Session
-from benchmark.tasks import task
+from benchmark.study import TRUE, Bench, Session, open_bench
 from meshforge.language import ACTIONS
 from meshforge.store.settings import VlmSettings
 from tests.loopback.server import MODEL
@@ -34,13 +33,13 @@ ROOM = 500
 
 @pytest.fixture(scope="module")
 def bench() -> Bench:
-    return Bench(task(NAME))
+    return open_bench(NAME, "medium")
 
 
 @pytest.fixture(scope="module")
 def taught(bench: Bench) -> Session:
     """A session with two meshes shown."""
-    return Session(NAME, FULL.name, 100, shown=list(bench.samples)[:2])
+    return Session(NAME, TRUE.name, 100, "medium", shown=list(bench.samples)[:2])
 
 
 @pytest.fixture(scope="module")
@@ -95,7 +94,7 @@ def test_a_script_that_is_wrong_at_first_is_told_why_and_ends_right(
     assert all(f"{name}: there should be, and is not: " in lacking for name in names)
     assert [len(asked.pictures) - len(first.pictures) for asked in again] == [0, 0, 2]
     judged = Session.of_json(
-        json.loads(json.dumps(judge_script(NAME, FULL.name, 100, taught.shown, written.text, str(PYTHON))))
+        json.loads(json.dumps(judge_script(NAME, TRUE.name, 100, taught.shown, written.text, str(PYTHON))))
     )
     program = {n for n in bench.samples if bench.failure(n, bench.truth.edit(bench.task.program, n))} - set(
         taught.shown
@@ -107,7 +106,7 @@ def test_a_script_that_is_wrong_at_first_is_told_why_and_ends_right(
 @needs_blender
 def test_of_a_script_that_fails_the_reason_is_kept(bench: Bench, taught: Session) -> None:
     script = "if len(bpy.data.objects) % 2:\n    raise ValueError('odd')"
-    judged = Session.of_json(judge_script(NAME, FULL.name, 100, taught.shown, script, str(PYTHON)))
+    judged = Session.of_json(judge_script(NAME, TRUE.name, 100, taught.shown, script, str(PYTHON)))
     odd = {name for name, mesh in bench.truth.meshes.items() if len(mesh.hulls) % 2} - set(taught.shown)
     assert {name for name, why in judged.failures.items() if why == "ValueError: odd"} == odd
 
@@ -117,7 +116,7 @@ def test_a_script_that_never_ends_is_given_up_and_fails_everywhere(
     bench: Bench, taught: Session, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(Blender.__init__, "__defaults__", (Limits(seconds=1.0),))
-    judged = Session.of_json(judge_script(NAME, FULL.name, 100, taught.shown, "while True: pass", str(PYTHON)))
+    judged = Session.of_json(judge_script(NAME, TRUE.name, 100, taught.shown, "while True: pass", str(PYTHON)))
     reasons = list(judged.failures.values())
     assert len(reasons) == judged.judged
     assert reasons[:3] == ["it took longer than 1 seconds"] * 3

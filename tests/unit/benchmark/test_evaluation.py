@@ -88,8 +88,8 @@ def test_units_come_in_order_and_are_worked_out_once(journals: Path) -> None:
 
 
 def session(seed: int, ks: list[tuple[int, int, int]]) -> Session:
-    rounds = [Round(demos, answers, "found", "x", False, differs, {}) for demos, answers, differs in ks]
-    return Session("cup-easy", "", seed, rounds, right=not rounds[-1].differs)
+    rounds = [Round(demos, answers, differs, program="x") for demos, answers, differs in ks]
+    return Session("cup-easy", "", seed, rounds=rounds, right=not rounds[-1].differs)
 
 
 def test_a_task_is_solved_once_all_demonstrators_have_had_it_right() -> None:
@@ -105,9 +105,9 @@ def test_the_reason_of_a_failing_session_is_what_is_kept_of_it() -> None:
     row.condition, row.program, row.accepted = "true labels", str(wanted).replace("\nIs(wall)", "\nAll"), True
     assert reason(row).endswith("accepted, as no difference was among the twelve results looked at")
     larger = str(wanted).replace("\nIs(wall)", "\nUnion(Is(wall), Is(lid))")
-    row.program, row.accepted, row.condition = larger, False, "noisy labels"
-    assert reason(row) == "a larger rule was learned, under noisy labels; given up after 0 demonstrations"
+    row.program, row.accepted, row.condition = larger, False, "noisy labels, flat confidence"
+    assert reason(row) == "a larger rule was learned, under wrong labels; given up after 0 demonstrations"
     row.program = None
-    assert reason(row).startswith("no program fits what was shown, under noisy labels")
-    table = list_failures({"noisy labels": {"cup-easy": [row]}})
-    assert [line[:3] for line in table.rows] == [("cup-easy", "noisy labels", 0)]
+    assert reason(row).startswith("no program fits what was shown, under wrong labels")
+    table = list_failures({"flat": {"cup-easy": [row]}})
+    assert [line[:3] for line in table.rows] == [("cup-easy", "noisy labels, flat confidence", 0)]
