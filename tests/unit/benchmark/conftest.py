@@ -10,6 +10,7 @@ from typing import Any, Self
 import pytest
 
 from benchmark import journal
+from benchmark.assets import SEPARATE
 from benchmark.baselines import prompts
 from benchmark.baselines.replay import Replay
 from benchmark.study import Bench
@@ -59,8 +60,8 @@ def few(name: str, calibration: bool = False) -> Bench:
         return Bench(task(name), calibration)
 
 
-def _few_samples(one: Task, calibration: bool = False) -> tuple[Any, ...]:
-    return _samples(one, calibration)[::STEP]
+def _few_samples(one: Task, calibration: bool = False, settings: Sequence[str] = SEPARATE) -> tuple[Any, ...]:
+    return _samples(one, calibration, settings)[::STEP]
 
 
 @pytest.fixture
