@@ -3,56 +3,96 @@
 from __future__ import annotations
 
 import argparse
-from collections import Counter
-from collections.abc import Iterator, Mapping
+from collections import Counter, defaultdict
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
+from functools import partial
 from pathlib import Path
 from time import perf_counter
 
 from benchmark.assets.asset import Asset
-from benchmark.assets.decomposition import SETTINGS, Decomposition, decompose_asset
-from benchmark.assets.generation import CALIBRATION, CATEGORIES, COUNT, SEED, assets
+from benchmark.assets.decomposition import SEPARATE, SETS, SETTINGS, Decomposition, decompose_asset, draw_decomposed
+from benchmark.assets.generation import CALIBRATION, CATEGORIES, COUNT, SEED, Order, orders
 from benchmark.assets.pictures import look
-from benchmark.assets.storage import DATA, read, write
+from benchmark.assets.storage import DATA, Sample, read, stem_of, write
 from meshforge.geometry.decomposition.run import cache_folder
 
 _CALIBRATING = {name: 9 if k < 3 else 8 for k, name in enumerate(CATEGORIES)}
-"""Assets of each category in the calibration set: 67, of three meshes each, one less than 202."""
+"""Assets of each category in the calibration set: 67, of three separate meshes each, one less than 202."""
 
 
 def main() -> None:
     """Make what is asked for."""
     parser = argparse.ArgumentParser(prog="script/make-benchmark", description=__doc__)
     parser.add_argument("categories", nargs="*", metavar="CATEGORY", help=f"of {', '.join(CATEGORIES)}; default: all")
-    parser.add_argument("--calibration", action="store_true", help="the calibration set instead of the 600")
+    parser.add_argument("--calibration", action="store_true", help="the calibration set instead of the 1000 meshes")
+    parser.add_argument(
+        "--settings",
+        nargs="+",
+        choices=SETS,
+        default=list(SETS),
+        help="only these are made, the others kept as they are frozen; separate: coarse, medium and fine",
+    )
     parser.add_argument("--count", type=int, help="only so many assets a category (then --out must be given)")
     parser.add_argument("--only", type=int, nargs="+", metavar="NUMBER", help="only these assets (likewise)")
     parser.add_argument("--out", type=Path, default=DATA, help="the folder to write to")
     parser.add_argument("--cache", action="store_true", help="use and keep decompositions in the usual cache")
-    parser.add_argument("--picture", type=Path, help="a folder for a picture of each category")
+    parser.add_argument("--picture", type=Path, help="a folder for a picture of each category and setting")
     given = parser.parse_args()
     if (given.count or given.only) and given.out == DATA:
         parser.error("with --count or --only say --out FOLDER: the frozen data are whole")
+    settings = [setting for choice in given.settings for setting in SETS[choice]]
     for name in given.categories or CATEGORIES:
         count = given.count or (_CALIBRATING[name] if given.calibration else COUNT)
-        stem = f"{name}-calibration" if given.calibration else name
-        made = assets(name, count, CALIBRATION if given.calibration else SEED)
-        made = [asset for k, asset in enumerate(made, 1) if not given.only or k in given.only]
+        stem = stem_of(name, given.calibration)
+        made = orders(name, count, CALIBRATION if given.calibration else SEED)
+        made = [order for order in made if not given.only or order.number in given.only]
+        frozen = dict[str, list[Sample]]() if set(SEPARATE) <= set(settings) else read_frozen(stem)
+        make = partial(make_asset, settings=settings, frozen=frozen, cache=cache_folder() if given.cache else None)
         given.out.mkdir(parents=True, exist_ok=True)
-        write(given.out, stem, _decompose_all(made, cache_folder() if given.cache else None))
+        write(given.out, stem, make_all(made, make))
         if given.picture:
-            look(read(given.out, stem), given.picture / f"{stem}.png")
+            for setting in SETTINGS:
+                rows = [row for row in read(given.out, stem) if row.setting == setting]
+                look(rows, given.picture / f"{stem}-{setting}.png")
 
 
-def _decompose_all(made: list[Asset], cache: Path | None) -> Iterator[tuple[Asset, Mapping[str, Decomposition]]]:
-    """All at all settings, two at a time, in order; told as they come."""
+def make_asset(
+    order: Order, settings: Sequence[str], frozen: Mapping[str, Sequence[Sample]], cache: Path | None
+) -> tuple[Asset, dict[str, Decomposition]]:
+    """An asset and its meshes by setting; frozen: meshes by asset, kept where no such setting is to be made."""
+    kept = frozen.get(order.name, ())
+    if not kept or set(SEPARATE) <= set(settings):
+        asset, found = draw_decomposed(order, cache)
+    else:
+        asset, found = order.draw(kept[0].asset.attempt), {}
+    if kept and kept[0].asset.attempt == asset.attempt:
+        found |= {row.setting: row.decomposition for row in kept if row.setting not in settings}
+    for setting in SETTINGS:
+        if setting not in found:
+            found[setting] = decompose_asset(asset, setting, cache)
+    return asset, {setting: found[setting] for setting in SETTINGS}
 
-    def work(asset: Asset) -> tuple[dict[str, Decomposition], float]:
+
+def read_frozen(stem: str) -> dict[str, list[Sample]]:
+    """The frozen meshes of a category by asset; none where there is no file."""
+    found = defaultdict[str, list[Sample]](list)
+    for row in read(DATA, stem) if (DATA / f"{stem}.json").is_file() else ():
+        found[row.asset.name].append(row)
+    return found
+
+
+def make_all(
+    made: Sequence[Order], make: Callable[[Order], tuple[Asset, dict[str, Decomposition]]]
+) -> Iterator[tuple[Asset, Mapping[str, Decomposition]]]:
+    """All assets, two at a time, in order; told as they come."""
+
+    def work(order: Order) -> tuple[Asset, dict[str, Decomposition], float]:
         start = perf_counter()
-        return {setting: decompose_asset(asset, setting, cache) for setting in SETTINGS}, perf_counter() - start
+        return *make(order), perf_counter() - start
 
     with ThreadPoolExecutor(2) as pool:
-        for asset, (found, seconds) in zip(made, pool.map(work, made), strict=True):
+        for asset, found, seconds in pool.map(work, made):
             print(_describe(asset, found, seconds), flush=True)
             yield asset, found
 
@@ -61,8 +101,11 @@ def _describe(asset: Asset, found: Mapping[str, Decomposition], seconds: float) 
     parts = Counter(part.label for part in asset.parts)
     hulls = " ".join(f"{len(mesh.hulls):3}" for mesh in found.values())
     impure = " ".join(f"{sum(max(s.values()) < 0.9 for s in mesh.shares):2}" for mesh in found.values())
+    again = f"  drawn again {asset.attempt} times" if asset.attempt else ""
     told = ", ".join(f"{n} {label}" for label, n in parts.items())
-    return f"{asset.name} {asset.kind:14} hulls {hulls}  impure {impure}  {seconds:4.1f} s  {asset.about} ({told})"
+    return (
+        f"{asset.name} {asset.kind:14} hulls {hulls}  impure {impure}  {seconds:4.1f} s  {asset.about} ({told}){again}"
+    )
 
 
 if __name__ == "__main__":

@@ -57,7 +57,8 @@ class Asset:
     """One member of a family.
 
     kind: the variant; rare: whether few are like it; pose: file_T_upright; scanned: decomposed as it lies in its
-    file, as scans are, not square to its own axes.
+    file, as scans are, not square to its own axes; attempt: how often it was drawn again, since two of its separate
+    decompositions were the same.
     """
 
     name: str
@@ -69,6 +70,7 @@ class Asset:
     sites: tuple[Site, ...]
     pose: Pose
     scanned: bool
+    attempt: int = 0
 
     def site(self, name: str) -> list[Site]:
         """The sites of that name, in order."""

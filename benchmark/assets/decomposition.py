@@ -1,8 +1,12 @@
-"""From an asset to its collision meshes: CoACD on every connected solid of its union, three times, ever finer."""
+"""From an asset to its collision meshes.
+
+Separate: CoACD on every connected solid of the union of its parts, three times, ever finer. Merged: one call of CoACD
+on the whole union, and one on the union whose joints were welded shut, so that hulls span parts.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -10,9 +14,11 @@ import numpy as np
 from manifold3d import Manifold
 
 from benchmark.assets.asset import Asset
+from benchmark.assets.generation import Order
 from meshforge.geometry import Floats, Polytope, Pose, convex_hull
 from meshforge.geometry.decomposition.engines import CoacdSettings
 from meshforge.geometry.decomposition.run import decompose
+from meshforge.symbolic import Hull
 from script.samples.part import Part
 from script.samples.pieces import DIGITS, triangles
 from script.samples.solids import union
@@ -33,8 +39,34 @@ def coacd(threshold: float) -> CoacdSettings:
     )
 
 
-SETTINGS = {"coarse": coacd(0.3), "medium": coacd(0.12), "fine": coacd(0.05)}
-"""The three settings by name."""
+SEPARATE = ("coarse", "medium", "fine")
+"""Settings by which each connected solid is decomposed by itself: hardly a hull spans parts."""
+MERGED = ("union", "welded")
+"""Settings by which an asset is decomposed as a whole."""
+SETTINGS = (*SEPARATE, *MERGED)
+"""All settings by name."""
+SETS = {"separate": SEPARATE, "union": ("union",), "welded": ("welded",)}
+"""Settings that stand together, by name; figures of one set are kept apart from those of another."""
+_SEPARATE_THRESHOLDS = {"coarse": 0.3, "medium": 0.12, "fine": 0.05}
+_MERGED_THRESHOLDS = {
+    "cup": {"union": 0.2, "welded": 0.3},
+    "kettle": {"union": 0.16, "welded": 0.2},
+    "knife": {"union": 0.05, "welded": 0.08},
+    "chair": {"union": 0.08, "welded": 0.16},
+    "dispenser": {"union": 0.08, "welded": 0.3},
+    "door": {"union": 0.05, "welded": 0.05},
+    "lamp": {"union": 0.25, "welded": 0.25},
+    "table": {"union": 0.25, "welded": 0.3},
+}
+WELD = 0.001
+"""Joints narrower than this are welded shut [m]: the widest ones of the generators' joints are hairlines of 0.0008."""
+_RESIDUE = "misc"
+_ATTEMPTS = 100  # at an asset whose separate decompositions differ
+
+
+def threshold_of(setting: str, category: str) -> float:
+    """CoACD's concavity threshold at a setting."""
+    return _SEPARATE_THRESHOLDS.get(setting) or _MERGED_THRESHOLDS[category][setting]
 
 
 @dataclass(frozen=True)
@@ -44,26 +76,62 @@ class Decomposition:
     hulls: tuple[Polytope, ...]
     shares: tuple[dict[str, float], ...]
 
+    def without(self, label: str) -> list[Polytope]:
+        """The hulls that do not share most with parts of a label."""
+        rows = zip(self.hulls, self.shares, strict=True)
+        return [hull for hull, share in rows if max(share, key=lambda name: share[name]) != label]
+
+
+def draw_decomposed(order: Order, cache: Path | None = None) -> tuple[Asset, dict[str, Decomposition]]:
+    """The first draw of an asset whose separate decompositions are three different ones, and these by setting.
+
+    What is drawn again must differ without its residue, too.
+    """
+    for attempt in range(_ATTEMPTS):
+        asset, found = order.draw(attempt), dict[str, Decomposition]()
+        for setting in SEPARATE:
+            found[setting] = decompose_asset(asset, setting, cache)
+            if not are_different(made.hulls if not attempt else made.without(_RESIDUE) for made in found.values()):
+                break
+        else:
+            return asset, found
+    raise RuntimeError(f"{order.name}: no draw of {_ATTEMPTS} has three different decompositions")
+
+
+def are_different(meshes: Iterable[Iterable[Polytope | Hull]]) -> bool:
+    """Whether no two meshes have the same hulls, in whatever order hulls and vertices come."""
+    seen = [b"".join(sorted(_outline(hull) for hull in hulls)) for hulls in meshes]
+    return len(set(seen)) == len(seen)
+
+
+def _outline(hull: Polytope | Hull) -> bytes:
+    grid = np.round(hull.vertices * 10**DIGITS).astype(np.int64)
+    return bytes(grid[np.lexsort(grid.T)].tobytes())
+
 
 def decompose_asset(asset: Asset, setting: str, cache: Path | None = None) -> Decomposition:
     """The collision mesh of an asset at one setting; cache: where CoACD's results are kept (default: nowhere)."""
-    hulls = [hull for solid in _solids(asset) for hull in _hulls(solid, asset, SETTINGS[setting], cache)]
+    hulls = [hull for solid in _solids(asset, setting) for hull in _hulls(solid, asset, setting, cache)]
     order = sorted(range(len(hulls)), key=lambda k: tuple(hulls[k].centroid.round(4)))  # tells nothing of parts
     placed = [_round(hulls[k], asset) for k in order]
     return Decomposition(tuple(placed), tuple(shares(hull, asset.parts, asset.pose) for hull in placed))
 
 
-def _solids(asset: Asset) -> list[Manifold]:
-    """The connected solids of the union of all parts, upright."""
-    return list(union([part.solid for part in asset.parts]).decompose())
+def _solids(asset: Asset, setting: str) -> list[Manifold]:
+    """What CoACD is called on, one by one, upright: each connected solid of the union of all parts, or the whole."""
+    whole = union([part.solid for part in asset.parts])
+    if setting in SEPARATE:
+        return list(whole.decompose())
+    return [whole if setting == "union" else whole.minkowski_sum(Manifold.cube((WELD,) * 3, True))]
 
 
-def _hulls(solid: Manifold, asset: Asset, settings: CoacdSettings, cache: Path | None) -> list[Polytope]:
-    """The hulls of one solid, upright; what was scanned is decomposed as it lies in its file."""
+def _hulls(solid: Manifold, asset: Asset, setting: str, cache: Path | None) -> list[Polytope]:
+    """The hulls of a solid, upright; what was scanned is decomposed as it lies in its file."""
     points, faces = triangles(solid)
     hull = convex_hull(points)
     if solid.volume() >= _CONVEX * hull.volume:
         return [hull]
+    settings = coacd(threshold_of(setting, asset.category))
     if not asset.scanned:
         return decompose(points, faces, settings, cache=cache)
     lying = np.round(points @ asset.pose.rotation.T + asset.pose.translation, 7)

@@ -11,10 +11,14 @@ T = TypeVar("T")
 
 
 class Draw:
-    """Draws numbers; the same seed, the same numbers."""
+    """Draws numbers; the same seed, the same numbers.
 
-    def __init__(self, *seed: int) -> None:
-        self.rng = np.random.default_rng(list(seed))
+    attempt: from 1 on, other numbers than the seed's first ones, for an asset that is drawn again.
+    """
+
+    def __init__(self, *seed: int, attempt: int = 0) -> None:
+        self.rng = np.random.default_rng([*seed, attempt] if attempt else list(seed))
+        self.attempt = attempt
 
     def chance(self, share: float) -> bool:
         """True in that share of the draws."""

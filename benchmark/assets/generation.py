@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import dataclass
 from importlib import import_module
 from typing import Protocol, cast
 
@@ -38,10 +39,36 @@ def category(name: str) -> Category:
     return cast(Category, import_module(f"benchmark.assets.categories.{name}"))
 
 
-def assets(name: str, count: int = COUNT, seed: int = SEED) -> list[Asset]:
+@dataclass(frozen=True, slots=True)
+class Order:
+    """An asset that is to be made: the how manyth of a category, of which kind, by which seed."""
+
+    category: str
+    number: int
+    kind: str
+    seed: int
+
+    @property
+    def name(self) -> str:
+        """What the asset is called."""
+        return f"{self.category}_{self.number:02}"
+
+    def draw(self, attempt: int = 0) -> Asset:
+        """The asset; attempt: from 1 on, another one of the same kind."""
+        module, draw = category(self.category), _draw(self.seed, self.category, self.number, attempt)
+        made = module.build(self.kind, draw)
+        for part in made.parts:
+            assert part.label in module.LABELS, f"{self.name}: {part.label}"
+        pose, scanned = _draw_pose(draw)
+        rare = self.kind in module.RARE
+        return Asset(
+            self.name, self.category, self.kind, rare, made.about, made.parts, made.sites, pose, scanned, attempt
+        )
+
+
+def orders(name: str, count: int = COUNT, seed: int = SEED) -> list[Order]:
     """The assets of a category, every kind in its share, in an order that tells nothing."""
-    module = category(name)
-    return [_asset(name, module, number, kind, seed) for number, kind in enumerate(kinds(name, count, seed), 1)]
+    return [Order(name, number, kind, seed) for number, kind in enumerate(kinds(name, count, seed), 1)]
 
 
 def kinds(name: str, count: int, seed: int) -> list[str]:
@@ -59,16 +86,6 @@ def kinds(name: str, count: int, seed: int) -> list[str]:
     return [every[k] for k in order][:count]
 
 
-def _asset(name: str, module: Category, number: int, kind: str, seed: int) -> Asset:
-    draw = _draw(seed, name, number)
-    built = module.build(kind, draw)
-    for part in built.parts:
-        assert part.label in module.LABELS, f"{name} {number}: {part.label}"
-    pose, scanned = _draw_pose(draw)
-    called = f"{name}_{number:02}"
-    return Asset(called, name, kind, kind in module.RARE, built.about, built.parts, built.sites, pose, scanned)
-
-
 def _draw_pose(draw: Draw) -> tuple[Pose, bool]:
     """Any yaw, a tilt for a third, somewhere near the origin; one in five is decomposed as it lies."""
     yaw, tilted = draw.length(-np.pi, np.pi), draw.chance(1 / 3)
@@ -77,5 +94,5 @@ def _draw_pose(draw: Draw) -> tuple[Pose, bool]:
     return Pose.from_rpy(shift, (roll, pitch, 0.0)) @ Pose.from_rpy((0, 0, 0), (0.0, 0.0, yaw)), draw.chance(0.2)
 
 
-def _draw(seed: int, name: str, number: int) -> Draw:
-    return Draw(seed, *name.encode(), number)
+def _draw(seed: int, name: str, number: int, attempt: int = 0) -> Draw:
+    return Draw(seed, *name.encode(), number, attempt=attempt)

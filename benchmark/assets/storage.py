@@ -14,7 +14,7 @@ import numpy as np
 from manifold3d import Manifold, Mesh
 
 from benchmark.assets.asset import Asset, Site
-from benchmark.assets.decomposition import SETTINGS, Decomposition
+from benchmark.assets.decomposition import SEPARATE, SETTINGS, Decomposition
 from meshforge.common import write_atomically
 from meshforge.geometry import Floats, Ints, Polytope, Pose
 from meshforge.symbolic import Hull, Label, SymbolicMesh
@@ -27,7 +27,7 @@ _FINE = 7  # digits of parts, which booleans are made with
 
 @dataclass(frozen=True, eq=False)
 class Sample:
-    """One collision mesh with its true labels, in the frame of its file; shares: as of `DecompositionResult`."""
+    """One collision mesh with its true labels, in the frame of its file; shares: as of `Decomposition`."""
 
     name: str
     asset: Asset
@@ -40,19 +40,26 @@ class Sample:
         """Of each hull the share of its volume in parts that is in parts of its label."""
         return tuple(max(row.values()) for row in self.shares)
 
+    @property
+    def decomposition(self) -> Decomposition:
+        """The mesh as it was made."""
+        return Decomposition(
+            tuple(Polytope(hull.vertices, hull.faces) for hull in self.mesh.hulls), tuple(map(dict, self.shares))
+        )
+
+
+def samples(category: str, calibration: bool = False, settings: Sequence[str] = SEPARATE) -> tuple[Sample, ...]:
+    """The frozen collision meshes of a category at some settings, asset by asset; by default the separate ones."""
+    return tuple(row for row in _read_frozen(stem_of(category, calibration)) if row.setting in settings)
+
 
 @cache
-def samples(category: str, calibration: bool = False) -> tuple[Sample, ...]:
-    """All collision meshes of a category: of each asset the coarse one, the medium and the fine one."""
-    return read(DATA, _stem(category, calibration))
+def _read_frozen(stem: str) -> tuple[Sample, ...]:
+    return read(DATA, stem)
 
 
-def path_of(category: str, calibration: bool = False) -> Path:
-    """Where a category is kept."""
-    return DATA / f"{_stem(category, calibration)}.npz"
-
-
-def _stem(category: str, calibration: bool) -> str:
+def stem_of(category: str, calibration: bool = False) -> str:
+    """What the files of a category are called."""
     return f"{category}-calibration" if calibration else category
 
 
@@ -89,6 +96,7 @@ def write(folder: Path, stem: str, rows: Iterable[tuple[Asset, Mapping[str, Deco
                 "rare": asset.rare,
                 "about": asset.about,
                 "scanned": asset.scanned,
+                **({"attempt": asset.attempt} if asset.attempt else {}),
                 "pose": [asset.pose.rotation.ravel().tolist(), asset.pose.translation.tolist()],
                 "sites": [site.to_json() for site in asset.sites],
                 "parts": [[part.name, part.label, meshes.add(*mesh, _FINE)] for part, mesh in parts],
@@ -97,7 +105,7 @@ def write(folder: Path, stem: str, rows: Iterable[tuple[Asset, Mapping[str, Deco
                         [meshes.add(hull.vertices, hull.faces, DIGITS), share]
                         for hull, share in zip(made.hulls, made.shares, strict=True)
                     ]
-                    for setting, made in by_setting.items()
+                    for setting, made in sorted(by_setting.items(), key=lambda row: SETTINGS.index(row[0]))
                 },
             }
         )
@@ -132,6 +140,7 @@ def _samples(row: dict[str, Any], mesh: Callable[[int, int], tuple[Floats, Ints]
         tuple(map(Site.of_json, row["sites"])),
         Pose(np.reshape(row["pose"][0], (3, 3)), row["pose"][1]),
         row["scanned"],
+        row.get("attempt", 0),
     )
     for setting in SETTINGS:
         hulls = row["meshes"].get(setting, [])

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 from pathlib import Path
 
-from benchmark.assets import CATEGORIES, samples
+from benchmark.assets import CATEGORIES, SEPARATE, family
 from benchmark.labels.metric import fit_metric, rows_of
 from meshforge.common import write_atomically
 from meshforge.labels.propagation import propagate
@@ -15,7 +15,7 @@ _ABOUT = "made by `python -m benchmark.labels` on the calibration set of the ben
 
 def main() -> None:
     """Write the file."""
-    weights = fit_metric([rows_of(samples(category, calibration=True)) for category in CATEGORIES])
+    weights = fit_metric([rows_of(family(name, setting, True)) for name in CATEGORIES for setting in SEPARATE])
     data = {"about": _ABOUT, "weights": [round(float(weight), 4) for weight in weights]}
     write_atomically(Path(propagate.__file__).parent / propagate.METRIC_FILE, json.dumps(data, indent=1) + "\n")
 

@@ -1,5 +1,7 @@
 """The meshes that labellers are tried on: drawn from all categories, none of which a person labelled for any of them.
 
+A family is a category at one setting, so that no two of its meshes are of one asset.
+
     python -m benchmark.labels.families FOLDER [--sample N]
 
 writes them as OBJ files with the labels that there are to choose from, for labellers that run elsewhere.
@@ -10,12 +12,12 @@ from __future__ import annotations
 import argparse
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cache, cached_property
+from functools import cache
 from pathlib import Path
 
 import numpy as np
 
-from benchmark.assets import CATEGORIES, Sample, samples
+from benchmark.assets import CATEGORIES, SEPARATE, Sample, family
 from benchmark.tasks import task
 from meshforge.common import UsageError, write_atomically
 from meshforge.formats import save
@@ -23,20 +25,21 @@ from meshforge.labels import Propagator
 from meshforge.symbolic import SymbolicMesh
 
 LABELLED = 3
-"""Meshes of each category that are labelled by hand at most, as advised."""
+"""Meshes of each family that are labelled by hand at most, as advised."""
 _SEED = 7
 
 
 @dataclass(frozen=True, eq=False)
 class Family:
-    """A category of which `count` meshes are drawn. vocabulary: what its hulls can be."""
+    """A category at one setting, of which `count` meshes are drawn. vocabulary: what its hulls can be."""
 
     name: str
+    setting: str
     count: int
 
     @property
     def samples(self) -> tuple[Sample, ...]:
-        return samples(self.name)
+        return family(self.name, self.setting)
 
     @property
     def vocabulary(self) -> tuple[str, ...]:
@@ -45,65 +48,61 @@ class Family:
     @property
     def bare(self) -> tuple[SymbolicMesh, ...]:
         """The meshes without labels, as a labeller gets them."""
-        return _bare(self.name)
+        return _bare(self.name, self.setting)
 
     @property
     def relatives(self) -> Propagator:
         """The meshes as propagation sees them."""
-        return _relatives(self.name)
+        return _relatives(self.name, self.setting)
 
     @property
     def advised(self) -> tuple[int, ...]:
         """The meshes that a person labels who always takes the one that is advised, in this order."""
-        return _advise(self.name)
+        return _advise(self.name, self.setting)
 
     def labels_of(self, meshes: Sequence[int]) -> list[str | None]:
         """The labels of all hulls of some meshes, None for all others."""
-        return _labels_of(self.name, meshes)
+        return _labels_of(self.samples, meshes)
 
-    @cached_property
+    @property
     def drawn(self) -> tuple[int, ...]:
-        """The sample: a mesh of each asset before a second one of any; those that are advised are left out."""
-        draw = np.random.default_rng([_SEED, *self.name.encode()])
-        seen, order = dict[str, int](), list[tuple[int, int]]()
-        for place in draw.permutation(len(self.samples)).tolist():
-            if place not in self.advised:
-                asset = self.samples[place].asset.name
-                seen[asset] = seen.get(asset, 0) + 1
-                order.append((seen[asset], place))
-        order.sort(key=lambda row: row[0])
-        return tuple(sorted(place for _, place in order[: self.count]))
+        """The sample, without those that are advised; other assets at other settings, as far as there are."""
+        every = np.random.default_rng([_SEED, *self.name.encode()]).permutation(len(self.samples))
+        begin = SEPARATE.index(self.setting) * len(every) // len(SEPARATE)
+        left = [place for place in np.roll(every, -begin).tolist() if place not in self.advised]
+        return tuple(sorted(left[: self.count]))
 
 
-def families(count: int, names: tuple[str, ...] = CATEGORIES) -> list[Family]:
-    """The categories of which as many meshes are drawn, evenly. Raises UsageError for more than there are, or none."""
-    most = sum(len(samples(name)) - LABELLED for name in names)
+def families(count: int, names: tuple[str, ...] = CATEGORIES, settings: tuple[str, ...] = SEPARATE) -> list[Family]:
+    """The families of which as many meshes are drawn, evenly. Raises UsageError for more than there are, or none."""
+    every = [(name, setting) for setting in settings for name in names]
+    most = sum(len(family(*one)) - LABELLED for one in every)
     if not 1 <= count <= most:
         raise UsageError(f"a sample of {count} meshes cannot be drawn", remedy=f"Say 1 to {most}.")
-    shares = [count // len(names) + (place < count % len(names)) for place in range(len(names))]
-    return [Family(name, share) for name, share in zip(names, shares, strict=True) if share]
+    shares = [count // len(every) + (place < count % len(every)) for place in range(len(every))]
+    return [Family(*one, share) for one, share in zip(every, shares, strict=True) if share]
 
 
 @cache
-def _bare(name: str) -> tuple[SymbolicMesh, ...]:
-    return tuple(sample.mesh.with_labels(dict.fromkeys(sample.mesh.index)) for sample in samples(name))
+def _bare(name: str, setting: str) -> tuple[SymbolicMesh, ...]:
+    return tuple(sample.mesh.with_labels(dict.fromkeys(sample.mesh.index)) for sample in family(name, setting))
 
 
 @cache
-def _relatives(name: str) -> Propagator:
-    return Propagator(_bare(name))
+def _relatives(name: str, setting: str) -> Propagator:
+    return Propagator(_bare(name, setting))
 
 
 @cache
-def _advise(name: str) -> tuple[int, ...]:
-    chosen = list[int]()
+def _advise(name: str, setting: str) -> tuple[int, ...]:
+    chosen, relatives = list[int](), _relatives(name, setting)
     while len(chosen) < LABELLED:
-        chosen += _relatives(name).propagate(_labels_of(name, chosen)).next_to_label()
+        chosen += relatives.propagate(_labels_of(family(name, setting), chosen)).next_to_label()
     return tuple(chosen)
 
 
-def _labels_of(name: str, meshes: Sequence[int]) -> list[str | None]:
-    rows = enumerate(sample.mesh for sample in samples(name))
+def _labels_of(samples: Sequence[Sample], meshes: Sequence[int]) -> list[str | None]:
+    rows = enumerate(sample.mesh for sample in samples)
     return [hull.label if place in meshes else None for place, mesh in rows for hull in mesh.hulls]
 
 
@@ -113,10 +112,10 @@ def main(arguments: list[str] | None = None) -> None:
     parser.add_argument("folder", type=Path)
     parser.add_argument("--sample", type=int, default=200, metavar="N")
     given = parser.parse_args(arguments)
-    for family in families(given.sample):
-        for place in family.drawn:
-            save(family.bare[place], given.folder / family.name / f"{family.samples[place].name}.obj", overwrite=True)
-        write_atomically(given.folder / family.name / "vocabulary.txt", "\n".join(family.vocabulary) + "\n")
+    for one in families(given.sample):
+        for place in one.drawn:
+            save(one.bare[place], given.folder / one.name / f"{one.samples[place].name}.obj", overwrite=True)
+        write_atomically(given.folder / one.name / "vocabulary.txt", "\n".join(one.vocabulary) + "\n")
 
 
 if __name__ == "__main__":

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from benchmark.assets import CATEGORIES
+from benchmark.assets import CATEGORIES, SEPARATE
 from benchmark.labels.families import Family, families
 from benchmark.labels.methods import Method, offline
 from benchmark.labels.model import ModelLabeller
@@ -38,13 +38,13 @@ def measure(tell: Tell, quick: bool, given: RunOptions | None = None) -> Result:
     """Ask each labeller about the same meshes."""
     given = given or RunOptions()
     settings = given.settings()
-    drawn = families(min(given.sample, _QUICK), CATEGORIES[:1]) if quick else families(given.sample)
+    drawn = families(min(given.sample, _QUICK), CATEGORIES[:1], SEPARATE[:1]) if quick else families(given.sample)
     methods = [*offline(given.folders), *([ModelLabeller(settings).method] if settings else [])]
     scores = [_score(method, drawn, tell) for method in methods]
     meshes = sum(len(family.drawn) for family in drawn)
     hulls = sum(len(family.bare[place].hulls) for family in drawn for place in family.drawn)
     absent = [] if settings else [(_MODEL, *("not run",) * (len(_COLUMNS) - 1))]
-    names = [family.name for family in drawn]
+    names = list(dict.fromkeys(family.name for family in drawn))
     return Result(
         "labellers",
         "Labellers on the same meshes",
@@ -65,7 +65,7 @@ def _score(method: Method, drawn: Sequence[Family], tell: Tell) -> Score:
     for repeat in range(method.repeats):
         row = []
         for family in drawn:
-            tell(f"labels: {method.name}, {family.name}, {repeat + 1} of {method.repeats}")
+            tell(f"labels: {method.name}, {family.name}, {family.setting}, {repeat + 1} of {method.repeats}")
             row.append(method.tell(family, repeat))
         told.append(row)
         if any(one.missing for one in row):  # what comes after would not get far either
@@ -93,11 +93,12 @@ def _row(score: Score) -> tuple[Cell, ...]:
 
 def _notes(scores: Sequence[Score], settings: VlmSettings | None) -> Iterator[str]:
     yield (
-        "The same meshes for all: drawn evenly from the categories, one of each asset before a second one of any, none "
-        "that is labelled by hand for any of them. *Right*: share of all hulls; *pure hulls*: those of a purity of at "
+        "The same meshes for all: drawn evenly from the categories and the settings of CoACD, none that is labelled by "
+        "hand for any of them. A category at one setting is a family: no mesh is labelled by another decomposition of "
+        "the same asset. *Right*: share of all hulls; *pure hulls*: those of a purity of at "
         "least 0.8. A hull without a label, or with a word that is not in the vocabulary of its category, counts as "
-        "wrong. *$ a mesh*, *s a mesh*: of the first repeat; propagation describes the meshes of a category before, in "
-        "two or three seconds."
+        "wrong. *$ a mesh*, *s a mesh*: of the first repeat; propagation describes the meshes of a family before, in a "
+        "second."
     )
     yield (
         "*All repeats agree*: share of hulls of which every repeat says the same. *Friedman*: the test of the paper, "
@@ -105,7 +106,7 @@ def _notes(scores: Sequence[Score], settings: VlmSettings | None) -> Iterator[st
         "repeated all the same."
     )
     yield (
-        "*Propagation*, *majority*: meshes of the category are labelled by hand, as advised. *Names*: the hulls of the "
+        "*Propagation*, *majority*: meshes of the family are labelled by hand, as advised. *Names*: the hulls of the "
         "benchmark are numbered, so that their names say nothing."
     )
     for score in scores:

@@ -18,7 +18,7 @@ PURE = 0.8
 """Hulls of a lower purity teach nothing, and are not counted."""
 _START = 0.12  # weight of every column before anything is learned
 _STRAYING = 0.2  # cost of the mean square of the logarithms by which weights leave it
-_EPISODES = 6  # draws of labelled meshes, a category
+_EPISODES = 2  # draws of labelled meshes, a family
 _LABELLED = (1, 2, 2, 3, 3)  # meshes that are labelled in a draw
 _ASKED = 150  # hulls that are asked for, a draw
 _STEPS = 60
@@ -27,7 +27,7 @@ Bools = npt.NDArray[np.bool_]
 
 @dataclass(frozen=True, eq=False)
 class Rows:
-    """Hulls of a category. rows: standardised; labels; pure: whether a hull is of one part; mesh, asset: whose."""
+    """Hulls of a family. rows: standardised; labels; pure: whether a hull is of one part; mesh, asset: whose."""
 
     rows: Floats
     labels: npt.NDArray[np.str_]

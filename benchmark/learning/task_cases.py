@@ -5,7 +5,9 @@ from __future__ import annotations
 import random
 from collections.abc import Iterable, Iterator
 from functools import lru_cache
+from itertools import product
 
+from benchmark.assets import SEPARATE
 from benchmark.learning.cases import Case
 from benchmark.study import Bench
 from benchmark.study.condition import KIND
@@ -22,6 +24,7 @@ def task_cases(
 ) -> Iterator[Case]:
     """Each rule of each task, shown as demonstrators of these seeds do: first a mesh that shows most, then any.
 
+    Each demonstrator has a family of its own, all assets at one setting: coarse, medium and fine by turns.
     calibration: on the calibration set, else on the 600 meshes.
     """
     for one in tasks():
@@ -33,17 +36,18 @@ def task_cases(
 def _of_task(name: str, seeds: tuple[int, ...], counts: tuple[int, ...], calibration: bool) -> tuple[Case, ...]:
     one = next(row for row in tasks() if row.name == name)
     desk = Bench(one, one.samples(calibration)).truth
-    names = [mesh for mesh, done in desk.reference.items() if done is not None]
+    able = [mesh for mesh, done in desk.reference.items() if done is not None]
     found = []
-    for place, rule in enumerate(one.program.rules):
+    for (place, rule), seed in product(enumerate(one.program.rules), seeds):
+        setting = SEPARATE[seed % len(SEPARATE)]
+        names = [mesh for mesh in able if desk.bench.samples[mesh].setting == setting]
         meshes = tuple(desk.mesh_before(mesh, place) for mesh in names)
         assert all(mesh.contacts is not None for mesh in meshes)
         masks = tuple(select_mask(rule.extractor, mesh) for mesh in meshes)
-        for seed in seeds:
-            first = names.index(Person(desk, seed, KIND).begins_with(desk, names))
-            rest = [k for k in range(len(names)) if k != first]
-            for count in counts:
-                shown = (first, *random.Random(f"{seed} {name} {place}").sample(rest, count - 1))
-                if any(masks[k] for k in shown):
-                    found.append(Case(name, rule.extractor, one.program.labels, meshes, masks, shown))
+        first = names.index(Person(desk, seed, KIND).begins_with(desk, names))
+        rest = [k for k in range(len(names)) if k != first]
+        for count in counts:
+            shown = (first, *random.Random(f"{seed} {name} {place}").sample(rest, count - 1))
+            if any(masks[k] for k in shown):
+                found.append(Case(name, rule.extractor, one.program.labels, meshes, masks, shown))
     return tuple(found)

@@ -1,6 +1,6 @@
 """Tries tasks on their meshes: unedited, by the reference program, by the wrong one.
 
-Usage: python -m benchmark.tasks NAME ... [--data FOLDER] [--calibration] [--picture FOLDER]
+Usage: python -m benchmark.tasks NAME ... [--set SET] [--data FOLDER] [--calibration] [--picture FOLDER]
 """
 
 from __future__ import annotations
@@ -10,7 +10,7 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from time import perf_counter
 
-from benchmark.assets import CATEGORIES, Sample
+from benchmark.assets import CATEGORIES, SETS, Sample
 from benchmark.assets.pictures import upright
 from benchmark.assets.storage import read
 from benchmark.tasks import EditResult, Task, task, tasks
@@ -21,12 +21,15 @@ def main() -> None:
     """Try what is asked for."""
     parser = argparse.ArgumentParser(prog="python -m benchmark.tasks", description=__doc__)
     parser.add_argument("names", nargs="*", metavar="NAME", help=f"such as {CATEGORIES[0]}-easy; default: all")
+    parser.add_argument("--set", choices=SETS, default="separate", help="decomposed how; default: separate")
     parser.add_argument("--data", type=Path, help="assets made there by script/make-benchmark --out")
     parser.add_argument("--calibration", action="store_true", help="the meshes of the calibration set")
     parser.add_argument("--picture", type=Path, help="a folder for a picture of each task, before and after")
     given = parser.parse_args()
     for one in [task(name) for name in given.names] or tasks():
-        rows = read(given.data, one.category) if given.data else one.samples(given.calibration)
+        settings = SETS[given.set]
+        made = read(given.data, one.category) if given.data else one.samples(given.calibration, settings)
+        rows = [row for row in made if row.setting in settings]
         tell_results(one, rows)
         if given.picture:
             picture(one, rows, given.picture / f"{one.name}.png")

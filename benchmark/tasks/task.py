@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import tomllib
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cache, cached_property, lru_cache
 from pathlib import Path
 from typing import Any
 
-from benchmark.assets import CATEGORIES, Sample, samples
+from benchmark.assets import CATEGORIES, SEPARATE, Sample, samples
 from benchmark.assets.pictures import upright
 from benchmark.criteria import Case, judge
 from meshforge.common import MeshForgeError
@@ -55,9 +55,9 @@ class Task:
     templates: Mapping[str, Template] = field(repr=False)
     equivalents: Mapping[str, str] = field(default_factory=dict)
 
-    def samples(self, calibration: bool = False) -> tuple[Sample, ...]:
-        """The meshes that the task is about."""
-        return samples(self.category, calibration)
+    def samples(self, calibration: bool = False, settings: Sequence[str] = SEPARATE) -> tuple[Sample, ...]:
+        """The meshes that the task is about, asset by asset."""
+        return samples(self.category, calibration, settings)
 
     @cached_property
     def labels(self) -> frozenset[str]:

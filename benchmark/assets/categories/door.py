@@ -1,7 +1,8 @@
 """Doors, from cupboard to barn: panelled, boarded, louvred, glazed; rare: with pegs for coats on the frame.
 
 A rebated jamb is one hull at any setting, and that hull reaches into the leaf: the door jams. The hinges are on the
-left, the leaf opens to the front. Hinges balance about the middle of the leaf by a plate on its back.
+left, the leaf opens to the front. Hinges balance about the middle of the leaf by a plate on its back. A door that is
+drawn again has an arched hood: many doors are all of convex solids, which are the same hulls at any setting.
 """
 
 from __future__ import annotations
@@ -72,9 +73,24 @@ def _frame(size: Size, draw: Draw) -> list[Part]:
     if draw.chance(0.4):
         z = top + 3 * HAIRLINE
         solids.append(("cornice", block((-wide - lap, -lap, z), (wide + lap, size.deep, z + 1.6 * lap))))
+    if draw.attempt:
+        right = _hood(wide, _middle([solid for _, solid in solids]), solids[-1][1], size, draw)
+        solids += [("hood_left", right.mirror((1, 0, 0))), ("hood_right", right)]
     half, middle = draw.length(0.7, 1.3) * size.deep, _middle([solid for _, solid in solids])
     sill = Part("sill", "sill", block((-wide, middle - half, 0), (wide, middle + half, low)))
     return [sill, *(Part(name, "frame", solid) for name, solid in solids)]
+
+
+def _hood(wide: float, middle: float, below: Manifold, size: Size, draw: Draw) -> Manifold:
+    """The right half of an arch over what is below, its middle as far back as the frame's.
+
+    As one solid its hulls would be heavier on one side, and doors that stand by sill and frame would lean.
+    """
+    rise, thick = draw.length(0.5, 1.0), size.jamb * draw.length(0.6, 1.0)
+    arch = CrossSection.circle(wide, 24) - CrossSection.circle(wide - thick, 24)
+    arch = (arch ^ CrossSection.square((wide, wide)).translate((HAIRLINE / 2, 0))).scale((1, rise))
+    solid = arch.extrude(size.deep).rotate((90, 0, 0))
+    return solid.translate((0, middle + size.deep / 2, below.bounding_box()[5] + HAIRLINE))
 
 
 def _middle(solids: list[Manifold]) -> float:

@@ -64,7 +64,7 @@ def few_meshes(monkeypatch: pytest.MonkeyPatch, here: None) -> None:
     for module in ("baselines.run", "baselines.verdicts", "evaluation.failures", "evaluation.sessions"):
         monkeypatch.setattr(f"benchmark.{module}.open_bench", few)
     samples = Task.samples
-    monkeypatch.setattr(Task, "samples", lambda *given: samples(*given)[::4])
+    monkeypatch.setattr(Task, "samples", lambda *given, **more: samples(*given, **more)[::4])
 
 
 _drawn: dict[str, list[Any]] = {}

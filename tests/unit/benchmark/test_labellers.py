@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import json
+from collections import Counter
 from pathlib import Path
 from typing import Any
 
 import pytest
 
 from benchmark import __main__ as bench
+from benchmark.assets import CATEGORIES
 from benchmark.labels import labellers
 from benchmark.labels import model as model_module
 from benchmark.labels.families import LABELLED, Family, families
@@ -31,24 +33,25 @@ CHEAP = f'mode = "cheap"\nsize = {SIZE}\n'
 
 @pytest.fixture(scope="module")
 def cups() -> Family:
-    (family,) = families(4, ("cup",))
+    (family,) = families(4, ("cup",), ("coarse",))
     return family
 
 
 def test_the_sample_is_spread_over_categories_and_assets_and_leaves_out_what_is_labelled_by_hand(cups: Family) -> None:
     drawn = families(200)
-    assert [family.count for family in drawn] == [25] * 8
-    assert [family.count for family in families(11)] == [2, 2, 2, 1, 1, 1, 1, 1]
-    assert [family.name for family in families(1)] == ["cup"]
-    (every,) = families(72, ("cup",))
-    assert len(every.drawn) == len(set(every.drawn)) == 72
-    assert set(every.drawn) == set(range(75)) - set(every.advised)
-    (some,) = families(25, ("cup",))
-    assert len({some.samples[place].asset.name for place in some.drawn}) == 25
+    assert len(drawn) == 24
+    assert Counter(family.name for family in drawn for _ in family.drawn) == dict.fromkeys(CATEGORIES, 25)
+    assert [family.count for family in families(11)] == [1] * 11
+    assert [(family.name, family.setting) for family in families(1)] == [("cup", "coarse")]
+    (every,) = families(22, ("cup",), ("coarse",))
+    assert len(every.drawn) == len(set(every.drawn)) == 22
+    assert set(every.drawn) == set(range(25)) - set(every.advised)
+    assert all(len({sample.asset.name for sample in family.samples}) == 25 for family in drawn)
+    assert len({family.samples[place].asset.name for family in drawn[::8] for place in family.drawn}) >= 20
     assert len(cups.advised) == LABELLED
     assert set(cups.drawn) <= set(every.drawn)
     assert not any(hull.label for mesh in cups.bare for hull in mesh.hulls)
-    for wrong in (0, -1, 577):
+    for wrong in (0, -1, 529):
         with pytest.raises(UsageError, match="cannot be drawn"):
             families(wrong)
 
@@ -159,7 +162,7 @@ def test_without_a_model_its_row_says_so(tmp_path: Path) -> None:
 
 
 def test_a_model_is_asked_five_times_and_its_price_is_that_of_once(tmp_path: Path, answers: Path) -> None:
-    (family,) = families(2, ("cup",))
+    (family,) = families(2, ("cup",), ("coarse",))
     model = Model(family)
     with serving(model) as server:
         settings = settings_file(server, tmp_path / "vlm.toml", CHEAP)
@@ -182,7 +185,7 @@ def test_a_model_is_asked_five_times_and_its_price_is_that_of_once(tmp_path: Pat
 
 
 def test_a_model_that_wavers_is_seen_to(tmp_path: Path, answers: Path) -> None:
-    (family,) = families(2, ("cup",))
+    (family,) = families(2, ("cup",), ("coarse",))
     model = Model(family)
     turns = iter(range(10_000))
 
@@ -198,7 +201,7 @@ def test_a_model_that_wavers_is_seen_to(tmp_path: Path, answers: Path) -> None:
 
 
 def test_a_model_that_fails_on_the_way_is_not_scored(tmp_path: Path, answers: Path) -> None:
-    (family,) = families(2, ("cup",))
+    (family,) = families(2, ("cup",), ("coarse",))
     model = Model(family)
     with serving(model, fault=lambda asked: None if asked.is_probe or model.asked < 1 else status(500)) as server:
         settings = settings_file(server, tmp_path / "vlm.toml", CHEAP)
@@ -211,7 +214,7 @@ def test_a_model_that_fails_on_the_way_is_not_scored(tmp_path: Path, answers: Pa
 
 
 def test_no_more_is_spent_than_may_be_over_all_repeats(tmp_path: Path, answers: Path) -> None:
-    (family,) = families(2, ("cup",))
+    (family,) = families(2, ("cup",), ("coarse",))
     with serving(Model(family)) as server:
         found = run(tmp_path / "out", "--vlm", settings_file(server, tmp_path / "vlm.toml", CHEAP), "--max-cost", 0.06)
         assert 0 < PRICES[0] * server.usage["input"] + PRICES[1] * server.usage["output"] <= 0.06e6

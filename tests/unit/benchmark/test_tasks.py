@@ -7,10 +7,12 @@ from collections import Counter
 import numpy as np
 import pytest
 
-from benchmark.assets import CATEGORIES, SETTINGS, samples
+from benchmark.assets import CATEGORIES, MERGED, SEPARATE, SETS, SETTINGS, family, samples
 from benchmark.assets.__main__ import main as make
+from benchmark.assets.decomposition import are_different
 from benchmark.assets.generation import COUNT, category, kinds
 from benchmark.assets.storage import DATA, read
+from benchmark.evaluation.purity import count_impure
 from benchmark.tasks import DIFFICULTIES, EditResult, Task, task, tasks
 from meshforge.geometry import Floats, is_closed, is_convex
 from meshforge.language import Attach, BaseExtractor, Diff, Each, Extractor, Geo, Intersect, Union, size_of
@@ -34,7 +36,7 @@ MOTIFS = {
 @pytest.mark.parametrize("name", CATEGORIES)
 def test_a_category_is_whole(name: str) -> None:
     rows = samples(name)
-    assert len(rows) == COUNT * len(SETTINGS)
+    assert len(rows) == COUNT * len(SEPARATE)
     assert len({row.name for row in rows}) == len(rows)
     module = category(name)
     kinds_of = Counter(row.asset.kind for row in rows if row.setting == "fine")
@@ -47,29 +49,60 @@ def test_a_category_is_whole(name: str) -> None:
 
 @pytest.mark.parametrize("name", CATEGORIES)
 def test_hulls_are_sound_and_carry_the_label_of_the_part_that_they_share_most_with(name: str) -> None:
-    for row in samples(name):
+    for row in samples(name, settings=SETTINGS):
         assert row.mesh.hulls
         for hull, share in zip(row.mesh.hulls, row.shares, strict=True):
             assert hull.label == max(share, key=lambda label: share[label])
+            assert sum(share.values()) == pytest.approx(1.0, abs=1e-3)
             assert is_convex(hull.vertices, hull.faces, 1e-3 * row.mesh.diagonal)
             assert is_closed(hull.faces)
             assert hull.volume > 0
             assert np.isfinite(hull.vertices).all()
 
 
-def test_the_calibration_set_has_200_other_meshes() -> None:
-    rows = [row for name in CATEGORIES for row in samples(name, calibration=True)]
-    assert len(rows) == 201
-    mine = {np.asarray(row.mesh.hulls[0].vertices).tobytes() for name in CATEGORIES for row in samples(name)}
-    assert not any(np.asarray(row.mesh.hulls[0].vertices).tobytes() in mine for row in rows)
+@pytest.mark.parametrize(
+    ("group", "count", "calibrating"), [("separate", 600, 201), ("union", 200, 67), ("welded", 200, 67)]
+)
+def test_all_meshes_of_a_set_are_different_also_from_those_of_the_calibration_set(
+    group: str, count: int, calibrating: int
+) -> None:
+    sets = [
+        [row for name in CATEGORIES for row in samples(name, calibration, SETS[group])] for calibration in (False, True)
+    ]
+    assert list(map(len, sets)) == [count, calibrating]
+    assert are_different(row.mesh.hulls for rows in sets for row in rows)
 
 
-def test_the_data_are_small_and_made_by_the_command(tmp_path, capsys, monkeypatch) -> None:  # type: ignore[no-untyped-def]
+@pytest.mark.parametrize("calibration", [False, True])
+@pytest.mark.parametrize("group", MERGED)
+def test_a_fifth_of_the_hulls_of_a_merged_set_span_parts_and_hardly_any_separate_one(
+    group: str, calibration: bool
+) -> None:
+    assert count_impure(CATEGORIES, group, calibration).share >= 20
+    assert count_impure(CATEGORIES, "separate", calibration).share < 2
+
+
+@pytest.mark.parametrize("setting", SETTINGS)
+def test_a_family_has_every_asset_once_at_one_setting(setting: str) -> None:
+    for name in CATEGORIES:
+        rows = family(name, setting)
+        assert [row.asset.name for row in rows] == [f"{name}_{number:02}" for number in range(1, COUNT + 1)]
+        assert {row.setting for row in rows} == {setting}
+    assert len(family("cup", setting, calibration=True)) == 9
+
+
+@pytest.mark.parametrize(
+    ("name", "number", "also"), [("knife", 17, ()), ("lamp", 1, ("--settings", "union", "welded"))]
+)
+def test_the_data_are_small_and_made_by_the_command(tmp_path, monkeypatch, name, number, also) -> None:  # type: ignore[no-untyped-def]
+    """All of an asset that is drawn again, and the merged meshes of another, its separate ones kept."""
     assert sum(path.stat().st_size for path in DATA.iterdir()) < 25e6
-    monkeypatch.setattr("sys.argv", ["make", "knife", "--out", str(tmp_path), "--only", "1"])
+    monkeypatch.setattr("sys.argv", ["make", name, "--out", str(tmp_path), "--only", str(number), *also])
     make()
-    made, kept = read(tmp_path, "knife"), samples("knife")[:3]
+    made = read(tmp_path, name)
+    kept = [row for row in samples(name, settings=SETTINGS) if row.asset.name == f"{name}_{number:02}"]
     assert [row.name for row in made] == [row.name for row in kept]
+    assert {row.asset.attempt for row in made} == {int(not also)}
     for one, other in zip(made, kept, strict=True):
         assert one.shares == other.shares
         assert all(
@@ -82,6 +115,12 @@ def _in_order(vertices: Floats) -> Floats:
     """The vertices in an order of their own: in which one they come says nothing of a hull."""
     found: Floats = vertices[np.lexsort(vertices.T)]
     return found
+
+
+def test_meshes_whose_hulls_come_in_another_order_are_the_same() -> None:
+    hulls = samples("cup")[0].mesh.hulls
+    assert not are_different([hulls, hulls[::-1]])
+    assert are_different([hulls, hulls[1:], hulls[:-1]])
 
 
 def test_there_are_three_tasks_a_category() -> None:
