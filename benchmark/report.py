@@ -75,8 +75,8 @@ def as_text(result: Result) -> str:
         rows = tuple(
             (g.what, f"{g.sense} {format_cell(g.wanted)}", format_cell(g.measured), _verdict(g)) for g in result.goals
         )
-        parts.append(_grid(Table("To reach", ("figure", "to reach", "measured", ""), rows)))
-    parts += [_grid(table) for table in result.tables]
+        parts.append(format_table(Table("To reach", ("figure", "to reach", "measured", ""), rows)))
+    parts += [format_table(table) for table in result.tables]
     if result.notes:
         parts.append("".join(f"- {note}\n" for note in result.notes))
     return "\n".join(parts)
@@ -86,9 +86,10 @@ def _verdict(goal: Goal) -> str:
     return "reached" if goal.reached else "**not reached**"
 
 
-def _grid(table: Table) -> str:
+def format_table(table: Table) -> str:
+    """A table in Markdown, under its title where it has one."""
     lines = [table.columns, *(tuple(format_cell(cell).replace("|", "/") for cell in row) for row in table.rows)]
     widths = [max(len(line[k]) for line in lines) for k in range(len(table.columns))]
     text = ["| " + " | ".join(c.ljust(w) for c, w in zip(line, widths, strict=True)) + " |" for line in lines]
     rule = "|" + "|".join("-" * (w + 2) for w in widths) + "|"
-    return "\n".join([f"**{table.title}**\n", text[0], rule, *text[1:]]) + "\n"
+    return "\n".join([*([f"**{table.title}**\n"] if table.title else []), text[0], rule, *text[1:]]) + "\n"

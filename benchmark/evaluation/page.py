@@ -2,18 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from benchmark.assets import MERGED
 from benchmark.assets.pictures import upright
 from benchmark.evaluation import failures, mutation
+from benchmark.evaluation.changes import tell_changes
 from benchmark.evaluation.gallery import overview
 from benchmark.evaluation.plots import plots
 from benchmark.evaluation.sessions import QUICK
 from benchmark.journal import digest_protocol
-from benchmark.report import Result, as_text
+from benchmark.report import Result, Table, as_text, format_table
 from benchmark.study import Session
 from benchmark.tasks import task, tasks
 from meshforge.common import write_atomically
@@ -24,19 +25,18 @@ if TYPE_CHECKING:
 
 _INTRO = """# The benchmark
 
-24 tasks on 600 collision meshes: eight categories of 25 generated assets, each decomposed by CoACD at three settings.
-Two further sets of 200 meshes, of the same assets decomposed as a whole, have figures of their own.
-A task is a program that a person has in mind, demonstrations from which the tool must learn it, and a criterion that
-the edited meshes must meet, measured by physics in MuJoCo where it is physical. `script/bench` writes this page from
+24 tasks on 600 different collision meshes: eight categories of 25 generated assets, each decomposed by CoACD at
+three settings; the same assets decomposed as a whole, so that hulls span parts; and families of real assets. A task
+is a program that a person has in mind, demonstrations from which the tool must learn it, and a criterion that the
+edited meshes must meet, measured by physics in MuJoCo where it is physical. `script/bench` writes this page from
 the JSON files in [results](results), which hold every run.
-
-- `script/bench effectiveness` (any part by name, `script/bench` all of them, `--quick` one category and one seed)
-  measures the figures of this page again; an interrupted run continues where it was. All of it, with the pages on
-  speed, learning, labels and the studio, took 57 minutes on two cores. Except for times, the results are the same,
-  bit for bit.
-- `script/make-benchmark` makes the 1000 meshes again, with `--calibration` the calibration set ([assets](assets)). The
-  tasks are folders in [tasks](tasks), readable in a minute; criteria are in [criteria](criteria), the simulated people
-  in [study](study).
+"""
+_HOW = """
+- `script/bench evaluation` measures the figures of this page again (any part by name; `--quick`: one category, one
+  demonstrator); an interrupted run continues where it was. Except for times, the results are the same, bit for bit.
+- `script/make-benchmark` makes the meshes and the calibration set again ([assets](assets)). The tasks are folders
+  in [tasks](tasks), readable in a minute; criteria are in [criteria](criteria), the simulated people in
+  [study](study), the real families in [real](real).
 - [The gallery](gallery/index.html) shows each task before and after, rule by rule.
 
 ![Each task before and after](pictures/tasks.png)
@@ -54,10 +54,11 @@ def write(folder: Path, found: Sequence[Mapping[str, Any]], parts: Sequence[str]
     quick = any(data["quick"] for data in found)
     drawn = plots(results, folder / "pictures")
     pictures(folder / "pictures", results, quick)
+    table, removed = tell_changes(results)
+    lines = [_INTRO, *_tell_missing(found, parts, results), "## What was changed since the first edition\n"]
+    lines += [format_table(table), f"{removed}\n", "## How it is measured", _HOW]
     machine = ", ".join(f"{name} {value}" for name, value in found[-1]["machine"].items())
-    lines = [_INTRO, f"Machine: {machine}.\n", *(["**A quick run: one category, one seed.**\n"] if quick else [])]
-    if earlier := [f"`{data['part']}`" for data in found if data.get("protocol") != digest_protocol()]:
-        lines.append(f"**Measured before the last change of meshes, tasks or criteria: {', '.join(earlier)}.**\n")
+    lines += [f"Machine: {machine}.\n", *(["**A quick run: one category, one seed.**\n"] if quick else [])]
     for part, result in results.items():
         lines += [as_text(result), f"`script/bench {part}` measures this.\n"]
         if part in drawn:
@@ -69,9 +70,24 @@ def write(folder: Path, found: Sequence[Mapping[str, Any]], parts: Sequence[str]
             lines.append("![Mutants that do the same job](pictures/mutants.png)\n")
         if part == "ceiling" and _choose_failures(result):
             lines.append("![What fails under the reference program: before, after](pictures/failures.png)\n")
-    if missing := [part for part in parts if part not in results]:
-        lines.append(f"Not run yet: `script/bench {' '.join(missing)}`.\n")
     write_atomically(folder / "README.md", "\n".join(lines))
+
+
+def _tell_missing(
+    found: Sequence[Mapping[str, Any]], parts: Sequence[str], results: Mapping[str, Result]
+) -> Iterator[str]:
+    """What was not run, or on other meshes, tasks or criteria than today's."""
+    if missing := [part for part in parts if part not in results]:
+        yield f"**Not run yet: `script/bench {' '.join(missing)}`.**\n"
+    if earlier := [f"`{data['part']}`" for data in found if data.get("protocol") != digest_protocol()]:
+        yield f"**Measured before the last change of meshes, tasks or criteria: {', '.join(earlier)}.**\n"
+    absent = [str(row[0]) for table in _list_tables(results) for row in table.rows if "not run" in map(str, row[1:])]
+    if absent:
+        yield f"**Not run: {', '.join(dict.fromkeys(absent))}.**\n"
+
+
+def _list_tables(results: Mapping[str, Result]) -> list[Table]:
+    return [table for result in results.values() for table in result.tables]
 
 
 def pictures(folder: Path, results: Mapping[str, Result], quick: bool) -> None:

@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
+import numpy as np
+
 from benchmark.assets import SETS, samples
 from benchmark.report import Cell, Table
 from benchmark.tasks.task import PURE
@@ -31,6 +33,13 @@ def count_impure(categories: Sequence[str], group: str, calibration: bool = Fals
     rows = [row for name in categories for row in samples(name, calibration, SETS[group])]
     purities = [purity for row in rows for purity in row.purities]
     return Impurity(len(rows), len(purities), sum(purity < PURE for purity in purities))
+
+
+def share_different(categories: Sequence[str]) -> float:
+    """Of the separate meshes of some categories those that no other is equal to, or that are the first such, %."""
+    rows = [row.mesh for name in categories for row in samples(name)]
+    seen = {tuple(sorted(hull.vertices[np.lexsort(hull.vertices.T)].tobytes() for hull in mesh.hulls)) for mesh in rows}
+    return 100 * len(seen) / max(len(rows), 1)
 
 
 def tell_purity(categories: Sequence[str], calibration: bool = False) -> Table:
