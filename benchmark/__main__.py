@@ -17,7 +17,7 @@ from benchmark.journal import digest_protocol
 from benchmark.machine import machine
 from benchmark.options import RunOptions
 from benchmark.pages import PAGES, Page, page_of, parts_of, text_of
-from benchmark.report import Result, as_text
+from benchmark.report import Result, as_text, write_lines
 from meshforge.common import AssetError, UsageError, write_atomically
 
 RESULTS = Path(__file__).resolve().parent / "results"
@@ -87,7 +87,7 @@ def _write(out: Path, page: Page, result: Result, quick: bool) -> None:
     out.mkdir(parents=True, exist_ok=True)
     of_run = {"machine": machine(page.packages), "quick": quick, "protocol": digest_protocol()}
     data = {**of_run, **result.to_json()}
-    write_atomically(out / f"{page.name}-{result.part}.json", json.dumps(data, indent=1, ensure_ascii=False) + "\n")
+    write_atomically(out / f"{page.name}-{result.part}.json", write_lines(data))
     files = [out / f"{page.name}-{part}.json" for part in page.all_parts]
     found = [json.loads(f.read_text("utf-8")) for f in files if f.is_file()]
     if page.name == "evaluation":

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Callable, Mapping
 from dataclasses import asdict, dataclass
 from typing import Any
@@ -55,6 +56,26 @@ class Result:
         goals = [Goal(g["what"], g["sense"], g["wanted"], g["measured"]) for g in data["goals"]]
         details = tuple(data["details"])
         return Result(data["part"], data["title"], tuple(tables), tuple(goals), tuple(data["notes"]), details)
+
+
+_LINES = {"tables": 3}
+"""How many levels below a key of a result have lines of their own; else one."""
+
+
+def write_lines(data: Mapping[str, Any]) -> str:
+    """The JSON of a result, with a line for each goal, note, detail and row of a table: diffs are readable."""
+    return _expand(data, 1, _LINES) + "\n"
+
+
+def _expand(value: Any, levels: int, deeper: Mapping[str, int] | None = None) -> str:
+    """JSON whose outer levels have a line for each entry; deeper: how many levels there are below some keys."""
+    if not (levels and value and isinstance(value, Mapping | list | tuple)):
+        return json.dumps(value, ensure_ascii=False, separators=(",", ":"))
+    if not isinstance(value, Mapping):
+        return "[\n" + ",\n".join(_expand(entry, levels - 1) for entry in value) + "\n]"
+    below = {key: levels - 1 if deeper is None else deeper.get(key, 1) for key in value}
+    lines = (f"{json.dumps(key)}: {_expand(entry, below[key])}" for key, entry in value.items())
+    return "{\n" + ",\n".join(lines) + "\n}"
 
 
 def format_cell(cell: Cell) -> str:

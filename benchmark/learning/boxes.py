@@ -56,9 +56,9 @@ def _mesh(draw: np.random.Generator, hulls: int, labels: Sequence[str]) -> Symbo
     return mesh
 
 
-def boxes_case(nodes: int, meshes: int, shown: int, hulls: int = _HULLS, labels: int = 8) -> Case:
+def boxes_case(nodes: int, meshes: int, shown: int, hulls: int = _HULLS, labels: int = 8, seed: int = 0) -> Case:
     """An extractor of so many nodes, shown on the meshes where it selects most hulls: they tell most about it."""
-    batch, hidden = boxes(meshes, hulls, labels), SIZED[nodes]
+    batch, hidden = boxes(meshes, hulls, labels, seed), SIZED[nodes]
     masks = tuple(select_mask(hidden, mesh) for mesh in batch)
     most = sorted(range(meshes), key=lambda k: (-masks[k].bit_count(), k))[:shown]
     return Case(f"boxes {nodes}", hidden, LABELS[:labels], batch, masks, tuple(sorted(most)))

@@ -11,6 +11,7 @@ from typing import Any
 
 from benchmark.clock import Run, in_turns
 from benchmark.learning.cases import Case, learn, name_of
+from benchmark.learning.ratios import Row
 from benchmark.learning.sygus import cvc5_problem
 from meshforge.label_model.odds import LabelBeliefs
 from meshforge.language import Extractor, show, size_of
@@ -23,8 +24,8 @@ from meshforge.synthesis.search.smallest import Hit
 
 ALONE, READINGS, REPAIR = "MeshForge, search alone", "MeshForge, search and readings", "MeshForge, repair on"
 PAPER, PAPER_REPAIR, CVC5 = "the paper's, repair off", "the paper's, repair on", "cvc5"
-LIMIT = Options().budget
-"""Seconds for one rule."""
+LIMIT, QUICK_LIMIT = 10.0, 2.0
+"""Seconds for one rule; MeshForge is never stopped by it."""
 _SLOW = 0.3  # seconds of a turn that is not taken again
 HAS_CVC5 = find_spec("cvc5") is not None
 
@@ -38,7 +39,7 @@ class Contest:
     answers: dict[str, Extractor | None] = field(default_factory=dict)
     alarms: int = 0
 
-    def seconds(self, rounds: int) -> dict[str, float]:
+    def measure(self, group: str, rounds: int) -> Row:
         """The median of each contestant; who has not finished counts as having taken the limit at least."""
         works: dict[str, Callable[[], Extractor | None]] = {
             ALONE: self._alone,
@@ -51,15 +52,14 @@ class Contest:
         if HAS_CVC5:
             turns[CVC5] = self._cvc5
         times = {name: median(seconds) for name, seconds in in_turns(turns, rounds, slow=_SLOW).items()}
-        return {name: t if self.answers[name] else max(t, self.limit) for name, t in times.items()}
+        seconds = {name: t if self.answers[name] else max(t, self.limit) for name, t in times.items()}
+        sizes = {name: size_of(found) if found else None for name, found in self.answers.items()}
+        return Row(group, seconds, sizes, self.alarms)
 
-    def sizes(self) -> dict[str, int | None]:
-        """The sizes of what was found."""
-        return {name: size_of(found) if found else None for name, found in self.answers.items()}
-
-    def to_json(self, seconds: dict[str, float]) -> dict[str, Any]:
+    def to_json(self, row: Row) -> dict[str, Any]:
         found = {name: show(extractor) if extractor else None for name, extractor in self.answers.items()}
-        return {"problem": self.case.family, "hidden": show(self.case.hidden), "seconds": seconds, "found": found}
+        of_case = {"problem": self.case.family, "hidden": show(self.case.hidden), "shown": len(self.case.shown)}
+        return {"group": row.group, **of_case, "seconds": row.seconds, "found": found}
 
     def _record(self, name: str, work: Callable[[], Extractor | None]) -> Run:
         def run() -> None:
@@ -85,13 +85,13 @@ class Contest:
         known, rest = ({name_of(k): case.meshes[k] for k in some} for some in (case.shown, case.rest()))
         labels = LabelBeliefs(known, rest, case.vocabulary)
         return CorrectionSearch(
-            case.examples(), case.vocabulary, labels, Options(), TimeBudget(self.limit), exact=exact
+            case.examples(), case.vocabulary, labels, Options(), TimeBudget(Options().budget), exact=exact
         ).run()
 
     def _paper(self, repair: bool) -> Extractor | None:
         """With repair on it asks about every label it would correct, and the answer is no: all are right."""
         if repair and not self.answers[PAPER]:
-            return None  # what it does not finish without repair it does not finish with it
+            return None  # with repair it does all that it does without, and more: it would not finish either
         options = Options(strategy="paper", repair=repair)
         examples, vocabulary = self.case.examples(), self.case.vocabulary
         found = PaperSearch(examples, vocabulary, TimeBudget(self.limit), options, confirm=_no).run()

@@ -46,7 +46,8 @@ def cvc5_problem(
     """
     import cvc5  # noqa: F401 (fails here rather than in the other process)
 
-    context = get_context("spawn")
+    context = get_context("forkserver")
+    context.set_forkserver_preload(["cvc5", __name__])  # else every process imports them anew
     here, there = context.Pipe()
     process = context.Process(
         target=_serve, args=(there, state_problem(examples, vocabulary, extremity, layers)), daemon=True

@@ -17,6 +17,7 @@ from benchmark.learning.boxes import SIZED, boxes, boxes_case
 from benchmark.learning.calibrate import WEIGHTS
 from benchmark.learning.cases import cases, learn
 from benchmark.learning.contest import HAS_CVC5
+from benchmark.learning.larger import SHOWN, LargerCases
 from benchmark.learning.program_courses import teach_program
 from benchmark.learning.programs import target_of_tables, target_programs
 from benchmark.learning.rule_courses import learn_rule
@@ -76,6 +77,14 @@ def test_the_extractors_on_boxes_have_their_sizes(nodes: int) -> None:
 def test_the_case_of_the_goal_needs_all_its_nodes() -> None:
     found = learn(boxes_case(9, 12, 12).search())
     assert found.consistent.terms[0].size == 9
+
+
+def test_larger_problems_need_all_their_nodes_and_are_the_same_every_time() -> None:
+    first, again = (list(LargerCases(1, (5, 7), ("lamp",))) for _ in range(2))
+    assert [problem.hidden for problem in first] == [problem.hidden for problem in again]
+    assert [size_of(problem.hidden) for problem in first] == [5, 7]
+    assert all(len(problem.shown) == SHOWN for problem in first)
+    assert [learn(problem.search()).consistent.terms[0].size for problem in first] == [5, 7]
 
 
 def test_a_rule_that_no_question_is_open_about_is_right() -> None:

@@ -1,0 +1,41 @@
+"""The files of results: read back, they are what was written; and what changed is a line of a diff."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import replace
+
+from benchmark.report import Goal, Result, Table, write_lines
+
+DETAILS = ({"task": "cup-easy", "rounds": [{"answers": 0}, {"answers": 1}], "shown": []}, {"task": "Küche", "f1": 0.1})
+RESULT = Result(
+    "part",
+    "Title",
+    (Table("cups", ("mesh", "pass, %"), (("one", 1.5), ("two", 2))), Table("empty", ("mesh",), ())),
+    (Goal("share, %", "at least", 90.0, 91.0),),
+    ("a note", "another"),
+    DETAILS,
+)
+
+
+def test_what_is_read_back_is_what_was_written() -> None:
+    data = {"quick": False, "machine": {"cores": "2"}, **RESULT.to_json()}
+    found = json.loads(write_lines(data))
+    assert found == json.loads(json.dumps(data))
+    assert list(found) == list(data)
+    assert Result.of_json(found) == RESULT
+
+
+def test_each_detail_goal_note_and_row_of_a_table_has_a_line() -> None:
+    lines = write_lines(RESULT.to_json()).splitlines()
+    assert '{"task":"cup-easy","rounds":[{"answers":0},{"answers":1}],"shown":[]},' in lines
+    assert '{"task":"Küche","f1":0.1}' in lines
+    assert '["one",1.5],' in lines
+    assert '"a note",' in lines
+    assert sum(line.startswith('{"what":') for line in lines) == 1
+
+
+def test_another_detail_changes_no_line_but_its_own() -> None:
+    changed = replace(RESULT, details=(DETAILS[0], {}))
+    pairs = zip(*(write_lines(one.to_json()).splitlines() for one in (RESULT, changed)), strict=True)
+    assert [(a, b) for a, b in pairs if a != b] == [('{"task":"Küche","f1":0.1}', "{}")]
