@@ -17,6 +17,7 @@ from benchmark.journal import digest_protocol
 from benchmark.machine import machine
 from benchmark.options import RunOptions
 from benchmark.pages import PAGES, Page, page_of, parts_of, text_of
+from benchmark.progress import Progress
 from benchmark.report import Result, as_text, write_lines
 from meshforge.common import AssetError, UsageError, write_atomically
 
@@ -42,17 +43,25 @@ def main(arguments: list[str] | None = None) -> int:
     except KeyError as unknown:
         parser.error(f"there is no part {unknown}, only {', '.join((*pages, *every))}")
     given = RunOptions(options.vlm, options.max_cost, options.blender, options.sample, tuple(options.labels))
+    progress = Progress([*parts, repr(vars(options))])
+    failed = False
     for part in parts:
         page = page_of(part)
+        if len(parts) > 1 and progress.is_done(page.name, part):
+            print(f"{part}: done before this run was interrupted", file=sys.stderr)
+            continue
         try:
             result = run(page, part, options.quick, given)
         except (UsageError, AssetError) as error:
             _tell("")
             print(error.message, file=sys.stderr)
-            return 1
+            failed = True
+            continue
         _write(options.out, page, result, options.quick)
+        progress.note(page.name, part)
         print(as_text(result), flush=True)
-    return 0
+    progress.end()
+    return int(failed)
 
 
 def _add_given(parser: argparse.ArgumentParser) -> None:

@@ -9,13 +9,16 @@ from typing import Any
 import pytest
 
 from benchmark import __main__ as bench
-from benchmark import journal
+from benchmark import journal, progress
 from benchmark.evaluation.failures import list_failures, reason
 from benchmark.evaluation.figures import share_solved_at
 from benchmark.evaluation.page import write
 from benchmark.journal import run_units
+from benchmark.pages import Page
+from benchmark.report import Result
 from benchmark.study import Round, Session
 from benchmark.tasks import task
+from meshforge.common import AssetError
 
 PARTS = ["ceiling", "calibration", "effectiveness", "comparison", "contest"]
 
@@ -85,6 +88,52 @@ def test_units_come_in_order_and_are_worked_out_once(journals: Path) -> None:
     assert len(told) == 2
     assert run_units("numbers", doubled, [(1,), (2,), (3,)], told.append) == [2, 4, 6]
     assert len(told) == 3
+
+
+def test_an_interrupted_run_goes_on_after_the_parts_that_are_done(
+    journals: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    begun: list[str] = []
+
+    def measure(page: Page, part: str, *given: object) -> Result:
+        begun.append(part)
+        if len(begun) == 2:
+            raise KeyboardInterrupt
+        return Result(part, part.capitalize(), ())
+
+    monkeypatch.setattr(progress.Progress.__init__, "__defaults__", (journals,))
+    monkeypatch.setattr(bench, "run", measure)
+    command = ["load", "save", "geometry", "--quick", "--out", str(tmp_path / "out")]
+    with pytest.raises(KeyboardInterrupt):
+        bench.main(command)
+    assert bench.main(command) == 0
+    assert begun == ["load", "save", "save", "geometry"]
+    assert bench.main(command) == 0
+    assert begun[4:] == ["load", "save", "geometry"]
+
+
+def test_a_part_that_cannot_be_run_here_does_not_end_the_run(
+    journals: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    def measure(page: Page, part: str, *given: object) -> Result:
+        if part == "load":
+            raise AssetError("no corpus is here", where="load", remedy="Set MESHFORGE_CORPUS.")
+        return Result(part, part.capitalize(), ())
+
+    monkeypatch.setattr(progress.Progress.__init__, "__defaults__", (journals,))
+    monkeypatch.setattr(bench, "run", measure)
+    assert bench.main(["load", "save", "--quick", "--out", str(tmp_path / "out")]) == 1
+    assert "no corpus is here" in capsys.readouterr().err
+    assert (tmp_path / "out" / "speed-save.json").is_file()
+
+
+def test_results_depend_on_the_code_that_their_work_imports_and_on_no_other() -> None:
+    sources = journal.list_sources("benchmark.evaluation.sessions")
+    assert "benchmark/study/person.py" in sources
+    assert "src/meshforge/synthesis/learn.py" in sources
+    assert not [path for path in sources if path.startswith(("src/meshforge/studio", "benchmark/speed"))]
+    assert "benchmark/evaluation/effectiveness.py" not in sources
+    assert "benchmark/evaluation/effectiveness.py" in journal.list_sources("benchmark.evaluation.effectiveness")
 
 
 def session(seed: int, ks: list[tuple[int, int, int]]) -> Session:
