@@ -27,10 +27,11 @@ class Source:
 
     path: below the corpus folder; where there is a wrapper, the place that its text stands in for.
     repository, commit, origin, licence: of `PROVENANCE.md`, origin being the path in the repository.
-    digest: of all files that make up the asset, but for images. kind: the variant; rare: few are like it. surface: what is labelled, `visual` or `collision`;
-    by default what a body shows, or its collision geometry where it shows nothing.
-    up: the axis that points up in the file, by default what its format says, or z; turn: about that axis [degrees],
-    so that its front looks to -Y; without: patterns of names of pieces and hulls that are no part of the asset.
+    digest: of all files that make up the asset, but for images. kind: the variant; rare: few are like it.
+    surface: what is labelled, `visual` or `collision`; by default what a body shows, or its collision geometry where
+    it shows nothing. up: the axis that points up in the file, by default what its format says, or z; turn: about that
+    axis [degrees], so that its front looks to -Y; without: patterns of names of pieces and hulls that are no part of
+    the asset. wrapper: the text of the main file where the corpus has parts of one only.
     """
 
     name: str
