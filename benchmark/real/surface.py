@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fnmatch import fnmatchcase
 
 import numpy as np
@@ -19,11 +19,12 @@ NEAR = 1e-6
 
 @dataclass(frozen=True, eq=False)
 class Patch:
-    """Triangles with a name: vertices (n, 3) [m], upright, and faces (m, 3)."""
+    """Triangles with a name: vertices (n, 3) [m], upright, and faces (m, 3); body: of the file, that they belong to."""
 
     name: str
     vertices: Floats
     faces: Ints
+    body: str = ""
 
     @property
     def corners(self) -> Floats:
@@ -61,13 +62,17 @@ def read_surface(source: Source) -> AssetSurface:
     """The surface of an asset of a family."""
     asset = source.read()
     found = [row for row in _surfaces(asset, source.surface) if not matches(row[0], source.without)]
-    points = np.concatenate([row[1] for row in found])
+    points = np.concatenate([row[2] for row in found])
     pose = _stand(source, asset, points)
     back = pose.inverse()
     reach = NEAR * float(np.linalg.norm(np.ptp(points, axis=0)))
     return AssetSurface(
         source.name,
-        tuple(bit for name, points, faces in found for bit in split_patch(name, back.apply(points), faces, reach)),
+        tuple(
+            replace(bit, body=body)
+            for name, body, points, faces in found
+            for bit in split_patch(name, back.apply(points), faces, reach)
+        ),
         pose,
     )
 
@@ -88,24 +93,24 @@ def _stand(source: Source, asset: Asset, points: Floats) -> Pose:
     return Pose(rotation, rotation @ np.array([(low[0] + high[0]) / 2, (low[1] + high[1]) / 2, low[2]]))
 
 
-def _surfaces(asset: Asset, wanted: str | None) -> Iterator[tuple[str, Floats, Ints]]:
-    """Name, vertices and triangles in the frame of the file of what bodies show, or of their collision geometry."""
+def _surfaces(asset: Asset, wanted: str | None) -> Iterator[tuple[str, str, Floats, Ints]]:
+    """Name, body, vertices and triangles in the frame of the file of what bodies show, or of their collision geometry."""
     first = asset.bodies[0].name if asset.bodies else ""
     visuals = [] if wanted == "collision" else [(v.body or first, v) for v in asset.visuals if len(v.faces)]
     shown = {body for body, _ in visuals}
     counts = {body: sum(name == body for name, _ in visuals) for body in shown}
     number = dict.fromkeys(shown, 0)
     for body, visual in visuals:
-        yield (f"{body}.{number[body]}" if counts[body] > 1 else body), visual.vertices, visual.faces
+        yield (f"{body}.{number[body]}" if counts[body] > 1 else body), body, visual.vertices, visual.faces
         number[body] += 1
     if wanted == "visual":
         return
     for geom in asset.geoms:
         if geom.body not in shown:
-            yield geom.name, geom.shape.vertices, geom.shape.faces
+            yield geom.name, geom.body, geom.shape.vertices, geom.shape.faces
     for opaque in asset.opaque:
         if opaque.body not in shown and opaque.surface is not None and opaque.plane is None:
-            yield opaque.name, opaque.surface.vertices, opaque.surface.faces
+            yield opaque.name, opaque.body, opaque.surface.vertices, opaque.surface.faces
 
 
 def split_patch(name: str, vertices: Floats, faces: Ints, reach: float) -> Iterator[Patch]:
