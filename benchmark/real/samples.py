@@ -112,7 +112,8 @@ def _decompose_body(rows: Sequence[SolidPiece], settings: CoacdSettings) -> Iter
     """The hulls of one body, upright: of each connected solid, or of all where a piece is not watertight."""
     if all(row.closed for row in rows):
         for solid in union([row.solid for row in rows]).decompose():
-            yield from _decompose_solid(solid, settings)
+            if solid.volume() > 0:  # a void within is a shell of its own, inside out
+                yield from _decompose_solid(solid, settings)
         return
     offsets = np.cumsum([0, *(len(row.patch.vertices) for row in rows)])
     points = np.concatenate([row.patch.vertices for row in rows])
