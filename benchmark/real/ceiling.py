@@ -8,6 +8,7 @@ from typing import Any
 
 from benchmark.assets import Sample
 from benchmark.assets.pictures import upright
+from benchmark.real.samples import is_pure
 from benchmark.real.tasks import real_tasks
 from benchmark.tasks import EditResult, Task
 from meshforge.rendering import draw_before_after, make_contact_sheet, write_png
@@ -16,7 +17,7 @@ Row = dict[str, Any]
 
 
 def judge_family(name: str) -> Iterator[Row]:
-    """A row for each mesh of each task of a family: why it fails unedited, by the reference and by the wrong program."""
+    """A row for each mesh of each task of a family."""
     for task, setting, samples in real_tasks([name]):
         for sample in samples:
             yield {"task": task.name, "setting": setting, **judge_sample(task, sample)}
@@ -31,21 +32,21 @@ def judge_sample(task: Task, sample: Sample) -> Row:
     }
     why = {about: task.failure(sample, edited) for about, edited in edits.items()}
     hulls = len(sample.mesh.hulls)
-    return {"mesh": sample.name, "asset": sample.asset.name, "hulls": hulls, "impure": len(task.impure(sample)), **why}
+    return {"mesh": sample.name, "asset": sample.asset.name, "hulls": hulls, "pure": is_pure(task, sample), **why}
 
 
 def describe_rows(rows: Sequence[Row]) -> Iterator[str]:
     """How the meshes of each task fare at each setting, and what fails under the reference."""
     for key in dict.fromkeys((row["task"], row["setting"]) for row in rows):
         mine = [row for row in rows if (row["task"], row["setting"]) == key]
-        pure = [row for row in mine if not row["impure"]]
+        pure = [row for row in mine if row["pure"]]
         passed = {about: sum(row[about] is None for row in mine) for about in ("unedited", "reference", "wrong")}
         told = ", ".join(f"{about} {count}" for about, count in passed.items())
         good = sum(row["reference"] is None for row in pure)
         yield f"{key[0]} {key[1]}: of {len(mine)} pass: {told}; reference, pure: {good} of {len(pure)}"
         for row in mine:
             if row["reference"]:
-                yield f"    {row['mesh']}{' (impure)' if row['impure'] else ''}: {row['reference']}"
+                yield f"    {row['mesh']}{'' if row['pure'] else ' (merged)'}: {row['reference']}"
 
 
 def draw_edits(task: Task, samples: Sequence[Sample], path: Path, side: int = 260, columns: int = 3) -> None:
