@@ -34,7 +34,7 @@ FINE = CoacdSettings(
 """How a piece that is not watertight is decomposed to become a solid."""
 SHEET = 0.002
 """Thickness of a flat sheet, of the diagonal of its asset."""
-_LEAST = 1e-9  # volume of a bit of a part that counts, of the asset's box
+_LEAST = 1e-5  # volume of a bit that counts, of that of its piece
 
 
 @dataclass(frozen=True, eq=False)
@@ -113,9 +113,9 @@ def cut_parts(surface: AssetSurface, regions: Sequence[Region], solids: Sequence
         for region in regions:
             if matches(row.patch.name, region.pieces) and not rest.is_empty():
                 taken, rest = _take(rest, region, low, high)
-                bits += [(region, bit) for bit in (taken.decompose() if region.boxes else [taken])]
-    least = _LEAST * float(np.prod(high - low))
-    return tuple(_unite([(region, bit) for region, bit in bits if bit.volume() > least]))
+                found = taken.decompose() if region.boxes else [taken]
+                bits += [(region, bit) for bit in found if bit.volume() > _LEAST * row.solid.volume()]
+    return tuple(_unite(bits))
 
 
 def _take(rest: Manifold, region: Region, low: Floats, high: Floats) -> tuple[Manifold, Manifold]:
