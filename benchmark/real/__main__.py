@@ -19,7 +19,7 @@ from benchmark.real.examination import find_faults
 from benchmark.real.family import Family, describe_source, family
 from benchmark.real.pictures import describe_piece, draw_pieces, draw_regions, order_pieces
 from benchmark.real.regions import label_surface, read_regions
-from benchmark.real.samples import record_digests
+from benchmark.real.samples import find_changed_samples, record_digests
 from benchmark.real.surface import read_surface
 from benchmark.real.tasks import real_tasks
 from meshforge.common import MeshForgeError
@@ -43,6 +43,7 @@ def main() -> None:
     look.add_argument("--regions", action="store_true", help="regions only")
     check = tasks.add_parser("check", help="digests, labels, geometry")
     check.add_argument("family")
+    check.add_argument("--decompositions", action="store_true", help="also whether CoACD makes what was recorded")
     record = tasks.add_parser("record", help="write the digests of the decompositions")
     record.add_argument("family")
     ceiling = tasks.add_parser("ceiling", help="how unedited meshes, the reference and wrong edits fare")
@@ -74,6 +75,8 @@ def _run(given: argparse.Namespace) -> int:
             draw_edits(task, samples, given.out / f"{task.name}-{setting}.png")
         return 0
     faults = find_faults(one)
+    if given.decompositions:
+        faults += [f"{name}: its hulls are not those that were recorded" for name in find_changed_samples(one)]
     for fault in faults:
         print(fault)
     print(f"{one.name}: {len(one.sources)} assets, {len(faults)} faults")

@@ -188,7 +188,7 @@ def record_digests(one: Family) -> Path:
     return path
 
 
-def changed_samples(one: Family) -> list[str]:
+def find_changed_samples(one: Family) -> list[str]:
     """Samples whose hulls are not those that were recorded. Raises AssetError where none were."""
     path = one.folder / RECORD
     if not path.is_file():
