@@ -113,7 +113,11 @@ def _truly_labelled(edited: EditResult, truth: Mapping[str, Label | None]) -> Sy
 @cache
 def task(name: str) -> Task:
     """The task of that name: its folder's."""
-    folder = TASKS / name
+    return read_task(TASKS / name, name)
+
+
+def read_task(folder: Path, name: str) -> Task:
+    """The task of a folder."""
     data = tomllib.loads((folder / "task.toml").read_text("utf-8"))
     files = sorted((folder / "templates").glob("*.obj"))
     templates = {file.name: Template(tuple(geom.shape for geom in read(file).geoms), file.name) for file in files}
