@@ -100,7 +100,7 @@ def _write(out: Path, page: Page, result: Result, quick: bool) -> None:
     files = [out / f"{page.name}-{part}.json" for part in page.all_parts]
     found = [json.loads(f.read_text("utf-8")) for f in files if f.is_file()]
     if page.name == "evaluation":
-        write_page(out.parent if out == RESULTS else out, found, page.parts)
+        write_page(out.parent if out == RESULTS else out, found, page.parts, result.part)
     else:
         write_atomically(out / f"{page.name}.md", text_of(page, found))
 

@@ -52,6 +52,7 @@ PAGES = (
             "mutation",
             "calibration",
             "effectiveness",
+            "real",
             "comparison",
             "ablation",
             "correction",

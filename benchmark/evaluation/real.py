@@ -23,7 +23,6 @@ from meshforge.rendering import draw_before_after, make_contact_sheet, write_png
 
 __all__ = ["draw_pictures", "measure", "real_tasks"]
 
-PICTURES = Path(__file__).resolve().parents[1] / "pictures"
 _COLUMNS = (
     "task",
     "meshes",
@@ -66,8 +65,8 @@ def measure(tell: Tell, quick: bool) -> Result:
             "*medium*, *fine*: CoACD on what each body shows. *Merged*: a hull that the rules are about belongs to "
             "several parts (purity below 0.9), or a part of theirs has no hull of its own; *pure*: the others. "
             "Nothing was tuned on these assets, and none is left out because it fails.",
-            "A demonstrator for each decomposition teaches each task, under each condition, where a family has at least "
-            "eight meshes at it; labels and people are those of RQ1.",
+            "A demonstrator for each decomposition teaches each task, under each condition, where a family has at "
+            "least eight meshes at it; labels and people are those of RQ1.",
         ),
         (*(row for rows in found.values() for row in rows), *(row.summarize() for row in taught)),
     )
@@ -82,10 +81,9 @@ def judge_meshes(name: str, difficulty: str, setting: str) -> list[Row]:
     ]
 
 
-def draw_pictures(folder: Path = PICTURES) -> list[Path]:
+def draw_pictures(names: Sequence[str], folder: Path) -> None:
     """Write a sheet for each family: its assets before and after the reference's edit of the hard task."""
-    paths = []
-    for name in families():
+    for name in names:
         task, path = real_task(name, "hard"), folder / f"real-{name}.png"
         pairs = [(sample, after) for sample in _one_each(name) if (after := _edit(task, sample))]
         images = [
@@ -94,8 +92,6 @@ def draw_pictures(folder: Path = PICTURES) -> list[Path]:
         ]
         folder.mkdir(parents=True, exist_ok=True)
         write_png(path, make_contact_sheet(images, _COLUMNS_OF_PICTURES, [sample.name for sample, _ in pairs]))
-        paths.append(path)
-    return paths
 
 
 def _one_each(name: str) -> Iterable[Sample]:

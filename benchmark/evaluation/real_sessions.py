@@ -1,4 +1,4 @@
-"""What is learned on families of real assets: each task taught on the meshes as they come, and on each decomposition."""
+"""What is learned on families of real assets, taught on the meshes as they come and on each decomposition."""
 
 from __future__ import annotations
 
@@ -69,8 +69,10 @@ def tell_families(rows: Sequence[Session]) -> Table:
     for condition in dict.fromkeys(row.condition for row in rows):
         mine = [row for row in rows if row.condition == condition]
         families = sorted({_family_of(row) for row in mine}, key=lambda name: (-_share_right(mine, name), name))
-        for name in families:
-            lines.append((condition, name, *_figures([row for row in mine if _family_of(row) == name], condition)))
+        lines += [
+            (condition, name, *_figures([row for row in mine if _family_of(row) == name], condition))
+            for name in families
+        ]
         lines.append((condition, "all", *_figures(mine, condition)))
     title = "Taught on real families, the worst family of each condition last before all"
     return Table(title, ("condition", "family", *_COLUMNS), tuple(lines))
