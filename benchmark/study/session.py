@@ -11,7 +11,7 @@ from benchmark.study.condition import MOST, Condition
 from benchmark.study.desk import Bench, Selections
 from benchmark.study.person import Person
 from benchmark.study.propagation import Painting, begin_by_hand, label_by_hand
-from meshforge.common import MeshForgeError
+from meshforge.common import MeshForgeError, UsageError
 from meshforge.language import Program
 from meshforge.synthesis import Ambiguous, Answer, Demonstration, LabelCorrection, LearningOutcome, NoProgram, Repair
 
@@ -136,6 +136,8 @@ class _Course:
         """The last program of which all results that were looked at were right."""
 
     def session(self, others: Sequence[Bench]) -> Session:
+        if not self._showable():
+            return self._give_up(others)
         self._begin()
         while True:
             outcome = self._learn()
@@ -148,6 +150,12 @@ class _Course:
             if not self._looks_on(outcome, outcome.program):
                 break
         self._judge(outcome, others)
+        return self.log
+
+    def _give_up(self, others: Sequence[Bench]) -> Session:
+        """Nothing can be shown: the reference fails on every mesh."""
+        self._note("refused", None, False, {"all": 0.0})
+        self._judge(UsageError("there is no mesh on which anything could be shown"), others)
         return self.log
 
     def _count(self, painted: Painting) -> None:
@@ -279,7 +287,7 @@ class _Course:
         del self.given[hardest]
         self.answers = [answer for answer in self.answers if answer.asset != hardest]
         self.log.set_aside += 1
-        if len(self.log.shown) < MOST:
+        if len(self.log.shown) < MOST and self._showable():
             self._begin()
         return any(rules is None for rules in self.given.values())
 
