@@ -48,6 +48,9 @@ SETTINGS = (*SEPARATE, *MERGED)
 SETS = {"separate": SEPARATE, "union": ("union",), "welded": ("welded",)}
 """Settings that stand together, by name; figures of one set are kept apart from those of another."""
 _SEPARATE_THRESHOLDS = {"coarse": 0.3, "medium": 0.12, "fine": 0.05}
+# Of 0.05, 0.08, 0.12, 0.16, 0.2, 0.25 and 0.3 the finest one at which a quarter (union) or two fifths (welded) of the
+# hulls of the calibration assets span parts, else the coarsest: so each category has hulls that span parts, and yet as
+# many hulls as may be. CoACD's threshold is relative to an asset's longest side, and a knife at 0.3 is one hull.
 _MERGED_THRESHOLDS = {
     "cup": {"union": 0.2, "welded": 0.3},
     "kettle": {"union": 0.16, "welded": 0.2},

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from benchmark.assets import samples
+from benchmark.assets import family
 from benchmark.labels.metric import Rows, fit_metric, rows_of
 from meshforge.geometry import Floats
 
@@ -18,7 +18,7 @@ def nearest_right(family: Rows, weights: Floats) -> float:
 
 
 def test_weights_learned_on_one_family_help_on_another_and_come_out_the_same_again() -> None:
-    knives, cups = (rows_of(samples(name, calibration=True)) for name in ("knife", "cup"))
+    knives, cups = (rows_of(family(name, "medium", calibration=True)) for name in ("knife", "cup"))
     learned = fit_metric([cups])
     assert np.array_equal(learned, fit_metric([cups]))
     even = np.full(len(learned), learned.mean())
