@@ -68,9 +68,9 @@ def _notes(larger: LargerCases, limit: float) -> Iterator[str]:
     yield (
         f"*Larger ones*: two of the extractors that people want of a family of {FAMILY} meshes of boxes "
         "(`benchmark/learning/targets.py`), joined by `Union`, `Intersect` or `Diff`, and shown on "
-        f"{LARGER_SHOWN} meshes. {larger.drawn} were drawn, in an order that is fixed; kept are the first of each "
-        "family whose smallest extractor that agrees with what was shown has as many nodes as wanted: 5, 7 or 9. Size "
-        "alone decides, not time."
+        f"{LARGER_SHOWN} meshes. {larger.drawn} were drawn, in an order that is fixed, the families by turns; kept are "
+        f"for each of 5, 7 and 9 nodes the first {larger.each} whose smallest extractor that agrees with what was "
+        "shown has so many. Size alone decides, not time."
     )
     yield (
         "After one demonstration a label alone agrees nearly always, or one `Attach` or `Geo`. The paper's search "

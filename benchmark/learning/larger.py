@@ -9,7 +9,7 @@ from __future__ import annotations
 import random
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from itertools import combinations, permutations
+from itertools import chain, combinations, islice, permutations, zip_longest
 
 from benchmark.learning.cases import Case, case, read_family
 from benchmark.learning.families import FAMILIES, VOCABULARIES
@@ -25,27 +25,25 @@ _SEED = 100
 
 @dataclass(slots=True)
 class LargerCases:
-    """So many problems of each family and size, drawn in an order that is fixed; drawn: how many were looked at.
+    """So many problems of each size, the families by turns, drawn in an order that is fixed.
 
     What is drawn is kept if the smallest extractor that agrees has as many nodes as the drawn one, and no other
-    problem of the family has the same.
+    problem of the family has the same. drawn: how many were looked at.
     """
 
-    each: int = 3
+    each: int = 12
     sizes: Sequence[int] = SIZES
     families: Sequence[str] = tuple(FAMILIES)
     drawn: int = 0
 
     def __iter__(self) -> Iterator[Case]:
-        for name in self.families:
-            for size in self.sizes:
-                yield from self._of_size(name, size)
+        for size in self.sizes:
+            rounds = zip_longest(*(self._of_family(name, size) for name in self.families))
+            yield from islice(filter(None, chain.from_iterable(rounds)), self.each)
 
-    def _of_size(self, name: str, size: int) -> Iterator[Case]:
+    def _of_family(self, name: str, size: int) -> Iterator[Case]:
         found = set[Extractor]()
         for hidden in _join_pairs(name, size):
-            if len(found) == self.each:
-                return
             self.drawn += 1
             problem = case(name, hidden, VOCABULARIES[name], read_family(name, _SEED), SHOWN, _SEED)
             smallest = _smallest(problem) if problem else None

@@ -134,7 +134,8 @@ def describe_contest(limit: float) -> Iterator[str]:
     )
     yield (
         "A ratio is what the other took, divided by what MeshForge took on the same problem: without repair against "
-        "without, with repair against with. No times of different problems are added up."
+        "without, with repair against with. No times of different problems are added up, as the first edition of this "
+        "page did: a single problem at the limit decided its ratios."
     )
     yield (
         f"Who takes longer than {limit:g} s is stopped; MeshForge never is. What the paper's strategy does not finish "

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 from meshforge.language import EXTREMITY, Extractor, select_mask
 from meshforge.symbolic import SymbolicMesh
+from meshforge.synthesis.search import bank
 from meshforge.synthesis.search.bank import Columns, positions
 from meshforge.synthesis.search.observation_table import ObservationTable
 from meshforge.synthesis.search.smallest import ErrorCounter
@@ -24,6 +26,16 @@ def test_the_index_finds_the_rows_that_hold_one_set_and_avoid_another(rows: list
     columns = Columns(rows, 12)
     found = columns.rows_without(avoid, columns.rows_with(need, columns.every))
     assert list(positions(found)) == [k for k, row in enumerate(rows) if row & need == need and not row & avoid]
+    for _ in range(2):  # as worked out, and as remembered
+        assert columns.all_with(need) & columns.all_without(avoid) == found
+
+
+def test_an_index_that_has_forgotten_answers_the_same(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(bank, "_REMEMBERED", 2)
+    columns = Columns([0b011, 0b110], 3)
+    for need in (0b001, 0b010, 0b100, 0b001, 0b111):
+        assert columns.all_with(need) == columns.rows_with(need, columns.every)
+        assert columns.all_without(need) == columns.rows_without(need, columns.every)
 
 
 @examples(200)

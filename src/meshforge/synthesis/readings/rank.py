@@ -14,7 +14,7 @@ from meshforge.language import Extractor
 from meshforge.symbolic import mask_of
 from meshforge.synthesis.options import OutOfTime
 from meshforge.synthesis.readings.belief import choose_reading, compute_beliefs, count_idle, measure_evidence
-from meshforge.synthesis.search.bank import Bank, Goal, HalfTerm, half_terms_for, satisfies, terms_for
+from meshforge.synthesis.search.bank import Bank, Goal, HalfTerm, half_terms_for, rows_for, satisfies
 from meshforge.synthesis.search.smallest import Search
 from meshforge.synthesis.search.terms import Key, Term
 
@@ -92,18 +92,20 @@ class _Collector:
 
     def _operands(self, goal: Goal, size: int) -> Iterable[Term]:
         """The terms of that size that meet a goal, one for each way of selecting."""
+        found: Iterable[Term]
         if size > self._stored:
             if (goal, size) not in self._known:
                 self._known[goal, size] = _keep_firsts(self._drafts(goal, size))
-            found: Iterable[Term] = self._known[goal, size]
+            found = self._known[goal, size]
+            count = len(found)
         else:
-            found = terms_for(self._bank.level(size), goal)
-        self._left -= LOOKUP_COST
-        for term in found:
-            self._left -= 1
-            if self._left < 0:
-                raise _EffortSpent
-            yield term
+            level = self._bank.level(size)
+            rows = rows_for(level, goal)
+            found, count = level.select_rows(rows) if rows else (), rows.bit_count()
+        self._left -= LOOKUP_COST + count
+        if count and self._left < 0:
+            raise _EffortSpent
+        return found
 
 
 def _keep_firsts(drafts: Iterable[TermDraft]) -> tuple[Term, ...]:

@@ -8,13 +8,15 @@ index finds at once what satisfies it.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
 from meshforge.language import Diff, Intersect, Union
 from meshforge.synthesis.options import Shortcuts, TimeBudget
 from meshforge.synthesis.search.terms import Key, SetOperator, Term, combine, first_term, operator_key
+
+_REMEMBERED = 10_000  # answers of an index, so that a search that takes long does not take the memory
 
 Draft = tuple[Key, SetOperator, Term, Term]
 """A set operator over two terms, before it is known to be worth keeping."""
@@ -106,30 +108,52 @@ class Bank:
 class Columns:
     """Bit sets ("rows") kept by position: column p is the set of the rows that have bit p.
 
-    Answers are sets of rows, bit k for row k.
+    Answers are sets of rows, bit k for row k. Goals repeat what they need and what they avoid, so what was found for
+    all rows is remembered.
     """
 
-    __slots__ = ("_columns", "every")
+    __slots__ = ("_clear", "_columns", "_holding", "every")
 
     def __init__(self, rows: Sequence[int], width: int) -> None:
         self.every = (1 << len(rows)) - 1
         self._columns = _transpose(rows, width)
+        self._holding: dict[int, int] = {}
+        self._clear: dict[int, int] = {}
 
     def rows_with(self, need: int, among: int) -> int:
         """The rows of `among` that have every bit of `need`."""
-        for p in positions(need):
-            if not among:
-                break
-            among &= self._columns[p]
+        columns = self._columns
+        while need and among:
+            low = need & -need
+            among &= columns[low.bit_length() - 1]
+            need ^= low
         return among
 
     def rows_without(self, avoid: int, among: int) -> int:
         """The rows of `among` that have no bit of `avoid`."""
-        for p in positions(avoid):
-            if not among:
-                break
-            among &= ~self._columns[p]
+        columns = self._columns
+        while avoid and among:
+            low = avoid & -avoid
+            among &= ~columns[low.bit_length() - 1]
+            avoid ^= low
         return among
+
+    def all_with(self, need: int) -> int:
+        """All rows that have every bit of `need`."""
+        found = self._holding.get(need)
+        return self._remember(self._holding, need, self.rows_with(need, self.every)) if found is None else found
+
+    def all_without(self, avoid: int) -> int:
+        """All rows that have no bit of `avoid`."""
+        found = self._clear.get(avoid)
+        return self._remember(self._clear, avoid, self.rows_without(avoid, self.every)) if found is None else found
+
+    @staticmethod
+    def _remember(known: dict[int, int], bits: int, rows: int) -> int:
+        if len(known) >= _REMEMBERED:
+            known.clear()
+        known[bits] = rows
+        return rows
 
 
 def positions(mask: int) -> Iterator[int]:
@@ -149,16 +173,14 @@ def _transpose(rows: Sequence[int], width: int) -> list[int]:
     return [int.from_bytes(column.tobytes(), "little") for column in np.packbits(table.T, axis=1, bitorder="little")]
 
 
-@dataclass(frozen=True, slots=True)
-class Goal:
+class Goal(NamedTuple):  # a tuple, as HalfTerm is: a search makes tens of thousands
     """Met by every selection with all of `need` and nothing of `avoid`; what is in neither is free."""
 
     need: int
     avoid: int
 
 
-@dataclass(frozen=True, slots=True)
-class HalfTerm:
+class HalfTerm(NamedTuple):
     """A set operator with one operand known, and the goal of the other; as_right: whether the known one is right."""
 
     operator: SetOperator
@@ -227,14 +249,14 @@ def satisfies(bits: int, goal: Goal) -> bool:
     return bits & goal.need == goal.need and not bits & goal.avoid
 
 
-def terms_for(level: Level, goal: Goal) -> Iterator[Term]:
-    """The terms of a level that meet a goal, in order."""
-    columns = level.columns
-    return level.select_rows(columns.rows_without(goal.avoid, columns.rows_with(goal.need, columns.every)))
+def rows_for(level: Level, goal: Goal) -> int:
+    """The rows of the terms of a level that meet a goal."""
+    holding = level.columns.all_with(goal.need)
+    return holding & level.columns.all_without(goal.avoid) if holding else 0
 
 
 def _first_term_for(level: Level, goal: Goal) -> Term | None:
-    return next(terms_for(level, goal), None)
+    return next(level.select_rows(rows_for(level, goal)), None)
 
 
 def half_terms_for(level: Level, goal: Goal, helpful: bool) -> Iterator[HalfTerm]:
@@ -243,9 +265,7 @@ def half_terms_for(level: Level, goal: Goal, helpful: bool) -> Iterator[HalfTerm
     helpful: only where the operand leaves less to need or to avoid; else the other one would meet the goal alone.
     """
     need, avoid, columns = goal.need, goal.avoid, level.columns
-    holding = columns.rows_with(need, columns.every)
-    clear = columns.rows_without(avoid, columns.every)
-    apart = columns.rows_without(need, columns.every)
+    holding, clear, apart = columns.all_with(need), columns.all_without(avoid), columns.all_without(need)
     for x in level.select_rows(clear & ~apart if helpful else clear):
         yield HalfTerm(Union, x, Goal(need & ~x.bits, avoid))
     for x in level.select_rows(holding):
