@@ -9,7 +9,7 @@ from typing import Any
 from benchmark.report import Result, Table
 
 _COLORS = {"easy": "#2a9d8f", "medium": "#e9a23b", "hard": "#c8553d", "all": "#264653", "paper": "#8d99ae"}
-_PARTS = ("#264653", "#2a9d8f", "#e9a23b", "#c8553d", "#8d6a9f", "#8d99ae")
+_PARTS = ("#264653", "#2a9d8f", "#e9a23b", "#c8553d", "#8d6a9f", "#8d99ae", "#5b8e3e", "#d98cb3")
 
 
 def plots(results: Mapping[str, Result], folder: Path) -> dict[str, str]:
