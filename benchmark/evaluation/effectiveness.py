@@ -216,7 +216,7 @@ def _acts_row(found: Groups) -> list[Cell]:
 
 def _phases(groups: Conditions) -> Table:
     rows = []
-    for condition in MAIN:
+    for condition in (one for one in MAIN if one.name in groups):
         found = groups[condition.name]
         tool = [spread(found, partial(_tool_seconds, part=part)) for part in ("search", "replay")]
         person = [spread(found, partial(_spent, part=part)) for part in _PHASES]
@@ -236,7 +236,7 @@ def _spent(row: Session, part: str) -> float:
 def _few_shot(groups: Conditions) -> Table:
     columns = ("condition", "difficulty", *(f"k = {k}" for k in KS))
     rows: list[tuple[Cell, ...]] = [("paper", "all", *(paper.FEW_SHOT.get(k, "") for k in KS))]
-    for condition in (*MAIN, KIND):
+    for condition in (one for one in (*MAIN, KIND) if one.name in groups):
         for level in LEVELS if condition in (TRUE, FLAT) else ("all",):
             found = of_difficulty(groups[condition.name], level)
             rows.append((condition.name, level, *(100 * share_solved_at(found, k) for k in KS)))

@@ -10,13 +10,15 @@ import pytest
 
 from benchmark import __main__ as bench
 from benchmark import journal, progress
+from benchmark.evaluation import effectiveness
 from benchmark.evaluation.failures import list_failures, reason
 from benchmark.evaluation.figures import share_solved_at
 from benchmark.evaluation.page import write
 from benchmark.journal import run_units
 from benchmark.pages import Page
 from benchmark.report import Result
-from benchmark.study import Round, Session
+from benchmark.study import FLAT, TRUE, Round, Session
+from benchmark.study.condition import KIND, PROPAGATED
 from benchmark.tasks import task
 from meshforge.common import AssetError
 
@@ -41,14 +43,17 @@ def without_times(data: Any) -> Any:
 
 
 @pytest.mark.usefixtures("few_meshes")
-def test_a_quick_run_writes_the_page_and_its_pictures(journals: Path, tmp_path: Path) -> None:
+def test_a_quick_run_writes_the_page_and_its_pictures(
+    journals: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(effectiveness, "ASKED", (TRUE, FLAT, PROPAGATED[0], KIND))
     found = run(PARTS, tmp_path / "out")
     page = (tmp_path / "out" / "README.md").read_text("utf-8")
     assert "A quick run: one category, one seed" in page
     for part, data in found.items():
         assert f"## {data['title']}" in page
         assert f"`script/bench {part}`" in page
-    assert "Not run yet: `script/bench mutation ablation correction scaling gallery`." in page
+    assert "**Not run yet: `script/bench mutation real ablation correction scaling gallery`.**" in page
     assert {name.name for name in (tmp_path / "out" / "pictures").iterdir()} >= {"tasks.png", "effectiveness.svg"}
     sessions = found["effectiveness"]["details"]
     assert {row["task"] for row in sessions} == {"cup-easy", "cup-medium", "cup-hard"}
