@@ -75,6 +75,12 @@ def test_goals_are_by_size_and_no_slow_problem_makes_up_for_others() -> None:
     assert not any("together" in name for name in found)
 
 
+def test_a_goal_on_a_time_out_says_that_it_is_a_lower_bound() -> None:
+    found = goals([row(9, paper=LIMIT, repair=LIMIT, stopped=(PAPER, PAPER_REPAIR)), row(1)])
+    what = "times as fast from 5 nodes on, median: everything with repair, against the paper's with repair"
+    assert found[f"{what} (a lower bound)"] == pytest.approx(LIMIT / 0.04)
+
+
 def test_cvc5_has_to_be_slower_on_every_problem(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(search_tables, "HAS_CVC5", True)
     what = "problems on which search and readings is slower than cvc5"
