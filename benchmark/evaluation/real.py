@@ -25,8 +25,8 @@ __all__ = ["draw_pictures", "measure", "real_tasks"]
 PICTURES = Path(__file__).resolve().parents[1] / "pictures"
 _COLUMNS = (
     "task",
+    "setting",
     "meshes",
-    "assets",
     "hulls",
     "merged, %",
     "unedited: fail, %",

@@ -21,7 +21,7 @@ from benchmark.real.regions import read_regions
 from benchmark.real.sites import sites_of
 from benchmark.real.surface import AssetSurface, matches, read_surface
 from benchmark.tasks import Task
-from meshforge.common import AssetError
+from meshforge.common import AssetError, pluralize
 from meshforge.geometry import CoacdSettings, Polytope, Pose, convex_hull, decompose, spans_volume
 from meshforge.symbolic import Hull, Label, SymbolicMesh
 from script.samples.part import Part
@@ -91,7 +91,7 @@ def why_absent(source: Source) -> str | None:
     asset = source.read()
     concave = [o.name for o in asset.opaque if o.plane is None and not matches(o.name, source.without)]
     if concave:
-        return f"{len(concave)} non-convex pieces, such as {concave[0]}"
+        return f"{pluralize(len(concave), 'non-convex piece')}, such as {concave[0]}"
     count = len(_as_is(source))
     return f"{count} hull" if count < 2 else None
 
