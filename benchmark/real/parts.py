@@ -17,7 +17,7 @@ from benchmark.real.family import CACHE, Family, Source
 from benchmark.real.regions import Region, planes_of_box, read_regions
 from benchmark.real.surface import AssetSurface, Patch, matches, read_surface
 from meshforge.batch.preparation.decompose import decompose_surface
-from meshforge.geometry import CoacdSettings, Floats, Polytope, is_sheet, principal_extents
+from meshforge.geometry import CoacdSettings, Floats, Ints, Polytope, is_sheet, principal_extents
 from meshforge.geometry.decomposition.triangles import cap_holes, clean_triangles
 from meshforge.symbolic import Surface
 from script.samples.part import Part
@@ -75,8 +75,16 @@ def make_solids(surface: AssetSurface) -> list[SolidPiece]:
 
 def close_piece(piece: Patch) -> Manifold | None:
     """A piece as a solid, of negative volume where it is inside out; None where it is not watertight."""
+    if not _is_balanced(piece.faces):  # Manifold crashes on some of these
+        return None
     solid = Manifold(Mesh(piece.vertices.astype(np.float32), piece.faces.astype(np.uint32)))
     return solid if solid.status() == Error.NoError and abs(solid.volume()) > 0 else None
+
+
+def _is_balanced(faces: Ints) -> bool:
+    """Whether along every edge as many triangles of faces (m, 3) run one way as the other."""
+    start, end, count = faces.ravel(), faces[:, [1, 2, 0]].ravel(), int(faces.max()) + 1
+    return np.array_equal(np.sort(start * count + end), np.sort(end * count + start))
 
 
 def _cap(piece: Patch) -> Patch:
