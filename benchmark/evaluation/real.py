@@ -25,8 +25,8 @@ __all__ = ["draw_pictures", "measure", "real_tasks"]
 
 _COLUMNS = (
     "task",
+    "setting",
     "meshes",
-    "assets",
     "hulls",
     "merged, %",
     "unedited: fail, %",

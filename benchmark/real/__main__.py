@@ -5,6 +5,7 @@ python -m benchmark.real look FAMILY [ASSET ...] --out FOLDER [--pieces | --regi
 python -m benchmark.real check FAMILY                    digests, labels everywhere, no geometry twice, eight assets
 python -m benchmark.real record FAMILY                   writes the digests of the decompositions
 python -m benchmark.real ceiling FAMILY [--out FOLDER]   how unedited meshes, the reference and wrong edits fare
+python -m benchmark.real mutants FAMILY                  which nearly right programs its criteria let through
 """
 
 from __future__ import annotations
@@ -14,7 +15,7 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
-from benchmark.real.ceiling import describe_rows, draw_edits, judge_family
+from benchmark.real.ceiling import describe_mutants, describe_rows, draw_edits, judge_family
 from benchmark.real.examination import find_faults
 from benchmark.real.family import Family, describe_source, family
 from benchmark.real.pictures import describe_piece, draw_pieces, draw_regions, order_pieces
@@ -49,6 +50,8 @@ def main() -> None:
     ceiling = tasks.add_parser("ceiling", help="how unedited meshes, the reference and wrong edits fare")
     ceiling.add_argument("family")
     ceiling.add_argument("--out", type=Path, help="a folder for pictures before and after the reference's edit")
+    mutants = tasks.add_parser("mutants", help="which nearly right programs the criteria let through")
+    mutants.add_argument("family")
     given = parser.parse_args()
     try:
         sys.exit(_run(given))
@@ -73,6 +76,10 @@ def _run(given: argparse.Namespace) -> int:
             print(line)
         for task, setting, samples in real_tasks([one.name]) if given.out else ():
             draw_edits(task, samples, given.out / f"{task.name}-{setting}.png")
+        return 0
+    if given.do == "mutants":
+        for line in describe_mutants(one.name):
+            print(line)
         return 0
     faults = find_faults(one)
     if given.decompositions:

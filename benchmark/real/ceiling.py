@@ -9,10 +9,13 @@ from typing import Any
 from benchmark.assets import Sample
 from benchmark.assets.pictures import upright
 from benchmark.real.samples import is_pure
-from benchmark.real.tasks import real_tasks
+from benchmark.real.tasks import real_tasks, tasks_of
 from benchmark.tasks import EditResult, Task
+from benchmark.tasks.mutants import judge_mutants_on
 from meshforge.rendering import draw_before_after, make_contact_sheet, write_png
 
+MOST = 0.1
+"""Of the meshes that a mutant edits otherwise than the reference, so many may pass."""
 Row = dict[str, Any]
 
 
@@ -47,6 +50,18 @@ def describe_rows(rows: Sequence[Row]) -> Iterator[str]:
         for row in mine:
             if row["reference"]:
                 yield f"    {row['mesh']}{'' if row['pure'] else ' (merged)'}: {row['reference']}"
+
+
+def describe_mutants(name: str) -> Iterator[str]:
+    """How many mutants of each task pass on more than a tenth of the pure meshes that they edit otherwise."""
+    for task in tasks_of(name):
+        pure = [sample for sample in task.samples() if is_pure(task, sample)]
+        rows = [row for row in judge_mutants_on(task, pure) if row["differs"]]
+        passing = [row for row in rows if len(row["pass"]) > MOST * row["differs"]]
+        yield f"{task.name}: {len(passing)} of {len(rows)} mutants pass on more than a tenth of {len(pure)} pure meshes"
+        for row in passing:
+            told = f"{len(row['pass'])} of {row['differs']}, such as {', '.join(row['pass'][:3])}"
+            yield f"    {row['mutant']}: {told}{' (equivalent)' if row['reason'] else ''}"
 
 
 def draw_edits(task: Task, samples: Sequence[Sample], path: Path, side: int = 260, columns: int = 3) -> None:

@@ -21,7 +21,7 @@ from benchmark.real.regions import read_regions
 from benchmark.real.sites import sites_of
 from benchmark.real.surface import AssetSurface, matches, read_surface
 from benchmark.tasks import Task
-from meshforge.common import AssetError
+from meshforge.common import AssetError, pluralize
 from meshforge.geometry import CoacdSettings, Polytope, Pose, convex_hull, decompose, spans_volume
 from meshforge.symbolic import Hull, Label, SymbolicMesh
 from script.samples.part import Part
@@ -73,7 +73,8 @@ def family_samples(family_name: str, setting: str) -> tuple[Sample, ...]:
 
 def make_sample(one: Family, name: str, setting: str) -> Sample | None:
     """The mesh of an asset at one setting, None where it has none."""
-    if setting == AS_IS and why_absent(one.source(name)):
+    source = one.source(name)
+    if why_absent(source) if setting == AS_IS else not source.decompose:
         return None
     real = real_asset(one.name, name)
     hulls = _as_is(real.source) if setting == AS_IS else _decompose(real, coacd(threshold_of(setting, one.name)))
@@ -91,7 +92,7 @@ def why_absent(source: Source) -> str | None:
     asset = source.read()
     concave = [o.name for o in asset.opaque if o.plane is None and not matches(o.name, source.without)]
     if concave:
-        return f"{len(concave)} non-convex pieces, such as {concave[0]}"
+        return f"{pluralize(len(concave), 'non-convex piece')}, such as {concave[0]}"
     count = len(_as_is(source))
     return f"{count} hull" if count < 2 else None
 
