@@ -94,7 +94,7 @@ def _tell(line: str) -> None:
 def _write(out: Path, page: Page, result: Result, quick: bool) -> None:
     """Write one result, and its page anew from all results there are."""
     out.mkdir(parents=True, exist_ok=True)
-    of_run = {"machine": machine(page.packages), "quick": quick, "protocol": digest_protocol()}
+    of_run = {"machine": machine(page.packages), "quick": quick, "protocol": digest_protocol(result.part)}
     data = {**of_run, **result.to_json()}
     write_atomically(out / f"{page.name}-{result.part}.json", write_lines(data))
     files = [out / f"{page.name}-{part}.json" for part in page.all_parts]

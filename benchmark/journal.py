@@ -21,7 +21,7 @@ _FOLDERS = {"meshforge": ROOT / "src", "benchmark": ROOT, "script": ROOT}
 _PROTOCOL = ("benchmark/criteria/*.py", "benchmark/tasks/*/task.toml", "benchmark/tasks/*/templates/*",
              "benchmark/assets/data/*")  # fmt: skip
 _DATA = ("src/meshforge/**/*.lark", *_PROTOCOL)
-_REAL = ("benchmark/real/**/*.toml",)
+_REAL = ("benchmark/real/**/*.toml", "benchmark/real/**/*.obj")
 Unit = tuple[Any, ...]
 """What a unit of work is given: JSON-able."""
 
@@ -36,9 +36,9 @@ def digest(module: str) -> str:
 
 
 @cache
-def digest_protocol() -> str:
-    """A digest of the meshes, the tasks and their criteria."""
-    return _digest(_PROTOCOL)
+def digest_protocol(part: str) -> str:
+    """A digest of the meshes, the tasks and their criteria that a part is about."""
+    return _digest(("benchmark/criteria/*.py", *_REAL) if part == "real" else _PROTOCOL)
 
 
 def list_sources(module: str) -> list[str]:
@@ -51,7 +51,7 @@ def list_sources(module: str) -> list[str]:
             continue
         found[name] = path
         waiting += [".".join(name.split(".")[:k]) for k in range(1, name.count(".") + 1)]
-        waiting += list(_list_imports(path))
+        waiting += _list_imports(path)
     return sorted(str(path.relative_to(ROOT)) for path in found.values())
 
 
@@ -63,12 +63,15 @@ def _find_source(name: str) -> Path | None:
     return next((p for p in (path / "__init__.py", path.with_suffix(".py")) if p.is_file()), None)
 
 
-def _list_imports(path: Path) -> Iterable[str]:
+@cache
+def _list_imports(path: Path) -> frozenset[str]:
+    found = set[str]()
     for node in ast.walk(ast.parse(path.read_text("utf-8"))):
         if isinstance(node, ast.Import):
-            yield from (alias.name for alias in node.names)
+            found |= {alias.name for alias in node.names}
         elif isinstance(node, ast.ImportFrom) and node.module:
-            yield from (node.module, *(f"{node.module}.{alias.name}" for alias in node.names))
+            found |= {node.module, *(f"{node.module}.{alias.name}" for alias in node.names)}
+    return frozenset(found)
 
 
 def _digest(patterns: Iterable[str]) -> str:

@@ -61,7 +61,7 @@ PAGES = (
             "gallery",
         ),
         ("numpy", "scipy", "coal", "coacd", "manifold3d", "mujoco", "cvc5"),
-        aside=("tuning", "real"),
+        aside=("tuning",),
         given=("comparison",),
     ),
     Page(

@@ -19,7 +19,7 @@ class _Book:
 
     results: Mapping[str, Result]
 
-    def cell(self, part: str, table: str, row: str, column: str) -> str:
+    def find_cell(self, part: str, table: str, row: str, column: str) -> str:
         """A cell of a table whose title begins so; of columns of one name the first."""
         found = self.results.get(part)
         for one in found.tables if found else ():
@@ -29,21 +29,21 @@ class _Book:
                         return format_cell(line[one.columns.index(column)])
         return _ABSENT
 
-    def goal(self, part: str, what: str) -> str:
+    def find_goal(self, part: str, what: str) -> str:
         """What was measured for a goal that begins so."""
         found = self.results.get(part)
         return next(
             (format_cell(g.measured) for g in (found.goals if found else ()) if g.what.startswith(what)), _ABSENT
         )
 
-    def learned(self, condition: str, column: str = "SSR") -> str:
-        return self.cell("effectiveness", "What is learned", condition, column)
+    def find_learning(self, condition: str, column: str = "SSR") -> str:
+        return self.find_cell("effectiveness", "What is learned", condition, column)
 
-    def edited(self, condition: str, column: str = "FPR") -> str:
-        return self.cell("effectiveness", "What becomes", condition, column)
+    def find_edit(self, condition: str, column: str = "FPR") -> str:
+        return self.find_cell("effectiveness", "What becomes", condition, column)
 
-    def spent(self, condition: str, column: str = "seconds in all") -> str:
-        return self.cell("effectiveness", "What a person does", condition, column)
+    def find_cost(self, condition: str, column: str = "seconds in all") -> str:
+        return self.find_cell("effectiveness", "What a person does", condition, column)
 
 
 @dataclass(frozen=True, slots=True)
@@ -70,33 +70,35 @@ _CHANGES = (
         "test them: many passed where nothing asked that the rest be still there",
         "mutants that pass on more than a tenth of the meshes",
         "27 of 97 passed on half of them",
-        lambda book: book.goal("mutation", "mutants that pass"),
+        lambda book: book.find_goal("mutation", "mutants that pass"),
     ),
     _Change("the same", "`All => Delete` passes", "75 of 75 meshes of kettle-medium", _deleted),
     _Change(
         "the same",
         "unedited assets that fail, least of all tasks, %",
         "64",
-        lambda book: book.goal("ceiling", "unedited assets"),
+        lambda book: book.find_goal("ceiling", "unedited assets"),
     ),
     _Change(
         "Assets whose decompositions were the same at two settings are drawn anew",
         "different meshes, %",
         "91.3",
-        lambda book: book.goal("ceiling", "different meshes"),
+        lambda book: book.find_goal("ceiling", "different meshes"),
     ),
     _Change(
         "Two sets decomposed by one call for the whole asset: users meet hulls that span parts, the benchmark had none",
         "hulls that span parts, %",
         "0.5",
-        lambda book: f"union {book.goal('ceiling', 'union: hulls')}, welded {book.goal('ceiling', 'welded: hulls')}",
+        lambda book: (
+            f"union {book.find_goal('ceiling', 'union: hulls')}, welded {book.find_goal('ceiling', 'welded: hulls')}"
+        ),
     ),
     _Change(
         "the same",
         "FPR of the reference, true labels",
         "0.98",
         lambda book: ", ".join(
-            f"{sort} {book.edited(f'true labels, {sort}', 'of the reference, true labels')}"
+            f"{sort} {book.find_edit(f'true labels, {sort}', 'of the reference, true labels')}"
             for sort in ("union", "welded")
         ),
     ),
@@ -105,68 +107,73 @@ _CHANGES = (
         "stood for each other",
         "SSR, true labels, the first edition's person",
         "24/24",
-        lambda book: book.learned(KIND.name),
+        lambda book: book.find_learning(KIND.name),
     ),
     _Change(
         "The person helps in no way: any first mesh, a random dozen, the whole edit again, nothing excused",
         "SSR, true labels",
         "24/24",
-        lambda book: book.learned(TRUE.name),
+        lambda book: book.find_learning(TRUE.name),
     ),
     _Change(
-        "the same", "demonstrations plus answers, true labels", "2.1 ± 1.0", lambda book: book.learned(TRUE.name, "k")
+        "the same",
+        "demonstrations plus answers, true labels",
+        "2.1 ± 1.0",
+        lambda book: book.find_learning(TRUE.name, "k"),
     ),
     _Change(
         "the same",
         "SSR, noisy labels, telling confidence",
         "17/24",
-        lambda book: f"{book.learned(TELLING.name)} (the first edition's person: {book.learned(_KIND_TELLING.name)})",
+        lambda book: (
+            f"{book.find_learning(TELLING.name)} (the first edition's person: {book.find_learning(_KIND_TELLING.name)})"
+        ),
     ),
     _Change(
         "Noisy labels whose confidence does not tell which are wrong; and systematic errors",
         "SSR, noisy labels",
         "17/24",
-        lambda book: f"flat {book.learned(FLAT.name)}, systematic {book.learned(SYSTEMATIC.name)}",
+        lambda book: f"flat {book.find_learning(FLAT.name)}, systematic {book.find_learning(SYSTEMATIC.name)}",
     ),
     _Change(
         "The reference under the same labels stands beside each row",
         "FPR, noisy labels",
         "0.54 ± 0.23, alone",
         lambda book: (
-            f"flat {book.edited(FLAT.name)}; the reference "
-            f"{book.edited(FLAT.name, 'of the reference, same labels')}, with true labels "
-            f"{book.edited(FLAT.name, 'of the reference, true labels')}"
+            f"flat {book.find_edit(FLAT.name)}; the reference "
+            f"{book.find_edit(FLAT.name, 'of the reference, same labels')}, with true labels "
+            f"{book.find_edit(FLAT.name, 'of the reference, true labels')}"
         ),
     ),
     _Change(
         "Labels are propagated between different assets only, also from none at the start",
         "FPR, propagated from 3",
         "0.80 ± 0.19",
-        lambda book: f"{book.edited(PROPAGATED[3].name)}; from none {book.edited(PROPAGATED[0].name)}",
+        lambda book: f"{book.find_edit(PROPAGATED[3].name)}; from none {book.find_edit(PROPAGATED[0].name)}",
     ),
     _Change(
         "All that a person does is counted, looks and approvals one by one, at prices fixed beforehand",
         "person, modelled, s a task, true labels",
         "57",
-        lambda book: book.spent(TRUE.name),
+        lambda book: book.find_cost(TRUE.name),
     ),
     _Change(
         "Settled results are counted over all conditions",
         "settled, yet wrong",
         "0, of true labels alone (11 of 240 under propagated ones)",
-        lambda book: book.goal("effectiveness", "settled and accepted, yet wrong"),
+        lambda book: book.find_goal("effectiveness", "settled and accepted, yet wrong"),
     ),
     _Change(
         "Speed by size of the extractor, medians and geometric means: sums rested on one time-out",
         "the paper's time as a ratio to ours, from 5 nodes on, median",
         "887, 96 and 74 times, of sums",
-        lambda book: book.goal("contest", "times as fast from"),
+        lambda book: book.find_goal("contest", "times as fast from"),
     ),
     _Change(
         "Families of real assets, frozen before the tool saw them",
         "SSR, true labels, all families and decompositions",
         "no real asset",
-        lambda book: book.goal("real", "tasks synthesized, true labels"),
+        lambda book: book.find_goal("real", "tasks synthesized, true labels"),
     ),
 )
 _REMOVED = (

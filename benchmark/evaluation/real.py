@@ -3,7 +3,7 @@ decomposed; and the tasks that sessions are run on."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -11,9 +11,9 @@ from benchmark.assets import Sample
 from benchmark.assets.pictures import upright
 from benchmark.evaluation.real_sessions import find_goals, teach_families, tell_families, tell_settings
 from benchmark.journal import run_units
-from benchmark.real.ceiling import Row, judge_sample
+from benchmark.real.ceiling import MOST, Row, judge_mutants_of, judge_sample
 from benchmark.real.family import families, family
-from benchmark.real.samples import ALL_SETTINGS, AS_IS, family_samples, why_absent
+from benchmark.real.samples import ALL_SETTINGS, choose_samples, family_samples, why_absent
 from benchmark.real.tasks import real_task, real_tasks, tasks_of
 from benchmark.report import Cell, Result, Table, Tell
 from benchmark.speed.assets import corpus
@@ -35,6 +35,7 @@ _COLUMNS = (
     "the others, %",
     "all, %",
 )
+_MUTANT_COLUMNS = ("task", "mutants", "pass on more than a tenth", "which", "do the same job", "why")
 _SIZE, _COLUMNS_OF_PICTURES = (240, 190), 4
 
 
@@ -45,6 +46,8 @@ def measure(tell: Tell, quick: bool) -> Result:
     names = families()[:1] if quick else families()
     units = [(name, task.difficulty, setting) for name in names for task in tasks_of(name) for setting in ALL_SETTINGS]
     found = dict(zip(units, run_units("real", judge_meshes, units, tell), strict=True))
+    tried = [(name, task.difficulty) for name in names for task in tasks_of(name)]
+    mutants = dict(zip(tried, run_units("real-mutants", judge_real_mutants, tried, tell), strict=True))
     taught = teach_families(names, tell, quick)
     return Result(
         "real",
@@ -55,6 +58,7 @@ def measure(tell: Tell, quick: bool) -> Result:
                 "The reference on real assets", _COLUMNS, tuple(_row(*key, rows) for key, rows in found.items() if rows)
             ),
             Table("Assets without a mesh as they come", ("family", "asset", "why"), tuple(_list_absent(names))),
+            Table("Mutants of the reference on real assets", _MUTANT_COLUMNS, tuple(_tell_mutants(mutants))),
             tell_families(taught),
             tell_settings(taught),
         ),
@@ -81,23 +85,32 @@ def judge_meshes(name: str, difficulty: str, setting: str) -> list[Row]:
     ]
 
 
+def judge_real_mutants(name: str, difficulty: str) -> list[Row]:
+    """The mutants of a task, on assets as they come, else fine."""
+    return judge_mutants_of(name, real_task(name, difficulty))[0]
+
+
+def _tell_mutants(found: Mapping[tuple[str, str], list[Row]]) -> Iterator[tuple[Cell, ...]]:
+    for (name, difficulty), rows in found.items():
+        differ = [row for row in rows if row["differs"]]
+        alike = [row for row in differ if row["reason"]]
+        passing = [row for row in differ if not row["reason"] and len(row["pass"]) > MOST * row["differs"]]
+        told = ", ".join(f"`{row['mutant']}`" for row in passing) or "–"
+        same = "; ".join(f"`{row['mutant']}`: {row['reason']}" for row in alike) or "–"
+        yield f"{name}-{difficulty}", len(differ), len(passing), told, len(alike), same
+
+
 def draw_pictures(names: Sequence[str], folder: Path) -> None:
     """Write a sheet for each family: its assets before and after the reference's edit of the hard task."""
     for name in names:
         task, path = real_task(name, "hard"), folder / f"real-{name}.png"
-        pairs = [(sample, after) for sample in _one_each(name) if (after := _edit(task, sample))]
+        pairs = [(sample, after) for sample in choose_samples(name) if (after := _edit(task, sample))]
         images = [
             draw_before_after(upright(sample), after, size=_SIZE, vocabulary=task.program.labels)
             for sample, after in pairs
         ]
         folder.mkdir(parents=True, exist_ok=True)
         write_png(path, make_contact_sheet(images, _COLUMNS_OF_PICTURES, [sample.name for sample, _ in pairs]))
-
-
-def _one_each(name: str) -> Iterable[Sample]:
-    """A mesh of each asset of a family: as it comes, else the fine one."""
-    chosen = {s.asset.name: s for setting in ("fine", AS_IS) for s in family_samples(name, setting)}
-    return [chosen[asset] for asset in family(name).names if asset in chosen]
 
 
 def _edit(task: Task, sample: Sample) -> Any:

@@ -8,7 +8,7 @@ from typing import Any
 
 from benchmark.assets import Sample
 from benchmark.assets.pictures import upright
-from benchmark.real.samples import is_pure
+from benchmark.real.samples import choose_samples, is_pure
 from benchmark.real.tasks import real_tasks, tasks_of
 from benchmark.tasks import EditResult, Task
 from benchmark.tasks.mutants import judge_mutants_on
@@ -52,13 +52,19 @@ def describe_rows(rows: Sequence[Row]) -> Iterator[str]:
                 yield f"    {row['mesh']}{'' if row['pure'] else ' (merged)'}: {row['reference']}"
 
 
+def judge_mutants_of(name: str, task: Task) -> tuple[list[Row], int]:
+    """The mutants of a task of a family, on its pure assets as they come, else fine; and how many these are."""
+    samples = choose_samples(name)
+    pure = [sample for sample in samples if is_pure(task, sample)]
+    return judge_mutants_on(task, pure, [sample.mesh for sample in samples]), len(pure)
+
+
 def describe_mutants(name: str) -> Iterator[str]:
     """How many mutants of each task pass on more than a tenth of the pure meshes that they edit otherwise."""
     for task in tasks_of(name):
-        pure = [sample for sample in task.samples() if is_pure(task, sample)]
-        rows = [row for row in judge_mutants_on(task, pure) if row["differs"]]
-        passing = [row for row in rows if len(row["pass"]) > MOST * row["differs"]]
-        yield f"{task.name}: {len(passing)} of {len(rows)} mutants pass on more than a tenth of {len(pure)} pure meshes"
+        rows, pure = judge_mutants_of(name, task)
+        passing = [row for row in rows if row["differs"] and len(row["pass"]) > MOST * row["differs"]]
+        yield f"{task.name}: {len(passing)} of {len(rows)} mutants pass on more than a tenth of {pure} pure meshes"
         for row in passing:
             told = f"{len(row['pass'])} of {row['differs']}, such as {', '.join(row['pass'][:3])}"
             yield f"    {row['mutant']}: {told}{' (equivalent)' if row['reason'] else ''}"

@@ -27,6 +27,7 @@ from meshforge.language import (
     size_of,
 )
 from meshforge.language.print import show
+from meshforge.symbolic import SymbolicMesh
 
 ACTIONS = ("Delete", "Merge", "Each(Merge)", "Replace(box)", "Each(Replace(box))", "Scale(all, 0.8)")
 EXTRACTORS = 3
@@ -50,13 +51,18 @@ class Mutant:
         return self.change if self.rule is None else f"{self.rule}: {self.change}"
 
 
-def mutants(task: Task) -> list[Mutant]:
-    """Every rule dropped, deleting, with other actions, with wrong extractors of its size; and `All => Delete`."""
+def mutants(task: Task, meshes: Sequence[SymbolicMesh] | None = None) -> list[Mutant]:
+    """Every rule dropped, deleting, with other actions, with wrong extractors of its size; and `All => Delete`.
+
+    meshes: on which a wrong extractor must select something else; by default those of the calibration set.
+    """
     one = task.program
+    if meshes is None:
+        meshes = [sample.mesh for sample in task.samples(calibration=True)]
     everything = replace(one, rules=Program.parse(f"{_labels(one)}\n\nAll => Delete").rules)
     found = [
         Mutant(None, "All => Delete", everything),
-        *(mutant for place in range(len(one.rules)) for mutant in _of_rule(task, place)),
+        *(mutant for place in range(len(one.rules)) for mutant in _of_rule(task, place, meshes)),
     ]
     unknown = task.equivalents.keys() - {mutant.name for mutant in found}
     assert not unknown, f"{task.name} has no mutants {sorted(unknown)}"
@@ -69,9 +75,12 @@ def judge_mutants(name: str, calibration: bool = False) -> list[dict[str, Any]]:
     return judge_mutants_on(one, one.samples(calibration))
 
 
-def judge_mutants_on(one: Task, samples: Sequence[Sample]) -> list[dict[str, Any]]:
-    """Every mutant of a task: on how many of some meshes its edit differs from the reference's, and which pass."""
-    programs = mutants(one)
+def judge_mutants_on(
+    one: Task, samples: Sequence[Sample], meshes: Sequence[SymbolicMesh] | None = None
+) -> list[dict[str, Any]]:
+    """Every mutant of a task (`mutants`): on how many of some samples its edit differs from the reference's, and which
+    pass."""
+    programs = mutants(one, meshes)
     rows: list[dict[str, Any]] = [
         {"mutant": mutant.name, "differs": 0, "pass": [], "reason": one.equivalents.get(mutant.name)}
         for mutant in programs
@@ -120,7 +129,7 @@ def _labels(program: Program) -> str:
     return f"labels {', '.join(program.labels)}"
 
 
-def _of_rule(task: Task, place: int) -> Iterator[Mutant]:
+def _of_rule(task: Task, place: int, meshes: Sequence[SymbolicMesh]) -> Iterator[Mutant]:
     program, rule = task.program, task.program.rules[place]
     without = tuple(other for k, other in enumerate(program.rules) if k != place)
     yield Mutant(place + 1, "dropped", replace(program, rules=without))
@@ -128,7 +137,7 @@ def _of_rule(task: Task, place: int) -> Iterator[Mutant]:
         action = Program.parse(f"{_labels(program)}\n\nAll => {text}").rules[0].action
         if action != rule.action:
             yield Mutant(place + 1, text, _with(program, place, replace(rule, action=action, label=None)))
-    for extractor in _wrong(task, place):
+    for extractor in _wrong(task, place, meshes):
         yield Mutant(place + 1, f"on {show(extractor)}", _with(program, place, replace(rule, extractor=extractor)))
 
 
@@ -137,11 +146,10 @@ def _with(program: Program, place: int, rule: Rule) -> Program:
     return replace(program, rules=tuple(rules))
 
 
-def _wrong(task: Task, place: int) -> list[Extractor]:
+def _wrong(task: Task, place: int, meshes: Sequence[SymbolicMesh]) -> list[Extractor]:
     """Extractors of the same size that select other hulls on a fifth of the meshes or more, the same every time."""
     right = task.program.rules[place].extractor
     rng = random.Random(f"{task.name} {place}")
-    meshes = [sample.mesh for sample in task.samples(calibration=True) or task.samples()]
     asked = [select_mask(right, mesh) for mesh in meshes]
     found: list[Extractor] = []
     for _ in range(_DRAWS):

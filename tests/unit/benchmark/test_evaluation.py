@@ -10,7 +10,7 @@ import pytest
 
 from benchmark import __main__ as bench
 from benchmark import journal, progress
-from benchmark.evaluation import effectiveness
+from benchmark.evaluation import contest, effectiveness
 from benchmark.evaluation.failures import list_failures, reason
 from benchmark.evaluation.figures import share_solved_at
 from benchmark.evaluation.page import write
@@ -47,6 +47,7 @@ def test_a_quick_run_writes_the_page_and_its_pictures(
     journals: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(effectiveness, "ASKED", (TRUE, FLAT, PROPAGATED[0], KIND))
+    monkeypatch.setattr(contest, "SHOWN", (1, 3))  # of the few meshes there are
     found = run(PARTS, tmp_path / "out")
     page = (tmp_path / "out" / "README.md").read_text("utf-8")
     assert "A quick run: one category, one seed" in page
