@@ -56,7 +56,7 @@ class _Change:
     now: Callable[[_Book], str]
 
 
-def _deleted(book: _Book) -> str:
+def _count_deletions(book: _Book) -> str:
     """Of how many meshes `All => Delete` passes, all tasks."""
     found = book.results.get("mutation")
     rows = [row for row in found.details if str(row["mutant"]).startswith("All => Delete")] if found else []
@@ -72,7 +72,7 @@ _CHANGES = (
         "27 of 97 passed on half of them",
         lambda book: book.find_goal("mutation", "mutants that pass"),
     ),
-    _Change("the same", "`All => Delete` passes", "75 of 75 meshes of kettle-medium", _deleted),
+    _Change("the same", "`All => Delete` passes", "75 of 75 meshes of kettle-medium", _count_deletions),
     _Change(
         "the same",
         "unedited assets that fail, least of all tasks, %",

@@ -219,7 +219,7 @@ def _phases(groups: Conditions) -> Table:
     for condition in (one for one in MAIN if one.name in groups):
         found = groups[condition.name]
         tool = [spread(found, partial(_tool_seconds, part=part)) for part in ("search", "replay")]
-        person = [spread(found, partial(_spent, part=part)) for part in _PHASES]
+        person = [spread(found, partial(_seconds_of, part=part)) for part in _PHASES]
         rows.append((condition.name, *(format_pair(x) for x in tool), *(format_pair(x, 0) for x in person)))
     title = "Time by phase, s a task: the tool's is measured, the person's is modelled by keystrokes"
     return Table(title, ("condition", "search", "replay", *_PHASES), tuple(rows))
@@ -229,7 +229,7 @@ def _tool_seconds(row: Session, part: str) -> float:
     return sum(r.seconds.get(part, 0.0) for r in row.rounds)
 
 
-def _spent(row: Session, part: str) -> float:
+def _seconds_of(row: Session, part: str) -> float:
     return model_seconds(row)[part]
 
 

@@ -10,25 +10,25 @@ from meshforge.symbolic import Label, SymbolicMesh
 
 
 @dataclass(frozen=True, slots=True)
-class Painting:
+class HandLabels:
     """What a person did to label a mesh: labels looked at, hulls given another, and different labels among these."""
 
     inspected: int = 0
     typed: int = 0
     strokes: int = 0
 
-    def __add__(self, other: Painting) -> Painting:
-        return Painting(self.inspected + other.inspected, self.typed + other.typed, self.strokes + other.strokes)
+    def __add__(self, other: HandLabels) -> HandLabels:
+        return HandLabels(self.inspected + other.inspected, self.typed + other.typed, self.strokes + other.strokes)
 
 
-def begin_by_hand(bench: Bench, count: int) -> tuple[Desk, frozenset[str], Painting]:
+def begin_by_hand(bench: Bench, count: int) -> tuple[Desk, frozenset[str], HandLabels]:
     """All meshes once as many are labelled by hand as `count`, each the one that is advised; the others have none yet
     where it is 0.
 
     With the names of those, and what a person did for that.
     """
     desk = Desk(bench, {name: mesh.with_labels(dict.fromkeys(mesh.index)) for name, mesh in bench.truth.meshes.items()})
-    names, done, painted = list(desk.meshes), list[str](), Painting()
+    names, done, painted = list(desk.meshes), list[str](), HandLabels()
     for _ in range(count):
         (advised,) = bench.relatives.propagate(_labels_of(desk)).next_to_label()
         done.append(names[advised])
@@ -37,7 +37,7 @@ def begin_by_hand(bench: Bench, count: int) -> tuple[Desk, frozenset[str], Paint
     return desk, frozenset(done), painted
 
 
-def label_by_hand(desk: Desk, name: str) -> tuple[Desk, Painting]:
+def label_by_hand(desk: Desk, name: str) -> tuple[Desk, HandLabels]:
     """The meshes when a person has looked through the labels of one, and they were carried over again.
 
     What a person said before stays.
@@ -50,7 +50,7 @@ def label_by_hand(desk: Desk, name: str) -> tuple[Desk, Painting]:
     found = desk.bench.relatives.propagate(_labels_of(looked_through))
     rows = enumerate(looked_through.meshes.items())
     labelled = Desk(desk.bench, {name: _with(mesh, found.labels(place)) for place, (name, mesh) in rows})
-    return labelled, Painting(sum(hull.label is not None for _, hull in pairs), len(wrong), len(set(wrong)))
+    return labelled, HandLabels(sum(hull.label is not None for _, hull in pairs), len(wrong), len(set(wrong)))
 
 
 def _labels_of(desk: Desk) -> list[str | None]:

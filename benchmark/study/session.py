@@ -10,7 +10,7 @@ from typing import Any
 from benchmark.study.condition import MOST, Condition
 from benchmark.study.desk import Bench, Selections
 from benchmark.study.person import Person
-from benchmark.study.propagation import Painting, begin_by_hand, label_by_hand
+from benchmark.study.propagation import HandLabels, begin_by_hand, label_by_hand
 from meshforge.common import MeshForgeError, UsageError
 from meshforge.language import Program
 from meshforge.synthesis import Ambiguous, Answer, Demonstration, LabelCorrection, LearningOutcome, NoProgram, Repair
@@ -158,7 +158,7 @@ class _Course:
         self._judge(UsageError("there is no mesh on which anything could be shown"), others)
         return self.log
 
-    def _count(self, painted: Painting) -> None:
+    def _count(self, painted: HandLabels) -> None:
         self.log.inspected += painted.inspected
         self.log.typed += painted.typed
         self.log.strokes += painted.strokes
@@ -225,7 +225,7 @@ class _Course:
             LabelCorrection(outcome.where, h.name, h.label, to) for h, to in pairs if to in landmarks and h.label != to
         ]
         self.desk = self.desk.correct(wrong)
-        self._count(Painting(len(mesh.hulls), len(wrong), len({one.to for one in wrong})))
+        self._count(HandLabels(len(mesh.hulls), len(wrong), len({one.to for one in wrong})))
         return bool(wrong)
 
     def _outcome(self, demos: list[Demonstration]) -> LearningOutcome:
