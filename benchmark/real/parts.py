@@ -17,7 +17,7 @@ from benchmark.real.family import CACHE, Family, Source
 from benchmark.real.regions import Region, planes_of_box, read_regions
 from benchmark.real.surface import AssetSurface, Patch, matches, read_surface
 from meshforge.batch.preparation.decompose import decompose_surface
-from meshforge.geometry import CoacdSettings, Floats, Polytope, is_sheet, principal_extents
+from meshforge.geometry import CoacdSettings, Floats, Polytope, is_closed, is_sheet, principal_extents
 from meshforge.symbolic import Surface
 from script.samples.part import Part
 from script.samples.solids import block, union
@@ -62,7 +62,7 @@ def make_solids(surface: AssetSurface) -> list[SolidPiece]:
     for piece, solid in made:
         if solid is None:
             outer.append(SolidPiece(piece, _fill(piece, size), False))
-        elif solid.volume() < 0 and any(_surrounds(other, piece) for other, _ in made if other is not piece):
+        elif solid.volume() < 0 and any(_surrounds(row, (piece, solid)) for row in made if row[0] is not piece):
             cavities.append(_turn_out(piece))
         else:
             outer.append(SolidPiece(piece, solid if solid.volume() >= 0 else _turn_out(piece), True))
@@ -73,6 +73,8 @@ def make_solids(surface: AssetSurface) -> list[SolidPiece]:
 
 def close_piece(piece: Patch) -> Manifold | None:
     """A piece as a solid, of negative volume where it is inside out; None where it is not watertight."""
+    if not is_closed(piece.faces):  # manifold3d 3.5.4 crashes on some of these
+        return None
     solid = Manifold(Mesh(piece.vertices.astype(np.float32), piece.faces.astype(np.uint32)))
     return solid if solid.status() == Error.NoError and abs(solid.volume()) > 0 else None
 
@@ -81,12 +83,16 @@ def _turn_out(piece: Patch) -> Manifold:
     return Manifold(Mesh(piece.vertices.astype(np.float32), piece.faces[:, ::-1].astype(np.uint32)))
 
 
-def _surrounds(one: Patch, other: Patch) -> bool:
+def _surrounds(one: tuple[Patch, Manifold | None], other: tuple[Patch, Manifold]) -> bool:
+    """Whether a piece lies in another: in its box, and where there is something, else it fills a hole."""
+    (piece, around), (inner, solid) = one, other
     inside = (
-        other.vertices.min(axis=0) > one.vertices.min(axis=0),
-        other.vertices.max(axis=0) < one.vertices.max(axis=0),
+        inner.vertices.min(axis=0) > piece.vertices.min(axis=0),
+        inner.vertices.max(axis=0) < piece.vertices.max(axis=0),
     )
-    return bool(np.all(inside))
+    if around is None or not np.all(inside):
+        return bool(np.all(inside))
+    return bool((around ^ _turn_out(inner)).volume() > -solid.volume() / 2)
 
 
 def _fill(piece: Patch, size: float) -> Manifold:
