@@ -1,0 +1,107 @@
+"""Sites of cabinets: handles to pull, the top to put things on, and ways in where leaves are taken off."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Iterator, Sequence
+
+import numpy as np
+
+from benchmark.assets.asset import Site
+from benchmark.assets.decomposition import bounds
+from benchmark.criteria.scene import TOLERANCE
+from meshforge.geometry import Floats
+from script.samples.part import Part
+from script.samples.solids import block, union
+
+_CLOSE_X = ((0.0, 1.0, 0.0), (-1.0, 0.0, 0.0), (0.0, 0.0, 1.0))
+_CLOSE_Z = ((0.0, 1.0, 0.0), (0.0, 0.0, 1.0), (1.0, 0.0, 0.0))
+"""Fingers come from the front and close along X or Z."""
+_LEVEL_WITH = 0.05  # of the diagonal of all handles: the uppermost ones reach up to so much below the highest
+_SPOTS = (0.5, 0.3, 0.7, 0.15, 0.85)
+"""Where a way may go through a leaf, across and up, in shares of the leaf."""
+_WIDE = 0.1  # of the leaf, a way through it
+_DEPTHS = (0.3, 0.1, 0.0)
+"""How far a way may go beyond the leaf, in shares of the depth of the body."""
+
+
+def sites_of(parts: Sequence[Part]) -> list[Site]:
+    """The sites of a cabinet: `handle`, `top_handle`, `top` and `open`."""
+    handles = [part for part in parts if part.label == "handle"]
+    grips = [_grip(part) for part in handles]
+    highest = find_highest(handles)
+    return [*(_named(site, "handle") for site in grips), *_of_highest(handles, grips, highest), _top(parts), *_ways(parts)]
+
+
+def find_highest(handles: Sequence[Part]) -> list[Part]:
+    """The handles that reach as high as the highest one."""
+    low, high = bounds(handles)
+    slack = _LEVEL_WITH * float(np.linalg.norm(high - low))
+    return [part for part in handles if part.solid.bounding_box()[5] >= high[2] - slack]
+
+
+def _of_highest(handles: Sequence[Part], grips: Sequence[Site], highest: Sequence[Part]) -> Iterator[Site]:
+    for part, site in zip(handles, grips, strict=True):
+        if part in highest:
+            yield _named(site, "top_handle")
+
+
+def _named(site: Site, name: str) -> Site:
+    return Site(name, site.at, site.size, site.axes)
+
+
+def _grip(handle: Part) -> Site:
+    """Where a gripper takes a handle: about its middle, across the thinner of its sides."""
+    low, high = bounds([handle])
+    middle, (wide, deep, tall) = (low + high) / 2, high - low
+    thin, long = min(wide, tall), max(wide, tall)
+    at = (float(middle[0]), float(middle[1]), float(middle[2]))
+    return Site("handle", at, (0.4 * deep, 0.7 * thin, 0.2 * long), _CLOSE_X if wide <= tall else _CLOSE_Z)
+
+
+def _top(parts: Sequence[Part]) -> Site:
+    """The middle of what the body carries."""
+    low, high = bounds([part for part in parts if part.label == "body"])
+    x, y = (low[:2] + high[:2]) / 2
+    long, wide = 0.3 * (high[:2] - low[:2])
+    return Site("top", (float(x), float(y), float(high[2])), (float(long), float(wide), 0.15 * float(min(long, wide))))
+
+
+def _ways(parts: Sequence[Part]) -> Iterator[Site]:
+    """For each leaf a way from the front through it, as deep as nothing but leaves and their handles is in it."""
+    low, high = bounds(parts)
+    near = TOLERANCE * float(np.linalg.norm(high - low))
+    leaves = [part for part in parts if part.label == "leaf"]
+    rest = union([part.solid for part in parts if part not in leaves and not _is_on(part, leaves, near)])
+    deep = float(np.ptp(bounds([part for part in parts if part.label == "body"]), axis=0)[1])
+    for leaf in leaves:
+        rooms = (
+            _room(leaf, low, deep * depth - near, (across, up))
+            for depth, up, across in itertools.product(_DEPTHS, _SPOTS, _SPOTS)
+        )
+        free = next((room for room in rooms if (rest ^ block(*room)).is_empty()), None)
+        if free:
+            yield _way(*np.array(free))
+
+
+def _is_on(part: Part, leaves: Sequence[Part], near: float) -> bool:
+    return part.label == "handle" and any(float(part.solid.min_gap(leaf.solid, 2 * near)) <= near for leaf in leaves)
+
+
+Room = tuple[tuple[float, float, float], tuple[float, float, float]]
+
+
+def _room(leaf: Part, low: Floats, beyond: float, spot: tuple[float, float]) -> Room:
+    """The box that a way sweeps, from the front of the cabinet to so far beyond the leaf [m]."""
+    least, most = bounds([leaf])
+    sides = most - least
+    x, z = least[0] + spot[0] * sides[0], least[2] + spot[1] * sides[2]
+    half, rise = _WIDE / 2 * sides[0], _WIDE / 2 * sides[2]
+    a, b = (x - half, low[1], z - rise), (x + half, most[1] + beyond, z + rise)
+    return (float(a[0]), float(a[1]), float(a[2])), (float(b[0]), float(b[1]), float(b[2]))
+
+
+def _way(low: Floats, high: Floats) -> Site:
+    (x, _, z), half = (low + high) / 2, (high - low) / 2
+    at = (float(x), float(low[1]), float(z))
+    return Site("open", at, (float(2 * half[1]), float(half[0]), float(half[2])), _CLOSE_X)
