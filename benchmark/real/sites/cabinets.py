@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 
 import numpy as np
 
@@ -19,10 +20,10 @@ _CLOSE_Z = ((0.0, 1.0, 0.0), (0.0, 0.0, 1.0), (1.0, 0.0, 0.0))
 """Fingers come from the front and close along X or Z."""
 _LEVEL_WITH = 0.05  # of the diagonal of all handles: the uppermost ones reach up to so much below the highest
 _SPOTS = (0.5, 0.3, 0.7, 0.15, 0.85)
-"""Where a way may go through a leaf, across and up, in shares of the leaf."""
+"""Where a way may go through a leaf, up and across, in shares of the leaf."""
 _WIDE = 0.1  # of the leaf, a way through it
 _DEPTHS = (0.3, 0.1, 0.0)
-"""How far a way may go beyond the leaf, in shares of the depth of the body."""
+"""How far a way may go beyond the leaf, in shares of the depth of the body; else to the middle of the leaf."""
 
 
 def sites_of(parts: Sequence[Part]) -> list[Site]:
@@ -30,7 +31,8 @@ def sites_of(parts: Sequence[Part]) -> list[Site]:
     handles = [part for part in parts if part.label == "handle"]
     grips = [_grip(part) for part in handles]
     highest = find_highest(handles)
-    return [*(_named(site, "handle") for site in grips), *_of_highest(handles, grips, highest), _top(parts), *_ways(parts)]
+    upper = [replace(grip, name="top_handle") for part, grip in zip(handles, grips, strict=True) if part in highest]
+    return [*grips, *upper, _top(parts), *_ways(parts)]
 
 
 def find_highest(handles: Sequence[Part]) -> list[Part]:
@@ -38,16 +40,6 @@ def find_highest(handles: Sequence[Part]) -> list[Part]:
     low, high = bounds(handles)
     slack = _LEVEL_WITH * float(np.linalg.norm(high - low))
     return [part for part in handles if part.solid.bounding_box()[5] >= high[2] - slack]
-
-
-def _of_highest(handles: Sequence[Part], grips: Sequence[Site], highest: Sequence[Part]) -> Iterator[Site]:
-    for part, site in zip(handles, grips, strict=True):
-        if part in highest:
-            yield _named(site, "top_handle")
-
-
-def _named(site: Site, name: str) -> Site:
-    return Site(name, site.at, site.size, site.axes)
 
 
 def _grip(handle: Part) -> Site:
@@ -75,10 +67,9 @@ def _ways(parts: Sequence[Part]) -> Iterator[Site]:
     rest = union([part.solid for part in parts if part not in leaves and not _is_on(part, leaves, near)])
     deep = float(np.ptp(bounds([part for part in parts if part.label == "body"]), axis=0)[1])
     for leaf in leaves:
-        rooms = (
-            _room(leaf, low, deep * depth - near, (across, up))
-            for depth, up, across in itertools.product(_DEPTHS, _SPOTS, _SPOTS)
-        )
+        thick = float(np.ptp(bounds([leaf]), axis=0)[1])
+        ends = [*(deep * depth - near for depth in _DEPTHS), -thick / 2]
+        rooms = (_room(leaf, low, beyond, spot) for beyond, *spot in itertools.product(ends, _SPOTS, _SPOTS))
         free = next((room for room in rooms if (rest ^ block(*room)).is_empty()), None)
         if free:
             yield _way(*np.array(free))
@@ -91,11 +82,11 @@ def _is_on(part: Part, leaves: Sequence[Part], near: float) -> bool:
 Room = tuple[tuple[float, float, float], tuple[float, float, float]]
 
 
-def _room(leaf: Part, low: Floats, beyond: float, spot: tuple[float, float]) -> Room:
+def _room(leaf: Part, low: Floats, beyond: float, spot: Sequence[float]) -> Room:
     """The box that a way sweeps, from the front of the cabinet to so far beyond the leaf [m]."""
     least, most = bounds([leaf])
     sides = most - least
-    x, z = least[0] + spot[0] * sides[0], least[2] + spot[1] * sides[2]
+    z, x = least[2] + spot[0] * sides[2], least[0] + spot[1] * sides[0]
     half, rise = _WIDE / 2 * sides[0], _WIDE / 2 * sides[2]
     a, b = (x - half, low[1], z - rise), (x + half, most[1] + beyond, z + rise)
     return (float(a[0]), float(a[1]), float(a[2])), (float(b[0]), float(b[1]), float(b[2]))
