@@ -1,4 +1,4 @@
-"""Sites of cabinets: handles to pull, the top to put things on, and ways in where leaves are taken off."""
+"""Sites of cabinets: handles to pull, and ways in where leaves are taken off."""
 
 from __future__ import annotations
 
@@ -27,12 +27,14 @@ _DEPTHS = (0.3, 0.1, 0.0)
 
 
 def sites_of(parts: Sequence[Part]) -> list[Site]:
-    """The sites of a cabinet: `handle`, `top_handle`, `top` and `open`."""
+    """The sites of a cabinet: `handle`, `top_handle` and `open`."""
     handles = [part for part in parts if part.label == "handle"]
-    grips = [_grip(part) for part in handles]
+    low, high = bounds(parts)
+    near = TOLERANCE * float(np.linalg.norm(high - low))
+    grips = [_grip(part, parts, near) for part in handles]
     highest = find_highest(handles)
     upper = [replace(grip, name="top_handle") for part, grip in zip(handles, grips, strict=True) if part in highest]
-    return [*grips, *upper, _top(parts), *_ways(parts)]
+    return [*grips, *upper, *_ways(parts, near)]
 
 
 def find_highest(handles: Sequence[Part]) -> list[Part]:
@@ -42,27 +44,25 @@ def find_highest(handles: Sequence[Part]) -> list[Part]:
     return [part for part in handles if part.solid.bounding_box()[5] >= high[2] - slack]
 
 
-def _grip(handle: Part) -> Site:
-    """Where a gripper takes a handle: about its middle, across the thinner of its sides."""
+def _grip(handle: Part, parts: Sequence[Part], near: float) -> Site:
+    """Where a gripper takes a handle from the front: across the thinner of its sides, as deep as nothing is behind."""
     low, high = bounds([handle])
-    middle, (wide, deep, tall) = (low + high) / 2, high - low
+    wide, _, tall = high - low
     thin, long = min(wide, tall), max(wide, tall)
-    at = (float(middle[0]), float(middle[1]), float(middle[2]))
-    return Site("handle", at, (0.4 * deep, 0.7 * thin, 0.2 * long), _CLOSE_X if wide <= tall else _CLOSE_Z)
+    opening, half = 0.7 * thin, 0.2 * long
+    x, _, z = (low + high) / 2
+    aside, up = (1.25 * opening + opening / 4, half) if wide <= tall else (half, 1.25 * opening + opening / 4)
+    room = block((x - aside, low[1], z - up), (x + aside, high[1], z + up))
+    rest = union([part.solid for part in parts if part is not handle]) ^ room
+    end = float(high[1] if rest.is_empty() else rest.bounding_box()[1]) - 2 * near
+    at = (float(x), float(low[1] + end) / 2, float(z))
+    size = (float(end - low[1]) / 2, float(opening), float(half))
+    return Site("handle", at, size, _CLOSE_X if wide <= tall else _CLOSE_Z)
 
 
-def _top(parts: Sequence[Part]) -> Site:
-    """The middle of what the body carries."""
-    low, high = bounds([part for part in parts if part.label == "body"])
-    x, y = (low[:2] + high[:2]) / 2
-    long, wide = 0.3 * (high[:2] - low[:2])
-    return Site("top", (float(x), float(y), float(high[2])), (float(long), float(wide), 0.15 * float(min(long, wide))))
-
-
-def _ways(parts: Sequence[Part]) -> Iterator[Site]:
+def _ways(parts: Sequence[Part], near: float) -> Iterator[Site]:
     """For each leaf a way from the front through it, as deep as nothing but leaves and their handles is in it."""
-    low, high = bounds(parts)
-    near = TOLERANCE * float(np.linalg.norm(high - low))
+    low, _ = bounds(parts)
     leaves = [part for part in parts if part.label == "leaf"]
     rest = union([part.solid for part in parts if part not in leaves and not _is_on(part, leaves, near)])
     deep = float(np.ptp(bounds([part for part in parts if part.label == "body"]), axis=0)[1])
