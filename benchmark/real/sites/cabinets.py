@@ -19,6 +19,8 @@ _CLOSE_X = ((0.0, 1.0, 0.0), (-1.0, 0.0, 0.0), (0.0, 0.0, 1.0))
 _CLOSE_Z = ((0.0, 1.0, 0.0), (0.0, 0.0, 1.0), (1.0, 0.0, 0.0))
 """Fingers come from the front and close along X or Z."""
 _LEVEL_WITH = 0.05  # of the diagonal of all handles: the uppermost ones reach up to so much below the highest
+_FLAT = 0.1
+"""Of half the opening of a gripper: fingers do not hold what stands out by less, such as a button."""
 _SPOTS = (0.5, 0.3, 0.7, 0.15, 0.85)
 """Where a way may go through a leaf, up and across, in shares of the leaf."""
 _WIDE = 0.1  # of the leaf, a way through it
@@ -31,10 +33,11 @@ def sites_of(parts: Sequence[Part]) -> list[Site]:
     handles = [part for part in parts if part.label == "handle"]
     low, high = bounds(parts)
     near = TOLERANCE * float(np.linalg.norm(high - low))
-    grips = [_grip(part, parts, near) for part in handles]
+    grips = [(part, _grip(part, parts, near)) for part in handles]
+    grips = [(part, grip) for part, grip in grips if grip.size[0] > _FLAT * grip.size[1]]
     highest = find_highest(handles)
-    upper = [replace(grip, name="top_handle") for part, grip in zip(handles, grips, strict=True) if part in highest]
-    return [*grips, *upper, *_ways(parts, near)]
+    upper = [replace(grip, name="top_handle") for part, grip in grips if part in highest]
+    return [*(grip for _, grip in grips), *upper, *_ways(parts, near)]
 
 
 def find_highest(handles: Sequence[Part]) -> list[Part]:
@@ -54,7 +57,9 @@ def _grip(handle: Part, parts: Sequence[Part], near: float) -> Site:
     aside, up = (1.25 * opening + opening / 4, half) if wide <= tall else (half, 1.25 * opening + opening / 4)
     room = block((x - aside, low[1], z - up), (x + aside, high[1], z + up))
     rest = union([part.solid for part in parts if part is not handle]) ^ room
-    end = float(high[1] if rest.is_empty() else rest.bounding_box()[1]) - 2 * near
+    ends = [float(part.solid.bounding_box()[1]) for part in parts if part.label == "leaf"]
+    ends += [float(high[1])] if rest.is_empty() else [float(rest.bounding_box()[1])]
+    end = min([at for at in ends if at > low[1]], default=float(high[1])) - 2 * near
     at = (float(x), float(low[1] + end) / 2, float(z))
     size = (float(end - low[1]) / 2, float(opening), float(half))
     return Site("handle", at, size, _CLOSE_X if wide <= tall else _CLOSE_Z)
