@@ -64,6 +64,8 @@ def _take(ear: Part, others: Sequence[Part], axis: Floats, near: float) -> Site:
     if not room.is_empty():
         box = room.bounding_box()
         ends = (min(ends[0], float(box[along])), max(ends[1], float(box[along + 3])))
+    wall = bounds([part for part in others if part.label == "wall"])
+    ends = (min(ends[0], float(wall[0][along])), max(ends[1], float(wall[1][along])))
     outer, inner = (float(high[along]), ends[1]) if side > 0 else (float(low[along]), ends[0])
     inner += side * 2 * near
     at, inward = middle.copy(), np.zeros(3)
