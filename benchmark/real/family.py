@@ -31,8 +31,9 @@ class Source:
     surface: what is labelled, `visual` or `collision`; by default what a body shows, or its collision geometry where
     it shows nothing. up: the axis that points up in the file, by default what its format says, or z; turn: about that
     axis [degrees], so that its front looks to -Y; without: patterns of names of pieces and hulls that are no part of
-    the asset; close: patterns of names of pieces that are solid, though their surface has planar holes.
-    wrapper: the text of the main file where the corpus has parts of one only.
+    the asset; close: patterns of names of pieces that are solid, though their surface has planar holes; decompose:
+    false where there is no visual mesh, so that it is measured as it comes only. wrapper: the text of the main file
+    where the corpus has parts of one only.
     """
 
     name: str
@@ -49,6 +50,7 @@ class Source:
     turn: float = 0.0
     without: tuple[str, ...] = ()
     close: tuple[str, ...] = ()
+    decompose: bool = True
     wrapper: str | None = field(default=None, repr=False)
 
     def file(self) -> Path:

@@ -73,7 +73,8 @@ def family_samples(family_name: str, setting: str) -> tuple[Sample, ...]:
 
 def make_sample(one: Family, name: str, setting: str) -> Sample | None:
     """The mesh of an asset at one setting, None where it has none."""
-    if setting == AS_IS and why_absent(one.source(name)):
+    source = one.source(name)
+    if why_absent(source) if setting == AS_IS else not source.decompose:
         return None
     real = real_asset(one.name, name)
     hulls = _as_is(real.source) if setting == AS_IS else _decompose(real, SETTINGS[setting])
