@@ -64,7 +64,7 @@ def make_solids(surface: AssetSurface) -> list[SolidPiece]:
     for piece, solid in made:
         if solid is None:
             outer.append(SolidPiece(piece, _fill(piece, size), False))
-        elif solid.volume() < 0 and any(_surrounds(other, piece) for other, _ in made if other is not piece):
+        elif solid.volume() < 0 and any(_surrounds(row, (piece, solid)) for row in made if row[0] is not piece):
             cavities.append(_turn_out(piece))
         else:
             outer.append(SolidPiece(piece, solid if solid.volume() >= 0 else _turn_out(piece), True))
@@ -97,12 +97,16 @@ def _turn_out(piece: Patch) -> Manifold:
     return Manifold(Mesh(piece.vertices.astype(np.float32), piece.faces[:, ::-1].astype(np.uint32)))
 
 
-def _surrounds(one: Patch, other: Patch) -> bool:
+def _surrounds(one: tuple[Patch, Manifold | None], other: tuple[Patch, Manifold]) -> bool:
+    """Whether a piece lies in another: in its box, and where there is something, else it fills a hole."""
+    (piece, around), (inner, solid) = one, other
     inside = (
-        other.vertices.min(axis=0) > one.vertices.min(axis=0),
-        other.vertices.max(axis=0) < one.vertices.max(axis=0),
+        inner.vertices.min(axis=0) > piece.vertices.min(axis=0),
+        inner.vertices.max(axis=0) < piece.vertices.max(axis=0),
     )
-    return bool(np.all(inside))
+    if around is None or not np.all(inside):
+        return bool(np.all(inside))
+    return bool((around ^ _turn_out(inner)).volume() > -solid.volume() / 2)
 
 
 def _fill(piece: Patch, size: float) -> Manifold:
