@@ -3,6 +3,8 @@
 python -m benchmark.real add PATH --name NAME            prints the block of family.toml for a file of the corpus
 python -m benchmark.real look FAMILY [ASSET ...] --out FOLDER [--pieces | --regions]   pictures to label by
 python -m benchmark.real check FAMILY                    digests, labels everywhere, no geometry twice, eight assets
+python -m benchmark.real record FAMILY                   writes the digests of the decompositions
+python -m benchmark.real ceiling FAMILY [--out FOLDER]   how unedited meshes, the reference and wrong edits fare
 """
 
 from __future__ import annotations
@@ -12,11 +14,14 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
+from benchmark.real.ceiling import describe_rows, draw_edits, judge_family
 from benchmark.real.examination import find_faults
 from benchmark.real.family import Family, describe_source, family
 from benchmark.real.pictures import describe_piece, draw_pieces, draw_regions, order_pieces
 from benchmark.real.regions import label_surface, read_regions
+from benchmark.real.samples import record_digests
 from benchmark.real.surface import read_surface
+from benchmark.real.tasks import real_tasks
 from meshforge.common import MeshForgeError
 
 
@@ -38,6 +43,11 @@ def main() -> None:
     look.add_argument("--regions", action="store_true", help="regions only")
     check = tasks.add_parser("check", help="digests, labels, geometry")
     check.add_argument("family")
+    record = tasks.add_parser("record", help="write the digests of the decompositions")
+    record.add_argument("family")
+    ceiling = tasks.add_parser("ceiling", help="how unedited meshes, the reference and wrong edits fare")
+    ceiling.add_argument("family")
+    ceiling.add_argument("--out", type=Path, help="a folder for pictures before and after the reference's edit")
     given = parser.parse_args()
     try:
         sys.exit(_run(given))
@@ -53,6 +63,15 @@ def _run(given: argparse.Namespace) -> int:
     one = family(given.family)
     if given.do == "look":
         _look(one, given.assets or one.names, given.out, given.pieces, given.regions)
+        return 0
+    if given.do == "record":
+        print(record_digests(one))
+        return 0
+    if given.do == "ceiling":
+        for line in describe_rows(list(judge_family(one.name))):
+            print(line)
+        for task, setting, samples in real_tasks([one.name]) if given.out else ():
+            draw_edits(task, samples, given.out / f"{task.name}-{setting}.png")
         return 0
     faults = find_faults(one)
     for fault in faults:

@@ -2,7 +2,7 @@
 
 A piece of the surface that is watertight is a solid as it is; one that lies in another with its inside out is a cavity
 of that. Of another piece it is the union of the hulls of a fine decomposition, which CoACD makes after it has remeshed
-the piece by voxels: a sheet that is bent gets the thickness of about two voxels, a flat one `SHEET` of the asset's size.
+the piece by voxels: a bent sheet gets the thickness of about two voxels, a flat one `SHEET` of the asset's size.
 """
 
 from __future__ import annotations

@@ -94,7 +94,7 @@ def _stand(source: Source, asset: Asset, points: Floats) -> Pose:
 
 
 def _surfaces(asset: Asset, wanted: str | None) -> Iterator[tuple[str, str, Floats, Ints]]:
-    """Name, body, vertices and triangles in the frame of the file of what bodies show, or of their collision geometry."""
+    """Name, body, vertices and triangles in the file's frame of what bodies show, or of their collision geometry."""
     first = asset.bodies[0].name if asset.bodies else ""
     visuals = [] if wanted == "collision" else [(v.body or first, v) for v in asset.visuals if len(v.faces)]
     shown = {body for body, _ in visuals}

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import tomllib
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from functools import cache, cached_property, lru_cache
 from pathlib import Path
@@ -41,6 +41,7 @@ class Task:
     says: what a person wants, in a sentence; motifs: of the design page; rare: the kind on which a simpler reading
     goes wrong, None where there is none; wrong: a deliberately wrong program, which the criterion must refuse;
     criterion: its checks, all of which must hold; equivalents: mutants of the program that do the same job, and why.
+    own_samples: the meshes it is about, where these are not those of a category of generated assets.
     """
 
     name: str
@@ -54,9 +55,12 @@ class Task:
     criterion: tuple[Mapping[str, Any], ...]
     templates: Mapping[str, Template] = field(repr=False)
     equivalents: Mapping[str, str] = field(default_factory=dict)
+    own_samples: Callable[[], tuple[Sample, ...]] | None = field(default=None, repr=False)
 
     def samples(self, calibration: bool = False) -> tuple[Sample, ...]:
-        """The meshes that the task is about."""
+        """The meshes that the task is about; real assets have no calibration set."""
+        if self.own_samples:
+            return () if calibration else self.own_samples()
         return samples(self.category, calibration)
 
     @cached_property
@@ -113,7 +117,11 @@ def _truly_labelled(edited: EditResult, truth: Mapping[str, Label | None]) -> Sy
 @cache
 def task(name: str) -> Task:
     """The task of that name: its folder's."""
-    folder = TASKS / name
+    return read_task(TASKS / name, name)
+
+
+def read_task(folder: Path, name: str, own_samples: Callable[[], tuple[Sample, ...]] | None = None) -> Task:
+    """The task of a folder; own_samples: its meshes, where they are not those of a category."""
     data = tomllib.loads((folder / "task.toml").read_text("utf-8"))
     files = sorted((folder / "templates").glob("*.obj"))
     templates = {file.name: Template(tuple(geom.shape for geom in read(file).geoms), file.name) for file in files}
@@ -129,6 +137,7 @@ def task(name: str) -> Task:
         tuple(data["criterion"]),
         templates,
         data.get("equivalents", {}),
+        own_samples,
     )
 
 

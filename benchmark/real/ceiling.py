@@ -1,0 +1,61 @@
+"""How unedited meshes, edits of the reference and wrong edits fare, family by family and setting by setting."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from typing import Any
+
+from benchmark.assets import Sample
+from benchmark.assets.pictures import upright
+from benchmark.real.tasks import real_tasks
+from benchmark.tasks import EditResult, Task
+from meshforge.rendering import draw_before_after, make_contact_sheet, write_png
+
+Row = dict[str, Any]
+
+
+def judge_family(name: str) -> Iterator[Row]:
+    """A row for each mesh of each task of a family: why it fails unedited, by the reference and by the wrong program."""
+    for task, setting, samples in real_tasks([name]):
+        for sample in samples:
+            yield {"task": task.name, "setting": setting, **judge_sample(task, sample)}
+
+
+def judge_sample(task: Task, sample: Sample) -> Row:
+    """Why a mesh fails by a task's criterion: unedited, by the reference, by the wrong program; None: it does not."""
+    edits = {
+        "unedited": EditResult(sample.mesh),
+        "reference": task.run(task.program, sample.mesh),
+        "wrong": task.run(task.wrong, sample.mesh),
+    }
+    why = {about: task.failure(sample, edited) for about, edited in edits.items()}
+    hulls = len(sample.mesh.hulls)
+    return {"mesh": sample.name, "asset": sample.asset.name, "hulls": hulls, "impure": len(task.impure(sample)), **why}
+
+
+def describe_rows(rows: Sequence[Row]) -> Iterator[str]:
+    """How the meshes of each task fare at each setting, and what fails under the reference."""
+    for key in dict.fromkeys((row["task"], row["setting"]) for row in rows):
+        mine = [row for row in rows if (row["task"], row["setting"]) == key]
+        pure = [row for row in mine if not row["impure"]]
+        passed = {about: sum(row[about] is None for row in mine) for about in ("unedited", "reference", "wrong")}
+        told = ", ".join(f"{about} {count}" for about, count in passed.items())
+        good = sum(row["reference"] is None for row in pure)
+        yield f"{key[0]} {key[1]}: of {len(mine)} pass: {told}; reference, pure: {good} of {len(pure)}"
+        for row in mine:
+            if row["reference"]:
+                yield f"    {row['mesh']}{' (impure)' if row['impure'] else ''}: {row['reference']}"
+
+
+def draw_edits(task: Task, samples: Sequence[Sample], path: Path, side: int = 260, columns: int = 3) -> None:
+    """Write a sheet: each mesh before and after the reference program."""
+    images, titles = [], []
+    for sample in samples:
+        after = task.run(task.program, sample.mesh).mesh
+        if after is not None:
+            pair = (upright(sample), upright(sample, after))
+            images.append(draw_before_after(*pair, size=(side, side), vocabulary=tuple(task.program.labels)))
+            titles.append(sample.name)
+    path.parent.mkdir(parents=True, exist_ok=True)
+    write_png(path, make_contact_sheet(images, columns, titles))
