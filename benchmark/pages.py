@@ -60,7 +60,7 @@ PAGES = (
             "gallery",
         ),
         ("numpy", "scipy", "coal", "coacd", "manifold3d", "mujoco", "cvc5"),
-        aside=("tuning",),
+        aside=("tuning", "real"),
         given=("comparison",),
     ),
     Page(

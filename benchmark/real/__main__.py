@@ -5,6 +5,7 @@ python -m benchmark.real look FAMILY [ASSET ...] --out FOLDER [--pieces | --regi
 python -m benchmark.real check FAMILY                    digests, labels everywhere, no geometry twice, eight assets
 python -m benchmark.real record FAMILY                   writes the digests of the decompositions
 python -m benchmark.real ceiling FAMILY [--out FOLDER]   how unedited meshes, the reference and wrong edits fare
+python -m benchmark.real mutants FAMILY                  which nearly right programs its criteria let through
 """
 
 from __future__ import annotations
@@ -14,12 +15,12 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
-from benchmark.real.ceiling import describe_rows, draw_edits, judge_family
+from benchmark.real.ceiling import describe_mutants, describe_rows, draw_edits, judge_family
 from benchmark.real.examination import find_faults
 from benchmark.real.family import Family, describe_source, family
 from benchmark.real.pictures import describe_piece, draw_pieces, draw_regions, order_pieces
 from benchmark.real.regions import label_surface, read_regions
-from benchmark.real.samples import record_digests
+from benchmark.real.samples import find_changed_samples, record_digests
 from benchmark.real.surface import read_surface
 from benchmark.real.tasks import real_tasks
 from meshforge.common import MeshForgeError
@@ -43,11 +44,14 @@ def main() -> None:
     look.add_argument("--regions", action="store_true", help="regions only")
     check = tasks.add_parser("check", help="digests, labels, geometry")
     check.add_argument("family")
+    check.add_argument("--decompositions", action="store_true", help="also whether CoACD makes what was recorded")
     record = tasks.add_parser("record", help="write the digests of the decompositions")
     record.add_argument("family")
     ceiling = tasks.add_parser("ceiling", help="how unedited meshes, the reference and wrong edits fare")
     ceiling.add_argument("family")
     ceiling.add_argument("--out", type=Path, help="a folder for pictures before and after the reference's edit")
+    mutants = tasks.add_parser("mutants", help="which nearly right programs the criteria let through")
+    mutants.add_argument("family")
     given = parser.parse_args()
     try:
         sys.exit(_run(given))
@@ -73,7 +77,13 @@ def _run(given: argparse.Namespace) -> int:
         for task, setting, samples in real_tasks([one.name]) if given.out else ():
             draw_edits(task, samples, given.out / f"{task.name}-{setting}.png")
         return 0
+    if given.do == "mutants":
+        for line in describe_mutants(one.name):
+            print(line)
+        return 0
     faults = find_faults(one)
+    if given.decompositions:
+        faults += [f"{name}: its hulls are not those that were recorded" for name in find_changed_samples(one)]
     for fault in faults:
         print(fault)
     print(f"{one.name}: {len(one.sources)} assets, {len(faults)} faults")

@@ -31,7 +31,9 @@ class Source:
     surface: what is labelled, `visual` or `collision`; by default what a body shows, or its collision geometry where
     it shows nothing. up: the axis that points up in the file, by default what its format says, or z; turn: about that
     axis [degrees], so that its front looks to -Y; without: patterns of names of pieces and hulls that are no part of
-    the asset. wrapper: the text of the main file where the corpus has parts of one only.
+    the asset; close: patterns of names of pieces that are solid, though their surface has planar holes; decompose:
+    false where there is no visual mesh, so that it is measured as it comes only. wrapper: the text of the main file
+    where the corpus has parts of one only.
     """
 
     name: str
@@ -47,6 +49,8 @@ class Source:
     up: str | None = None
     turn: float = 0.0
     without: tuple[str, ...] = ()
+    close: tuple[str, ...] = ()
+    decompose: bool = True
     wrapper: str | None = field(default=None, repr=False)
 
     def file(self) -> Path:
@@ -130,7 +134,7 @@ def families() -> list[str]:
 
 
 def _source(row: Mapping[str, Any]) -> Source:
-    return Source(**{**row, "without": tuple(row.get("without", ()))})
+    return Source(**{**row, "without": tuple(row.get("without", ())), "close": tuple(row.get("close", ()))})
 
 
 def describe_source(path: str, name: str, wrapper: str | None = None) -> str:

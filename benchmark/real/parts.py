@@ -8,7 +8,7 @@ the piece by voxels: a bent sheet gets the thickness of about two voxels, a flat
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from manifold3d import Error, Manifold, Mesh
@@ -17,7 +17,8 @@ from benchmark.real.family import CACHE, Family, Source
 from benchmark.real.regions import Region, planes_of_box, read_regions
 from benchmark.real.surface import AssetSurface, Patch, matches, read_surface
 from meshforge.batch.preparation.decompose import decompose_surface
-from meshforge.geometry import CoacdSettings, Floats, Polytope, is_sheet, principal_extents
+from meshforge.geometry import CoacdSettings, Floats, Ints, Polytope, is_sheet, principal_extents
+from meshforge.geometry.decomposition.triangles import cap_holes, clean_triangles
 from meshforge.symbolic import Surface
 from script.samples.part import Part
 from script.samples.solids import block, union
@@ -34,7 +35,7 @@ FINE = CoacdSettings(
 """How a piece that is not watertight is decomposed to become a solid."""
 SHEET = 0.002
 """Thickness of a flat sheet, of the diagonal of its asset."""
-_LEAST = 1e-9  # volume of a bit of a part that counts, of the asset's box
+_LEAST = 1e-5  # volume of a bit that counts, of that of its piece
 
 
 @dataclass(frozen=True, eq=False)
@@ -56,7 +57,8 @@ def make_solids(surface: AssetSurface) -> list[SolidPiece]:
     """Each piece of a surface as a solid, but for cavities, which are taken out of the pieces around them."""
     low, high = surface.bounds
     size = float(np.linalg.norm(high - low))
-    made = [(piece, close_piece(piece)) for piece in surface.pieces]
+    pieces = [_cap(piece) if matches(piece.name, surface.close) else piece for piece in surface.pieces]
+    made = [(piece, close_piece(piece)) for piece in pieces]
     outer: list[SolidPiece] = []
     cavities: list[Manifold] = []
     for piece, solid in made:
@@ -73,8 +75,22 @@ def make_solids(surface: AssetSurface) -> list[SolidPiece]:
 
 def close_piece(piece: Patch) -> Manifold | None:
     """A piece as a solid, of negative volume where it is inside out; None where it is not watertight."""
+    if not _is_balanced(piece.faces):  # Manifold crashes on some of these
+        return None
     solid = Manifold(Mesh(piece.vertices.astype(np.float32), piece.faces.astype(np.uint32)))
     return solid if solid.status() == Error.NoError and abs(solid.volume()) > 0 else None
+
+
+def _is_balanced(faces: Ints) -> bool:
+    """Whether along every edge as many triangles of faces (m, 3) run one way as the other."""
+    start, end, count = faces.ravel(), faces[:, [1, 2, 0]].ravel(), int(faces.max()) + 1
+    return np.array_equal(np.sort(start * count + end), np.sort(end * count + start))
+
+
+def _cap(piece: Patch) -> Patch:
+    """A piece with caps on its planar holes, where these close it."""
+    mesh, _ = cap_holes(clean_triangles(piece.vertices, piece.faces))
+    return replace(piece, vertices=mesh.vertices, faces=mesh.faces)
 
 
 def _turn_out(piece: Patch) -> Manifold:
@@ -113,9 +129,9 @@ def cut_parts(surface: AssetSurface, regions: Sequence[Region], solids: Sequence
         for region in regions:
             if matches(row.patch.name, region.pieces) and not rest.is_empty():
                 taken, rest = _take(rest, region, low, high)
-                bits += [(region, bit) for bit in (taken.decompose() if region.boxes else [taken])]
-    least = _LEAST * float(np.prod(high - low))
-    return tuple(_unite([(region, bit) for region, bit in bits if bit.volume() > least]))
+                found = taken.decompose() if region.boxes else [taken]
+                bits += [(region, bit) for bit in found if bit.volume() > _LEAST * row.solid.volume()]
+    return tuple(_unite(bits))
 
 
 def _take(rest: Manifold, region: Region, low: Floats, high: Floats) -> tuple[Manifold, Manifold]:

@@ -70,7 +70,10 @@ def parse_region(row: Mapping[str, Any], vocabulary: Sequence[str], where: str) 
 
 
 def _parse_box(box: Any, where: str) -> Box3:
-    corners = np.asarray(box, dtype=np.float64)
+    try:
+        corners = np.asarray(box, dtype=np.float64)
+    except ValueError:
+        corners = np.zeros(0)
     if corners.shape != (2, 3) or not (corners[0] < corners[1]).all():
         remedy = "Write [[x, y, z], [x, y, z]]: the lowest corner, then the highest, in shares of the asset's box."
         raise AssetError(f"{box} is no box", where=where, remedy=remedy)

@@ -6,7 +6,7 @@ import hashlib
 import json
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
-from functools import cache
+from functools import cache, lru_cache
 from pathlib import Path
 
 import numpy as np
@@ -14,14 +14,17 @@ from manifold3d import Manifold
 
 from benchmark.assets import SETTINGS, Asset, Sample
 from benchmark.assets.decomposition import shares
+from benchmark.criteria.solid import near
 from benchmark.real.family import CACHE, Family, Source, family
 from benchmark.real.parts import SolidPiece, cut_parts, make_solids
 from benchmark.real.regions import read_regions
 from benchmark.real.sites import sites_of
 from benchmark.real.surface import AssetSurface, matches, read_surface
-from meshforge.common import AssetError
-from meshforge.geometry import CoacdSettings, Polytope, convex_hull, decompose, spans_volume
+from benchmark.tasks import Task
+from meshforge.common import AssetError, pluralize
+from meshforge.geometry import CoacdSettings, Polytope, Pose, convex_hull, decompose, spans_volume
 from meshforge.symbolic import Hull, Label, SymbolicMesh
+from script.samples.part import Part
 from script.samples.pieces import DIGITS, triangles
 from script.samples.solids import union
 
@@ -30,6 +33,10 @@ AS_IS = "as_is"
 ALL_SETTINGS = (AS_IS, *SETTINGS)
 RECORD = "decompositions.json"
 """File of a family: for each asset and setting the digest of its hulls."""
+BARE = 0.2
+"""A part with less than this of its volume in hulls has no collision geometry."""
+MERGED = 0.5
+"""A part with less than this of what is in hulls in hulls of its label was merged into others."""
 _CONVEX = 0.999  # of the volume of its convex hull: such a solid is one hull at any setting
 
 
@@ -66,13 +73,18 @@ def family_samples(family_name: str, setting: str) -> tuple[Sample, ...]:
 
 def make_sample(one: Family, name: str, setting: str) -> Sample | None:
     """The mesh of an asset at one setting, None where it has none."""
-    if setting == AS_IS and why_absent(one.source(name)):
+    source = one.source(name)
+    if why_absent(source) if setting == AS_IS else not source.decompose:
         return None
     real = real_asset(one.name, name)
     hulls = _as_is(real.source) if setting == AS_IS else _decompose(real, SETTINGS[setting])
-    told = tuple(shares(_polytope(hull), real.asset.parts, real.asset.pose) for hull in hulls)
+    asset = real.asset
+    if setting == AS_IS and (lacking := find_bare(hulls, asset)):
+        parts = tuple(part for part in asset.parts if part.name not in lacking)
+        asset = replace(asset, parts=parts, sites=sites_of(one.name, parts))
+    told = tuple(shares(_polytope(hull), asset.parts, asset.pose) for hull in hulls)
     named = [replace(h, annotation=Label(next(iter(row)), 1.0, "file")) for h, row in zip(hulls, told, strict=True)]
-    return Sample(f"{name}_{setting}", real.asset, setting, SymbolicMesh(tuple(named)), told)
+    return Sample(f"{name}_{setting}", asset, setting, SymbolicMesh(tuple(named)), told)
 
 
 def why_absent(source: Source) -> str | None:
@@ -80,9 +92,42 @@ def why_absent(source: Source) -> str | None:
     asset = source.read()
     concave = [o.name for o in asset.opaque if o.plane is None and not matches(o.name, source.without)]
     if concave:
-        return f"{len(concave)} non-convex pieces, such as {concave[0]}"
+        return f"{pluralize(len(concave), 'non-convex piece')}, such as {concave[0]}"
     count = len(_as_is(source))
     return f"{count} hull" if count < 2 else None
+
+
+def find_bare(hulls: Sequence[Hull], asset: Asset) -> list[str]:
+    """The parts that a file has hardly any collision geometry for; a mesh as it comes is judged without them."""
+    solids = union([_solid(hull, asset.pose.inverse()) for hull in hulls])
+    return [part.name for part in asset.parts if (part.solid ^ solids).volume() < BARE * part.solid.volume()]
+
+
+@lru_cache(maxsize=1024)
+def find_merged(sample: Sample) -> tuple[Part, ...]:
+    """The parts that are mostly in hulls of other labels: a decomposition merged them into these.
+
+    The purity of such a hull may be high all the same, where the part is small beside it.
+    """
+    back = sample.asset.pose.inverse()
+    solids = [(hull.label, _solid(hull, back)) for hull in sample.mesh.hulls]
+    merged = []
+    for part in sample.asset.parts:
+        there = [(label, solid) for label, solid in solids if near(solid, part.solid)]
+        everywhere = union([solid for _, solid in there] or [Manifold()])
+        own = union([solid for label, solid in there if label == part.label] or [Manifold()])
+        if (part.solid ^ own).volume() < MERGED * (part.solid ^ everywhere).volume():
+            merged.append(part)
+    return tuple(merged)
+
+
+def is_pure(task: Task, sample: Sample) -> bool:
+    """Whether no hull and no part that the task's rules are about was merged with others by the decomposition."""
+    return not task.impure(sample) and not any(part.label in task.labels for part in find_merged(sample))
+
+
+def _solid(hull: Hull, back: Pose) -> Manifold:
+    return Manifold.hull_points(back.apply(hull.vertices))
 
 
 def _as_is(source: Source) -> list[Hull]:
@@ -144,7 +189,7 @@ def record_digests(one: Family) -> Path:
     return path
 
 
-def changed_samples(one: Family) -> list[str]:
+def find_changed_samples(one: Family) -> list[str]:
     """Samples whose hulls are not those that were recorded. Raises AssetError where none were."""
     path = one.folder / RECORD
     if not path.is_file():

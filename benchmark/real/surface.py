@@ -39,11 +39,12 @@ class Patch:
 
 @dataclass(frozen=True, eq=False)
 class AssetSurface:
-    """The pieces of an asset's surface, upright, standing on z = 0; pose: file_T_upright."""
+    """The pieces of an asset's surface, upright, standing on z = 0; pose: file_T_upright; close: as of `Source`."""
 
     name: str
     pieces: tuple[Patch, ...]
     pose: Pose
+    close: tuple[str, ...] = ()
 
     @property
     def bounds(self) -> tuple[Floats, Floats]:
@@ -74,6 +75,7 @@ def read_surface(source: Source) -> AssetSurface:
             for bit in split_patch(name, back.apply(points), faces, reach)
         ),
         pose,
+        source.close,
     )
 
 

@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from benchmark.assets import Sample
 from benchmark.tasks.task import EditResult, Task, task
 from meshforge.geometry import Floats
 from meshforge.language import (
@@ -65,12 +66,17 @@ def mutants(task: Task) -> list[Mutant]:
 def judge_mutants(name: str, calibration: bool = False) -> list[dict[str, Any]]:
     """Every mutant of a task: on how many meshes its edit differs from the reference's, and which of them pass."""
     one = task(name)
+    return judge_mutants_on(one, one.samples(calibration))
+
+
+def judge_mutants_on(one: Task, samples: Sequence[Sample]) -> list[dict[str, Any]]:
+    """Every mutant of a task: on how many of some meshes its edit differs from the reference's, and which pass."""
     programs = mutants(one)
     rows: list[dict[str, Any]] = [
         {"mutant": mutant.name, "differs": 0, "pass": [], "reason": one.equivalents.get(mutant.name)}
         for mutant in programs
     ]
-    for sample in one.samples(calibration):
+    for sample in samples:
         right = one.run(one.program, sample.mesh)
         seen: list[tuple[EditResult, bool]] = []
         for mutant, row in zip(programs, rows, strict=True):
@@ -135,7 +141,7 @@ def _wrong(task: Task, place: int) -> list[Extractor]:
     """Extractors of the same size that select other hulls on a fifth of the meshes or more, the same every time."""
     right = task.program.rules[place].extractor
     rng = random.Random(f"{task.name} {place}")
-    meshes = [sample.mesh for sample in task.samples(calibration=True)]
+    meshes = [sample.mesh for sample in task.samples(calibration=True) or task.samples()]
     asked = [select_mask(right, mesh) for mesh in meshes]
     found: list[Extractor] = []
     for _ in range(_DRAWS):

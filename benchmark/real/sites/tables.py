@@ -52,7 +52,7 @@ def _ways(parts: Sequence[Part], top: Sequence[Part]) -> Iterator[Site]:
         ("under", {"rail"}, (ceiling - 0.08 * (ceiling - low[2]), ceiling - 0.01 * (ceiling - low[2]))),
         ("floor", {"rail", "panel"}, (low[2] + 0.1 * (ceiling - low[2]), low[2] + 0.6 * (ceiling - low[2]))),
     ):
-        rest = union([part.solid for part in parts if part.label not in labels or part in top])
+        rest = union([part.solid.hull() for part in parts if part.label not in labels or part in top])
         free = [
             (spot, along, room)
             for along in (1, 0)
