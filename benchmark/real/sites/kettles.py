@@ -1,4 +1,4 @@
-"""Sites of kettles: a way past the body that only the spout is in, the grip, and a peg where the spout was."""
+"""Sites of kettles: a way past the body that only the spout is in, the grip, and where a peg and a plate are added."""
 
 from __future__ import annotations
 
@@ -12,8 +12,8 @@ from meshforge.geometry import Floats
 from script.samples.part import Part
 from script.samples.solids import block
 
-PEG = 0.04
-"""How far the peg of the template reaches [m]."""
+PEG, PLATE = 0.06, 0.01
+"""How far the peg of the template reaches, and how thick the plate is [m]."""
 _ROOM = 1.5  # a finger is so far from the middle of the grip, in half widths of it
 _SLICE = 0.1  # of the length of the grip, on either side of its middle
 
@@ -21,14 +21,14 @@ Axes = tuple[tuple[float, float, float], tuple[float, float, float], tuple[float
 
 
 def sites_of(parts: Sequence[Part]) -> list[Site]:
-    """The sites of a kettle: `beside` and `peg`, and `grip` where it has a handle."""
+    """The sites of a kettle: `beside`, `peg` and `plate`, and `grip` where it has a handle."""
     body = bounds([part for part in parts if part.label == "body"])
     spout = bounds([part for part in parts if part.label == "spout"])
     middle = [(pair[0] + pair[1]) / 2 for pair in (body, spout)]
     way = middle[1] - middle[0]
     axis = int(np.abs(way[:2]).argmax())
     side = float(np.sign(way[axis]))
-    return [_beside(body, spout, axis, side), _peg(body, axis, side), *_grip(parts)]
+    return [_beside(body, spout, axis, side), _peg(body, axis, side), _plate(body), *_grip(parts)]
 
 
 def _beside(body: tuple[Floats, Floats], spout: tuple[Floats, Floats], axis: int, side: float) -> Site:
@@ -45,11 +45,18 @@ def _beside(body: tuple[Floats, Floats], spout: tuple[Floats, Floats], axis: int
 
 
 def _peg(body: tuple[Floats, Floats], axis: int, side: float) -> Site:
-    """The middle of a peg at the side of the body's box where the spout is; fingers come from outside."""
+    """Where one holds a peg at the side of the body's box where the spout is; fingers come from outside."""
     at = (body[0] + body[1]) / 2
-    at[axis] = (body[1] if side > 0 else body[0])[axis] + side * PEG / 2
+    at[axis] = (body[1] if side > 0 else body[0])[axis] + side * 0.65 * PEG
     inwards = -side * np.eye(3)[axis]
-    return Site("peg", _point(at), (0.3 * PEG, 0.5 * PEG, 0.15 * PEG), _axes(inwards, np.eye(3)[1 - axis]))
+    return Site("peg", _point(at), (0.25 * PEG, 0.35 * PEG, 0.1 * PEG), _axes(inwards, np.eye(3)[1 - axis]))
+
+
+def _plate(body: tuple[Floats, Floats]) -> Site:
+    """The middle of a plate below the body."""
+    at = (body[0] + body[1]) / 2
+    at[2] = body[0][2] - PLATE / 2
+    return Site("plate", _point(at), (PLATE, PLATE, PLATE / 2))
 
 
 def _grip(parts: Sequence[Part]) -> Iterator[Site]:
