@@ -54,6 +54,16 @@ def test_a_quick_run_writes_the_page_and_its_pictures(
     for part, data in found.items():
         assert f"## {data['title']}" in page
         assert f"`script/bench {part}`" in page
+    changes = page.split("## What was changed since the first edition")[1].split("##")[0]
+    for figure in (
+        "unedited assets that fail",
+        "SSR, true labels, the first edition",
+        "FPR, propagated from 3",
+        "nodes on",
+    ):
+        (line,) = [line for line in changes.splitlines() if figure in line]
+        assert line.count("|") == 5
+        assert ("not run" in line) == (figure == "FPR, propagated from 3"), line
     assert "**Not run yet: `script/bench mutation real ablation correction scaling gallery`.**" in page
     assert {name.name for name in (tmp_path / "out" / "pictures").iterdir()} >= {"tasks.png", "effectiveness.svg"}
     sessions = found["effectiveness"]["details"]
