@@ -5,7 +5,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import Any
 
 from benchmark.assets import Sample
 from benchmark.assets.pictures import upright
@@ -20,6 +19,7 @@ from benchmark.speed.assets import corpus
 from benchmark.tasks import Task
 from meshforge.common import AssetError
 from meshforge.rendering import draw_before_after, make_contact_sheet, write_png
+from meshforge.symbolic import SymbolicMesh
 
 __all__ = ["draw_pictures", "measure", "real_tasks"]
 
@@ -104,16 +104,17 @@ def draw_pictures(names: Sequence[str], folder: Path) -> None:
     """Write a sheet for each family: its assets before and after the reference's edit of the hard task."""
     for name in names:
         task, path = real_task(name, "hard"), folder / f"real-{name}.png"
-        pairs = [(sample, after) for sample in choose_samples(name) if (after := _edit(task, sample))]
+        pairs = [(sample, _edit(task, sample)) for sample in choose_samples(name)]
         images = [
-            draw_before_after(upright(sample), after, size=_SIZE, vocabulary=task.program.labels)
+            draw_before_after(upright(sample), after or upright(sample), size=_SIZE, vocabulary=task.program.labels)
             for sample, after in pairs
         ]
+        titles = [sample.name if after else f"{sample.name}: the reference fails" for sample, after in pairs]
         folder.mkdir(parents=True, exist_ok=True)
-        write_png(path, make_contact_sheet(images, _COLUMNS_OF_PICTURES, [sample.name for sample, _ in pairs]))
+        write_png(path, make_contact_sheet(images, _COLUMNS_OF_PICTURES, titles))
 
 
-def _edit(task: Task, sample: Sample) -> Any:
+def _edit(task: Task, sample: Sample) -> SymbolicMesh | None:
     """What the reference makes of a mesh, upright; None where it fails."""
     after = task.run(task.program, sample.mesh).mesh
     return upright(sample, after) if after else None

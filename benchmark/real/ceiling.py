@@ -75,9 +75,8 @@ def draw_edits(task: Task, samples: Sequence[Sample], path: Path, side: int = 26
     images, titles = [], []
     for sample in samples:
         after = task.run(task.program, sample.mesh).mesh
-        if after is not None:
-            pair = (upright(sample), upright(sample, after))
-            images.append(draw_before_after(*pair, size=(side, side), vocabulary=tuple(task.program.labels)))
-            titles.append(sample.name)
+        pair = (upright(sample), upright(sample, after))
+        images.append(draw_before_after(*pair, size=(side, side), vocabulary=tuple(task.program.labels)))
+        titles.append(sample.name if after else f"{sample.name}: the reference fails")
     path.parent.mkdir(parents=True, exist_ok=True)
     write_png(path, make_contact_sheet(images, columns, titles))
