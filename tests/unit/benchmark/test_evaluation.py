@@ -46,7 +46,7 @@ def without_times(data: Any) -> Any:
 def test_a_quick_run_writes_the_page_and_its_pictures(
     journals: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(effectiveness, "ASKED", (TRUE, FLAT, PROPAGATED[0], KIND))
+    monkeypatch.setattr(effectiveness, "_QUICK", (TRUE, FLAT, PROPAGATED[0], KIND))
     monkeypatch.setattr(contest, "SHOWN", (1, 3))  # of the few meshes there are
     found = run(PARTS, tmp_path / "out")
     page = (tmp_path / "out" / "README.md").read_text("utf-8")
