@@ -52,19 +52,18 @@ def describe_rows(rows: Sequence[Row]) -> Iterator[str]:
                 yield f"    {row['mesh']}{'' if row['pure'] else ' (merged)'}: {row['reference']}"
 
 
-def judge_mutants_of(name: str, task: Task) -> tuple[list[Row], int]:
-    """The mutants of a task of a family, on its pure assets as they come, else fine; and how many these are."""
+def judge_mutants_of(name: str, task: Task) -> list[Row]:
+    """The mutants of a task of a family, on its assets as they come, else fine."""
     samples = choose_samples(name)
-    pure = [sample for sample in samples if is_pure(task, sample)]
-    return judge_mutants_on(task, pure, [sample.mesh for sample in samples]), len(pure)
+    return judge_mutants_on(task, samples, [sample.mesh for sample in samples])
 
 
 def describe_mutants(name: str) -> Iterator[str]:
-    """How many mutants of each task pass on more than a tenth of the pure meshes that they edit otherwise."""
+    """How many mutants of each task pass on more than a tenth of the meshes that they edit otherwise."""
     for task in tasks_of(name):
-        rows, pure = judge_mutants_of(name, task)
-        passing = [row for row in rows if row["differs"] and len(row["pass"]) > MOST * row["differs"]]
-        yield f"{task.name}: {len(passing)} of {len(rows)} mutants pass on more than a tenth of {pure} pure meshes"
+        rows = [row for row in judge_mutants_of(name, task) if row["differs"]]
+        passing = [row for row in rows if len(row["pass"]) > MOST * row["differs"]]
+        yield f"{task.name}: {len(passing)} of {len(rows)} mutants pass on more than a tenth of the meshes"
         for row in passing:
             told = f"{len(row['pass'])} of {row['differs']}, such as {', '.join(row['pass'][:3])}"
             yield f"    {row['mutant']}: {told}{' (equivalent)' if row['reason'] else ''}"
