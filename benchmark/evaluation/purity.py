@@ -35,11 +35,16 @@ def count_impure(categories: Sequence[str], group: str, calibration: bool = Fals
     return Impurity(len(rows), len(purities), sum(purity < PURE for purity in purities))
 
 
-def share_different(categories: Sequence[str]) -> float:
-    """Of the separate meshes of some categories those that no other is equal to, or that are the first such, %."""
-    rows = [row.mesh for name in categories for row in samples(name)]
-    seen = {tuple(sorted(hull.vertices[np.lexsort(hull.vertices.T)].tobytes() for hull in mesh.hulls)) for mesh in rows}
-    return 100 * len(seen) / max(len(rows), 1)
+def tell_different(categories: Sequence[str]) -> Table:
+    """How many meshes each set has, and how many different ones; assets are drawn until their separate ones differ."""
+    return Table("Different meshes", ("set", "meshes", "different"), tuple(_count_different(categories)))
+
+
+def _count_different(categories: Sequence[str]) -> Iterator[tuple[Cell, ...]]:
+    for group, settings in SETS.items():
+        rows = [row.mesh for name in categories for row in samples(name, False, settings)]
+        seen = {tuple(sorted(h.vertices[np.lexsort(h.vertices.T)].tobytes() for h in mesh.hulls)) for mesh in rows}
+        yield group, len(rows), len(seen)
 
 
 def tell_purity(categories: Sequence[str], calibration: bool = False) -> Table:
