@@ -12,7 +12,7 @@ from benchmark.evaluation.real_sessions import find_goals, teach_families, tell_
 from benchmark.journal import run_units
 from benchmark.real.ceiling import MOST, Row, judge_mutants_of, judge_sample
 from benchmark.real.family import families, family
-from benchmark.real.samples import ALL_SETTINGS, choose_samples, family_samples, why_absent
+from benchmark.real.samples import ALL_SETTINGS, AS_IS, choose_samples, family_samples, why_absent
 from benchmark.real.tasks import real_task, real_tasks, tasks_of
 from benchmark.report import Cell, Goal, Result, Table, Tell
 from benchmark.speed.assets import corpus
@@ -43,12 +43,12 @@ def measure(tell: Tell, quick: bool) -> Result:
     """Judge all meshes of all families. Raises AssetError where the corpus is not here: then the part is left out."""
     if corpus() is None:
         raise AssetError("not run: no corpus is here", where="real", remedy="Set MESHFORGE_CORPUS to its folder.")
-    names = families()[:1] if quick else families()
-    units = [(name, task.difficulty, setting) for name in names for task in tasks_of(name) for setting in ALL_SETTINGS]
+    names, settings = (families()[-1:], (AS_IS,)) if quick else (families(), ALL_SETTINGS)
+    units = [(name, task.difficulty, setting) for name in names for task in tasks_of(name) for setting in settings]
     found = dict(zip(units, run_units("real", judge_meshes, units, tell), strict=True))
-    tried = [(name, task.difficulty) for name in names for task in tasks_of(name)]
+    tried = [(name, task.difficulty) for name in names for task in tasks_of(name)[: 1 if quick else None]]
     mutants = dict(zip(tried, run_units("real-mutants", judge_real_mutants, tried, tell), strict=True))
-    taught = teach_families(names, tell, quick)
+    taught = teach_families(names, settings, tell, quick)
     return Result(
         "real",
         "Real assets",

@@ -45,18 +45,18 @@ _COLUMNS = (
 )
 
 
-def teach_families(names: Sequence[str], tell: Tell, quick: bool) -> list[Session]:
+def teach_families(names: Sequence[str], settings: Sequence[str], tell: Tell, quick: bool) -> list[Session]:
     """The sessions of all tasks of some families: a demonstrator for each decomposition, under each condition."""
     conditions = TAUGHT[:1] if quick else TAUGHT
-    units = [(name, level, one.name) for name in names for level in DIFFICULTIES for one in conditions]
+    units = [(name, level, one.name, settings) for name in names for level in DIFFICULTIES for one in conditions]
     rows = run_units("real-sessions", teach_real_task, units, tell)
     return [Session.of_json(row) for unit in rows for row in unit]
 
 
-def teach_real_task(name: str, difficulty: str, condition: str) -> list[dict[str, Any]]:
+def teach_real_task(name: str, difficulty: str, condition: str, settings: Sequence[str]) -> list[dict[str, Any]]:
     """One task under one condition, at each decomposition of which the family has enough meshes."""
     one, found = real_task(name, difficulty), list[dict[str, Any]]()
-    for seed, setting in zip(REPORTED, ALL_SETTINGS, strict=False):
+    for seed, setting in zip(REPORTED, settings, strict=False):
         samples = family_samples(name, setting)
         if len(samples) >= _LEAST:
             found.append(teach_task(Bench(one, samples), CONDITIONS[condition], seed).to_json())

@@ -71,10 +71,12 @@ def family_samples(family_name: str, setting: str) -> tuple[Sample, ...]:
     return tuple(s for name in one.names for s in [make_sample(one, name, setting)] if s is not None)
 
 
+@cache
 def choose_samples(family_name: str) -> tuple[Sample, ...]:
     """A mesh of each asset of a family: as it comes, else the fine one."""
-    chosen = {s.asset.name: s for setting in ("fine", AS_IS) for s in family_samples(family_name, setting)}
-    return tuple(chosen[asset] for asset in family(family_name).names if asset in chosen)
+    one = family(family_name)
+    found = (make_sample(one, name, AS_IS) or make_sample(one, name, SEPARATE[-1]) for name in one.names)
+    return tuple(sample for sample in found if sample)
 
 
 def make_sample(one: Family, name: str, setting: str) -> Sample | None:
