@@ -21,7 +21,7 @@ VARIED: dict[str, tuple[int, ...]] = {
     "hulls a mesh": (10, 20, 40, 80, 160, 320, 500),
     "labels": (3, 4, 6, 8, 10, 12),
 }
-_QUICK: dict[str, tuple[int, ...]] = {"meshes": (5, 10), "hulls a mesh": (10, 20), "labels": (3, 4)}
+_QUICK: dict[str, tuple[int, ...]] = {"meshes": (15, 30), "hulls a mesh": (10, 20), "labels": (3, 4)}
 _MESHES, _SHOWN, _SEED = 50, 2, 7
 
 
@@ -72,7 +72,7 @@ def _cells(point: Point) -> tuple[Cell, ...]:
 
 def _point(what: str, value: int, quick: bool) -> Point:
     one, rng = task(TASK), np.random.default_rng([_SEED, value])
-    count = value if what == "meshes" else (5 if quick else _MESHES)
+    count = value if what == "meshes" else (15 if quick else _MESHES)
     base = [sample.mesh for sample in one.samples() if not one.impure(sample)]
     meshes: dict[str, SymbolicMesh] = {}
     for k in range(count):
