@@ -20,6 +20,8 @@ NOTES = (
     "under true labels. *On all decompositions*: also on the other decompositions of these assets. *k*: "
     "demonstrations plus answers to the tool's questions, as in the paper; looks, confirmations, approvals and "
     "labels are not in it, and stand in the table of acts.",
+    "*At k*: from so many demonstrations plus answers on, all programs of all demonstrators are right; the first "
+    "edition counted a program that was right once, though a later demonstration changed it.",
     "*FPR*: share of the judged meshes (neither demonstrated nor labelled by hand) whose edit meets the task's "
     "criterion. Beside it the reference program under the labels that the session ended with, and under true "
     "ones. Under true labels a session that is right has the reference's FPR by construction: there it measures "

@@ -42,12 +42,17 @@ def is_right_everywhere(row: Session) -> bool:
 
 
 def first_right(row: Session) -> int | None:
-    """Demonstrations plus answers at the first program that was right."""
-    return next((r.demonstrations + r.answers for r in row.rounds if r.right), None)
+    """Demonstrations plus answers from which on every program was right; None where the last one was not."""
+    since = None
+    for one in reversed(row.rounds):
+        if not one.right:
+            break
+        since = one.demonstrations + one.answers
+    return since
 
 
 def share_solved_at(groups: Groups, k: int) -> float:
-    """The share of tasks that all demonstrators have had right by then."""
+    """The share of tasks that all demonstrators have had right from then on."""
     firsts = [[first_right(row) for row in rows] for rows in groups.values()]
     return mean(all(first is not None and first <= k for first in row) for row in firsts) if firsts else 0.0
 

@@ -160,6 +160,11 @@ def session(seed: int, ks: list[tuple[int, int, int]]) -> Session:
 def test_a_task_is_solved_once_all_demonstrators_have_had_it_right() -> None:
     groups = {"cup-easy": [session(0, [(1, 0, 0)]), session(1, [(1, 0, 4), (1, 1, 2), (2, 1, 0)])]}
     assert [share_solved_at(groups, k) for k in (1, 2, 3)] == [0.0, 0.0, 1.0]
+    lost = {
+        "cup-easy": [session(0, [(1, 0, 0), (1, 1, 2)])],
+        "cup-hard": [session(0, [(1, 0, 0), (2, 0, 3), (3, 0, 0)])],
+    }
+    assert [share_solved_at(lost, k) for k in (1, 2, 3)] == [0.0, 0.0, 0.5]
     groups["cup-hard"] = [session(0, [(1, 0, 1)])]
     assert share_solved_at(groups, 9) == 0.5
 
