@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import partial
+from operator import attrgetter
 
 from benchmark.evaluation import effectiveness_notes, paper
 from benchmark.evaluation.failures import list_failures
@@ -141,19 +142,14 @@ def _programs_row(found: Groups) -> list[Cell]:
     accepted = [row for row in every if row.accepted]
     return [
         f"{count_solved(found)}/{len(found)}",
-        *(f"{sum(map(is_so, every))}/{len(every)}" for is_so in (_is_right, _is_right_on_true, is_right_everywhere)),
+        *(
+            f"{sum(map(is_so, every))}/{len(every)}"
+            for is_so in (attrgetter("right"), attrgetter("right_on_true"), is_right_everywhere)
+        ),
         format_pair(spread(found, lambda row: row.k), 1),
         100 * sum(row.settled for row in accepted) / max(len(accepted), 1),
         sum(row.settled and not row.right for row in accepted),
     ]
-
-
-def _is_right(row: Session) -> bool:
-    return row.right
-
-
-def _is_right_on_true(row: Session) -> bool:
-    return row.right_on_true
 
 
 def _edits(groups: Conditions) -> Table:

@@ -13,15 +13,13 @@ from benchmark.journal import run_units
 from benchmark.real.ceiling import MOST, Row, judge_mutants_of, judge_sample
 from benchmark.real.family import families, family
 from benchmark.real.samples import ALL_SETTINGS, AS_IS, choose_samples, family_samples, why_absent
-from benchmark.real.tasks import real_task, real_tasks, tasks_of
+from benchmark.real.tasks import real_task, tasks_of
 from benchmark.report import Cell, Goal, Result, Table, Tell
 from benchmark.speed.assets import corpus
 from benchmark.tasks import Task
 from meshforge.common import AssetError
 from meshforge.rendering import draw_before_after, make_contact_sheet, write_png
 from meshforge.symbolic import SymbolicMesh
-
-__all__ = ["draw_pictures", "measure", "real_tasks"]
 
 _COLUMNS = (
     "task",
