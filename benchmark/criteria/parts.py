@@ -171,8 +171,8 @@ class _Edit:
             mine = [hull for hull in self.new if self.placed[hull.name] == place]
             around, allowed = self._share_outside(place, mine), self.bodies[place].fate.excess if place >= 0 else _LOST
             if around > allowed:
-                told = f"{mine[0].name} ({mine[0].label}) is {around:.0%} larger"
-                return f"{told} than what it is for, {allowed:.0%} allowed"
+                told = f"{mine[0].name} ({mine[0].label}) is {around:.1%} larger"
+                return f"{told} than what it is for, {allowed:.1%} allowed"
         return None
 
     def _share_outside(self, place: int, hulls: Sequence[Hull]) -> float:

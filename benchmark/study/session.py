@@ -95,10 +95,13 @@ class Session:
 
     def summarize(self) -> dict[str, Any]:
         """The same, short enough to be kept: of a round only what it was about and whether it was right, of a failure
-        only which check fails, and no times."""
+        only which check fails, no times, and nothing that is as it is by default."""
         rounds = [{key: asdict(row)[key] for key in ("demonstrations", "answers", "differs")} for row in self.rounds]
         failures = {name: why.split(":")[0] for name, why in self.failures.items()}
-        return {**asdict(self), "rounds": rounds, "failures": failures}
+        told = {**asdict(self), "rounds": rounds, "failures": failures}
+        default = asdict(Session(self.task, self.condition, self.seed, self.setting))
+        required = ("task", "condition", "seed", "setting")
+        return {key: value for key, value in told.items() if key in required or value != default[key]}
 
     @staticmethod
     def of_json(data: dict[str, Any]) -> Session:
