@@ -114,7 +114,7 @@ def test_what_is_made_is_new_whole_and_no_larger() -> None:
     half = box((TOP[0], (0.0, 0.3, 0.74)))
     assert "50% of top is in hulls" in str(failure([*rest, hull("top0~1", "panel", half)], MADE))
     thick = box((TOP[0], (0.5, 0.3, 0.8)))
-    assert "150% larger" in str(failure([*rest, hull("top0~1", "panel", thick)], MADE))
+    assert "150.0% larger" in str(failure([*rest, hull("top0~1", "panel", thick)], MADE))
     assert "a polytope, a box wanted" in str(failure([*rest, hull("top0~1", "panel", box(TOP).tessellate())], MADE))
     two = [hull(f"top0~{k}", "panel", one.shape) for k, one in enumerate(halves(TOP, "panel", ""))]
     assert "made of 2 hulls, 1 wanted" in str(failure([*rest, *two], MADE))
