@@ -25,7 +25,7 @@ _SESSIONS = "Sessions that ended with another behaviour: before, as learned, as 
 
 def list_pictures(part: str, result: Result) -> Iterator[tuple[str, str]]:
     """The pictures that a part has: file and caption."""
-    if part == "effectiveness" and any(not row["right"] for row in result.details):
+    if part == "effectiveness" and any(not Session.of_json(row).right for row in result.details):
         yield "sessions.png", _SESSIONS
     if part == "mutation" and any(row["reason"] for row in result.details):
         yield "mutants.png", "Mutants that do the same job"
