@@ -97,7 +97,8 @@ def pictures(rows: Sequence[Session], most: int = 12) -> Iterator[tuple[str, Ima
 
 
 def _choose_mesh(row: Session) -> tuple[str, SymbolicMesh, SymbolicMesh, SymbolicMesh] | None:
-    """The first mesh, of those that fail by the criterion before the others, that was edited otherwise."""
+    """The first mesh, of those that fail by the criterion before the others, that was edited otherwise; with the edit
+    that is meant, the reference's under true labels."""
     labels = CONDITIONS[row.condition].labels
     if labels == "propagated":  # these changed on the way
         return None
@@ -105,10 +106,15 @@ def _choose_mesh(row: Session) -> tuple[str, SymbolicMesh, SymbolicMesh, Symboli
     desk = bench.desk(labels, row.seed)
     program = Program.parse(row.program or "")
     for name in dict.fromkeys([*row.failures, *bench.samples]):
-        done, wanted = desk.edit(program, name), desk.edit(bench.task.program, name)
-        if name not in row.shown and done.mesh and wanted.mesh and _list_selections(done) != _list_selections(wanted):
+        done, wanted, meant = (
+            one.edit(rules, name)
+            for one, rules in ((desk, program), (desk, bench.task.program), (bench.truth, bench.task.program))
+        )
+        if name in row.shown or not done.mesh or not wanted.mesh or not meant.mesh:
+            continue
+        if _list_selections(done) != _list_selections(wanted):
             sample = bench.samples[name]
-            return name, upright(sample), upright(sample, done.mesh), upright(sample, wanted.mesh)
+            return name, upright(sample), upright(sample, done.mesh), upright(sample, meant.mesh)
     return None
 
 
