@@ -27,6 +27,7 @@ the JSON files in [results](results), which hold every run.
 _HOW = """
 - `script/bench evaluation` measures the figures of this page again (any part by name; `--quick`: one category, one
   demonstrator); an interrupted run continues where it was. Except for times, the results are the same, bit for bit.
+  `script/bench`, all pages, took 85 minutes on the machine below (two cores), from nothing but the frozen meshes.
 - `script/make-benchmark` makes the meshes and the calibration set again ([assets](assets)). The tasks are folders
   in [tasks](tasks), readable in a minute; criteria are in [criteria](criteria), the simulated people in
   [study](study), the real families in [real](real).

@@ -20,7 +20,7 @@ from meshforge.rendering import draw_before_after, make_contact_sheet, write_png
 if TYPE_CHECKING:
     from PIL.Image import Image
 
-_SESSIONS = "Sessions that ended with another behaviour: before, as learned, as intended"
+_SESSIONS = "Sessions that ended with another behaviour: before, as learned, as meant (true labels)"
 
 
 def list_pictures(part: str, result: Result) -> Iterator[tuple[str, str]]:
