@@ -8,7 +8,7 @@ from statistics import mean
 
 from benchmark.evaluation.sessions import QUICK
 from benchmark.learning.cases import FAMILY, Case
-from benchmark.learning.contest import LIMIT, QUICK_LIMIT, READINGS, Contest
+from benchmark.learning.contest import READINGS, limit_of, run_contests
 from benchmark.learning.larger import SHOWN as LARGER_SHOWN
 from benchmark.learning.larger import LargerCases
 from benchmark.learning.ratios import Row
@@ -20,20 +20,18 @@ from meshforge.common import pluralize
 
 SHOWN = (1, 3, 8)
 """Meshes on which each rule of a task is shown."""
-_LARGER, _ROUNDS = "larger ones", 3
+_LARGER = "larger ones"
 
 
 def measure(tell: Tell, quick: bool) -> Result:
     """Let all contestants take turns on every rule of the tasks, and on problems that need larger extractors."""
     larger = LargerCases(1, (5, 7), ("lamp",)) if quick else LargerCases()
-    rows, details, limit = list[Row](), [], QUICK_LIMIT if quick else LIMIT
+    rows, details = list[Row](), []
     tasks = defaultdict[tuple[str, int], list[Row]](list)
-    for group, problem in _problems(larger, quick):
-        contest = Contest(problem, limit)
-        row = contest.measure(group, 1 if quick else _ROUNDS)
+    for problem, row, told in run_contests(_problems(larger, quick), quick):
         rows.append(row)
-        details.append(contest.to_json(row))
-        if group != _LARGER:
+        details.append(told)
+        if row.group != _LARGER:
             tasks[problem.family, len(problem.shown)].append(row)
         tell(f"contest: {len(rows)} rules, {problem.family}")
     return Result(
@@ -41,7 +39,7 @@ def measure(tell: Tell, quick: bool) -> Result:
         "Speed by size of the extractor, against the paper's algorithms and cvc5",
         contest_tables(rows),
         tuple(_goals(tasks, rows)),
-        tuple(_notes(larger, limit)),
+        tuple(_notes(larger, limit_of(quick))),
         tuple(details),
     )
 

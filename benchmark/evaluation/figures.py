@@ -23,6 +23,11 @@ def by_task(rows: Iterable[Session], condition: str) -> dict[str, list[Session]]
     return dict(found)
 
 
+def all_sessions(groups: Groups) -> list[Session]:
+    """The sessions of all tasks."""
+    return [row for rows in groups.values() for row in rows]
+
+
 def of_difficulty(groups: Groups, difficulty: str) -> dict[str, Sequence[Session]]:
     """The tasks of a difficulty, or `all`."""
     return {name: rows for name, rows in groups.items() if difficulty in ("all", task(name).difficulty)}
@@ -34,6 +39,11 @@ LEVELS = (*DIFFICULTIES, "all")
 def count_solved(groups: Groups, is_right: Callable[[Session], bool] = lambda row: row.right) -> int:
     """Tasks that all demonstrators taught rightly."""
     return sum(all(map(is_right, rows)) for rows in groups.values())
+
+
+def count_settled_wrong(rows: Iterable[Session]) -> int:
+    """Sessions that a person accepted and the tool called settled, though the program is wrong."""
+    return sum(row.accepted and row.settled and not row.right for row in rows)
 
 
 def is_right_everywhere(row: Session) -> bool:
@@ -92,6 +102,11 @@ def fpr_on_true(row: Session) -> float:
 def synthesis(row: Session) -> float:
     """Seconds of the tool, all rounds."""
     return sum(r.seconds["all"] for r in row.rounds)
+
+
+def tool_seconds(row: Session, part: str) -> float:
+    """Seconds of the tool in one part of its work, `search` or `replay`, all rounds."""
+    return sum(r.seconds.get(part, 0.0) for r in row.rounds)
 
 
 def demonstrations(row: Session) -> float:

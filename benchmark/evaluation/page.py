@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from benchmark.evaluation.changes import tell_changes
 from benchmark.evaluation.pictures import draw, list_pictures
@@ -12,9 +12,6 @@ from benchmark.evaluation.plots import plots
 from benchmark.journal import digest_protocol
 from benchmark.report import Result, Table, as_text, format_table
 from meshforge.common import write_atomically
-
-if TYPE_CHECKING:
-    pass
 
 _INTRO = """# The benchmark
 

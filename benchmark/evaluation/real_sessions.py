@@ -9,6 +9,7 @@ from benchmark.evaluation.figures import (
     Groups,
     acts,
     by_task,
+    count_settled_wrong,
     count_solved,
     format_pair,
     fpr,
@@ -103,7 +104,7 @@ def find_goals(rows: Sequence[Session]) -> list[Goal]:
         Goal("tasks synthesized, true labels, %", "at least", 100.0, solved),
         Goal(f"sessions right in the worst family ({worst}), true labels, %", "at least", 90.0,
              100 * _share_right(mine, worst)),
-        Goal("settled and accepted, yet wrong, all conditions", "at most", 0.0, float(_count_settled_wrong(rows))),
+        Goal("settled and accepted, yet wrong, all conditions", "at most", 0.0, float(count_settled_wrong(rows))),
     ]  # fmt: skip
 
 
@@ -114,10 +115,6 @@ def _family_of(row: Session) -> str:
 def _share_right(rows: Sequence[Session], family: str) -> float:
     mine = [row for row in rows if _family_of(row) == family]
     return sum(row.right for row in mine) / max(len(mine), 1)
-
-
-def _count_settled_wrong(rows: Sequence[Session]) -> int:
-    return sum(row.accepted and row.settled and not row.right for row in rows)
 
 
 def _figures(rows: Sequence[Session], condition: str) -> list[Cell]:
@@ -131,5 +128,5 @@ def _figures(rows: Sequence[Session], condition: str) -> list[Cell]:
         100 * spread(groups, lambda row: row.labels_right)[0],
         *(format_pair(spread(groups, figure)) for figure in (fpr, fpr_of_reference, fpr_on_true)),
         *(format_pair(spread(groups, figure), 0) for figure in (acts, person_seconds)),
-        _count_settled_wrong(rows),
+        count_settled_wrong(rows),
     ]

@@ -30,12 +30,12 @@ Strings = npt.NDArray[np.str_]
 Bools = npt.NDArray[np.bool_]
 Told = Sequence[str | None]
 """The label of each hull, None where it is not known."""
-Guess = Callable[["Family", Told], tuple[Strings, Floats]]
+Guess = Callable[["FamilyDescription", Told], tuple[Strings, Floats]]
 """The label of each hull, and how sure it is."""
 
 
 @dataclass(frozen=True, eq=False)
-class Family:
+class FamilyDescription:
     """A category at one setting with all that is known of it. plain: rows of `descriptors`."""
 
     name: str
@@ -104,7 +104,7 @@ _NOTES = (
 )
 
 
-def _describe(rows: Sequence[Sample], tell: Tell, turns: Sequence[Pose] = ()) -> Family:
+def _describe(rows: Sequence[Sample], tell: Tell, turns: Sequence[Pose] = ()) -> FamilyDescription:
     """turns: how each mesh is turned before."""
     name, setting = rows[0].asset.category, rows[0].setting
     tell(f"labels: describing {name}, {setting}")
@@ -117,7 +117,7 @@ def _describe(rows: Sequence[Sample], tell: Tell, turns: Sequence[Pose] = ()) ->
     relatives = Propagator(meshes)
     seconds = perf_counter() - started
     plain = descriptors(meshes)
-    return Family(
+    return FamilyDescription(
         name,
         relatives,
         ColumnScale.of(plain)(plain),
@@ -128,13 +128,13 @@ def _describe(rows: Sequence[Sample], tell: Tell, turns: Sequence[Pose] = ()) ->
 
 
 def _guess_by(metric: Floats | None = None) -> Guess:
-    def guess(known: Family, told: Told) -> tuple[Strings, Floats]:
+    def guess(known: FamilyDescription, told: Told) -> tuple[Strings, Floats]:
         return _likeliest(known.relatives.propagate(told, metric))
 
     return guess
 
 
-def _as_it_lies(known: Family, told: Told) -> tuple[Strings, Floats]:
+def _as_it_lies(known: FamilyDescription, told: Told) -> tuple[Strings, Floats]:
     """Propagation that takes each mesh to stand as it seems to."""
     family = known.family.with_labels(told)
     return _likeliest(
@@ -146,7 +146,7 @@ def _likeliest(found: FamilyPosterior) -> tuple[Strings, Floats]:
     return np.array(found.family.labels)[found.chances.argmax(axis=1)], found.chances.max(axis=1)
 
 
-def _nearest(known: Family, told: Told) -> tuple[Strings, Floats]:
+def _nearest(known: FamilyDescription, told: Told) -> tuple[Strings, Floats]:
     from scipy.spatial.distance import cdist
 
     some = _places(told)
@@ -154,7 +154,7 @@ def _nearest(known: Family, told: Told) -> tuple[Strings, Floats]:
     return known.truth[near], np.ones(len(near))
 
 
-def _majority(known: Family, told: Told) -> tuple[Strings, Floats]:
+def _majority(known: FamilyDescription, told: Told) -> tuple[Strings, Floats]:
     names, counts = np.unique(known.truth[_places(told)], return_counts=True)
     return np.full(len(known.truth), names[counts.argmax()]), np.full(len(known.truth), counts.max() / counts.sum())
 
@@ -168,7 +168,7 @@ _OURS = _guess_by()
 _METHODS = ((_OURS, "propagation"), (_nearest, "nearest"), (_majority, "majority"))
 
 
-def _try_guess(known: Family, meshes: Sequence[int], guess: Guess) -> tuple[Bools, Floats]:
+def _try_guess(known: FamilyDescription, meshes: Sequence[int], guess: Guess) -> tuple[Bools, Floats]:
     """Which hulls of the rest are right, and how sure each was."""
     told = known.labels_of(meshes)
     found, sure = guess(known, told)
@@ -176,23 +176,23 @@ def _try_guess(known: Family, meshes: Sequence[int], guess: Guess) -> tuple[Bool
     return (found == known.truth)[asked], sure[asked]
 
 
-def _rows(known: Sequence[Family], guess: Guess, name: str) -> Iterator[tuple[Cell, ...]]:
+def _rows(known: Sequence[FamilyDescription], guess: Guess, name: str) -> Iterator[tuple[Cell, ...]]:
     for count in COUNTS:
         drawn = [_share(row, row.draw(count, seed), guess) for row in known for seed in range(_DRAWS)]
         advised = [_share(row, row.advised[:count], guess) for row in known]
         yield name, count, float(np.mean(advised)), float(np.mean(drawn))
 
 
-def _share(known: Family, meshes: Sequence[int], guess: Guess) -> float:
+def _share(known: FamilyDescription, meshes: Sequence[int], guess: Guess) -> float:
     """The share of labels that are right."""
     return float(_try_guess(known, meshes, guess)[0].mean())
 
 
-def _advise(known: Sequence[Family]) -> list[tuple[Bools, Floats]]:
+def _advise(known: Sequence[FamilyDescription]) -> list[tuple[Bools, Floats]]:
     return [_try_guess(row, row.advised[:count], _OURS) for row in known for count in (2, 3)]
 
 
-def _each(known: Sequence[Family]) -> tuple[tuple[Cell, ...], ...]:
+def _each(known: Sequence[FamilyDescription]) -> tuple[tuple[Cell, ...], ...]:
     rows: list[tuple[Cell, ...]] = []
     for name in dict.fromkeys(row.name for row in known):
         settings = [row for row in known if row.name == name]
@@ -208,7 +208,7 @@ def _each(known: Sequence[Family]) -> tuple[tuple[Cell, ...], ...]:
 def _measure_tilts(tell: Tell) -> Table:
     """The same where every fifth mesh lies on another side than it should."""
     rows: list[tuple[Cell, ...]] = []
-    known = list[Family]()
+    known = list[FamilyDescription]()
     for place, (name, setting) in enumerate(itertools.product(CATEGORIES, SEPARATE)):
         every = family(name, setting)
         draw = np.random.default_rng(place)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field
 from functools import partial
 from importlib.util import find_spec
@@ -26,6 +26,7 @@ ALONE, READINGS, REPAIR = "MeshForge, search alone", "MeshForge, search and read
 PAPER, PAPER_REPAIR, CVC5 = "the paper's, repair off", "the paper's, repair on", "cvc5"
 LIMIT, QUICK_LIMIT = 10.0, 2.0
 """Seconds for one rule; MeshForge is never stopped by it."""
+_ROUNDS = 3
 _SLOW = 0.3  # seconds of a turn that is not taken again
 HAS_CVC5 = find_spec("cvc5") is not None
 
@@ -100,6 +101,19 @@ class Contest:
     def _cvc5(self) -> Callable[[], object]:
         solve = cvc5_problem(self.case.examples(), self.case.vocabulary, seconds=self.limit)
         return self._record(CVC5, solve)()
+
+
+def run_contests(problems: Iterable[tuple[str, Case]], quick: bool) -> Iterator[tuple[Case, Row, dict[str, Any]]]:
+    """Let all contestants take turns on every problem, given with its group; what they took, and what is kept of it."""
+    for group, problem in problems:
+        contest = Contest(problem, limit_of(quick))
+        row = contest.measure(group, 1 if quick else _ROUNDS)
+        yield problem, row, contest.to_json(row)
+
+
+def limit_of(quick: bool) -> float:
+    """Seconds for one rule."""
+    return QUICK_LIMIT if quick else LIMIT
 
 
 def _smallest(weighed: RankedReadings) -> Extractor:

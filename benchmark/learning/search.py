@@ -7,14 +7,14 @@ from statistics import mean
 
 from benchmark.learning.boxes import boxes_case
 from benchmark.learning.cases import FAMILY, Case, case, cases
-from benchmark.learning.contest import LIMIT, QUICK_LIMIT, Contest
+from benchmark.learning.contest import limit_of, run_contests
 from benchmark.learning.ratios import Row
 from benchmark.learning.search_programs import Times, programs_timed
 from benchmark.learning.search_tables import contest_goals, contest_tables, describe_contest
 from benchmark.learning.tables import PROGRAM, RULES, upright
 from benchmark.report import Goal, Result, Table, Tell
 
-_SEED, _DEMONSTRATED, _ROUNDS = 100, 2, 3
+_SEED, _DEMONSTRATED = 100, 2
 _LARGE = (5, 7, 9)
 """Sizes of extractors on boxes at random, where nothing smaller fits by accident."""
 _DRAWS = 4
@@ -23,19 +23,15 @@ _DRAWS = 4
 
 def measure(tell: Tell, quick: bool) -> Result:
     """Let all contestants take turns on every problem, then learn whole programs."""
-    rows: list[Row] = []
-    details, limit = [], QUICK_LIMIT if quick else LIMIT
-    for group, problem in _problems(quick):
-        contest = Contest(problem, limit)
-        row = contest.measure(group, 1 if quick else _ROUNDS)
+    rows, details = list[Row](), []
+    for _, row, told in run_contests(_problems(quick), quick):
         rows.append(row)
-        details.append(contest.to_json(row))
-        tell(f"search: {len(rows)} problems, {group}")
+        details.append(told)
+        tell(f"search: {len(rows)} problems, {row.group}")
     programs = programs_timed(tell, quick)
     tables = (*contest_tables(rows), _programs(programs))
-    return Result(
-        "search", "Searching", tables, tuple(_goals(rows, programs)), tuple(_notes(rows, limit)), tuple(details)
-    )
+    notes = tuple(_notes(rows, limit_of(quick)))
+    return Result("search", "Searching", tables, tuple(_goals(rows, programs)), notes, tuple(details))
 
 
 def _problems(quick: bool) -> Iterator[tuple[str, Case]]:

@@ -160,6 +160,28 @@ class Desk:
             return list(names)
         return [name for name in names if self.select(program, name) != self.reference[name]]
 
+    def measure_f1(self, program: Program | None, names: Iterable[str]) -> float:
+        """F1 of what the rules select, hull by hull, against the reference under true labels, where that runs."""
+        hit = chosen = meant = 0
+        for name in names:
+            wanted = self.bench.truth.reference[name]
+            if wanted is None:
+                continue
+            done = (self.select(program, name) if program else None) or ((frozenset(),) * len(wanted))
+            hit += sum(len(a & b) for a, b in zip(done, wanted, strict=True))
+            chosen, meant = chosen + sum(map(len, done)), meant + sum(map(len, wanted))
+        return 2 * hit / (chosen + meant) if chosen + meant else 1.0
+
+    def share_labels_right(self, names: Iterable[str]) -> float:
+        """The share of the labels of some meshes that are right."""
+        truth = self.bench.truth
+        pairs = [
+            (true.label, hull.label)
+            for name in names
+            for true, hull in zip(truth.meshes[name].hulls, self.meshes[name].hulls, strict=True)
+        ]
+        return sum(a == b for a, b in pairs) / max(len(pairs), 1)
+
     def correct(self, corrections: Iterable[LabelCorrection]) -> Desk:
         """The same with some labels corrected."""
         meshes = dict(self.meshes)
