@@ -1,0 +1,18 @@
+"""How probable it is that each edit of a family is right, why it may not be, and what to ask a person next."""
+
+from meshforge.signoff.assessment import BAR, Assessment, AssetConfidence, Doubt, DoubtKind
+from meshforge.signoff.question import HullPlace, QuestionKind, Reply, ReviewChoice, ReviewQuestion, ReviewState
+
+__all__ = [
+    "BAR",
+    "Assessment",
+    "AssetConfidence",
+    "Doubt",
+    "DoubtKind",
+    "HullPlace",
+    "QuestionKind",
+    "Reply",
+    "ReviewChoice",
+    "ReviewQuestion",
+    "ReviewState",
+]

@@ -1,0 +1,83 @@
+"""The probability that the edit of each asset of a family is right, and what makes it doubtful."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any, Literal
+
+from meshforge.signoff.question import ReviewQuestion
+
+BAR = 0.95
+"""The probability from which on an asset is signed off without being looked at."""
+
+_DIGITS = 4
+
+DoubtKind = Literal["reading", "label", "orientation", "unlike", "alarm"]
+
+
+@dataclass(frozen=True, slots=True)
+class Doubt:
+    """Why an edit may be wrong.
+
+    text: one sentence; hulls: names of those concerned, on the asset; rule: its number, from 1, where it is about one;
+    share: the probability, in 0..1, that the edit is wrong for this alone.
+    """
+
+    kind: DoubtKind
+    text: str
+    hulls: tuple[str, ...] = ()
+    rule: int | None = None
+    share: float = 0.0
+
+    def to_json(self) -> dict[str, Any]:
+        return {"kind": self.kind, "text": self.text, "hulls": list(self.hulls), "rule": self.rule}
+
+
+@dataclass(frozen=True, slots=True)
+class AssetConfidence:
+    """One asset. probability: that its edit is right, in 0..1; doubts: the weightiest first."""
+
+    asset: str
+    probability: float
+    doubts: tuple[Doubt, ...] = ()
+
+    def to_json(self) -> dict[str, Any]:
+        return {"probability": round(self.probability, _DIGITS), "doubts": [doubt.to_json() for doubt in self.doubts]}
+
+
+@dataclass(frozen=True, slots=True)
+class Assessment:
+    """A family as it stands. assets: by name, in the family's order; looked_at: those that a person has accepted;
+    aside: those that a person has flagged or set aside; question: the one that is worth most now, None where nothing
+    is left to ask.
+    """
+
+    assets: Mapping[str, AssetConfidence]
+    bar: float = BAR
+    looked_at: frozenset[str] = frozenset()
+    aside: frozenset[str] = frozenset()
+    question: ReviewQuestion | None = None
+
+    @property
+    def signed_off(self) -> tuple[str, ...]:
+        """The assets at or above the bar, or accepted by a person, but for those set aside."""
+        return tuple(
+            name
+            for name, one in self.assets.items()
+            if name not in self.aside and (name in self.looked_at or one.probability >= self.bar)
+        )
+
+    @property
+    def held(self) -> tuple[str, ...]:
+        """The assets below the bar that no person has spoken of, the least probable first."""
+        done = {*self.signed_off, *self.aside}
+        return tuple(sorted((name for name in self.assets if name not in done), key=self._probability_of))
+
+    def _probability_of(self, name: str) -> tuple[float, str]:
+        return self.assets[name].probability, name
+
+    @property
+    def is_done(self) -> bool:
+        """Whether every asset is signed off or set aside."""
+        return not self.held
