@@ -8,7 +8,7 @@ from __future__ import annotations
 import json
 import random
 import subprocess
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import asdict, dataclass
 from functools import cache
 from pathlib import Path
@@ -18,11 +18,12 @@ from benchmark.journal import ROOT, run_units
 from benchmark.report import Tell
 from benchmark.signoff.conditions import ASKED, open_family
 from benchmark.signoff.judge import Judge
+from benchmark.signoff.ledger import price_of_hand
 from benchmark.signoff.point import Point
 from benchmark.study import CONDITIONS, REPORTED, Condition
 from benchmark.study.course import Course
 from benchmark.study.desk import Bench, Desk
-from benchmark.study.keystrokes import DEMONSTRATION, GLANCE, HULL, RULE, model_seconds
+from benchmark.study.keystrokes import GLANCE, model_seconds
 from benchmark.tasks import tasks
 from meshforge.common import write_atomically
 from meshforge.language import Program
@@ -97,12 +98,6 @@ def _mend_all(
         seconds += price_of_hand(wanted)
         right += name in judge.possible and not any(draw.random() < condition.errs for _ in range(hulls))
     return seconds, right
-
-
-def price_of_hand(selections: Iterable[frozenset[str]]) -> float:
-    """Seconds for an edit that is made, or shown, by hand."""
-    steps = [select for select in selections if select]
-    return DEMONSTRATION + RULE * len(steps) + HULL * sum(map(len, steps))
 
 
 def teach(name: str, condition: str, seeds: Sequence[int]) -> list[dict[str, Any]]:

@@ -8,13 +8,14 @@ from typing import NamedTuple
 
 class Point(NamedTuple):
     """After so many seconds of a person. right: assets; signed_off, held: likewise; wrong: those signed off, yet not
-    right though they could be."""
+    right though they could be; sure: those that are signed off and right."""
 
     seconds: float
     right: int
     signed_off: int = 0
     wrong: int = 0
     held: int = 0
+    sure: int = 0
 
 
 def right_at(points: Sequence[Point], seconds: float) -> int:

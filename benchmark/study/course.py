@@ -46,6 +46,8 @@ class Course:
         self.corrections: list[LabelCorrection] = []
         self.accepted: dict[str, Selections] = {}
         """Results that were found right when they were looked at."""
+        self.outcome: LearningOutcome | MeshForgeError = UsageError("nothing was shown")
+        """What the tool made of it when it last learned."""
         self.clean: Program | None = None
         """The last program of which all results that were looked at were right."""
 
@@ -113,7 +115,7 @@ class Course:
             outcome: LearningOutcome | MeshForgeError = self._outcome(demos)
         except MeshForgeError as error:
             outcome = error
-        seconds = {"all": perf_counter() - start}
+        self.outcome, seconds = outcome, {"all": perf_counter() - start}
         if self.corrections:
             self.desk, self.corrections = self.desk.correct(self.corrections), []
         if isinstance(outcome, MeshForgeError):
