@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 from benchmark.study.condition import Condition
@@ -21,10 +21,18 @@ class Tool:
     def __init__(self, condition: Condition) -> None:
         self._options = condition.options
 
-    def begin(self, desk: Desk) -> ReviewState:
-        """What is known of a family at the start."""
+    def begin(
+        self,
+        desk: Desk,
+        demos: Mapping[str, Demonstration] | None = None,
+        answers: Sequence[Answer] = (),
+        accepted: Mapping[str, Selections] | None = None,
+    ) -> ReviewState:
+        """What is known of a family at the start: what was shown, answered and accepted before there was a queue."""
         frame = replace(desk.bench.task.program, rules=())
-        return ReviewState(desk.meshes, frame, desk.bench.task.templates)
+        return ReviewState(
+            desk.meshes, frame, desk.bench.task.templates, demos or {}, tuple(answers), dict(accepted or {})
+        )
 
     def take_labels(self, desk: Desk) -> Desk:
         """The meshes with the labels that the tool gives them once more is known: where nobody gave any."""
