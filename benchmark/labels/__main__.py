@@ -1,23 +1,43 @@
-"""Learns the metric of propagation anew, on all families of the calibration set, and writes it where it ships."""
+"""Fits the model of labels anew and writes it where it ships: `metric`, the distance of hulls, on all families of the
+calibration set, or `consensus FOLDER`, the weights of evidence, on calibration families of 25 assets, which
+`script/make-benchmark --calibration --count 25 --settings separate --out FOLDER` makes."""
 
 from __future__ import annotations
 
+import argparse
 import json
 from pathlib import Path
+from typing import Any
 
 from benchmark.assets import CATEGORIES, SEPARATE, family
+from benchmark.labels.consensus import draw_families, fit_weights
 from benchmark.labels.metric import fit_metric, rows_of
 from meshforge.common import write_atomically
-from meshforge.labels.propagation import propagate
+from meshforge.label_model import consensus, table
 
-_ABOUT = "made by `python -m benchmark.labels` on the calibration set of the benchmark"
+_ABOUT = "made by `python -m benchmark.labels {}` on the calibration set of the benchmark"
+_SEED = 0
 
 
 def main() -> None:
-    """Write the file."""
-    weights = fit_metric([rows_of(family(name, setting, True)) for name in CATEGORIES for setting in SEPARATE])
-    data = {"about": _ABOUT, "weights": [round(float(weight), 4) for weight in weights]}
-    write_atomically(Path(propagate.__file__).parent / propagate.METRIC_FILE, json.dumps(data, indent=1) + "\n")
+    """Write one of the files."""
+    parser = argparse.ArgumentParser(prog="python -m benchmark.labels", description=__doc__)
+    parser.add_argument("what", choices=("metric", "consensus"))
+    parser.add_argument("folder", nargs="?", type=Path, help="the calibration families of 25 assets, for consensus")
+    given = parser.parse_args()
+    if given.what == "metric":
+        weights = fit_metric([rows_of(family(name, setting, True)) for name in CATEGORIES for setting in SEPARATE])
+        _write(table.METRIC_FILE, "metric", [round(float(weight), 4) for weight in weights])
+    elif given.folder:
+        rounds = fit_weights(list(draw_families(given.folder, _SEED)))
+        _write(consensus.WEIGHTS_FILE, "consensus FOLDER", [[round(float(one), 3) for one in row] for row in rounds])
+    else:
+        parser.error("consensus: say in which folder the families are")
+
+
+def _write(file: str, command: str, weights: list[Any]) -> None:
+    data = {"about": _ABOUT.format(command), "weights": weights}
+    write_atomically(Path(consensus.__file__).parent / file, json.dumps(data, indent=1) + "\n")
 
 
 if __name__ == "__main__":

@@ -21,7 +21,7 @@ from benchmark.assets import CATEGORIES, SEPARATE, Sample, family
 from benchmark.tasks import task
 from meshforge.common import UsageError, write_atomically
 from meshforge.formats import save
-from meshforge.labels import Propagator
+from meshforge.label_model import FamilyModel
 from meshforge.symbolic import SymbolicMesh
 
 LABELLED = 3
@@ -51,7 +51,7 @@ class Family:
         return _bare(self.name, self.setting)
 
     @property
-    def relatives(self) -> Propagator:
+    def relatives(self) -> FamilyModel:
         """The meshes as propagation sees them."""
         return _relatives(self.name, self.setting)
 
@@ -89,8 +89,8 @@ def _bare(name: str, setting: str) -> tuple[SymbolicMesh, ...]:
 
 
 @cache
-def _relatives(name: str, setting: str) -> Propagator:
-    return Propagator(_bare(name, setting))
+def _relatives(name: str, setting: str) -> FamilyModel:
+    return FamilyModel(_bare(name, setting))
 
 
 @cache

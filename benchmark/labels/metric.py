@@ -11,8 +11,8 @@ from scipy.optimize import minimize
 
 from benchmark.assets import Sample
 from meshforge.geometry import Floats
-from meshforge.label_model.posterior import ColumnScale
-from meshforge.labels.propagation.describe import ROW_WIDTH, MeshDescriber
+from meshforge.label_model.describe import ROW_WIDTH, MeshDescriber
+from meshforge.label_model.table import ColumnScale
 
 PURE = 0.8
 """Hulls of a lower purity teach nothing, and are not counted."""

@@ -15,10 +15,9 @@ from benchmark.assets import CATEGORIES, SEPARATE, Sample, family
 from benchmark.labels.metric import PURE, fit_metric, rows_of
 from benchmark.report import Cell, Goal, Result, Table, Tell
 from meshforge.geometry import Floats, Pose
-from meshforge.label_model.posterior import ColumnScale, FamilyTable, refine_by_neighbors, vote_by_similarity
-from meshforge.labels import FamilyPosterior, Propagator
-from meshforge.labels.propagation.propagate import metric_weights
-from meshforge.symbolic import SymbolicMesh, descriptors
+from meshforge.label_model import FamilyModel, FamilyPosterior, FamilyTable, Observations
+from meshforge.label_model.table import ColumnScale
+from meshforge.symbolic import Label, SymbolicMesh, descriptors
 
 COUNTS = (1, 2, 3, 5)
 _DRAWS = 5
@@ -39,7 +38,8 @@ class FamilyDescription:
     """A category at one setting with all that is known of it. plain: rows of `descriptors`."""
 
     name: str
-    relatives: Propagator
+    meshes: tuple[SymbolicMesh, ...]
+    relatives: FamilyModel
     plain: Floats
     truth: Strings
     pure: Bools
@@ -47,7 +47,7 @@ class FamilyDescription:
 
     @property
     def family(self) -> FamilyTable:
-        return self.relatives.family
+        return self.relatives.table
 
     def labels_of(self, meshes: Sequence[int]) -> list[str | None]:
         """The labels of all hulls of some meshes, None for the others."""
@@ -114,11 +114,12 @@ def _describe(rows: Sequence[Sample], tell: Tell, turns: Sequence[Pose] = ()) ->
     for mesh in meshes:
         assert mesh.contacts is not None
     started = perf_counter()
-    relatives = Propagator(meshes)
+    relatives = FamilyModel(meshes)
     seconds = perf_counter() - started
     plain = descriptors(meshes)
     return FamilyDescription(
         name,
+        meshes,
         relatives,
         ColumnScale.of(plain)(plain),
         np.array([hull.label for mesh in meshes for hull in mesh.hulls]),
@@ -129,21 +130,20 @@ def _describe(rows: Sequence[Sample], tell: Tell, turns: Sequence[Pose] = ()) ->
 
 def _guess_by(metric: Floats | None = None) -> Guess:
     def guess(known: FamilyDescription, told: Told) -> tuple[Strings, Floats]:
-        return _likeliest(known.relatives.propagate(told, metric))
+        model = known.relatives if metric is None else FamilyModel(known.meshes, metric)
+        return _likeliest(model.propagate(told))
 
     return guess
 
 
 def _as_it_lies(known: FamilyDescription, told: Told) -> tuple[Strings, Floats]:
     """Propagation that takes each mesh to stand as it seems to."""
-    family = known.family.with_labels(told)
-    return _likeliest(
-        FamilyPosterior(family, refine_by_neighbors(family, vote_by_similarity(family, metric_weights())))
-    )
+    seen = Observations.of([None if name is None else Label(name) for name in told])
+    return _likeliest(FamilyPosterior.of(known.family, seen))
 
 
 def _likeliest(found: FamilyPosterior) -> tuple[Strings, Floats]:
-    return np.array(found.family.labels)[found.chances.argmax(axis=1)], found.chances.max(axis=1)
+    return np.array(found.seen.labels)[found.chances.argmax(axis=1)], found.chances.max(axis=1)
 
 
 def _nearest(known: FamilyDescription, told: Told) -> tuple[Strings, Floats]:

@@ -11,7 +11,7 @@ from benchmark.assets import SEPARATE, Sample, family
 from benchmark.study.condition import Labels
 from benchmark.study.labels import mislabel, noisy
 from benchmark.tasks import EditResult, Task, task
-from meshforge.labels import Propagator
+from meshforge.label_model import FamilyModel
 from meshforge.language import EXTREMITY, Extractor, Program, select_mask
 from meshforge.symbolic import Label, SymbolicMesh
 from meshforge.synthesis import (
@@ -53,9 +53,9 @@ class Bench:
         return Desk(self, {name: sample.mesh for name, sample in self.samples.items()})
 
     @cached_property
-    def relatives(self) -> Propagator:
+    def relatives(self) -> FamilyModel:
         """The meshes as propagation sees them."""
-        return Propagator([sample.mesh for sample in self.samples.values()])
+        return FamilyModel([sample.mesh for sample in self.samples.values()])
 
     def desk(self, labels: Labels, seed: int) -> Desk:
         """The meshes as a demonstrator gets them who labels nothing."""

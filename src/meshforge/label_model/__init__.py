@@ -1,33 +1,26 @@
-"""What is believed about labels: by their source, by hulls that look alike, by hulls that touch."""
+"""The one model of what labels are: all that is said of a family weighed into a probability for each hull and label."""
 
+from meshforge.label_model.consensus import EVIDENCE, consensus_weights
+from meshforge.label_model.describe import MeshDescriber
 from meshforge.label_model.odds import LabelBeliefs, LabelOdds, is_human
-from meshforge.label_model.posterior import (
-    EQUAL,
-    NO_LABEL,
-    ColumnScale,
-    FamilyTable,
-    first_greatest,
-    greatest_first,
-    pick_evenly,
-    reference_label,
-    refine_by_neighbors,
-    share_ranks,
-    vote_by_similarity,
-)
+from meshforge.label_model.posterior import FamilyModel, FamilyPosterior, infer_labels
+from meshforge.label_model.sides import correct_upright, find_doubtful_sides
+from meshforge.label_model.table import FamilyTable, Observations, metric_weights, reference_label
 
 __all__ = [
-    "EQUAL",
-    "NO_LABEL",
-    "ColumnScale",
+    "EVIDENCE",
+    "FamilyModel",
+    "FamilyPosterior",
     "FamilyTable",
     "LabelBeliefs",
     "LabelOdds",
-    "first_greatest",
-    "greatest_first",
+    "MeshDescriber",
+    "Observations",
+    "consensus_weights",
+    "correct_upright",
+    "find_doubtful_sides",
+    "infer_labels",
     "is_human",
-    "pick_evenly",
+    "metric_weights",
     "reference_label",
-    "refine_by_neighbors",
-    "share_ranks",
-    "vote_by_similarity",
 ]

@@ -4,18 +4,16 @@ overwritten by a machine."""
 from meshforge.labels.from_files.points import PointsOptions
 from meshforge.labels.from_files.read import LabelFileOptions, label_file_beside
 from meshforge.labels.from_files.segments import PointAlignment
+from meshforge.labels.label_by_propagation import PropagationResult
 from meshforge.labels.label_store import LabelStore
 from meshforge.labels.merge import LabelOutcome, label_new_hulls
 from meshforge.labels.offers import OfferCache
-from meshforge.labels.propagation.label_by_propagation import PropagationResult
-from meshforge.labels.propagation.propagate import FamilyPosterior, Propagator, propagate
 from meshforge.labels.summary import Proposal, Proposals, SourceTally, Tally
 from meshforge.labels.vlm.endpoint import endpoint_of
 from meshforge.labels.vlm.label_by_vlm import VlmForecast, VlmResult, check_vlm_settings
 from meshforge.labels.vlm.limits import Usage
 
 __all__ = [
-    "FamilyPosterior",
     "LabelFileOptions",
     "LabelOutcome",
     "LabelStore",
@@ -23,7 +21,6 @@ __all__ = [
     "PointAlignment",
     "PointsOptions",
     "PropagationResult",
-    "Propagator",
     "Proposal",
     "Proposals",
     "SourceTally",
@@ -35,5 +32,4 @@ __all__ = [
     "endpoint_of",
     "label_file_beside",
     "label_new_hulls",
-    "propagate",
 ]

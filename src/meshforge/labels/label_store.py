@@ -8,13 +8,13 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from meshforge.batch import IN_PROCESS, ExecutionOptions
+from meshforge.labels import label_by_propagation
 from meshforge.labels.from_files.label_by_files import label_from_files, propose_from_files
 from meshforge.labels.from_files.read import LabelFileOptions
+from meshforge.labels.label_by_propagation import PropagationResult, Stage, WriteBlock, ignore_stage
 from meshforge.labels.merge import LabelOutcome, OutcomeCallback, ignore_report, set_labels
 from meshforge.labels.names.label_by_names import PatternPairs, label_from_names, propose_from_names
 from meshforge.labels.offers import LabelOffers, OfferCache
-from meshforge.labels.propagation import label_by_propagation
-from meshforge.labels.propagation.label_by_propagation import PropagationResult, Stage, WriteBlock, ignore_stage
 from meshforge.labels.summary import Proposals, Tally, describe_label_plan, tally, write_contact_sheets
 from meshforge.labels.vlm.label_by_vlm import VlmForecast, VlmResult, forecast_vlm, label_with_vlm
 from meshforge.labels.vlm.limits import Usage

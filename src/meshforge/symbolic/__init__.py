@@ -17,7 +17,15 @@ from meshforge.symbolic.asset import (
 )
 from meshforge.symbolic.descriptor import DESCRIPTOR_NAMES, descriptors
 from meshforge.symbolic.features import PRIMITIVE_FEATURES, Feature, FeatureKind, features_of
-from meshforge.symbolic.hull import GIVEN_SOURCES, HUMAN_SOURCES, LABEL_SOURCES, Hull, Label, LabelSource
+from meshforge.symbolic.hull import (
+    GIVEN_SOURCES,
+    HUMAN_SOURCES,
+    INFERRED_SOURCES,
+    LABEL_SOURCES,
+    Hull,
+    Label,
+    LabelSource,
+)
 from meshforge.symbolic.label_file import (
     LabelFile,
     LabelTransfer,
@@ -34,6 +42,7 @@ __all__ = [
     "EPSILON",
     "GIVEN_SOURCES",
     "HUMAN_SOURCES",
+    "INFERRED_SOURCES",
     "LABEL_SOURCES",
     "NEAR_MISS",
     "PRIMITIVE_FEATURES",

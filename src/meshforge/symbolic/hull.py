@@ -7,20 +7,24 @@ from typing import Literal, get_args
 
 from meshforge.geometry import Aabb, Floats, Ints, Pose, Shape
 
-LabelSource = Literal["vlm", "propagated", "name", "file", "user", "repair", "edit"]
+LabelSource = Literal["vlm", "propagated", "consensus", "name", "file", "user", "repair", "edit"]
 LABEL_SOURCES: tuple[str, ...] = get_args(LabelSource)
 HUMAN_SOURCES = frozenset({"user", "repair"})
+INFERRED_SOURCES = frozenset({"propagated", "consensus"})
+"""Sources of labels that follow from those of other hulls."""
 GIVEN_SOURCES = HUMAN_SOURCES | {"file"}
 """Sources of labels that are not guessed: a person, or a file that somebody made."""
 
 
 @dataclass(frozen=True, slots=True)
 class Label:
-    """A label with its confidence in 0..1 and its source."""
+    """A label with its confidence in 0..1 and its source; given: of one that was inferred from others, the label that
+    its hull had before, None where it had none."""
 
     name: str
     confidence: float = 1.0
     source: LabelSource = "user"
+    given: Label | None = None
 
 
 @dataclass(frozen=True, eq=False, slots=True)

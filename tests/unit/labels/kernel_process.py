@@ -6,7 +6,7 @@ import json
 
 from meshforge.batch import text_digest
 from meshforge.formats import read
-from meshforge.labels import Propagator
+from meshforge.label_model import FamilyModel
 from meshforge.samples import TABLES
 from meshforge.symbolic import SymbolicMesh, read_labels
 
@@ -18,7 +18,7 @@ def main() -> None:
     shapes = [
         [text_digest(repr((hull.vertices.tolist(), hull.faces.tolist()))) for hull in mesh.hulls] for mesh in meshes
     ]
-    relatives, advised, labels = Propagator(meshes), list[int](), list[list[object]]()
+    relatives, advised, labels = FamilyModel(meshes), list[int](), list[list[object]]()
     for _ in range(3):
         told = [
             known[place][hull.name].name if place in advised else None

@@ -11,9 +11,9 @@ from hypothesis import strategies as st
 
 from benchmark.assets import samples
 from meshforge.geometry import Aabb, Box, Floats, Polytope, Pose
-from meshforge.labels.propagation.describe import ROW_WIDTH, MeshDescriber
-from meshforge.labels.propagation.propagate import metric_weights
-from meshforge.labels.propagation.surroundings import points_inside, points_on_surface
+from meshforge.label_model import metric_weights
+from meshforge.label_model.describe import ROW_WIDTH, MeshDescriber
+from meshforge.label_model.surroundings import points_inside, points_on_surface
 from meshforge.symbolic import Hull, SymbolicMesh
 from tests.synthesis_boxes import boxes
 

@@ -11,9 +11,15 @@ import pytest
 from benchmark.assets import Sample, samples
 from benchmark.labels.metric import PURE
 from meshforge.geometry import Pose
-from meshforge.labels import FamilyPosterior, propagate
+from meshforge.label_model import FamilyModel, FamilyPosterior, reference_label
 from meshforge.symbolic import Label, SymbolicMesh
 from tests.synthesis_boxes import boxes
+
+
+def propagate(meshes: Sequence[SymbolicMesh]) -> FamilyPosterior:
+    """What the labels that others may be taken from say about all hulls."""
+    said = [hull.annotation if reference_label(hull.annotation) else None for mesh in meshes for hull in mesh.hulls]
+    return FamilyModel(meshes).infer(said)
 
 
 def asking(rows: Sequence[Sample], told: Sequence[int]) -> list[SymbolicMesh]:
@@ -103,7 +109,7 @@ def test_a_label_that_nobody_told_is_not_found_and_a_single_one_is_everywhere() 
         {mesh.hulls[0].name: Label("wall")}
     )
     found = propagate([only, *asking(rows[1:], [])])
-    assert found.family.labels == ("wall",)
+    assert found.seen.labels == ("wall",)
     assert {label.name for k in range(3) for label in found.labels(k) if label} == {"wall"}
 
 
@@ -132,18 +138,3 @@ def test_advice_begins_with_what_stands_for_most_and_names_each_mesh_once() -> N
     assert everyone[:1] == found.next_to_label()
     kinds = {hull.label for k in everyone[:3] for hull in rows[k].mesh.hulls}
     assert len(kinds) > len({hull.label for hull in rows[everyone[-1]].mesh.hulls})
-
-
-@pytest.mark.slow
-def test_of_very_many_hulls_that_are_told_some_vote_for_all() -> None:
-    from meshforge.label_model.posterior import ColumnScale, FamilyTable, vote_by_similarity
-
-    count, rare = 7_000, 7
-    rows = np.linspace(0.0, 1.0, count)[:, None]
-    family = FamilyTable(
-        rows, ColumnScale.of(rows), np.arange(count), np.full(count, -1), (), np.zeros((0, 2), np.int64)
-    )
-    told = family.with_labels(["rare" if k < rare else "common" for k in range(count - 10)] + [None] * 10)
-    chances = vote_by_similarity(told, np.ones(1))
-    assert chances.argmax(axis=1)[-10:].tolist() == [0] * 10
-    assert told.labels == ("common", "rare")

@@ -8,8 +8,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from meshforge.geometry import Floats, Pose
-from meshforge.label_model.posterior import first_greatest, greatest_first, share_ranks
-from meshforge.labels.propagation.surroundings import axes_along, points_inside
+from meshforge.label_model.surroundings import axes_along, points_inside
+from meshforge.label_model.ties import first_greatest, greatest_first, share_ranks
 
 CUBE = np.array([[x, y, z] for x in (-1.0, 1.0) for y in (-1.0, 1.0) for z in (-1.0, 1.0)])
 VALUES = st.lists(st.integers(0, 5), min_size=1, max_size=12)

@@ -5,7 +5,7 @@ import pytest
 
 from benchmark.assets import CATEGORIES, samples
 from meshforge.geometry import Floats, Pose
-from meshforge.labels.propagation.describe import find_other_sides, find_up, rotation_to_z
+from meshforge.label_model.describe import find_other_sides, find_up, rotation_to_z
 from meshforge.symbolic import SymbolicMesh
 from tests.synthesis_boxes import boxes, table
 

@@ -4,15 +4,16 @@ their assets, then a row of numbers for each hull."""
 from __future__ import annotations
 
 from dataclasses import dataclass
+from hashlib import blake2b
 
 import numpy as np
 from scipy.spatial import ConvexHull, QhullError
 from scipy.spatial.distance import cdist
 
 from meshforge.geometry import Floats, Ints
-from meshforge.label_model import EQUAL, first_greatest, greatest_first, share_ranks
-from meshforge.labels.propagation import surroundings
-from meshforge.labels.propagation.surroundings import WholeShape, axes_along, whole_of
+from meshforge.label_model import surroundings
+from meshforge.label_model.surroundings import WholeShape, axes_along, whole_of
+from meshforge.label_model.ties import EQUAL, first_greatest, greatest_first, share_ranks
 from meshforge.symbolic import SymbolicMesh
 
 _SAME_SIDE = np.cos(np.radians(4.0))  # faces of the whole that turn by less are one side of it
@@ -249,3 +250,31 @@ class MeshDescriber:
     def describe_side(self, side: int) -> Floats:
         """The rows (n, WIDTH) on one of the sides of the sketch."""
         return self._describer.describe(self._ups[side])
+
+
+def describe_mesh(mesh: SymbolicMesh) -> ShapeDescriptor:
+    """The descriptor of a mesh; that of the same hulls with other labels is not made again."""
+    key = _digest(mesh)
+    if key not in _described:
+        remember_descriptor(mesh, MeshDescriber(mesh).describe())
+    return _described[key]
+
+
+def remember_descriptor(mesh: SymbolicMesh, descriptor: ShapeDescriptor) -> None:
+    """Have `describe_mesh` give a descriptor that was made before."""
+    if len(_described) >= _REMEMBERED:
+        del _described[next(iter(_described))]
+    _described[_digest(mesh)] = descriptor
+
+
+_REMEMBERED = 4000  # meshes whose descriptors are kept
+_described: dict[bytes, ShapeDescriptor] = {}
+
+
+def _digest(mesh: SymbolicMesh) -> bytes:
+    """Of all that a descriptor is made from."""
+    found = blake2b(digest_size=16)
+    found.update(f"{mesh.asset.up if mesh.asset else ''} {mesh.contact_distance!r}".encode())
+    for hull in mesh.hulls:
+        found.update(hull.vertices.tobytes())
+    return found.digest()

@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 from meshforge import batch
 from meshforge.common import AssetError, describe_error, replace_atomically
 from meshforge.geometry import Floats, Ints
-from meshforge.labels.propagation.describe import MeshDescriber
+from meshforge.label_model import MeshDescriber
 from meshforge.store import AssetFacts, Store
 from meshforge.symbolic import EPSILON, SymbolicMesh
 

@@ -10,10 +10,16 @@ from functools import cached_property
 from meshforge.batch import ExecutionOptions, WorkerFailure, raise_if_stopped, run_isolated
 from meshforge.common import AssetError, MeshForgeError, ProjectError
 from meshforge.geometry import Floats
-from meshforge.label_model import FamilyTable, reference_label
+from meshforge.label_model import (
+    FamilyPosterior,
+    FamilyTable,
+    Observations,
+    correct_upright,
+    find_doubtful_sides,
+    reference_label,
+)
+from meshforge.labels.descriptor_cache import DescriptorCache
 from meshforge.labels.merge import LabelOutcome, LabelWriter, OutcomeCallback, can_replace_less_certain
-from meshforge.labels.propagation import propagate
-from meshforge.labels.propagation.descriptor_cache import DescriptorCache
 from meshforge.labels.summary import LabelEvidence, Proposals, group_evidence
 from meshforge.store import AssetFacts, Store, survey
 from meshforge.symbolic import Label, LabelFile, match_labels
@@ -37,13 +43,13 @@ class FamilyComparison:
     """What labels say about all hulls. assets: those that were described, in order; lost: why others were not."""
 
     assets: tuple[str, ...]
-    found: propagate.FamilyPosterior
+    found: FamilyPosterior
     lost: dict[str, str]
 
     @property
     def has_labels(self) -> bool:
         """Whether there is any label to go by."""
-        return bool(self.found.family.labels)
+        return bool(self.found.seen.labels)
 
     @cached_property
     def next(self) -> str | None:
@@ -60,9 +66,9 @@ class FamilyComparison:
 
 
 def compare_family(
-    cache: DescriptorCache, known: Mapping[str, Sequence[str | None]], execution: ExecutionOptions, stage: Stage
+    cache: DescriptorCache, known: Mapping[str, Sequence[Label | None]], execution: ExecutionOptions, stage: Stage
 ) -> FamilyComparison:
-    """Compare all hulls. known: of each asset the labels of its hulls, None where there is none."""
+    """Compare all hulls. known: of each asset what is said of its hulls, None where nothing is."""
     seen = {asset: cache.read_rows(asset) for asset in known}
     missing = [asset for asset, own in seen.items() if own is None]
     with stage(len(missing), "describing") as advance:
@@ -71,25 +77,26 @@ def compare_family(
     described = {asset: own for asset, own in seen.items() if own}
     lost |= {asset: f"{asset}: how it is described was not kept" for asset in missing if asset not in described | lost}
     assets = tuple(described)
-    family = propagate.build_family([*described.values()]).with_labels(
-        [label for asset in assets for label in known[asset]]
-    )
+    table = FamilyTable.of([*described.values()])
+    said = Observations.of([label for asset in assets for label in known[asset]])
     del seen, described
-    doubtful = list(_find_doubtful(family, assets, cache, execution.stop))
+    doubtful = list(_find_doubtful(table, said, assets, cache, execution.stop))
     with stage(len(doubtful), "looking at other sides") as advance:
         places = {asset: place for place, asset in enumerate(assets)}
         sides = _collect_sides(cache.describe_sides(doubtful, advance), places, lost)
-        family = propagate.correct_upright(family, sides, propagate.metric_weights())
-    return FamilyComparison(assets, _compute_isolated(family, execution.stop), lost)
+        table = correct_upright(table, said.given, sides)
+    return FamilyComparison(assets, _compute_isolated(table, said, execution.stop), lost)
 
 
 def _find_doubtful(
-    family: FamilyTable, assets: Sequence[str], cache: DescriptorCache, stop: Callable[[], bool] | None
+    table: FamilyTable,
+    said: Observations,
+    assets: Sequence[str],
+    cache: DescriptorCache,
+    stop: Callable[[], bool] | None,
 ) -> Iterator[tuple[str, tuple[int, ...]]]:
     """The assets that may lie on another side, and on which."""
-    for place, sides in propagate.find_doubtful_sides(
-        family, lambda place: cache.read_sides(assets[place]), propagate.metric_weights()
-    ):
+    for place, sides in find_doubtful_sides(table, said.given, lambda place: cache.read_sides(assets[place])):
         raise_if_stopped(stop)
         if sides:
             yield assets[place], sides
@@ -106,12 +113,16 @@ def _collect_sides(
             yield places[asset], rows
 
 
-def _compute_isolated(family: FamilyTable, stop: Callable[[], bool] | None) -> propagate.FamilyPosterior:
+def _compute_isolated(table: FamilyTable, said: Observations, stop: Callable[[], bool] | None) -> FamilyPosterior:
     """What labels say, in a process of its own where that may have to be stopped in the midst."""
-    (found,) = run_isolated(propagate.compute_posterior, [family], ExecutionOptions(1 if stop else 0, None, stop=stop))
+    (found,) = run_isolated(_compute, [(table, said)], ExecutionOptions(1 if stop else 0, None, stop=stop))
     if isinstance(found, WorkerFailure):
         raise MeshForgeError(f"the labels could not be propagated: {found.why}")
     return found
+
+
+def _compute(work: tuple[FamilyTable, Observations]) -> FamilyPosterior:
+    return FamilyPosterior.of(*work)
 
 
 @dataclass(frozen=True, slots=True)
@@ -188,7 +199,7 @@ def _compare_assets(store: Store, vocabulary: Sequence[str], execution: Executio
     with stage(len(store.assets()), "reading") as advance:
         facts = survey(store.found, store.layout, execution=execution, progress=advance)
     lost = {asset: own.error for asset, own in facts.items() if own.error}
-    known = dict[str, list[str | None]]()
+    known = dict[str, list[Label | None]]()
     for asset, own in facts.items():
         try:
             known |= {asset: _reference_labels(store.labels(asset), own, vocabulary)} if asset not in lost else {}
@@ -206,8 +217,8 @@ def _compare_assets(store: Store, vocabulary: Sequence[str], execution: Executio
     return _Findings(hulls, lost | found.lost, found.next, found)
 
 
-def _reference_labels(file: LabelFile, facts: AssetFacts, vocabulary: Sequence[str]) -> list[str | None]:
+def _reference_labels(file: LabelFile, facts: AssetFacts, vocabulary: Sequence[str]) -> list[Label | None]:
     """The labels of the hulls of an asset that others may be taken from."""
     labels = match_labels(file, facts.hulls).labels
-    found = (reference_label(labels.get(name)) for name in facts.hulls)
-    return [name if name in vocabulary else None for name in found]
+    found = [labels.get(name) for name in facts.hulls]
+    return [label if reference_label(label) in vocabulary else None for label in found]

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from meshforge.geometry import Floats
-from meshforge.label_model import EQUAL, first_greatest
+from meshforge.label_model.ties import EQUAL, first_greatest
 
 _SAME = 0.01  # of their sum: lengths that differ by less count as mostly the same
 

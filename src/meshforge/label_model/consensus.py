@@ -1,0 +1,198 @@
+"""The posterior over the labels of a family: a log-linear model over a few sums of evidence, applied in rounds, each on
+the probabilities of the one before (auto-context, Tu 2008). The weights of each round were fitted by the log loss of
+the true label on calibration families (`python -m benchmark.labels consensus`)."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass
+from functools import cache
+from importlib.resources import files
+
+import numpy as np
+from scipy.sparse import csr_matrix
+
+from meshforge.geometry import Floats
+from meshforge.label_model.lookalikes import PER_MESH, Places
+from meshforge.label_model.sources import estimate_reliability, find_wrong_kinds
+from meshforge.label_model.table import Bools, FamilyTable, Observations
+
+WEIGHTS_FILE = "consensus.json"
+EVIDENCE = (
+    "what its source says",
+    "whether the source errs on this kind here",
+    "its nearest hulls",
+    "hulls of other meshes",
+    "hulls of other meshes together",
+    "hulls of its own mesh",
+    "how common the label is",
+    "hulls that it touches",
+)
+"""What the columns of `collect_evidence` are, in words."""
+
+_OF_OTHERS = slice(2, None)
+
+PERSON = 0.9995
+"""How much a person's label is believed."""
+_CERTAIN = 0.8  # from which probability on a hull of which nothing is said helps with others
+_HELP = 0.5  # what such a hull counts
+_UNSAID = 0.3  # what a hull of which nothing is said counts for how common a label is
+_DISTINCT, _NEAREST = 12, 12  # look-alikes of distinct meshes, and the nearest
+_TOGETHER = 10  # look-alikes of distinct meshes whose evidence is multiplied
+_ALIKE, _SOFT = 9.0, 1.5  # the distance at which two hulls are half alike, and how soon it ends
+_ALIKE_NEAREST, _ALIKE_OWN = 10.0, 7.0
+_AT_MOST = 0.97  # to which degree two hulls are alike
+_PRIOR_SHARE = 0.3  # of the prior beside look-alikes
+_START = 0.9  # what each label is believed at the start
+_PAIRS = 0.5  # pairs of labels count as having touched so often before any are seen
+
+
+@cache
+def consensus_weights() -> Floats:
+    """The weights (rounds, evidence)."""
+    read = json.loads(files("meshforge.label_model").joinpath(WEIGHTS_FILE).read_text("utf-8"))
+    found = np.array(read["weights"], dtype=float)
+    found.flags.writeable = False
+    return found
+
+
+def infer_chances(table: FamilyTable, seen: Observations, weights: Floats | None = None) -> tuple[Floats, Floats]:
+    """The probability of each label that anything says for each hull of a family: by all, and but for what is said of
+    the hull itself. Both (n, labels)."""
+    context = FamilyContext(table, seen)
+    chances = by_others = context.start()
+    for row in consensus_weights() if weights is None else weights:
+        scores = context.collect_evidence(chances) * row
+        by_others = softmax(scores[:, :, _OF_OTHERS].sum(axis=2))
+        chances = context.hold(softmax(scores.sum(axis=2)))
+    return chances, by_others
+
+
+def softmax(scores: Floats) -> Floats:
+    """Scores (n, k) [nats] as probabilities."""
+    weights = np.exp(scores - scores.max(axis=1, keepdims=True, initial=-np.inf))
+    found: Floats = weights / weights.sum(axis=1, keepdims=True)
+    return found
+
+
+@dataclass(frozen=True, eq=False)
+class _Informed:
+    """Hulls that say something about others. usable: (n,); worth: (n,) what each counts."""
+
+    usable: Bools
+    worth: Floats
+
+
+class FamilyContext:
+    """A family with what is said of it, to be weighed round by round."""
+
+    def __init__(self, table: FamilyTable, seen: Observations) -> None:
+        self.table, self.seen, self.count = table, seen, len(seen.labels)
+        self.free = seen.known & ~seen.fixed
+        speaking = np.unique(table.owner[seen.given]) if seen.given.any() else np.unique(table.owner[seen.known])
+        self.lookalikes = table.find_lookalikes(speaking.tolist())
+        a, b = table.touching.T
+        n = len(table.owner)
+        links = csr_matrix((np.ones(2 * len(a)), (np.concatenate([a, b]), np.concatenate([b, a]))), shape=(n, n))
+        degree = np.maximum(np.bincount(table.touching.ravel(), minlength=n), 1)
+        self.links, self.degree = links, degree[:, None]
+
+    def start(self) -> Floats:
+        """What the sources say, each believed alike."""
+        return self.hold(softmax(self._own(np.full(len(self.seen.codes), _START), self.seen.known)))
+
+    def hold(self, chances: Floats) -> Floats:
+        """The same with what people said."""
+        fixed = self.seen.fixed
+        chances[fixed] = (1 - PERSON) / max(self.count - 1, 1)
+        chances[fixed, self.seen.codes[fixed]] = PERSON if self.count > 1 else 1.0
+        return chances
+
+    def _own(self, reliability: Floats, which: Bools) -> Floats:
+        """The log-likelihood (n, labels) of what is said of some hulls."""
+        found = np.zeros((len(which), self.count))
+        found[which] = np.log((1 - reliability[which]) / max(self.count - 1, 1))[:, None]
+        found[which, self.seen.codes[which]] = np.log(reliability[which])
+        return found
+
+    def collect_evidence(self, chances: Floats) -> Floats:
+        """The evidence (n, labels, len(EVIDENCE)) [nats] on each label of each hull."""
+        seen, rows = self.seen, np.arange(len(chances))
+        informed = self._informed(chances)
+        counted = chances * np.where(seen.known, 1.0, _UNSAID)[:, None]
+        prior = counted.sum(axis=0) + 0.5
+        prior /= prior.sum()
+        nearest = np.log(self._share_nearest(chances, informed, prior))
+        distinct, together = self._share_distinct(chances, informed, prior)
+        own_mesh = np.log(self._share_own(chances, informed, prior))
+        said = np.maximum(seen.codes, 0)
+        by_others = softmax(nearest + 0.5 * together)[rows, said]
+        reliability = estimate_reliability(seen, self.free, chances[rows, said])
+        kinds = np.zeros_like(chances)
+        kinds[self.free, seen.codes[self.free]] = find_wrong_kinds(seen, self.table.owner, self.free, by_others)[
+            self.free
+        ]
+        common = np.broadcast_to(np.log(prior), chances.shape)
+        columns = [self._own(reliability, self.free), kinds, nearest, np.log(distinct), together, own_mesh, common]
+        return np.stack([*columns, self._hear_neighbors(chances, informed)], axis=-1)
+
+    def _informed(self, chances: Floats) -> _Informed:
+        sure = ~self.seen.known & (chances.max(axis=1, initial=0.0) > _CERTAIN)
+        return _Informed(self.seen.known | sure, np.where(self.seen.known, 1.0, _HELP))
+
+    def _share_nearest(self, chances: Floats, informed: _Informed, prior: Floats) -> Floats:
+        """The shares of the labels among the nearest hulls, the nearer the more."""
+        hulls, apart = self.lookalikes.nearest(informed.usable, _NEAREST, PER_MESH)
+        there = np.isfinite(apart)
+        gaps = np.where(there, apart, 99.0)
+        least = gaps.min(axis=1, keepdims=True)
+        votes = np.where(there, np.exp(least - gaps), 0.0) * informed.worth[hulls]
+        total = votes.sum(axis=1, keepdims=True)
+        strange = 0.05 + 0.5 * (1 - _alike(least, _ALIKE_NEAREST)) * total
+        found: Floats = (_sum_votes(votes, chances, hulls) + strange * prior) / (total + strange)
+        return found
+
+    def _share_distinct(self, chances: Floats, informed: _Informed, prior: Floats) -> tuple[Floats, Floats]:
+        """Of the nearest hulls of distinct meshes the shares of the labels, and their evidence multiplied [nats]."""
+        hulls, apart = self.lookalikes.nearest(informed.usable, _DISTINCT, 1)
+        there = np.isfinite(apart)
+        alike = np.where(there, _alike(np.where(there, apart, 99.0), _ALIKE), 0.0) * informed.worth[hulls]
+        share = (_sum_votes(alike, chances, hulls) + _PRIOR_SHARE * prior) / (alike.sum(axis=1) + _PRIOR_SHARE)[:, None]
+        together = np.zeros_like(chances)
+        for place in range(min(_TOGETHER, hulls.shape[1])):
+            degree = np.minimum(alike[:, place], _AT_MOST)[:, None]
+            together += np.log(degree * chances[hulls[:, place]] + (1 - degree) * prior)
+        return share, together
+
+    def _share_own(self, chances: Floats, informed: _Informed, prior: Floats) -> Floats:
+        """The shares of the labels among look-alikes of the same mesh."""
+        hulls, apart = self.lookalikes.own, self.lookalikes.own_apart
+        there = np.isfinite(apart) & informed.usable[hulls]
+        alike = np.where(there, _alike(np.where(there, apart, 99.0), _ALIKE_OWN), 0.0) * informed.worth[hulls]
+        total = (alike.sum(axis=1) + _PRIOR_SHARE)[:, None]
+        found: Floats = (_sum_votes(alike, chances, hulls) + _PRIOR_SHARE * prior) / total
+        return found
+
+    def _hear_neighbors(self, chances: Floats, informed: _Informed) -> Floats:
+        """What hulls in contact say, by how much more often two labels touch than by accident."""
+        weighty = chances * (informed.worth * informed.usable)[:, None]
+        pairs = weighty.T @ np.asarray(self.links @ weighty) + _PAIRS
+        joint = pairs / pairs.sum()
+        alone = joint.sum(axis=1)
+        bonds = np.log(joint / (alone[:, None] * alone[None]))
+        heard: Floats = (self.links @ (chances @ bonds.T)) / self.degree
+        return heard
+
+
+def _alike(apart: Floats, half: float) -> Floats:
+    """To which degree hulls are alike, by their distance."""
+    found: Floats = 1 / (1 + np.exp((apart - half) / _SOFT))
+    return found
+
+
+def _sum_votes(votes: Floats, chances: Floats, hulls: Places) -> Floats:
+    """The sum over k look-alikes (n, k) of votes times their chances: (n, labels)."""
+    found = np.zeros((len(votes), chances.shape[1]))
+    for place in range(hulls.shape[1]):
+        found += votes[:, place, None] * chances[hulls[:, place]]
+    return found

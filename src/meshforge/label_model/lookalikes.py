@@ -1,0 +1,126 @@
+"""The hulls that are most like each hull of a family: of other meshes, a few of each, and of its own."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+from scipy.spatial.distance import cdist
+
+from meshforge.geometry import Floats, Ints
+from meshforge.label_model.ties import pick_evenly
+
+Bools = npt.NDArray[np.bool_]
+Places = npt.NDArray[np.int32]
+
+PER_MESH = 3
+"""Hulls of each other mesh that are looked at, the nearest."""
+OF_OWN = 4
+"""Hulls of the same mesh, the nearest."""
+MOST_MESHES = 96
+"""Other meshes that are looked at, evenly chosen of more, so that the work grows with the family, not its square."""
+KEPT_MESHES = 32
+"""Of these, the nearest to each hull are kept where there are more than `MOST_MESHES`."""
+_AT_ONCE = 2000  # hulls that are compared at a time
+_GRAIN = 1e-7  # distances that differ by less are equal
+
+
+@dataclass(frozen=True, eq=False)
+class Lookalikes:
+    """others: (n, meshes, PER_MESH) the nearest hulls of other meshes, mesh by mesh; apart: their distances, infinite
+    where there is none; own: (n, OF_OWN) those of the same mesh; own_apart: their distances.
+    """
+
+    others: Places
+    apart: Floats
+    own: Places
+    own_apart: Floats
+
+    def nearest(self, usable: Bools, count: int, per_mesh: int) -> tuple[Places, Floats]:
+        """The `count` nearest usable hulls of other meshes, at most `per_mesh` of one: (n, count) and distances."""
+        apart = np.where(usable[self.others], self.apart, np.inf)
+        if per_mesh == 1:
+            best = apart.argmin(axis=2)[:, :, None]
+            hulls = np.take_along_axis(self.others, best, axis=2)[:, :, 0]
+            apart = np.take_along_axis(apart, best, axis=2)[:, :, 0]
+        else:
+            hulls, apart = self.others.reshape(len(apart), -1), apart.reshape(len(apart), -1)
+        return take_nearest(hulls, apart, count)
+
+    def nearest_of(self, hull: int, usable: Bools, count: int, per_mesh: int) -> list[int]:
+        """Of one hull the nearest usable ones, of its own mesh too, the nearest first."""
+        one = slice(hull, hull + 1)
+        only = Lookalikes(self.others[one], self.apart[one], self.own[one], self.own_apart[one])
+        hulls, apart = only.nearest(usable, count, per_mesh)
+        own_apart = np.where(usable[only.own], only.own_apart, np.inf)
+        joined = np.concatenate([hulls, only.own], axis=1), np.concatenate([apart, own_apart], axis=1)
+        hulls, apart = take_nearest(*joined, count)
+        return [int(found) for found in hulls[np.isfinite(apart)]]
+
+
+def take_nearest(hulls: Places, apart: Floats, count: int) -> tuple[Places, Floats]:
+    """Of candidates (n, m) the nearest (n, count), equally near ones in their order; padded where there are fewer."""
+    missing = count - hulls.shape[1]
+    if missing > 0:
+        hulls = np.pad(hulls, ((0, 0), (0, missing)))
+        apart = np.pad(apart, ((0, 0), (0, missing)), constant_values=np.inf)
+    width = hulls.shape[1]
+    grains = np.where(np.isfinite(apart), np.round(apart / _GRAIN), 2.0**40).astype(np.int64)
+    keys = grains * width + np.arange(width)
+    order = (
+        np.argpartition(keys, count - 1, axis=1)[:, :count]
+        if width > count
+        else np.tile(np.arange(width), (len(keys), 1))
+    )
+    order = np.take_along_axis(order, np.argsort(np.take_along_axis(keys, order, axis=1), axis=1), axis=1)
+    return np.take_along_axis(hulls, order, axis=1), np.take_along_axis(apart, order, axis=1)
+
+
+def find_lookalikes(rows: Floats, owner: Ints, first: Sequence[int]) -> Lookalikes:
+    """Compare hulls by the sum of the differences of their rows (n, columns), weighted already.
+
+    owner: (n,) the mesh of each, ascending; first: meshes that are looked at before others where there are too many.
+    """
+    meshes, starts = np.unique(owner, return_index=True)
+    ends = np.append(starts[1:], len(owner)).astype(np.int64)
+    chosen = _choose_meshes(meshes, first)
+    kept = len(chosen) if len(meshes) <= MOST_MESHES else min(KEPT_MESHES, len(chosen))
+    others = np.zeros((len(rows), kept, PER_MESH), dtype=np.int32)
+    apart = np.full((len(rows), kept, PER_MESH), np.inf)
+    for begin in range(0, len(rows), _AT_ONCE):
+        some = slice(begin, min(begin + _AT_ONCE, len(rows)))
+        hulls, gaps = _compare(rows, some, owner, [(int(meshes[k]), int(starts[k]), int(ends[k])) for k in chosen])
+        if gaps.shape[1] > kept:
+            order = np.argsort(np.round(gaps[:, :, 0] / _GRAIN), axis=1, kind="stable")[:, :kept, None]
+            hulls, gaps = np.take_along_axis(hulls, order, axis=1), np.take_along_axis(gaps, order, axis=1)
+        others[some], apart[some] = hulls, gaps
+    own, own_apart = np.zeros((len(rows), OF_OWN), dtype=np.int32), np.full((len(rows), OF_OWN), np.inf)
+    for start, end in zip(starts.tolist(), ends.tolist(), strict=True):
+        gaps = cdist(rows[start:end], rows[start:end], "cityblock")
+        np.fill_diagonal(gaps, np.inf)
+        hulls = np.broadcast_to(np.arange(start, end, dtype=np.int32), gaps.shape)
+        own[start:end], own_apart[start:end] = take_nearest(hulls, gaps, OF_OWN)
+    return Lookalikes(others, apart, own, own_apart)
+
+
+def _choose_meshes(meshes: Ints, first: Sequence[int]) -> Ints:
+    """Places among the meshes of those that are looked at."""
+    if len(meshes) <= MOST_MESHES:
+        return np.arange(len(meshes))
+    preferred = pick_evenly(np.flatnonzero(np.isin(meshes, np.array(first, dtype=np.int64))), MOST_MESHES)
+    rest = pick_evenly(np.setdiff1d(np.arange(len(meshes)), preferred), MOST_MESHES - len(preferred))
+    return np.sort(np.concatenate([preferred, rest]))
+
+
+def _compare(rows: Floats, some: slice, owner: Ints, meshes: Sequence[tuple[int, int, int]]) -> tuple[Places, Floats]:
+    """The nearest hulls of each of some meshes, given as number, start and end, and their distances."""
+    count = some.stop - some.start
+    hulls, apart = np.zeros((count, len(meshes), PER_MESH), np.int32), np.full((count, len(meshes), PER_MESH), np.inf)
+    for place, (mesh, start, end) in enumerate(meshes):
+        gaps = cdist(rows[some], rows[start:end], "cityblock")
+        gaps[owner[some] == mesh] = np.inf
+        candidates = np.broadcast_to(np.arange(start, end, dtype=np.int32), gaps.shape)
+        hulls[:, place], apart[:, place] = take_nearest(candidates, gaps, PER_MESH)
+    return hulls, apart

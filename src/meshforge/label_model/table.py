@@ -1,0 +1,170 @@
+"""The hulls of a family as a table of comparable rows, and what is said of their labels."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from functools import cache, cached_property
+from importlib.resources import files
+
+import numpy as np
+import numpy.typing as npt
+
+from meshforge.geometry import Floats, Ints
+from meshforge.label_model.describe import ROW_WIDTH
+from meshforge.label_model.lookalikes import MOST_MESHES, Lookalikes, find_lookalikes
+from meshforge.rendering import UNSURE
+from meshforge.symbolic import GIVEN_SOURCES, HUMAN_SOURCES, INFERRED_SOURCES, LABEL_SOURCES, Label
+
+Bools = npt.NDArray[np.bool_]
+
+METRIC_FILE = "metric.json"
+NO_LABEL = -1
+"""The code of a hull of whose label nothing is said."""
+_LEAST_SPREAD = 1e-3  # spread of a column below which it counts as constant
+_MOST_SPREADS = 3.0  # spreads from the median beyond which nothing is farther
+
+
+@cache
+def metric_weights() -> Floats:
+    """The weights (columns,) of the distance between two rows, which is the weighted sum of their differences."""
+    read = json.loads(files("meshforge.label_model").joinpath(METRIC_FILE).read_text("utf-8"))
+    found = np.array(read["weights"], dtype=float)
+    found.flags.writeable = False
+    return found
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class ColumnScale:
+    """What brings columns to a common spread. middle, spread: (columns,)."""
+
+    middle: Floats
+    spread: Floats
+
+    @staticmethod
+    def of(rows: Floats) -> ColumnScale:
+        """The medians and spreads of some rows (n, columns)."""
+        if not len(rows):
+            return ColumnScale(np.zeros(rows.shape[1]), np.ones(rows.shape[1]))
+        return ColumnScale(np.median(rows, axis=0), np.maximum(rows.std(axis=0), _LEAST_SPREAD))
+
+    def of_columns(self, columns: slice) -> ColumnScale:
+        """That of some columns."""
+        return ColumnScale(self.middle[columns], self.spread[columns])
+
+    def __call__(self, rows: Floats) -> Floats:
+        """Rows about the middle in units of the spread, far values drawn in."""
+        return np.clip((rows - self.middle) / self.spread, -_MOST_SPREADS, _MOST_SPREADS)
+
+
+@dataclass(frozen=True, eq=False)
+class FamilyTable:
+    """Hulls of all meshes, in order.
+
+    rows: (n, columns), described and brought to a common spread by `scale`; owner: (n,) the mesh of each, ascending;
+    touching: pairs (m, 2) of hulls of one mesh that are in contact; metric: the weight of each column.
+    """
+
+    rows: Floats
+    scale: ColumnScale
+    owner: Ints
+    touching: Ints
+    metric: Floats
+
+    @staticmethod
+    def of(described: Sequence[tuple[Floats, Ints]], metric: Floats | None = None) -> FamilyTable:
+        """described: `rows` and `touching` of the descriptor of each mesh; metric: None for the one that ships."""
+        rows = np.concatenate([np.zeros((0, ROW_WIDTH)), *(own for own, _ in described)])
+        sizes = np.array([len(own) for own, _ in described], dtype=np.int64)
+        pairs = (touching + start for (_, touching), start in zip(described, np.cumsum(sizes) - sizes, strict=True))
+        scale = ColumnScale.of(rows)
+        return FamilyTable(
+            scale(rows),
+            scale,
+            np.repeat(np.arange(len(described)), sizes),
+            np.concatenate([np.zeros((0, 2), np.int64), *pairs]),
+            metric_weights() if metric is None else metric,
+        )
+
+    @cached_property
+    def spans(self) -> dict[int, slice]:
+        """Each mesh that has hulls, and which of all hulls these are."""
+        meshes, starts = np.unique(self.owner, return_index=True)
+        ends = np.searchsorted(self.owner, meshes, side="right")
+        rows = zip(meshes.tolist(), starts.tolist(), ends.tolist(), strict=True)
+        return {mesh: slice(start, end) for mesh, start, end in rows}
+
+    def find_lookalikes(self, first: Sequence[int]) -> Lookalikes:
+        """The nearest hulls of each; first: meshes that are looked at before others where there are too many."""
+        key = tuple(first) if len(self.spans) > MOST_MESHES else ()
+        if key not in self._found:
+            self._found.clear()
+            self._found[key] = find_lookalikes(self.rows * self.metric, self.owner, key)
+        return self._found[key]
+
+    @cached_property
+    def _found(self) -> dict[tuple[int, ...], Lookalikes]:
+        """What was found last."""
+        return {}
+
+    def turn(self, turned: Iterator[tuple[slice, Floats]]) -> FamilyTable:
+        """The table with other rows for some meshes."""
+        rows = self.rows.copy()
+        for span, found in turned:
+            rows[span] = found
+        return replace(self, rows=rows)
+
+
+@dataclass(frozen=True, eq=False)
+class Observations:
+    """What is said of the labels of n hulls.
+
+    labels: that anything says, sorted; codes: (n,) the place of what is said among these, NO_LABEL where nothing is;
+    confidence: (n,); sources: (n,) the place of the source among LABEL_SOURCES; fixed: (n,) whether a person said it;
+    given: (n,) whether others may be taken from it.
+    """
+
+    labels: tuple[str, ...]
+    codes: Ints
+    confidence: Floats
+    sources: Ints
+    fixed: Bools
+    given: Bools
+
+    @staticmethod
+    def of(said: Sequence[Label | None]) -> Observations:
+        """What annotations of hulls say; a label that was inferred says nothing but what it was inferred over."""
+        evidence = [evidence_of(label) for label in said]
+        if not any(evidence):
+            evidence = list(said)
+        labels = tuple(sorted({one.name for one in evidence if one}))
+        places = {label: place for place, label in enumerate(labels)}
+        return Observations(
+            labels,
+            np.array([places[one.name] if one else NO_LABEL for one in evidence], dtype=np.int64),
+            np.array([one.confidence if one else 0.0 for one in evidence]),
+            np.array([LABEL_SOURCES.index(one.source) if one else 0 for one in evidence], dtype=np.int64),
+            np.array([one is not None and one.source in HUMAN_SOURCES for one in evidence], dtype=np.bool_),
+            np.array([reference_label(one) is not None for one in evidence], dtype=np.bool_),
+        )
+
+    @property
+    def known(self) -> Bools:
+        """Whether anything is said (n,)."""
+        found: Bools = self.codes != NO_LABEL
+        return found
+
+
+def evidence_of(label: Label | None) -> Label | None:
+    """What a label says that was not inferred from other labels: that which it replaced, where it was."""
+    if label is not None and label.source in INFERRED_SOURCES:
+        return label.given
+    return label
+
+
+def reference_label(label: Label | None) -> str | None:
+    """The label that others may be taken from: one that a person gave, or that came in a file and is not unsure."""
+    if label is None or label.source not in GIVEN_SOURCES:
+        return None
+    return label.name if label.source in HUMAN_SOURCES or label.confidence >= UNSURE else None

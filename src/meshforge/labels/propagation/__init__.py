@@ -1,1 +1,0 @@
-"""Labels of one to five assets propagated to all others of a family, offline, each with its chance."""
