@@ -7,7 +7,6 @@ from dataclasses import replace
 
 from benchmark.study.condition import Condition
 from benchmark.study.desk import Desk, Selections
-from benchmark.study.propagation import carry_over
 from meshforge.language import Program
 from meshforge.signoff import Assessment, Reply, ReviewQuestion, ReviewState
 from meshforge.signoff.question import ASIDE, RIGHT
@@ -35,11 +34,15 @@ class Tool:
         )
 
     def take_labels(self, desk: Desk) -> Desk:
-        """The meshes with the labels that the tool gives them once more is known: where nobody gave any."""
-        hulls = [hull for mesh in desk.meshes.values() for hull in mesh.hulls]
-        if any(hull.label is None for hull in hulls) and any(hull.label is not None for hull in hulls):
-            return carry_over(desk)
-        return desk
+        """The meshes with the labels that all that is known of the family speaks for; a person's stay."""
+        said = [hull.annotation for mesh in desk.meshes.values() for hull in mesh.hulls]
+        agreed = iter(desk.bench.relatives.infer(said).agree(said))
+        meshes = dict(desk.meshes)
+        for name, mesh in desk.meshes.items():
+            found = {hull.name: next(agreed) for hull in mesh.hulls}
+            if any(found[hull.name] != hull.annotation for hull in mesh.hulls):
+                meshes[name] = mesh.with_labels(found)
+        return desk.with_meshes(meshes)
 
     def learn(self, desk: Desk, state: ReviewState) -> LearningOutcome | None:
         """What it learns from all that it was told, None before anything was shown; raises as `synthesize` does."""
