@@ -68,7 +68,7 @@ PAGES = (
         "signoff",
         "# Families signed off\n\nWritten by `script/bench` from the JSON beside it. Every run gives the same. "
         "A person's seconds are modelled by keystrokes, at prices fixed beforehand.\n",
-        ("review",),
+        ("review", "real_families"),
         ("numpy", "scipy", "mujoco"),
     ),
     Page(

@@ -28,7 +28,7 @@ from benchmark.tasks import DIFFICULTIES
 
 TAUGHT = (TRUE, FLAT, SYSTEMATIC, PROPAGATED[2])
 """The conditions, all with the person who helps the tool in no way."""
-_LEAST = MOST + 3
+LEAST = MOST + 3
 """Meshes that a family needs at a decomposition, to be taught on it."""
 _COLUMNS = (
     "tasks",
@@ -59,7 +59,7 @@ def teach_real_task(name: str, difficulty: str, condition: str, settings: Sequen
     one, found = real_task(name, difficulty), list[dict[str, Any]]()
     for seed, setting in zip(REPORTED, settings, strict=False):
         samples = family_samples(name, setting)
-        if len(samples) >= _LEAST:
+        if len(samples) >= LEAST:
             found.append(teach_task(Bench(one, samples), CONDITIONS[condition], seed).to_json())
     return found
 

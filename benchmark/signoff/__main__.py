@@ -12,10 +12,9 @@ from pathlib import Path
 
 from benchmark.report import as_text
 from benchmark.signoff.before import freeze
-from benchmark.signoff.conditions import ASKED, MAKE
+from benchmark.signoff.conditions import ASKED, MAKE, list_tasks
 from benchmark.signoff.review import run, summarize
 from benchmark.study import CONDITIONS
-from benchmark.tasks import tasks
 
 
 def main(arguments: list[str] | None = None) -> int:
@@ -25,7 +24,7 @@ def main(arguments: list[str] | None = None) -> int:
     what.add_parser("before", help="write the figures of the tool as it is into before.json")
     tune = what.add_parser("tune", help="measure on families to tune on")
     tune.add_argument("folder", type=Path, help=f"where `{MAKE}` wrote them")
-    tune.add_argument("--task", action="append", choices=[one.name for one in tasks()], metavar="NAME")
+    tune.add_argument("--task", action="append", choices=list_tasks(), metavar="NAME")
     tune.add_argument("--condition", action="append", choices=[one.name for one in ASKED], metavar="NAME")
     tune.add_argument("--few", action="store_true", help="one person")
     given = parser.parse_args(arguments)
@@ -33,9 +32,8 @@ def main(arguments: list[str] | None = None) -> int:
         freeze(_tell)
         return 0
     conditions = [CONDITIONS[name] for name in given.condition] if given.condition else ASKED
-    names = given.task or [one.name for one in tasks()]
-    found = run(names, conditions, _tell, str(given.folder.resolve()), given.few)
-    print(as_text(summarize(*found, before=False)))
+    found = run(given.task or list_tasks(), conditions, _tell, str(given.folder.resolve()), given.few)
+    print(as_text(summarize("tune", "Families to tune on", *found, before=False)))
     return 0
 
 

@@ -8,7 +8,6 @@ from __future__ import annotations
 import json
 import random
 import subprocess
-from collections.abc import Sequence
 from dataclasses import asdict, dataclass
 from functools import cache
 from pathlib import Path
@@ -16,15 +15,14 @@ from typing import Any
 
 from benchmark.journal import ROOT, run_units
 from benchmark.report import Tell
-from benchmark.signoff.conditions import ASKED, open_family
+from benchmark.signoff.conditions import ASKED, ON_REAL, list_benches, list_real_tasks, list_tasks
 from benchmark.signoff.judge import Judge
 from benchmark.signoff.ledger import price_of_hand
 from benchmark.signoff.point import Point
-from benchmark.study import CONDITIONS, REPORTED, Condition
+from benchmark.study import CONDITIONS, Condition
 from benchmark.study.course import Course
 from benchmark.study.desk import Bench, Desk
 from benchmark.study.keystrokes import GLANCE, model_seconds
-from benchmark.tasks import tasks
 from meshforge.common import write_atomically
 from meshforge.language import Program
 
@@ -100,15 +98,16 @@ def _mend_all(
     return seconds, right
 
 
-def teach(name: str, condition: str, seeds: Sequence[int]) -> list[dict[str, Any]]:
-    """One task under one condition, by each demonstrator."""
+def teach(name: str, condition: str) -> list[dict[str, Any]]:
+    """One task under one condition, by each person."""
     one = CONDITIONS[condition]
-    return [asdict(teach_before(open_family(name, one.setting(seed)), one, seed)) for seed in seeds]
+    return [asdict(teach_before(bench, one, seed)) for seed, bench in list_benches(name, one)]
 
 
 def freeze(tell: Tell, path: Path = FROZEN) -> None:
     """Write the figures of the tool as it is, with the commit that it is at."""
-    units = [(one.name, condition.name, condition.seeds(REPORTED)) for one in tasks() for condition in ASKED]
+    units = [(name, one.name) for name in list_tasks() for one in ASKED]
+    units += [(name, one.name) for name in list_real_tasks() for one in ON_REAL]
     rows = [row for unit in run_units("before", teach, units, tell) for row in unit]
     commit = subprocess.run(["git", "rev-parse", "HEAD"], cwd=ROOT, capture_output=True, text=True, check=True).stdout
     lines = ",\n".join(json.dumps(row, separators=(",", ":")) for row in rows)

@@ -2,22 +2,58 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Sequence
 from functools import lru_cache
 from pathlib import Path
 
 from benchmark.assets import SEPARATE
 from benchmark.assets.storage import read, stem_of
-from benchmark.study import CONDITIONS, FLAT, TRUE, Bench, open_bench
+from benchmark.evaluation.real_sessions import LEAST, TAUGHT
+from benchmark.real.family import families
+from benchmark.real.samples import ALL_SETTINGS, family_samples
+from benchmark.real.tasks import real_task
+from benchmark.study import CONDITIONS, FLAT, REPORTED, TRUE, TUNING, Bench, Condition, open_bench
 from benchmark.study.condition import PROPAGATED, SYSTEMATIC, TELLING
-from benchmark.tasks import task
+from benchmark.tasks import DIFFICULTIES, task, tasks
 
 ERRS = CONDITIONS[f"{FLAT.name}: errs in 5%"]
 """The person errs in 5% of all acts."""
 NONE = PROPAGATED[0]
 ASKED = (TRUE, TELLING, FLAT, SYSTEMATIC, PROPAGATED[3], PROPAGATED[2], PROPAGATED[1], NONE, ERRS)
 """All conditions, in the order of the tables."""
+ON_REAL = TAUGHT
+"""Those under which real families are signed off."""
 MAKE = "script/make-benchmark --calibration --count 25 --settings separate --out FOLDER"
 """Makes families of 25 that anything may be tuned on."""
+_REAL = "real-"
+
+
+def list_tasks() -> list[str]:
+    """The tasks on generated families."""
+    return [one.name for one in tasks()]
+
+
+def list_real_tasks() -> list[str]:
+    """The tasks on real families."""
+    return [f"{_REAL}{name}-{level}" for name in families() for level in DIFFICULTIES]
+
+
+def list_benches(
+    name: str, condition: Condition, folder: str | None = None, few: bool = False
+) -> Iterator[tuple[int, Bench]]:
+    """The families of a task, each with its person. few: one of them; folder: of families to tune on.
+
+    Of a real family one for each decomposition at which there are enough meshes.
+    """
+    if name.startswith(_REAL):
+        for seed, setting in [*zip(REPORTED, ALL_SETTINGS, strict=False)][: 1 if few else None]:
+            bench = open_real_family(name, setting)
+            if len(bench.samples) >= LEAST:
+                yield seed, bench
+        return
+    people: Sequence[int] = REPORTED if folder is None else TUNING
+    for seed in condition.seeds(people)[: 1 if few else None]:
+        yield seed, open_family(name, condition.setting(seed), folder)
 
 
 @lru_cache(maxsize=2 * len(SEPARATE))
@@ -27,3 +63,10 @@ def open_family(name: str, setting: str, folder: str | None = None) -> Bench:
         return open_bench(name, setting)
     one = task(name)
     return Bench(one, [row for row in read(Path(folder), stem_of(one.category, True)) if row.setting == setting])
+
+
+@lru_cache(maxsize=2 * len(ALL_SETTINGS))
+def open_real_family(name: str, setting: str) -> Bench:
+    """A task with a real family at one decomposition."""
+    family_name, _, level = name.removeprefix(_REAL).rpartition("-")
+    return Bench(real_task(family_name, level), family_samples(family_name, setting))

@@ -17,17 +17,18 @@ _LOOKS: dict[str, dict[str, Any]] = {
     REFERENCE: {"color": "#8d99ae", "ls": ":"},
 }
 _ACROSS = 3
-_FILE = "signoff-curves.svg"
 
 
 def draw_curves(folder: Path, found: Sequence[Mapping[str, Any]]) -> str:
     """Draw them beside the results of the page, by condition; Markdown that shows them, empty where there are none."""
+    lines = []
     for result in map(Result.of_json, found):
         table = next((table for table in result.tables if table.title == CURVES), None)
         if table is not None and table.rows:
-            _draw([float(column) for column in table.columns[2:]], table.rows, folder / _FILE)
-            return f"![Edits right against seconds of a person]({_FILE})\n"
-    return ""
+            name = f"signoff-{result.part}.svg"
+            _draw([float(column) for column in table.columns[2:]], table.rows, folder / name)
+            lines.append(f"![{result.title}: edits right against seconds of a person]({name})\n")
+    return "\n".join(lines)
 
 
 def _draw(seconds: Sequence[float], rows: Sequence[Sequence[Any]], path: Path) -> None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import asdict
 from typing import Any
 
@@ -10,7 +10,7 @@ from benchmark.journal import run_units
 from benchmark.report import Goal, Result, Tell
 from benchmark.signoff.before import read_before
 from benchmark.signoff.calibration import calibrate
-from benchmark.signoff.conditions import ASKED, ERRS, MAKE, NONE, open_family
+from benchmark.signoff.conditions import ASKED, ERRS, MAKE, NONE, list_benches, list_tasks
 from benchmark.signoff.opening import Opening, open_review
 from benchmark.signoff.outcomes import (
     Group,
@@ -24,9 +24,8 @@ from benchmark.signoff.outcomes import (
 )
 from benchmark.signoff.queue import CAP, Review, sign_off
 from benchmark.signoff.tables import list_tables, pairs_of
-from benchmark.study import CONDITIONS, FLAT, REPORTED, TRUE, TUNING, Condition
+from benchmark.study import CONDITIONS, FLAT, TRUE, Condition
 from benchmark.study.condition import PROPAGATED, SYSTEMATIC, TELLING
-from benchmark.tasks import tasks
 
 _QUICK = ("cup", (TRUE, FLAT))
 """The category and the conditions of a quick run, which has one person."""
@@ -34,8 +33,9 @@ _QUICK = ("cup", (TRUE, FLAT))
 
 def measure(tell: Tell, quick: bool) -> Result:
     """Sign all families off under all conditions."""
-    names = [one.name for one in tasks() if not quick or one.category == _QUICK[0]]
-    return summarize(*run(names, _QUICK[1] if quick else ASKED, tell, few=quick), before=True)
+    names = [name for name in list_tasks() if not quick or name.startswith(_QUICK[0])]
+    found = run(names, _QUICK[1] if quick else ASKED, tell, few=quick)
+    return summarize("review", "A family signed off", *found, before=True)
 
 
 def run(
@@ -45,27 +45,26 @@ def run(
 
     few: by one of them.
     """
-    people = (REPORTED if folder is None else TUNING)[: 1 if few else None]
-    units = [(name, one.name, one.seeds(people), folder) for name in names for one in conditions]
+    units = [(name, one.name, folder, few) for name in names for one in conditions]
     rows = [row for unit in run_units("signoff", teach, units, tell) for row in unit]
     return [Review.of_json(row["review"]) for row in rows], [Opening.of_json(row["opening"]) for row in rows]
 
 
-def teach(name: str, condition: str, seeds: Iterable[int], folder: str | None = None) -> list[dict[str, Any]]:
+def teach(name: str, condition: str, folder: str | None = None, few: bool = False) -> list[dict[str, Any]]:
     """One task under one condition, by each person: how it stands before any question, and signed off."""
-    one, found = CONDITIONS[condition], []
-    for seed in seeds:
-        bench = open_family(name, one.setting(seed), folder)
-        found.append({"opening": asdict(open_review(bench, one, seed)), "review": asdict(sign_off(bench, one, seed))})
-    return found
+    one = CONDITIONS[condition]
+    return [
+        {"opening": asdict(open_review(bench, one, seed)), "review": asdict(sign_off(bench, one, seed))}
+        for seed, bench in list_benches(name, one, folder, few)
+    ]
 
 
-def summarize(reviews: Sequence[Review], openings: Sequence[Opening], before: bool) -> Result:
+def summarize(part: str, title: str, reviews: Sequence[Review], openings: Sequence[Opening], *, before: bool) -> Result:
     """What sessions come to; before: beside the tool as it was."""
     groups = group([one.name for one in ASKED], reviews, openings, read_before() if before else ())
     return Result(
-        "review",
-        "A family signed off",
+        part,
+        title,
         list_tables(groups),
         tuple(_list_goals(groups)),
         _NOTES,
