@@ -19,6 +19,7 @@ from benchmark.options import RunOptions
 from benchmark.pages import PAGES, Page, page_of, parts_of, text_of
 from benchmark.progress import Progress
 from benchmark.report import Result, as_text, write_lines
+from benchmark.signoff.plot import draw_curves
 from meshforge.common import AssetError, UsageError, write_atomically
 
 RESULTS = Path(__file__).resolve().parent / "results"
@@ -102,7 +103,8 @@ def _write(out: Path, page: Page, result: Result, quick: bool) -> None:
     if page.name == "evaluation":
         write_page(out.parent if out == RESULTS else out, found, page.parts, result.part)
     else:
-        write_atomically(out / f"{page.name}.md", text_of(page, found))
+        pictures = draw_curves(out, found) if page.name == "signoff" else ""
+        write_atomically(out / f"{page.name}.md", text_of(page, found, pictures))
 
 
 if __name__ == "__main__":

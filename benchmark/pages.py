@@ -65,6 +65,13 @@ PAGES = (
         given=("comparison",),
     ),
     Page(
+        "signoff",
+        "# Families signed off\n\nWritten by `script/bench` from the JSON beside it. Every run gives the same. "
+        "A person's seconds are modelled by keystrokes, at prices fixed beforehand.\n",
+        ("review",),
+        ("numpy", "scipy", "mujoco"),
+    ),
+    Page(
         "labels",
         "# Labels\n\nWritten by `script/bench` from the JSON beside it. Every run gives the same, but for times.\n",
         ("propagation", "labellers"),
@@ -101,8 +108,8 @@ def parts_of(names: Sequence[str]) -> tuple[str, ...]:
     return tuple(dict.fromkeys(part for name in names or [page.name for page in PAGES] for part in known[name]))
 
 
-def text_of(page: Page, results: Sequence[Mapping[str, Any]]) -> str:
-    """The page on some results."""
+def text_of(page: Page, results: Sequence[Mapping[str, Any]], pictures: str = "") -> str:
+    """The page on some results; pictures: Markdown that shows them, after all else."""
     listed = "Machine: " + ", ".join(f"{name} {value}" for name, value in results[-1]["machine"].items()) + ".\n"
     quick = "**A quick run: few files, one round.**\n" if any(result["quick"] for result in results) else ""
-    return "\n".join(filter(None, [page.head, listed, quick, *(as_text(Result.of_json(r)) for r in results)]))
+    return "\n".join(filter(None, [page.head, listed, quick, *(as_text(Result.of_json(r)) for r in results), pictures]))

@@ -14,11 +14,6 @@ _PARTS = ("#264653", "#2a9d8f", "#e9a23b", "#c8553d", "#8d6a9f", "#8d99ae", "#5b
 
 def plots(results: Mapping[str, Result], folder: Path) -> dict[str, str]:
     """Draw what there are figures for; the names of the files by the part that they belong to."""
-    import matplotlib
-
-    matplotlib.use("Agg")
-    matplotlib.rcParams.update({"svg.hashsalt": "meshforge", "font.size": 9, "axes.spines.top": False,
-                                "axes.spines.right": False, "svg.fonttype": "path"})  # fmt: skip
     folder.mkdir(parents=True, exist_ok=True)
     drawn = {}
     for part, draw in {"effectiveness": _few_shot_and_phases, "ablation": _layers, "scaling": _growth}.items():
@@ -32,13 +27,20 @@ def _table(result: Result, beginning: str) -> Table:
     return next(table for table in result.tables if table.title.startswith(beginning))
 
 
-def _figure(columns: int, height: float = 2.9) -> tuple[Any, Any]:
+def begin_figure(columns: int, height: float = 2.9, rows: int = 1) -> tuple[Any, Any]:
+    """A figure and its axes, side by side and one row below the other."""
+    import matplotlib
+
+    matplotlib.use("Agg")
+    matplotlib.rcParams.update({"svg.hashsalt": "meshforge", "font.size": 9, "axes.spines.top": False,
+                                "axes.spines.right": False, "svg.fonttype": "path"})  # fmt: skip
     import matplotlib.pyplot as plt
 
-    return plt.subplots(1, columns, figsize=(3.4 * columns, height), layout="constrained")
+    return plt.subplots(rows, columns, figsize=(3.4 * columns, height * rows), layout="constrained")
 
 
-def _save(figure: Any, path: Path) -> None:
+def save_figure(figure: Any, path: Path) -> None:
+    """Write it, without a date."""
     import matplotlib.pyplot as plt
 
     figure.savefig(path, metadata={"Date": None}, facecolor="white")
@@ -47,7 +49,7 @@ def _save(figure: Any, path: Path) -> None:
 
 def _few_shot_and_phases(result: Result, path: Path) -> None:
     """SSR against k with questions and without, the paper's beside them; time by phase."""
-    figure, axes = _figure(3)
+    figure, axes = begin_figure(3)
     table = _table(result, "SSR at k")
     ks = [int(column.split("=")[1]) for column in table.columns[2:]]
     for place, condition in enumerate(("true labels", "noisy labels, flat confidence")):
@@ -60,7 +62,7 @@ def _few_shot_and_phases(result: Result, path: Path) -> None:
         axis.set(title=condition, xlabel="demonstrations plus answers", ylabel="SSR, %", ylim=(-3, 103))
     axes[0].legend(frameon=False, fontsize=7)  # once: the same in both
     _phases(_table(result, "Time by phase"), axes[2])
-    _save(figure, path)
+    save_figure(figure, path)
 
 
 def _phases(table: Table, axis: Any) -> None:
@@ -74,7 +76,7 @@ def _phases(table: Table, axis: Any) -> None:
 
 
 def _layers(result: Result, path: Path) -> None:
-    figure, axis = _figure(1)
+    figure, axis = begin_figure(1)
     table = result.tables[0]
     names = [str(row[0]) for row in table.rows]
     ours = [float(str(row[2]).split("=")[1]) for row in table.rows]
@@ -85,11 +87,11 @@ def _layers(result: Result, path: Path) -> None:
         axis.bar([k + shift for k in range(len(names))], values, 0.4, color=color, label=label)
     axis.set(xticks=range(len(names)), xticklabels=names, ylabel="SSR", ylim=(0, 1.05))
     axis.legend(frameon=False, fontsize=7, loc="upper left")
-    _save(figure, path)
+    save_figure(figure, path)
 
 
 def _growth(result: Result, path: Path) -> None:
-    figure, axes = _figure(len(result.tables))
+    figure, axes = begin_figure(len(result.tables))
     for axis, table in zip(axes, result.tables, strict=True):
         values = [float(row[0]) for row in table.rows]
         for place in range(2, 6):
@@ -101,4 +103,4 @@ def _growth(result: Result, path: Path) -> None:
             axis.set_xticks(values, [f"{value:.0f}" for value in values], minor=False)
             axis.set_xticks([], minor=True)
     axes[0].legend(frameon=False, fontsize=7)  # once: the same in all
-    _save(figure, path)
+    save_figure(figure, path)

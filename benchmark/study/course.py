@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from time import perf_counter
 
 from benchmark.study.condition import MOST, Condition
@@ -19,14 +19,16 @@ _ANSWERS = 12  # that a person gives between two demonstrations at most
 
 def teach_task(bench: Bench, condition: Condition, seed: int, others: Sequence[Bench] = ()) -> Session:
     """A task taught by one person under a condition; others: further decompositions of the same assets."""
-    return _Course(bench, condition, seed).session(others)
+    return Course(bench, condition, seed).session(others)
 
 
-class _Course:
-    """The state of a session on its way."""
+class Course:
+    """The state of a session on its way. watch: called with the program after each round."""
 
-    def __init__(self, bench: Bench, condition: Condition, seed: int) -> None:
-        self.bench, self.condition = bench, condition
+    def __init__(
+        self, bench: Bench, condition: Condition, seed: int, watch: Callable[[Program | None], None] | None = None
+    ) -> None:
+        self.bench, self.condition, self._watch = bench, condition, watch
         self.log = Session(bench.task.name, condition.name, seed, next(iter(bench.samples.values())).setting)
         self.by_hand = frozenset[str]()
         """Meshes that were labelled before any was demonstrated; they are not judged."""
@@ -44,6 +46,8 @@ class _Course:
         self.corrections: list[LabelCorrection] = []
         self.accepted: dict[str, Selections] = {}
         """Results that were found right when they were looked at."""
+        self.outcome: LearningOutcome | MeshForgeError = UsageError("nothing was shown")
+        """What the tool made of it when it last learned."""
         self.clean: Program | None = None
         """The last program of which all results that were looked at were right."""
 
@@ -111,7 +115,7 @@ class _Course:
             outcome: LearningOutcome | MeshForgeError = self._outcome(demos)
         except MeshForgeError as error:
             outcome = error
-        seconds = {"all": perf_counter() - start}
+        self.outcome, seconds = outcome, {"all": perf_counter() - start}
         if self.corrections:
             self.desk, self.corrections = self.desk.correct(self.corrections), []
         if isinstance(outcome, MeshForgeError):
@@ -125,6 +129,8 @@ class _Course:
     def _note(self, status: str, program: Program | None, settled: bool, seconds: dict[str, float]) -> None:
         log, differs = self.log, len(self.desk.find_differences(program, self._rest()))
         log.rounds.append(Round(len(log.shown), log.answers, differs, status, _text(program), settled, seconds))
+        if self._watch:
+            self._watch(program)
 
     def _label_landmarks(self, outcome: LearningOutcome | MeshForgeError) -> bool:
         """Whether labels were given by hand: to the landmarks of a demonstrated mesh that could not be oriented."""

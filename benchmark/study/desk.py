@@ -187,6 +187,10 @@ class Desk:
         meshes = dict(self.meshes)
         for one in corrections:
             meshes[one.asset] = meshes[one.asset].with_labels({one.hull: Label(one.to, 1.0, "repair")})
+        return self.with_meshes(meshes)
+
+    def with_meshes(self, meshes: Mapping[str, SymbolicMesh]) -> Desk:
+        """The same with some meshes labelled otherwise; edits of the others are not forgotten."""
         kept = {key: done for key, done in self._edits.items() if meshes[key[1]] is self.meshes[key[1]]}
         return Desk(self.bench, meshes, kept)
 

@@ -81,19 +81,35 @@ class Person:
         return None
 
     def answers(self, desk: Desk, question: Question, program: Program) -> Answer:
-        """The choice that is right, by the eye, or as the reference selects under these labels; else neither.
+        """The choice that is right, or neither; program: what was learned so far."""
+        choices = [frozenset(choice.select) for choice in question.choices]
+        right = self.picks(desk, (question.asset, question.rule), choices, program)
+        return question.answer_with(self.slips_from(right, len(choices)))
+
+    def picks(
+        self, desk: Desk, where: tuple[str, int], choices: Sequence[frozenset[str]], program: Program
+    ) -> int | None:
+        """The place of the choice that is right for a rule on an asset, by the eye, or as the reference selects under
+        these labels.
 
         program: what was learned so far, since the rule meets the mesh as the rules before it leave it.
         """
-        choices = [frozenset(choice.select) for choice in question.choices]
-        wanted = self._answers_to(desk, question, program)
-        right = next((choices.index(select) for select in wanted if select in choices), None)
-        if self._slips.random() < self._errs:
-            right = self._slips.choice([place for place in (*range(len(choices)), None) if place != right])
-        return question.answer_with(right)
+        wanted = self._answers_to(desk, where, program)
+        return next((choices.index(select) for select in wanted if select in choices), None)
 
-    def _answers_to(self, desk: Desk, question: Question, program: Program) -> Iterator[frozenset[str]]:
-        name, place = question.asset, question.rule - 1
+    def slips_from(self, right: int | None, count: int) -> int | None:
+        """What the person says instead of a choice among so many, or of none, where they err."""
+        if self.errs_now():
+            others: list[int | None] = [place for place in (*range(count), None) if place != right]
+            return self._slips.choice(others)
+        return right
+
+    def errs_now(self) -> bool:
+        """Whether the next act is a slip."""
+        return self._slips.random() < self._errs
+
+    def _answers_to(self, desk: Desk, where: tuple[str, int], program: Program) -> Iterator[frozenset[str]]:
+        name, place = where[0], where[1] - 1
         mixed = replace(program, rules=(*program.rules[:place], self._task.program.rules[place]))
         for done in (self._truth.reference[name], desk.reference[name], desk.select(mixed, name)):
             if done is not None:
@@ -111,7 +127,7 @@ class Person:
     def confirms(self, repair: Repair) -> bool:
         """Whether a label is to be corrected so."""
         right = self.knows(repair.correction)
-        return right != (self._slips.random() < self._errs)
+        return right != self.errs_now()
 
     def knows(self, correction: LabelCorrection) -> bool:
         """Whether a correction is right."""

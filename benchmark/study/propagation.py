@@ -46,11 +46,14 @@ def label_by_hand(desk: Desk, name: str) -> tuple[Desk, HandLabels]:
     pairs = list(zip(true.hulls, desk.meshes[name].hulls, strict=True))
     wrong = [right.label for right, hull in pairs if hull.label != right.label]
     meshes = {**desk.meshes, name: true.with_labels({hull.name: Label(hull.label or "") for hull in true.hulls})}
-    looked_through = Desk(desk.bench, meshes)
-    found = desk.bench.relatives.propagate(_labels_of(looked_through))
-    rows = enumerate(looked_through.meshes.items())
-    labelled = Desk(desk.bench, {name: _with(mesh, found.labels(place)) for place, (name, mesh) in rows})
+    labelled = carry_over(Desk(desk.bench, meshes))
     return labelled, HandLabels(sum(hull.label is not None for _, hull in pairs), len(wrong), len(set(wrong)))
+
+
+def carry_over(desk: Desk) -> Desk:
+    """The meshes when what a person said of some hulls was carried over to the others."""
+    found, rows = desk.bench.relatives.propagate(_labels_of(desk)), enumerate(desk.meshes.items())
+    return Desk(desk.bench, {name: _with(mesh, found.labels(place)) for place, (name, mesh) in rows})
 
 
 def _labels_of(desk: Desk) -> list[str | None]:

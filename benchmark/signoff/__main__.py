@@ -1,0 +1,47 @@
+"""Runs what belongs to the page but to no run of it.
+
+Usage: python -m benchmark.signoff before          writes `before.json` anew, from the tool as it is
+       python -m benchmark.signoff tune FOLDER ... measures on families to tune on, and prints what it finds
+"""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from pathlib import Path
+
+from benchmark.report import as_text
+from benchmark.signoff.before import freeze
+from benchmark.signoff.conditions import ASKED, MAKE
+from benchmark.signoff.review import run, summarize
+from benchmark.study import CONDITIONS
+from benchmark.tasks import tasks
+
+
+def main(arguments: list[str] | None = None) -> int:
+    """Do what is named."""
+    parser = argparse.ArgumentParser(prog="python -m benchmark.signoff")
+    what = parser.add_subparsers(dest="what", required=True)
+    what.add_parser("before", help="write the figures of the tool as it is into before.json")
+    tune = what.add_parser("tune", help="measure on families to tune on")
+    tune.add_argument("folder", type=Path, help=f"where `{MAKE}` wrote them")
+    tune.add_argument("--task", action="append", choices=[one.name for one in tasks()], metavar="NAME")
+    tune.add_argument("--condition", action="append", choices=[one.name for one in ASKED], metavar="NAME")
+    tune.add_argument("--few", action="store_true", help="one person")
+    given = parser.parse_args(arguments)
+    if given.what == "before":
+        freeze(_tell)
+        return 0
+    conditions = [CONDITIONS[name] for name in given.condition] if given.condition else ASKED
+    names = given.task or [one.name for one in tasks()]
+    found = run(names, conditions, _tell, str(given.folder.resolve()), given.few)
+    print(as_text(summarize(*found, before=False)))
+    return 0
+
+
+def _tell(line: str) -> None:
+    print(line, file=sys.stderr)
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,122 @@
+"""The tool as it was, before there was a queue; and the person who then glances at every asset and mends by hand.
+
+As the tool has changed since, its figures are kept in `before.json`.
+"""
+
+from __future__ import annotations
+
+import json
+import random
+import subprocess
+from collections.abc import Sequence
+from dataclasses import asdict, dataclass
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+from benchmark.journal import ROOT, run_units
+from benchmark.report import Tell
+from benchmark.signoff.conditions import ASKED, open_family
+from benchmark.signoff.judge import Judge
+from benchmark.signoff.ledger import price_of_hand
+from benchmark.signoff.point import Point
+from benchmark.study import CONDITIONS, REPORTED, Condition
+from benchmark.study.course import Course
+from benchmark.study.desk import Bench, Desk
+from benchmark.study.keystrokes import GLANCE, model_seconds
+from benchmark.tasks import tasks
+from meshforge.common import write_atomically
+from meshforge.language import Program
+
+FROZEN = Path(__file__).resolve().parent / "before.json"
+_COMMAND = "python -m benchmark.signoff before"
+
+
+@dataclass(frozen=True, slots=True)
+class Before:
+    """One session. assets, possible: of the family, and those that the reference gets right under true labels;
+    reference: those that it gets right under the labels that the person got in the end;
+    points: after each round of learning, and at the end; settled: whether the tool said so, and the person accepted;
+    brute: the end of the person who goes on by hand."""
+
+    task: str
+    condition: str
+    seed: int
+    setting: str
+    assets: int
+    possible: int
+    reference: int
+    settled: bool
+    points: tuple[Point, ...]
+    brute: Point
+
+    @staticmethod
+    def of_json(row: dict[str, Any]) -> Before:
+        points = tuple(Point(*point) for point in row["points"])
+        return Before(**{**row, "points": points, "brute": Point(*row["brute"])})
+
+
+def teach_before(bench: Bench, condition: Condition, seed: int) -> Before:
+    """A task taught without a queue, then finished by hand."""
+    judge, points, programs = Judge(bench), list[Point](), list[Program | None]()
+
+    def watch(program: Program | None) -> None:
+        programs.append(program)
+        points.append(Point(_spent(course), judge.count_right(course.desk, program)))
+
+    course = Course(bench, condition, seed, watch)
+    log, program = course.session(()), programs[-1]
+    right = judge.count_right(course.desk, program)
+    settled = log.accepted and log.settled
+    assets, possible = len(bench.samples), len(judge.possible)
+    wrong = (possible - right) * settled
+    points.append(Point(_spent(course), right, assets * settled, wrong, assets * (not settled)))
+    reference = judge.count_right(course.desk, bench.task.program)
+    seconds, done = _mend_all(judge, course.desk, program, random.Random(f"brute {seed} {bench.task.name}"), condition)
+    brute = Point(round(points[-1].seconds + seconds, 2), done, assets, possible - done)
+    family = (bench.task.name, condition.name, seed, log.setting)
+    return Before(*family, assets, possible, reference, settled, tuple(points), brute)
+
+
+def _spent(course: Course) -> float:
+    return round(sum(model_seconds(course.log).values()), 2)
+
+
+def _mend_all(
+    judge: Judge, desk: Desk, program: Program | None, draw: random.Random, condition: Condition
+) -> tuple[float, int]:
+    """Seconds of a person who glances at every asset and mends what looks wrong; and assets that are right then."""
+    seconds, right = 0.0, 0
+    for name in judge.bench.samples:
+        seconds += GLANCE
+        as_seen = judge.looks_right(desk, program, name) != (draw.random() < condition.errs)
+        wanted = judge.bench.truth.reference[name]
+        if as_seen or wanted is None:
+            right += judge.is_right(desk, program, name)
+            continue
+        hulls = sum(map(len, wanted))
+        seconds += price_of_hand(wanted)
+        right += name in judge.possible and not any(draw.random() < condition.errs for _ in range(hulls))
+    return seconds, right
+
+
+def teach(name: str, condition: str, seeds: Sequence[int]) -> list[dict[str, Any]]:
+    """One task under one condition, by each demonstrator."""
+    one = CONDITIONS[condition]
+    return [asdict(teach_before(open_family(name, one.setting(seed)), one, seed)) for seed in seeds]
+
+
+def freeze(tell: Tell, path: Path = FROZEN) -> None:
+    """Write the figures of the tool as it is, with the commit that it is at."""
+    units = [(one.name, condition.name, condition.seeds(REPORTED)) for one in tasks() for condition in ASKED]
+    rows = [row for unit in run_units("before", teach, units, tell) for row in unit]
+    commit = subprocess.run(["git", "rev-parse", "HEAD"], cwd=ROOT, capture_output=True, text=True, check=True).stdout
+    lines = ",\n".join(json.dumps(row, separators=(",", ":")) for row in rows)
+    head = f'"command": {json.dumps(_COMMAND)},\n"commit": {json.dumps(commit.strip())}'
+    write_atomically(path, f'{{\n{head},\n"sessions": [\n{lines}\n]\n}}\n')
+
+
+@cache
+def read_before(path: Path = FROZEN) -> tuple[Before, ...]:
+    """What `freeze` wrote."""
+    return tuple(map(Before.of_json, json.loads(path.read_text("utf-8"))["sessions"]))

@@ -1,0 +1,108 @@
+"""A simulated person who replies to the queue's questions: knows what is wanted and what each hull is, and may slip."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Sequence
+
+from benchmark.signoff.judge import Judge
+from benchmark.signoff.ledger import Ledger, price_of_hand
+from benchmark.study.condition import Condition
+from benchmark.study.desk import Bench, Desk
+from benchmark.study.keystrokes import ANSWER, APPROVAL, CONFIRMATION, GLANCE, STROKE, price_group
+from benchmark.study.person import Person
+from benchmark.study.propagation import HandLabels
+from meshforge.language import Program
+from meshforge.signoff import HullPlace, Reply, ReviewQuestion
+from meshforge.signoff.question import ASIDE, RIGHT, WRONG
+from meshforge.symbolic import Label
+from meshforge.synthesis import Demonstration, Step
+
+
+class Reviewer:
+    """Everything that they do is noted in the ledger. slipped: assets whose demonstration has a slip of theirs."""
+
+    def __init__(self, bench: Bench, seed: int, condition: Condition) -> None:
+        self.person, self.judge, self.ledger = Person(bench.truth, seed, condition), Judge(bench), Ledger()
+        self.slipped = set[str]()
+        self._truth = bench.truth
+
+    def reply(self, question: ReviewQuestion, desk: Desk, program: Program | None) -> Reply:
+        """What they say to a question that needs no demonstration."""
+        if question.kind == "group":
+            return self._name_group(question)
+        if question.kind in ("reading", "label") and all(choice.select is not None for choice in question.choices):
+            return self._pick(question, desk, program)
+        if question.kind == "result":
+            return self._look(question, desk, program)
+        return self._confirm(question)
+
+    def _name_group(self, question: ReviewQuestion) -> Reply:
+        """The label of most of the hulls, and each exception."""
+        labels = [choice.label for choice in question.choices]
+        counts = Counter(self._label_of(place) for place in question.hulls)
+        best = max(range(len(labels)), key=lambda place: (counts[labels[place] or ""], -place), default=None)
+        right = best if best is not None and counts[labels[best] or ""] else None
+        told = None if right is None else labels[right]
+        odd = {place: self._label_of(place) for place in question.hulls if self._label_of(place) != told}
+        self.ledger.add("group", price_group(len(question.hulls), len(odd)) + STROKE * len(set(odd.values())))
+        seen = {place: label for place, label in odd.items() if not self.person.errs_now()}
+        return Reply(question.id, self.person.slips_from(right, len(labels)), seen)
+
+    def _pick(self, question: ReviewQuestion, desk: Desk, program: Program | None) -> Reply:
+        """One of several selections, or none of them."""
+        choices = [frozenset(choice.select or ()) for choice in question.choices]
+        where = (question.asset, question.rule or 1)
+        right = self.person.picks(desk, where, choices, program) if program else None
+        self.ledger.add(question.kind, ANSWER)
+        return Reply(question.id, self.person.slips_from(right, len(choices)))
+
+    def _confirm(self, question: ReviewQuestion) -> Reply:
+        """The label of one hull; what is asked besides is declined."""
+        labels = [choice.label for choice in question.choices]
+        true = self._label_of(question.hulls[0]) if question.hulls else None
+        right = labels.index(true) if true is not None and true in labels else None
+        self.ledger.add(question.kind, CONFIRMATION)
+        return Reply(question.id, self.person.slips_from(right, len(labels)))
+
+    def _look(self, question: ReviewQuestion, desk: Desk, program: Program | None) -> Reply:
+        """Whether a result is right; set aside what nobody could show."""
+        right = self.judge.looks_right(desk, program, question.asset) != self.person.errs_now()
+        said = RIGHT if right else WRONG if self._truth.reference[question.asset] is not None else ASIDE
+        self.ledger.add("result", GLANCE + APPROVAL)
+        return Reply(question.id, place_of(question, said))
+
+    def shows(self, desk: Desk, name: str) -> Demonstration:
+        """All of an edit by hand; each hull is left out where they slip."""
+        meant = self.person.shows(desk, name)
+        steps = [Step(step.rule, self._select(step), step.action, step.label) for step in meant.steps]
+        selections = [step.select or () for step in steps]
+        self.slipped.discard(name)
+        if any(made.select != step.select for made, step in zip(steps, meant.steps, strict=True)):
+            self.slipped.add(name)
+        self.ledger.add("demonstration", price_of_hand(selections))
+        return Demonstration(meant.mesh, steps, name)
+
+    def _select(self, step: Step) -> list[str] | None:
+        return None if step.select is None else [name for name in sorted(step.select) if not self.person.errs_now()]
+
+    def paints(self, desk: Desk, name: str, hulls: Sequence[str], inspected: int = 0) -> Desk:
+        """The desk when some hulls of a mesh got their true labels by hand; inspected: hulls looked at before."""
+        labels = {hull: Label(self._label_of(HullPlace(name, hull))) for hull in hulls}
+        self.ledger.add_labels(HandLabels(inspected, len(labels), len({label.name for label in labels.values()})))
+        return desk.with_meshes({**desk.meshes, name: desk.meshes[name].with_labels({**labels})}) if labels else desk
+
+    def finds_wrong_landmarks(self, desk: Desk, name: str) -> list[str]:
+        """The hulls of a mesh that turn it and are called something else, or are called so and are none."""
+        landmarks = frozenset[str | None](Program(orient=desk.bench.task.program.orient).labels_in_use)
+        pairs = ((hull, self._label_of(HullPlace(name, hull.name))) for hull in desk.meshes[name].hulls)
+        return [hull.name for hull, true in pairs if hull.label != true and {hull.label, true} & landmarks]
+
+    def _label_of(self, place: HullPlace) -> str:
+        return str(self._truth.meshes[place.asset].hull_of(place.hull).label)
+
+
+def place_of(question: ReviewQuestion, text: str) -> int:
+    """Where a choice stands that says so."""
+    texts = [choice.text for choice in question.choices] or [RIGHT, WRONG, ASIDE]
+    return texts.index(text)

@@ -1,0 +1,113 @@
+"""The tool's side of a review: what it learns, how it judges a family, what it makes of a reply."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+
+from benchmark.study.condition import Condition
+from benchmark.study.desk import Desk, Selections
+from meshforge.language import Program
+from meshforge.signoff import Assessment, Reply, ReviewQuestion, ReviewState
+from meshforge.signoff.question import ASIDE, RIGHT
+from meshforge.symbolic import Label, LabelSource, SymbolicMesh
+from meshforge.synthesis import Answer, Demonstration, LearningOutcome
+
+
+class Tool:
+    """As a person meets it, who reviews a family under a condition."""
+
+    def __init__(self, condition: Condition) -> None:
+        self._options = condition.options
+
+    def begin(
+        self,
+        desk: Desk,
+        demos: Mapping[str, Demonstration] | None = None,
+        answers: Sequence[Answer] = (),
+        accepted: Mapping[str, Selections] | None = None,
+    ) -> ReviewState:
+        """What is known of a family at the start: what was shown, answered and accepted before there was a queue."""
+        frame = replace(desk.bench.task.program, rules=())
+        return ReviewState(
+            desk.meshes, frame, desk.bench.task.templates, demos or {}, tuple(answers), dict(accepted or {})
+        )
+
+    def take_labels(self, desk: Desk) -> Desk:
+        """The meshes with the labels that all that is known of the family speaks for; a person's stay."""
+        said = [hull.annotation for mesh in desk.meshes.values() for hull in mesh.hulls]
+        agreed = iter(desk.bench.relatives.infer(said).agree(said))
+        meshes = dict(desk.meshes)
+        for name, mesh in desk.meshes.items():
+            found = {hull.name: next(agreed) for hull in mesh.hulls}
+            if any(found[hull.name] != hull.annotation for hull in mesh.hulls):
+                meshes[name] = mesh.with_labels(found)
+        return desk.with_meshes(meshes)
+
+    def learn(self, desk: Desk, state: ReviewState) -> LearningOutcome | None:
+        """What it learns from all that it was told, None before anything was shown; raises as `synthesize` does."""
+        if not state.demos:
+            return None
+        demos = [Demonstration(desk.meshes[name], demo.steps, name) for name, demo in state.demos.items()]
+        kept = [Answer(rule, name, done) for name, all_of in state.accepted.items() for rule, done in number(all_of)]
+        return desk.learn(demos, self._options, None, [*kept, *state.answers])
+
+    def review(self, state: ReviewState, outcome: LearningOutcome | None) -> Assessment:
+        """How the family stands, and what it asks next."""
+        raise NotImplementedError
+
+    def apply(
+        self, state: ReviewState, question: ReviewQuestion, reply: Reply, done: Selections | None = None
+    ) -> ReviewState:
+        """What is known after a reply; done: what the rules select on the asset whose result was asked about."""
+        return apply_reply(state, question, reply, done)
+
+
+def number(selections: Selections) -> list[tuple[int, frozenset[str]]]:
+    """Selections with the numbers of their rules."""
+    return list(enumerate(selections, 1))
+
+
+def apply_reply(
+    state: ReviewState, question: ReviewQuestion, reply: Reply, done: Selections | None = None
+) -> ReviewState:
+    """What is known of a family after a reply."""
+    if reply.later:
+        return replace(state, later=state.later | {question.id})
+    choice = None if reply.choice is None else question.choices[reply.choice]
+    if question.kind == "result":
+        if choice is not None and choice.text == ASIDE:
+            return replace(state, aside=state.aside | {question.asset})
+        if choice is not None and choice.text == RIGHT and done is not None:
+            return replace(state, accepted={**state.accepted, question.asset: done})
+        return state
+    if question.rule is not None and any(one.select is not None for one in question.choices):
+        refused = [one.select for one in question.choices if one.select is not None] if choice is None else []
+        answer = Answer(question.rule, question.asset, None if choice is None else choice.select, refused)
+        return replace(state, answers=(*state.answers, answer))
+    if choice is None and not reply.exceptions:
+        return replace(state, later=state.later | {question.id})
+    given = dict.fromkeys(question.hulls, choice.label) if choice is not None and choice.label else {}
+    source: LabelSource = "repair" if question.kind == "repair" else "user"
+    meshes = dict(state.meshes)
+    for place, label in {**given, **reply.exceptions}.items():
+        meshes[place.asset] = meshes[place.asset].with_labels({place.hull: Label(str(label), 1.0, source)})
+    return replace(state, meshes=meshes)
+
+
+def show(state: ReviewState, name: str, demo: Demonstration, meshes: Mapping[str, SymbolicMesh]) -> ReviewState:
+    """What is known once an asset was demonstrated; what was accepted or asked about it before is void."""
+    accepted = {other: done for other, done in state.accepted.items() if other != name}
+    return replace(state, meshes=meshes, demos={**state.demos, name: demo}, accepted=accepted)
+
+
+def forget(state: ReviewState, name: str) -> ReviewState:
+    """What is known when a demonstration was taken back, and its asset flagged: nothing fits it."""
+    demos = {other: demo for other, demo in state.demos.items() if other != name}
+    answers = tuple(answer for answer in state.answers if answer.asset != name)
+    return replace(state, demos=demos, answers=answers, aside=state.aside | {name})
+
+
+def program_of(outcome: LearningOutcome | None) -> Program | None:
+    """The program that was learned, if any."""
+    return outcome.program if outcome else None

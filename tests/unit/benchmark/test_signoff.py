@@ -1,0 +1,177 @@
+"""Families that simulated people sign off: time only goes on, each act has its price, and what is right is counted."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import asdict
+
+import pytest
+
+from benchmark.assets import family
+from benchmark.signoff.before import Before, teach_before
+from benchmark.signoff.calibration import calibrate
+from benchmark.signoff.conditions import ERRS
+from benchmark.signoff.judge import Judge
+from benchmark.signoff.opening import Opening, open_review
+from benchmark.signoff.outcomes import group
+from benchmark.signoff.point import right_at
+from benchmark.signoff.queue import BROKEN, DONE, Review, sign_off
+from benchmark.signoff.reviewer import Reviewer
+from benchmark.signoff.tables import CURVES, list_tables
+from benchmark.signoff.tool import Tool, apply_reply, program_of
+from benchmark.study import FLAT, TRUE, Bench
+from benchmark.study.condition import PROPAGATED
+from benchmark.study.keystrokes import APPROVAL, GLANCE, STROKE, price_group
+from benchmark.tasks import task
+from meshforge.signoff import Assessment, AssetConfidence, HullPlace, ReviewChoice, ReviewQuestion, ReviewState
+from meshforge.signoff.question import ASIDE, RIGHT, WRONG
+from meshforge.synthesis import LearningOutcome
+
+GROUP = 3
+
+
+class FakeTool(Tool):
+    """Asks for a demonstration, about one group of hulls, then about each result in turn."""
+
+    def review(self, state: ReviewState, outcome: LearningOutcome | None) -> Assessment:
+        open_ones = [n for n in state.meshes if n not in {*state.accepted, *state.aside, *state.demos}]
+        sure = {name: AssetConfidence(name, 0.5 if name in open_ones else 0.99) for name in state.meshes}
+        looked_at = frozenset(state.accepted)
+        if program_of(outcome) is None and state.demos:
+            return Assessment(sure, looked_at=looked_at, aside=state.aside)
+        return Assessment(sure, looked_at=looked_at, aside=state.aside, question=self.ask(state, open_ones))
+
+    def ask(self, state: ReviewState, open_ones: list[str]) -> ReviewQuestion | None:
+        first = next(iter(state.meshes))
+        hulls = state.meshes[first].hulls[:GROUP]
+        if not state.demos:
+            return ReviewQuestion(f"show {first}", "demonstrate", "", 1.0, 1.0, first)
+        if any(hull.source != "user" for hull in hulls):
+            labels = sorted({str(h.label) for mesh in state.meshes.values() for h in mesh.hulls})
+            places = tuple(HullPlace(first, hull.name) for hull in hulls)
+            choices = tuple(ReviewChoice(label, label) for label in labels)
+            return ReviewQuestion("group", "group", "", 1.0, 1.0, first, hulls=places, choices=choices)
+        if not open_ones:
+            return None
+        choices = tuple(map(ReviewChoice, (RIGHT, WRONG, ASIDE)))
+        return ReviewQuestion(f"result {open_ones[0]}", "result", "", 1.0, 1.0, open_ones[0], choices=choices)
+
+
+@pytest.fixture(scope="module")
+def bench() -> Bench:
+    one = task("cup-easy")
+    return Bench(one, family(one.category, "coarse")[:4])
+
+
+@pytest.mark.parametrize(
+    "condition", [TRUE, PROPAGATED[1], *(pytest.param(one, marks=pytest.mark.slow) for one in (FLAT, ERRS))]
+)
+def test_time_only_goes_on_and_the_same_seed_does_the_same(bench: Bench, condition: object) -> None:
+    one, other = (sign_off(bench, condition, 1, FakeTool(condition)) for _ in range(2))  # type: ignore[arg-type]
+    assert one == other == Review.of_json(json.loads(json.dumps(asdict(one))))
+    seconds = [point.seconds for point in one.points]
+    assert seconds == sorted(seconds)
+    assert sum(one.seconds.values()) == pytest.approx(seconds[-1], abs=0.1)
+    assert one.seconds.keys() == one.acts.keys()
+    assert one.possible <= one.assets == len(bench.samples)
+    for point in one.points:
+        assert point.signed_off + point.held <= one.assets
+        assert point.sure + point.wrong <= point.signed_off
+
+
+def test_each_question_is_paid_for_once(bench: Bench) -> None:
+    review = sign_off(bench, TRUE, 1, FakeTool(TRUE))
+    assert review.ended == DONE
+    assert review.acts["group"] == 1
+    first = next(iter(bench.samples.values()))
+    labels = [hull.label for hull in first.mesh.hulls[:GROUP]]
+    most = max(map(labels.count, labels))
+    others = {label for label in labels if labels.count(label) < most}
+    assert review.seconds["group"] == pytest.approx(price_group(GROUP, GROUP - most) + STROKE * len(others))
+    looks = review.acts["result"]
+    assert looks == len(bench.samples) - review.acts["demonstration"]
+    assert review.seconds["result"] == pytest.approx(looks * (GLANCE + APPROVAL))
+    assert review.points[-1].sure == review.points[-1].right == review.possible
+    assert review.wrong == review.aside == []
+
+
+def test_a_session_is_broken_off_at_the_cap(bench: Bench) -> None:
+    review = sign_off(bench, TRUE, 1, FakeTool(TRUE), cap=20.0)
+    assert review.ended == BROKEN
+    assert review.points[-1].held
+    assert sum(review.seconds.values()) < 60
+
+
+def test_who_never_slips_signs_off_nothing_wrong_where_every_result_is_looked_at(bench: Bench) -> None:
+    review = sign_off(bench, FLAT, 2, FakeTool(FLAT), cap=10_000.0)
+    assert review.wrong == []
+    assert review.points[-1].held == 0
+
+
+@pytest.mark.slow
+def test_an_asset_that_the_reference_cannot_mend_is_never_right() -> None:
+    one = task("cup-hard")
+    judge = Judge(Bench(one, family(one.category, "coarse")[:5]))
+    impossible = set(judge.bench.samples) - judge.possible
+    assert judge.count_right(judge.bench.truth, judge.bench.task.program) == len(judge.possible)
+    assert not any(judge.is_right(judge.bench.truth, judge.bench.task.program, name) for name in impossible)
+    assert all(judge.looks_right(judge.bench.truth, judge.bench.task.program, name) for name in judge.possible)
+
+
+def test_who_glances_at_all_and_mends_by_hand_has_all_right_but_for_slips(bench: Bench) -> None:
+    before = teach_before(bench, TRUE, 1)
+    assert Before.of_json(json.loads(json.dumps(asdict(before)))) == before
+    assert before.brute.right == before.possible == before.reference
+    assert before.brute.seconds >= round(before.points[-1].seconds + GLANCE * before.assets, 2)
+    assert right_at(before.points, 0.0) == 0
+    assert right_at(before.points, 1e9) == before.points[-1].right
+
+
+def test_each_exception_of_a_group_is_named_and_paid_for(bench: Bench) -> None:
+    reviewer, (name, sample) = Reviewer(bench, 1, TRUE), next(iter(bench.samples.items()))
+    labels = list(dict.fromkeys(str(hull.label) for hull in sample.mesh.hulls))
+    alike = [hull.name for hull in sample.mesh.hulls if hull.label == labels[0]]
+    other = next(hull.name for hull in sample.mesh.hulls if hull.label == labels[1])
+    hulls = tuple(HullPlace(name, hull) for hull in (*alike, other))
+    question = ReviewQuestion("group", "group", "", 1.0, 1.0, name, None, hulls, (ReviewChoice("", labels[0]),))
+    reply = reviewer.reply(question, bench.truth, None)
+    assert (reply.choice, reply.exceptions) == (0, {HullPlace(name, other): labels[1]})
+    assert reviewer.ledger.total == pytest.approx(price_group(len(hulls), 1) + STROKE)
+    state = apply_reply(FakeTool(TRUE).begin(bench.truth), question, reply)
+    assert all(state.meshes[name].hull_of(hull.hull).source == "user" for hull in hulls)
+
+
+def test_before_any_question_all_that_nobody_showed_has_a_probability(bench: Bench) -> None:
+    opening = open_review(bench, TRUE, 1, FakeTool(TRUE))
+    assert opening.right == opening.possible
+    assert 0 < len(opening.pairs) < opening.possible
+    assert Opening.of_json(json.loads(json.dumps(asdict(opening)))) == opening
+
+
+def test_probabilities_that_are_met_are_calibrated_and_order_what_they_can() -> None:
+    fair = [(share, k < 100 * share) for share in (0.2, 0.9) for k in range(100)]
+    found = calibrate(fair)
+    assert found.error == pytest.approx(0.0)
+    assert found.brier == pytest.approx((0.16 + 0.09) / 2)
+    assert found.brier < found.constant
+    assert 0.5 < found.order < 1.0
+    assert found.named == 200  # of 90 wrong ones only 80 are among the first 100
+    assert found.precision == pytest.approx(0.45)
+    assert calibrate([(0.5, True)] * 40).error == pytest.approx(0.5)
+    assert calibrate([(0.1, False)] * 10 + [(0.99, True)] * 90).named == 10
+
+
+def test_few_in_a_bin_are_judged_with_the_next() -> None:
+    assert calibrate([(0.05, True)] * 5 + [(0.95, True)] * 15 + [(0.85, False)] * 5).error == pytest.approx(
+        abs((0.05 * 5 + 0.95 * 15 + 0.85 * 5) / 25 - 20 / 25)
+    )
+
+
+def test_one_page_tells_all_conditions_and_who_is_sooner(bench: Bench) -> None:
+    reviews = [sign_off(bench, TRUE, 1, FakeTool(TRUE))]
+    groups = group([TRUE.name, FLAT.name], reviews, [open_review(bench, TRUE, 1, FakeTool(TRUE))], [])
+    assert [one.condition for one in groups] == [TRUE.name]
+    tables = list_tables(groups)
+    assert all(len(row) == len(table.columns) for table in tables for row in table.rows)
+    curve = next(table for table in tables if table.title == CURVES)
+    assert curve.rows[0][-1] == 100.0
