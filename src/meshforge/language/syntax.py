@@ -4,6 +4,7 @@ of a mesh (paper, figures of the DSL and of its semantics)."""
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Literal, assert_never, get_args
 
@@ -154,25 +155,35 @@ def select(extractor: Extractor, mesh: SymbolicMesh, extremity: float = EXTREMIT
     return bits_of(select_mask(extractor, mesh, extremity))
 
 
-def select_mask(extractor: Extractor, mesh: SymbolicMesh, extremity: float = EXTREMITY) -> int:
-    """The selection as a bit set."""
-    match extractor:
-        case All():
-            return (1 << len(mesh.hulls)) - 1
-        case Is(label):
-            return mask_of(index for index, hull in enumerate(mesh.hulls) if hull.label == label)
-        case Attach(selected, anchor):
-            return attach_mask(mesh, select_mask(selected, mesh, extremity), select_mask(anchor, mesh, extremity))
-        case Geo(base, direction):
-            return geo_mask(mesh, select_mask(base, mesh, extremity), direction, extremity)
-        case Union(left, right):
-            return select_mask(left, mesh, extremity) | select_mask(right, mesh, extremity)
-        case Intersect(left, right):
-            return select_mask(left, mesh, extremity) & select_mask(right, mesh, extremity)
-        case Diff(left, right):
-            return select_mask(left, mesh, extremity) & ~select_mask(right, mesh, extremity)
-        case _:
-            assert_never(extractor)
+def select_mask(
+    extractor: Extractor,
+    mesh: SymbolicMesh,
+    extremity: float = EXTREMITY,
+    labels: Sequence[str | None] | None = None,
+) -> int:
+    """The selection as a bit set. labels: of the hulls, in place of those that they have."""
+    names = [hull.label for hull in mesh.hulls] if labels is None else labels
+
+    def select(one: Extractor) -> int:
+        match one:
+            case All():
+                return (1 << len(mesh.hulls)) - 1
+            case Is(label):
+                return mask_of(index for index, name in enumerate(names) if name == label)
+            case Attach(selected, anchor):
+                return attach_mask(mesh, select(selected), select(anchor))
+            case Geo(base, direction):
+                return geo_mask(mesh, select(base), direction, extremity)
+            case Union(left, right):
+                return select(left) | select(right)
+            case Intersect(left, right):
+                return select(left) & select(right)
+            case Diff(left, right):
+                return select(left) & ~select(right)
+            case _:
+                assert_never(one)
+
+    return select(extractor)
 
 
 def attach_mask(mesh: SymbolicMesh, selected: int, anchor: int) -> int:

@@ -2,6 +2,7 @@
 
 from meshforge.signoff.assessment import BAR, Assessment, AssetConfidence, Doubt, DoubtKind
 from meshforge.signoff.question import HullPlace, QuestionKind, Reply, ReviewChoice, ReviewQuestion, ReviewState
+from meshforge.signoff.review import review_family
 
 __all__ = [
     "BAR",
@@ -15,4 +16,5 @@ __all__ = [
     "ReviewChoice",
     "ReviewQuestion",
     "ReviewState",
+    "review_family",
 ]

@@ -1,0 +1,67 @@
+"""From readings, labels and all that is odd about an asset to one probability that its edit is right: a logistic
+regression, fitted on sessions of the calibration set (`python -m benchmark.signoff fit`; Platt 1999)."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass, replace
+from functools import cache
+from importlib.resources import files
+
+import numpy as np
+
+from meshforge.geometry import Floats
+
+WEIGHTS_FILE = "confidence.json"
+FEATURES = ("always", "readings", "labels", "labels not demonstrated", "unlike the rest", "alarms")
+"""What the probability depends on."""
+LEAST, MOST = 0.0005, 0.9995
+"""Bounds of what readings and labels say."""
+NO_EDIT = 0.01
+"""The probability of an edit that cannot be made."""
+
+
+@cache
+def confidence_weights() -> Floats:
+    """The weights (features,)."""
+    read = json.loads(files("meshforge.signoff").joinpath(WEIGHTS_FILE).read_text("utf-8"))
+    found = np.array([read["weights"][name] for name in FEATURES], dtype=float)
+    found.flags.writeable = False
+    return found
+
+
+@dataclass(frozen=True, slots=True)
+class AssetEvidence:
+    """What speaks for one edit. readings: the probability that each rule means there what it does; labels: that no
+    other labels would change the edit; foreign: whether it has labels that no demonstration shows; unlike: how far its
+    hulls are from those of other assets, in units of what is usual, above it; alarms: how many there are.
+    """
+
+    readings: float
+    labels: float
+    foreign: float = 0.0
+    unlike: float = 0.0
+    alarms: float = 0.0
+
+    @property
+    def features(self) -> Floats:
+        """The features (len(FEATURES),)."""
+        return np.array([1.0, _log_odds(self.readings), _log_odds(self.labels), self.foreign, self.unlike, self.alarms])
+
+    @property
+    def probability(self) -> float:
+        """That the edit is right."""
+        return float(1 / (1 + np.exp(-(self.features @ confidence_weights()))))
+
+    def with_labels(self, labels: float) -> AssetEvidence:
+        """The same, had its labels been told."""
+        return replace(self, labels=labels)
+
+    def with_readings(self, readings: float) -> AssetEvidence:
+        """The same, had its rules been told."""
+        return replace(self, readings=readings)
+
+
+def _log_odds(share: float) -> float:
+    bounded = min(MOST, max(LEAST, share))
+    return float(np.log(bounded / (1 - bounded)))

@@ -1,0 +1,187 @@
+"""A family under a program: what speaks for each edit, and against it."""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from math import prod
+
+import numpy as np
+
+from meshforge.geometry import Floats
+from meshforge.label_model import FamilyPosterior
+from meshforge.language import EXTREMITY, Program, show
+from meshforge.signoff.assessment import AssetConfidence, Doubt, DoubtKind
+from meshforge.signoff.confidence import NO_EDIT, AssetEvidence
+from meshforge.signoff.question import ReviewState
+from meshforge.signoff.readings import RuleReadings, compare_readings
+from meshforge.signoff.trial import RULE_OF_FRAME, Flip, Trial, find_flips, select_by, try_program
+from meshforge.synthesis import Reading
+
+SURE_OF_DEMONSTRATED = 0.999
+_WORTH_TELLING = 0.01  # the probability that an edit is wrong for one reason, from which on it is told
+_MOST_DOUBTS = 6
+_USUAL_TIMES = 2.0  # a hull so many times as far from all others as is usual is unlike the rest
+
+
+@dataclass(frozen=True, eq=False)
+class FamilyTrial:
+    """A program on all assets of a family. labels: by which the posterior's columns go; alarms: sentences by asset."""
+
+    state: ReviewState
+    program: Program
+    posterior: FamilyPosterior
+    trials: tuple[Trial, ...]
+    readings: tuple[RuleReadings, ...]
+    alarms: Mapping[str, Sequence[str]]
+
+    @staticmethod
+    def of(
+        state: ReviewState,
+        program: Program,
+        readings: Sequence[Reading],
+        posterior: FamilyPosterior,
+        alarms: Mapping[str, Sequence[str]],
+    ) -> FamilyTrial:
+        """Try a program on a family."""
+        trials = list[Trial]()
+        for place, (name, mesh) in enumerate(state.meshes.items()):
+            trial = try_program(name, mesh, program, state.templates)
+            if not trial.error:
+                flips = find_flips(trial, mesh, program, posterior.seen.labels, posterior.chances_of(place))
+                trial = replace(trial, flips=flips)
+            trials.append(trial)
+        return FamilyTrial(
+            state, program, posterior, tuple(trials), compare_readings(program, readings, trials), alarms
+        )
+
+    @cached_property
+    def evidence(self) -> tuple[AssetEvidence, ...]:
+        """What speaks for the edit of each asset."""
+        agreement = np.ones(len(self.trials))
+        for one in self.readings:
+            agreement = agreement * one.agreement
+        return tuple(
+            AssetEvidence(
+                float(agreement[place]),
+                prod(1 - share for share in flip_shares(trial.flips).values()),
+                float(trial.asset in self.foreign),
+                float(self._unlikeness[place]),
+                float(len(self.alarms.get(trial.asset, ()))),
+            )
+            for place, trial in enumerate(self.trials)
+        )
+
+    @cached_property
+    def places(self) -> Mapping[str, int]:
+        """The place of each asset."""
+        return {trial.asset: place for place, trial in enumerate(self.trials)}
+
+    @cached_property
+    def foreign(self) -> frozenset[str]:
+        """The assets with labels that no demonstrated one has."""
+        meshes = self.state.meshes
+        known = {hull.label for name in self.state.demos for hull in meshes[name].hulls}
+        return frozenset(name for name, mesh in meshes.items() if any(h.label not in known for h in mesh.hulls))
+
+    @cached_property
+    def _unlikeness(self) -> Floats:
+        """How much farther than usual the strangest hull of each asset is from all hulls of others, as a logarithm."""
+        apart = self.posterior.table.find_lookalikes(()).apart
+        nearest = apart.min(axis=(1, 2), initial=np.inf) if apart.shape[1] else np.full(len(apart), np.inf)
+        finite = nearest[np.isfinite(nearest)]
+        usual = float(np.median(finite)) if len(finite) else 1.0
+        found = np.zeros(len(self.trials))
+        for place, span in self.posterior.table.spans.items():
+            worst = float(nearest[span].max(initial=0.0))
+            found[place] = 0.0 if not np.isfinite(worst) else max(0.0, np.log(worst / max(_USUAL_TIMES * usual, 1e-9)))
+        return found
+
+    def confidence_of(self, place: int) -> AssetConfidence:
+        """One asset, with its doubts."""
+        trial, evidence = self.trials[place], self.evidence[place]
+        if trial.error:
+            return AssetConfidence(trial.asset, NO_EDIT, (self._doubt_of_error(place),))
+        if trial.asset in self.state.demos or trial.asset in self.state.accepted:
+            return AssetConfidence(trial.asset, SURE_OF_DEMONSTRATED)
+        doubts = [*self._reading_doubts(place), *self._label_doubts(place), *self._odd_doubts(place)]
+        weightiest = sorted(doubts, key=lambda one: -one.share)[:_MOST_DOUBTS]
+        return AssetConfidence(trial.asset, evidence.probability, tuple(weightiest))
+
+    def _doubt_of_error(self, place: int) -> Doubt:
+        trial = self.trials[place]
+        return Doubt(
+            "label" if trial.meshes else "orientation",
+            f"the program cannot run: {trial.error}",
+            (),
+            len(trial.meshes) or None,
+            1.0,
+        )
+
+    def _reading_doubts(self, place: int) -> list[Doubt]:
+        found, trial = [], self.trials[place]
+        for known in self.readings:
+            other = np.flatnonzero(known.kinds[:, place])
+            if not len(other) or 1 - known.agreement[place] < _WORTH_TELLING:
+                continue
+            best = int(other[np.argmax(known.beliefs[other])])
+            ours, theirs = trial.selections[known.rule - 1], self.select(known, best, place)
+            change = _describe_change(trial, known.rule, ours, theirs)
+            text = f"rule {known.rule} may mean {show(known.extractors[best])}, which {change}"
+            hulls = trial.names(known.rule, ours ^ theirs)
+            found.append(Doubt("reading", text, hulls, known.rule, float(1 - known.agreement[place])))
+        return found
+
+    def select(self, known: RuleReadings, reading: int, place: int) -> int:
+        """What a reading of a rule selects on the asset at a place, as a bit set; nothing where it is not reached."""
+        delta = EXTREMITY if self.program.extremity is None else self.program.extremity
+        return select_by(self.trials[place], known.rule, known.extractors[reading], delta) or 0
+
+    def _label_doubts(self, place: int) -> list[Doubt]:
+        grouped = defaultdict[tuple[str | None, str, tuple[int, ...]], list[Flip]](list)
+        for flip in self.trials[place].flips:
+            grouped[flip.was, flip.to, flip.rules].append(flip)
+        found = []
+        for (was, to, rules), flips in grouped.items():
+            share = 1 - prod(1 - flip.chance for flip in flips)
+            if share < _WORTH_TELLING:
+                continue
+            names = tuple(flip.hull for flip in flips)
+            said = f"called {was}" if was else "without a label"
+            turned = rules[0] == RULE_OF_FRAME
+            what = "the asset would be turned otherwise" if turned else f"rule {rules[0]} would select otherwise"
+            text = f"{_join(names)} {'is' if len(names) == 1 else 'are'} {said}, and may be {to} ({share:.0%}): {what}"
+            kind: DoubtKind = "orientation" if rules[0] == RULE_OF_FRAME else "label"
+            found.append(Doubt(kind, text, names, rules[0] or None, share))
+        return found
+
+    def _odd_doubts(self, place: int) -> list[Doubt]:
+        trial, evidence = self.trials[place], self.evidence[place]
+        plain = replace(evidence, unlike=0.0, alarms=0.0).probability
+        share = plain - evidence.probability
+        found = [Doubt("alarm", text, share=share) for text in self.alarms.get(trial.asset, ())]
+        if evidence.unlike > 0 and share >= _WORTH_TELLING:
+            found.append(Doubt("unlike", "unlike the rest: no other asset has such hulls", share=share))
+        return found
+
+
+def flip_shares(flips: Sequence[Flip]) -> dict[str, float]:
+    """How probable it is for each hull that it has a label which changes the edit."""
+    found = defaultdict[str, float](float)
+    for flip in flips:
+        found[flip.hull] += flip.chance
+    return {hull: min(share, 1.0) for hull, share in found.items()}
+
+
+def _describe_change(trial: Trial, rule: int, ours: int, theirs: int) -> str:
+    more, less = trial.names(rule, theirs & ~ours), trial.names(rule, ours & ~theirs)
+    parts = [f"would select {_join(more)} too"] if more else []
+    parts += [f"would leave {_join(less)} out"] if less else []
+    return " and ".join(parts)
+
+
+def _join(names: Sequence[str], most: int = 3) -> str:
+    shown = ", ".join(names[:most])
+    return f"{shown} and {len(names) - most} more" if len(names) > most else shown

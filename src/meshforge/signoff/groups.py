@@ -1,0 +1,109 @@
+"""Groups of look-alike hulls whose labels are in doubt and matter, to be confirmed at one glance."""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from math import prod
+
+import numpy as np
+from scipy.spatial.distance import cdist
+
+from meshforge.signoff.family import FamilyTrial, flip_shares
+from meshforge.signoff.prices import price_group
+from meshforge.signoff.question import HullPlace
+
+MOST_HULLS = 24
+"""Hulls of a group."""
+_LEAST_SHARE = 0.003  # a hull whose label is surer than this needs no confirmation
+_ALIKE = 14.0  # the distance of descriptions up to which hulls look alike
+_SEEDS = 8  # hulls about which a group is looked for, those that matter most
+
+
+@dataclass(frozen=True, slots=True)
+class _Suspect:
+    """A hull in doubt. mesh, row: its places in the family; label: the likeliest; share: how probable it is that its
+    label changes the edit; wrong: that it is not the likeliest one."""
+
+    place: HullPlace
+    mesh: int
+    row: int
+    label: str
+    share: float
+    wrong: float
+
+
+@dataclass(frozen=True, slots=True)
+class HullGroup:
+    """Hulls that look alike, and what they probably are. gain: assets made right by confirming that; seconds: of it."""
+
+    label: str
+    hulls: tuple[HullPlace, ...]
+    gain: float
+    seconds: float
+
+
+def find_groups(family: FamilyTrial, open_assets: Sequence[int]) -> Iterator[HullGroup]:
+    """Groups about the hulls that matter most, each as large as is worth its seconds."""
+    suspects = list(_suspects(family, open_assets))
+    by_label = defaultdict[str, list[_Suspect]](list)
+    for one in sorted(suspects, key=lambda one: (-_gain(family, [one]), one.place)):
+        by_label[one.label].append(one)
+    rows = family.posterior.table.rows * family.posterior.table.metric
+    for label, some in sorted(by_label.items()):
+        for seed in some[: max(1, _SEEDS // len(by_label))]:
+            apart = cdist(rows[[one.row for one in some]], rows[[seed.row]], "cityblock")[:, 0]
+            alike = [one for one, gap in zip(some, apart, strict=True) if gap <= _ALIKE]
+            yield _best_of(family, label, [seed, *(one for one in alike if one is not seed)])
+
+
+def _suspects(family: FamilyTrial, open_assets: Sequence[int]) -> Iterator[_Suspect]:
+    posterior = family.posterior
+    for mesh in open_assets:
+        trial = family.trials[mesh]
+        span = posterior.table.spans.get(mesh, slice(0, 0))
+        index = family.state.meshes[trial.asset].index
+        for hull, share in flip_shares(trial.flips).items():
+            row = span.start + index[hull]
+            if share < _LEAST_SHARE or posterior.seen.fixed[row]:
+                continue
+            chances = posterior.chances[row]
+            best = int(np.argmax(chances))
+            yield _Suspect(
+                HullPlace(trial.asset, hull), mesh, row, posterior.seen.labels[best], share, float(1 - chances[best])
+            )
+
+
+def _gain(family: FamilyTrial, some: Sequence[_Suspect]) -> float:
+    """How many assets more are right, as far as can be expected, when the labels of some hulls are told."""
+    by_mesh = defaultdict[int, list[float]](list)
+    for one in some:
+        by_mesh[one.mesh].append(one.share)
+    found = 0.0
+    for mesh, shares in by_mesh.items():
+        evidence = family.evidence[mesh]
+        rest = prod(max(1 - share, 1e-6) for share in shares)
+        found += evidence.with_labels(min(1.0, evidence.labels / rest)).probability - evidence.probability
+    return found
+
+
+def _best_of(family: FamilyTrial, label: str, some: Sequence[_Suspect]) -> HullGroup:
+    """The first hulls of some that are worth most a second."""
+    best: HullGroup | None = None
+    for count in range(1, min(len(some), MOST_HULLS) + 1):
+        part = some[:count]
+        seconds = price_group(count, sum(one.wrong for one in part))
+        group = HullGroup(label, tuple(sorted(one.place for one in part)), _gain(family, part), seconds)
+        if best is None or group.gain / group.seconds > best.gain / best.seconds:
+            best = group
+    assert best
+    return best
+
+
+def labels_of_group(family: FamilyTrial, group: HullGroup) -> Mapping[str, int]:
+    """How many of the hulls are called what, the commonest first."""
+    counts = defaultdict[str, int](int)
+    for asset, hull in group.hulls:
+        counts[family.state.meshes[asset].hull_of(hull).label or "nothing"] += 1
+    return dict(sorted(counts.items(), key=lambda one: (-one[1], one[0])))

@@ -1,0 +1,184 @@
+"""A family reviewed: the probability of each edit, and the question that makes most edits right for a second of a
+person's time (the expected value of information, Howard 1966)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from hashlib import blake2b
+from types import MappingProxyType
+
+import numpy as np
+
+from meshforge.label_model import FamilyModel
+from meshforge.language import show
+from meshforge.signoff.assessment import BAR, Assessment, AssetConfidence, Doubt
+from meshforge.signoff.family import FamilyTrial
+from meshforge.signoff.groups import HullGroup, find_groups, labels_of_group
+from meshforge.signoff.prices import READING, YES_OR_NO, price_demonstration
+from meshforge.signoff.question import (
+    ASIDE,
+    RIGHT,
+    WRONG,
+    HullPlace,
+    QuestionKind,
+    ReviewChoice,
+    ReviewQuestion,
+    ReviewState,
+)
+from meshforge.signoff.readings import ReadingSplit, split_readings
+from meshforge.synthesis import (
+    Ambiguous,
+    Found,
+    LearningOutcome,
+    NeedsRepair,
+    choose_first_demonstration,
+)
+
+_NO_ALARMS: Mapping[str, Sequence[str]] = MappingProxyType({})
+_MOST_SPLITS = 40  # assets on which readings are told apart, those where they differ most
+
+
+def review_family(
+    state: ReviewState,
+    outcome: LearningOutcome | None,
+    family: FamilyModel,
+    bar: float = BAR,
+    alarms: Mapping[str, Sequence[str]] = _NO_ALARMS,
+) -> Assessment:
+    """How the family stands.
+
+    outcome: what was learned from all that the state holds, None before anything was shown; family: its meshes, in
+    their order; alarms: sentences on results that stand out, by asset.
+    """
+    if not isinstance(outcome, Found | Ambiguous):
+        unknown = {name: AssetConfidence(name, 0.0, (_doubt_of(outcome),)) for name in state.meshes}
+        return Assessment(unknown, bar, aside=state.aside, question=_question_before(state, outcome))
+    posterior = family.infer([hull.annotation for mesh in state.meshes.values() for hull in mesh.hulls])
+    trial = FamilyTrial.of(state, outcome.program, outcome.readings, posterior, alarms)
+    assets = {one.asset: trial.confidence_of(place) for place, one in enumerate(trial.trials)}
+    looked_at = frozenset(state.demos) | frozenset(state.accepted)
+    found = Assessment(assets, bar, looked_at, state.aside)
+    if found.is_done:
+        return found
+    return Assessment(assets, bar, looked_at, state.aside, _choose(_questions(trial, found), state))
+
+
+def _doubt_of(outcome: LearningOutcome | None) -> Doubt:
+    if outcome is None:
+        return Doubt("reading", "nothing is demonstrated yet", share=1.0)
+    if isinstance(outcome, NeedsRepair):
+        return Doubt("label", "labels of demonstrated assets are probably wrong", share=1.0)
+    return Doubt("reading", getattr(outcome, "why", "no program was found"), share=1.0)
+
+
+def _question_before(state: ReviewState, outcome: LearningOutcome | None) -> ReviewQuestion | None:
+    """What to ask while there is no program."""
+    everyone = float(len(state.meshes))
+    if outcome is None:
+        some = [name for name in state.meshes if name not in state.aside]
+        meshes = {name: state.meshes[name] for name in some}
+        frame = state.frame
+        first = choose_first_demonstration(meshes, frame.labels, frame.orient, frame.contact, frame.extremity)
+        asset = first or next(iter(some), None)
+        return _ask_demonstration(state, asset, everyone, "Show the edit on {}.") if asset else None
+    if isinstance(outcome, NeedsRepair):
+        for repair in outcome.repairs:
+            wrong = repair.correction
+            text = f"{wrong.hull} of {wrong.asset} is called {wrong.was or 'nothing'}: is it {wrong.to}? {repair.why}."
+            choices = [ReviewChoice(wrong.to, wrong.to)] + ([ReviewChoice(wrong.was, wrong.was)] if wrong.was else [])
+            place = HullPlace(wrong.asset, wrong.hull)
+            question = _make(
+                "repair", text, YES_OR_NO, everyone * repair.belief, wrong.asset, repair.rule, (place,), choices
+            )
+            if question.id not in state.later:
+                return question
+    return None
+
+
+def _questions(family: FamilyTrial, found: Assessment) -> Iterator[ReviewQuestion]:
+    held = set(found.held)
+    open_assets = [place for place, one in enumerate(family.trials) if one.asset in held]
+    yield from (_ask_group(family, group) for group in find_groups(family, open_assets))
+    yield from _ask_readings(family, found)
+    yield from _ask_results(family, found)
+
+
+def _choose(questions: Iterator[ReviewQuestion], state: ReviewState) -> ReviewQuestion | None:
+    """The one that is worth most a second; of equals the first by its id."""
+    asked = (one for one in questions if one.id not in state.later)
+    return min(asked, key=lambda one: (-round(one.gain / one.seconds, 9), one.id), default=None)
+
+
+def _ask_group(family: FamilyTrial, group: HullGroup) -> ReviewQuestion:
+    counts = labels_of_group(family, group)
+    called = ", ".join(f"{count} {'is' if count == 1 else 'are'} called {name}" for name, count in counts.items())
+    labels = list(dict.fromkeys([group.label, *(name for name in counts if name != "nothing")]))
+    choices = [ReviewChoice(label, label) for label in labels]
+    first = group.hulls[0]
+    if len(group.hulls) == 1:
+        text = f"{first.hull} of {first.asset} is called {next(iter(counts))}: is it {group.label}?"
+        return _make("group", text, group.seconds, group.gain, first.asset, None, group.hulls, choices)
+    text = f"These {len(group.hulls)} hulls look alike; {called}: are all of them {group.label}?"
+    return _make("group", text, group.seconds, group.gain, first.asset, None, group.hulls, choices)
+
+
+def _ask_readings(family: FamilyTrial, found: Assessment) -> Iterator[ReviewQuestion]:
+    names = list(found.assets)
+    known = {(answer.rule, answer.asset) for answer in family.state.answers}
+    settled = set(family.state.demos) | set(family.state.accepted) | set(family.state.aside)
+    for rule in family.readings:
+        doubt = 1 - rule.agreement
+        places = [k for k in np.argsort(-doubt, kind="stable").tolist() if doubt[k] > 0 and names[k] not in settled]
+        open_places = [k for k in places if (rule.rule, names[k]) not in known and not family.trials[k].error]
+        for split in split_readings(rule, open_places[:_MOST_SPLITS]):
+            yield _ask_reading(family, rule.rule, split)
+
+
+def _ask_reading(family: FamilyTrial, rule: int, split: ReadingSplit) -> ReviewQuestion:
+    known, trial = family.readings[rule - 1], family.trials[split.asset]
+    choices = []
+    for head in split.heads:
+        selected = trial.names(rule, family.select(known, head, split.asset))
+        choices.append(ReviewChoice(show(known.extractors[head]), select=selected))
+    gain = 0.0
+    for place, evidence in enumerate(family.evidence):
+        agreement = known.agreement[place]
+        better = min(1.0, evidence.readings * (agreement + split.gains[place]) / max(agreement, 1e-9))
+        gain += evidence.with_readings(better).probability - evidence.probability
+    kind: QuestionKind = "label" if trial.asset in family.foreign else "reading"
+    text = f"What does rule {rule} mean on {trial.asset}?"
+    return _make(kind, text, READING, gain, trial.asset, rule, (), choices)
+
+
+def _ask_results(family: FamilyTrial, found: Assessment) -> Iterator[ReviewQuestion]:
+    mend = price_demonstration(family.state.demos.values())
+    choices = [ReviewChoice(RIGHT), ReviewChoice(WRONG), ReviewChoice(ASIDE)]
+    for name in found.held:
+        doubt = 1 - found.assets[name].probability
+        text = f"Is the result of {name} right?"
+        trial = family.trials[family.places[name]]
+        bound = [f"{bits:x}" for bits in trial.selections]
+        yield _make("result", text, YES_OR_NO + doubt * mend, doubt, name, None, (), choices, bound)
+
+
+def _ask_demonstration(state: ReviewState, asset: str, gain: float, text: str) -> ReviewQuestion:
+    return _make(
+        "demonstrate", text.format(asset), price_demonstration(state.demos.values()), gain, asset, None, (), []
+    )
+
+
+def _make(
+    kind: QuestionKind,
+    text: str,
+    seconds: float,
+    gain: float,
+    asset: str,
+    rule: int | None,
+    hulls: tuple[HullPlace, ...],
+    choices: Sequence[ReviewChoice],
+    bound: Sequence[str] = (),
+) -> ReviewQuestion:
+    words = [kind, asset, str(rule), *(f"{one.asset}#{one.hull}" for one in hulls), *bound]
+    words += [f"{one.text} {one.label} {one.select}" for one in choices]
+    name = blake2b("\n".join(words).encode(), digest_size=6).hexdigest()
+    return ReviewQuestion(f"{kind}-{name}", kind, text, seconds, gain, asset, rule, hulls, tuple(choices))

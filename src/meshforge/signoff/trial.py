@@ -1,0 +1,125 @@
+"""A program tried on one asset: what its rules select there, and what would change that: other readings of the rules,
+and other labels of the hulls."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from meshforge.common import MeshForgeError
+from meshforge.geometry import Floats
+from meshforge.language import EXTREMITY, Extractor, Orient, Program, Template, labels_of, orient_mesh, select_mask
+from meshforge.symbolic import Label, SymbolicMesh
+from meshforge.synthesis import Demonstration, advance, begin_replay
+
+LEAST_CHANCE = 0.003
+"""A label that a hull has with a lower probability is not reckoned with."""
+_SAME_FRAME = np.cos(np.radians(5.0))  # frames that turn by less are the same
+RULE_OF_FRAME = 0
+"""Stands for the orientation where rules are numbered from 1."""
+
+
+@dataclass(frozen=True, slots=True)
+class Flip:
+    """A hull that may have another label, with which the edit would be another one.
+
+    chance: of that label; rules: the numbers of those that would select otherwise; 0 for the orientation.
+    """
+
+    hull: str
+    was: str | None
+    to: str
+    chance: float
+    rules: tuple[int, ...]
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Trial:
+    """One asset under a program. meshes: as each rule meets it; selections: of the rules, as bit sets; error: why the
+    program cannot run, None where it can; flips: the labels that matter.
+    """
+
+    asset: str
+    meshes: tuple[SymbolicMesh, ...]
+    selections: tuple[int, ...]
+    flips: tuple[Flip, ...] = ()
+    error: str | None = None
+
+    def names(self, rule: int, mask: int) -> tuple[str, ...]:
+        """The hulls of a bit set, as a rule meets them; rule: its number."""
+        return tuple(self.meshes[rule - 1].names_of(mask))
+
+
+def try_program(asset: str, mesh: SymbolicMesh, program: Program, templates: Mapping[str, Template]) -> Trial:
+    """The program on an asset."""
+    delta = EXTREMITY if program.extremity is None else program.extremity
+    meshes, selections = list[SymbolicMesh](), list[int]()
+    if program.labels and not any(hull.label for hull in mesh.hulls):
+        return Trial(asset, (), (), error="no hull has a label")
+    try:
+        replay = begin_replay(asset, Demonstration(mesh, (), asset), program.orient, program.contact)
+        for number, rule in enumerate(program.rules, 1):
+            meshes.append(replay.mesh)
+            selections.append(select_mask(rule.extractor, replay.mesh, delta))
+            replay = advance(replay, number, rule, templates, program.extremity)
+    except MeshForgeError as error:
+        return Trial(asset, tuple(meshes), tuple(selections), error=error.problem)
+    return Trial(asset, tuple(meshes), tuple(selections))
+
+
+def find_flips(
+    trial: Trial, mesh: SymbolicMesh, program: Program, labels: Sequence[str], chances: Floats
+) -> tuple[Flip, ...]:
+    """The other labels of hulls with which a rule would select otherwise, or the asset be turned otherwise.
+
+    mesh: the asset; chances: (hulls, labels) of it.
+    """
+    delta = EXTREMITY if program.extremity is None else program.extremity
+    asked = [frozenset(labels_of(rule.extractor)) for rule in program.rules]
+    landmarks = frozenset(Program(orient=program.orient).labels_asked)
+    every = landmarks.union(*asked)
+    seen = [[hull.label for hull in met.hulls] for met in trial.meshes]
+    found = list[Flip]()
+    for row, hull in enumerate(mesh.hulls):
+        for place in np.flatnonzero(chances[row] >= LEAST_CHANCE).tolist():
+            to = labels[place]
+            if to == hull.label or not {to, hull.label} & every:
+                continue
+            turned = {to, hull.label} & landmarks and _turns(mesh, hull.name, to, program.orient)
+            rules = [RULE_OF_FRAME] if turned else []
+            for number, (rule, met, names) in enumerate(zip(program.rules, trial.meshes, seen, strict=False), 1):
+                at = met.index.get(hull.name)
+                if at is None or names[at] != hull.label or not {to, hull.label} & asked[number - 1]:
+                    continue
+                other = [*names[:at], to, *names[at + 1 :]]
+                if select_mask(rule.extractor, met, delta, other) != trial.selections[number - 1]:
+                    rules.append(number)
+            if rules:
+                found.append(Flip(hull.name, hull.label, to, float(chances[row, place]), tuple(rules)))
+    return tuple(found)
+
+
+def _turns(mesh: SymbolicMesh, hull: str, to: str, orient: Orient | None) -> bool:
+    """Whether the asset is turned otherwise, or cannot be, with another label of a hull."""
+    if orient is None:
+        return False
+    before = _frame_of(mesh, orient)
+    after = _frame_of(mesh.with_labels({hull: Label(to)}), orient)
+    if before is None or after is None:
+        return before is not after
+    cosine = (float(np.trace(before.T @ after)) - 1) / 2
+    return cosine < _SAME_FRAME
+
+
+def _frame_of(mesh: SymbolicMesh, orient: Orient) -> Floats | None:
+    try:
+        return orient_mesh(mesh, orient)[1].rotation
+    except MeshForgeError:
+        return None
+
+
+def select_by(trial: Trial, rule: int, extractor: Extractor, delta: float) -> int | None:
+    """What another extractor of a rule selects on an asset, None where the rule is not reached."""
+    return select_mask(extractor, trial.meshes[rule - 1], delta) if rule <= len(trial.meshes) else None
