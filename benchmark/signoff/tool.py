@@ -8,7 +8,7 @@ from dataclasses import replace
 from benchmark.study.condition import Condition
 from benchmark.study.desk import Desk, Selections
 from meshforge.language import Program
-from meshforge.signoff import Assessment, Reply, ReviewQuestion, ReviewState
+from meshforge.signoff import Assessment, Reply, ReviewQuestion, ReviewState, review_family
 from meshforge.signoff.question import ASIDE, RIGHT
 from meshforge.symbolic import Label, LabelSource, SymbolicMesh
 from meshforge.synthesis import Answer, Demonstration, LearningOutcome
@@ -29,6 +29,7 @@ class Tool:
     ) -> ReviewState:
         """What is known of a family at the start: what was shown, answered and accepted before there was a queue."""
         frame = replace(desk.bench.task.program, rules=())
+        self._family = desk.bench.relatives
         return ReviewState(
             desk.meshes, frame, desk.bench.task.templates, demos or {}, tuple(answers), dict(accepted or {})
         )
@@ -54,7 +55,7 @@ class Tool:
 
     def review(self, state: ReviewState, outcome: LearningOutcome | None) -> Assessment:
         """How the family stands, and what it asks next."""
-        raise NotImplementedError
+        return review_family(state, outcome, self._family)
 
     def apply(
         self, state: ReviewState, question: ReviewQuestion, reply: Reply, done: Selections | None = None

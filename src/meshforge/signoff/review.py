@@ -9,6 +9,7 @@ from types import MappingProxyType
 
 import numpy as np
 
+from meshforge.geometry import Floats
 from meshforge.label_model import FamilyModel
 from meshforge.language import show
 from meshforge.signoff.assessment import BAR, Assessment, AssetConfidence, Doubt
@@ -35,6 +36,8 @@ from meshforge.synthesis import (
 )
 
 _NO_ALARMS: Mapping[str, Sequence[str]] = MappingProxyType({})
+_TRUST = 2  # the power of the probability that labels on an asset are right, with which what is said there counts
+_LEAST_TRUST = 0.7  # below this nothing is asked there about readings
 _MOST_SPLITS = 40  # assets on which readings are told apart, those where they differ most
 
 
@@ -129,7 +132,13 @@ def _ask_readings(family: FamilyTrial, found: Assessment) -> Iterator[ReviewQues
     for rule in family.readings:
         doubt = 1 - rule.agreement
         places = [k for k in np.argsort(-doubt, kind="stable").tolist() if doubt[k] > 0 and names[k] not in settled]
-        open_places = [k for k in places if (rule.rule, names[k]) not in known and not family.trials[k].error]
+        open_places = [
+            k
+            for k in places
+            if (rule.rule, names[k]) not in known
+            and not family.trials[k].error
+            and family.evidence[k].labels >= _LEAST_TRUST
+        ]
         for split in split_readings(rule, open_places[:_MOST_SPLITS]):
             yield _ask_reading(family, rule.rule, split)
 
@@ -140,14 +149,24 @@ def _ask_reading(family: FamilyTrial, rule: int, split: ReadingSplit) -> ReviewQ
     for head in split.heads:
         selected = trial.names(rule, family.select(known, head, split.asset))
         choices.append(ReviewChoice(show(known.extractors[head]), select=selected))
-    gain = 0.0
-    for place, evidence in enumerate(family.evidence):
-        agreement = known.agreement[place]
-        better = min(1.0, evidence.readings * (agreement + split.gains[place]) / max(agreement, 1e-9))
-        gain += evidence.with_readings(better).probability - evidence.probability
+    gain = float(_gains_of(family, [split]).sum()) * family.evidence[split.asset].labels ** _TRUST
     kind: QuestionKind = "label" if trial.asset in family.foreign else "reading"
     text = f"What does rule {rule} mean on {trial.asset}?"
     return _make(kind, text, READING, gain, trial.asset, rule, (), choices)
+
+
+def _gains_of(family: FamilyTrial, splits: Sequence[ReadingSplit]) -> Floats:
+    """By how much more probable each edit is right (assets,) when some rules are told apart."""
+    shares = np.ones(len(family.trials))
+    for split in splits:
+        agreement = family.readings[split.rule - 1].agreement
+        shares *= np.minimum(1.0, agreement + split.gains) / np.maximum(agreement, 1e-9)
+    return np.array(
+        [
+            one.with_readings(min(1.0, one.readings * share)).probability - one.probability
+            for one, share in zip(family.evidence, shares.tolist(), strict=True)
+        ]
+    )
 
 
 def _ask_results(family: FamilyTrial, found: Assessment) -> Iterator[ReviewQuestion]:
@@ -156,9 +175,14 @@ def _ask_results(family: FamilyTrial, found: Assessment) -> Iterator[ReviewQuest
     for name in found.held:
         doubt = 1 - found.assets[name].probability
         text = f"Is the result of {name} right?"
-        trial = family.trials[family.places[name]]
+        place = family.places[name]
+        trial, trust = family.trials[place], family.evidence[place].labels ** _TRUST
+        splits = [split for rule in family.readings for split in split_readings(rule, [place])]
+        others = _gains_of(family, splits)
+        others[place] = 0.0
+        gain = doubt + float(others.sum()) * trust
         bound = [f"{bits:x}" for bits in trial.selections]
-        yield _make("result", text, YES_OR_NO + doubt * mend, doubt, name, None, (), choices, bound)
+        yield _make("result", text, YES_OR_NO + doubt * mend, gain, name, None, (), choices, bound)
 
 
 def _ask_demonstration(state: ReviewState, asset: str, gain: float, text: str) -> ReviewQuestion:
