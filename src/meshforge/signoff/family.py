@@ -102,10 +102,10 @@ class FamilyTrial:
     def confidence_of(self, place: int) -> AssetConfidence:
         """One asset, with its doubts."""
         trial, evidence = self.trials[place], self.evidence[place]
+        if trial.asset in {*self.state.demos, *self.state.accepted, *self.state.mended}:
+            return AssetConfidence(trial.asset, SURE_OF_DEMONSTRATED)
         if trial.error:
             return AssetConfidence(trial.asset, NO_EDIT, (self._doubt_of_error(place),))
-        if trial.asset in self.state.demos or trial.asset in self.state.accepted:
-            return AssetConfidence(trial.asset, SURE_OF_DEMONSTRATED)
         doubts = [*self._reading_doubts(place), *self._label_doubts(place), *self._odd_doubts(place)]
         weightiest = sorted(doubts, key=lambda one: -one.share)[:_MOST_DOUBTS]
         return AssetConfidence(trial.asset, evidence.probability, tuple(weightiest))

@@ -59,7 +59,7 @@ def review_family(
     posterior = family.infer([hull.annotation for mesh in state.meshes.values() for hull in mesh.hulls])
     trial = FamilyTrial.of(state, outcome.program, outcome.readings, posterior, alarms)
     assets = {one.asset: trial.confidence_of(place) for place, one in enumerate(trial.trials)}
-    looked_at = frozenset(state.demos) | frozenset(state.accepted)
+    looked_at = frozenset([*state.demos, *state.accepted, *state.mended])
     found = Assessment(assets, bar, looked_at, state.aside)
     if found.is_done:
         return found
@@ -128,7 +128,7 @@ def _ask_group(family: FamilyTrial, group: HullGroup) -> ReviewQuestion:
 def _ask_readings(family: FamilyTrial, found: Assessment) -> Iterator[ReviewQuestion]:
     names = list(found.assets)
     known = {(answer.rule, answer.asset) for answer in family.state.answers}
-    settled = set(family.state.demos) | set(family.state.accepted) | set(family.state.aside)
+    settled = {*found.looked_at, *found.aside}
     for rule in family.readings:
         doubt = 1 - rule.agreement
         places = [k for k in np.argsort(-doubt, kind="stable").tolist() if doubt[k] > 0 and names[k] not in settled]
