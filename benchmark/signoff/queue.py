@@ -63,7 +63,7 @@ class Review:
 
 def sign_off(bench: Bench, condition: Condition, seed: int, tool: Tool | None = None, cap: float = CAP) -> Review:
     """A family signed off by one person; tool: another than the product, for tests."""
-    return ReviewCourse(bench, condition, seed, tool or Tool(condition)).run(cap)
+    return ReviewCourse(bench, condition, seed, tool or Tool(bench, condition)).run(cap)
 
 
 class ReviewCourse:

@@ -6,19 +6,19 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 from benchmark.study.condition import Condition
-from benchmark.study.desk import Desk, Selections
+from benchmark.study.desk import Bench, Desk, Selections
 from meshforge.language import Program
-from meshforge.signoff import Assessment, Reply, ReviewQuestion, ReviewState
+from meshforge.signoff import Assessment, Reply, ReviewQuestion, ReviewState, review_family
 from meshforge.signoff.question import ASIDE, RIGHT
 from meshforge.symbolic import Label, LabelSource, SymbolicMesh
 from meshforge.synthesis import Answer, Demonstration, LearningOutcome
 
 
 class Tool:
-    """As a person meets it, who reviews a family under a condition."""
+    """As a person meets it, who reviews a task's family under a condition."""
 
-    def __init__(self, condition: Condition) -> None:
-        self._options = condition.options
+    def __init__(self, bench: Bench, condition: Condition) -> None:
+        self._family, self._options = bench.relatives, condition.options
 
     def begin(
         self,
@@ -36,7 +36,7 @@ class Tool:
     def take_labels(self, desk: Desk) -> Desk:
         """The meshes with the labels that all that is known of the family speaks for; a person's stay."""
         said = [hull.annotation for mesh in desk.meshes.values() for hull in mesh.hulls]
-        agreed = iter(desk.bench.relatives.infer(said).agree(said))
+        agreed = iter(self._family.infer(said).agree(said))
         meshes = dict(desk.meshes)
         for name, mesh in desk.meshes.items():
             found = {hull.name: next(agreed) for hull in mesh.hulls}
@@ -54,7 +54,7 @@ class Tool:
 
     def review(self, state: ReviewState, outcome: LearningOutcome | None) -> Assessment:
         """How the family stands, and what it asks next."""
-        raise NotImplementedError
+        return review_family(state, outcome, self._family)
 
     def apply(
         self, state: ReviewState, question: ReviewQuestion, reply: Reply, done: Selections | None = None
