@@ -63,7 +63,7 @@ class Review:
 
 def sign_off(bench: Bench, condition: Condition, seed: int, tool: Tool | None = None, cap: float = CAP) -> Review:
     """A family signed off by one person; tool: another than the product, for tests."""
-    return ReviewCourse(bench, condition, seed, tool or Tool(condition)).run(cap)
+    return ReviewCourse(bench, condition, seed, tool or Tool(bench, condition)).run(cap)
 
 
 class ReviewCourse:
@@ -119,12 +119,11 @@ class ReviewCourse:
         """Where no program keeps all that was accepted, that is forgotten, as a project does."""
         found = self.tool.learn(self.desk, self.state)
         if isinstance(found, NoProgram) and self.state.accepted:
-            self.state = replace(self.state, accepted={})
-            found = self.tool.learn(self.desk, self.state)
+            found = self.tool.learn(self.desk, replace(self.state, accepted={}))
         return found
 
     def _note(self, assessment: Assessment) -> None:
-        right = {name for name in self.bench.samples if self.judge.is_right(self.desk, self.program, name)}
+        right = {name for name in self.bench.samples if self._is_right(name)}
         signed = set(assessment.signed_off)
         wrong = (signed & self.judge.possible) - right
         figures = (len(right), len(signed), len(wrong), len(assessment.held), len(signed & right))
@@ -133,6 +132,12 @@ class ReviewCourse:
         if self.program and not self.log.first:
             rest = [name for name in assessment.assets if name in self.judge.possible and name not in self.state.demos]
             self.log.first = [(round(assessment.assets[name].probability, 4), name in right) for name in rest]
+
+    def _is_right(self, name: str) -> bool:
+        """Whether an asset ends as wanted: as it was mended, or as the program edits it."""
+        if name in self.state.mended:
+            return name in self.judge.possible and self.state.mended[name] == self.bench.truth.reference[name]
+        return self.judge.is_right(self.desk, self.program, name)
 
     def _take(self, question: ReviewQuestion) -> None:
         self._asked[question.id] += 1
@@ -148,7 +153,7 @@ class ReviewCourse:
         done = self.desk.select(self.program, question.asset) if self.program else None
         said = None if reply.choice is None or not question.choices else question.choices[reply.choice].text
         self._set(self.tool.apply(self.state, question, reply, done))
-        if question.kind == "result" and said not in (RIGHT, None):
+        if question.kind == "result" and said not in (RIGHT, None) and reply.mended is None:
             self._mend(question.asset, said == WRONG)
 
     def _set(self, state: ReviewState) -> None:

@@ -49,10 +49,8 @@ class FamilyTrial:
         trials = list[Trial]()
         for place, (name, mesh) in enumerate(state.meshes.items()):
             trial = try_program(name, mesh, program, state.templates)
-            if not trial.error:
-                flips = find_flips(trial, mesh, program, posterior.seen.labels, posterior.chances_of(place))
-                trial = replace(trial, flips=flips)
-            trials.append(trial)
+            flips = find_flips(trial, mesh, program, posterior.seen.labels, posterior.chances_of(place))
+            trials.append(replace(trial, flips=flips))
         return FamilyTrial(
             state, program, posterior, tuple(trials), compare_readings(program, readings, trials), alarms
         )

@@ -95,8 +95,8 @@ class ReviewState:
 
     meshes: by name, with the labels that they have; frame: the program without its rules; templates: by the paths that
     actions name; demos: of some of the meshes, by name; answers: to questions of learning; accepted: what each rule
-    selected on results that a person found right, by asset; mended: what it should have, on results that were wrong; aside: assets that a person flagged or set aside; later:
-    ids of questions that were put off.
+    selected on results that a person found right, by asset; mended: what it should have selected on results that were
+    wrong; aside: assets that a person flagged or set aside; later: ids of questions that were put off.
     """
 
     meshes: Mapping[str, SymbolicMesh]
