@@ -65,6 +65,13 @@ PAGES = (
         given=("comparison",),
     ),
     Page(
+        "signoff",
+        "# A family signed off\n\nWritten by `script/bench` from the JSON files beside it. All draws are seeded: but "
+        "for the times, every run gives the same figures.\n",
+        ("orientation",),
+        ("numpy", "scipy", "coal"),
+    ),
+    Page(
         "labels",
         "# Labels\n\nWritten by `script/bench` from the JSON beside it. Every run gives the same, but for times.\n",
         ("propagation", "labellers"),

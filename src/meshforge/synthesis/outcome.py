@@ -55,7 +55,8 @@ class _OutcomeBase:
     settled: whether all believable readings do the same on the whole batch; stale: answers that no longer fit, as
     their asset or hulls are gone; hint: what to demonstrate next; sample: the assets whose results show best whether
     the program is what is meant, most revealing first; overruled: assets whose result was accepted, which no program
-    keeps. followed: what became of a program that was to be followed, a sentence each.
+    keeps. followed: what became of a program that was to be followed, a sentence each. suggested: an orientation that
+    makes the rules simpler, or in which every rule has an extractor where now some rule has none.
     """
 
     rules: tuple[Rule, ...]
@@ -72,6 +73,7 @@ class _OutcomeBase:
     question: Question | None = None
     nearest: Nearest | None = None
     program: Program | None = None
+    suggested: OrientationSuggestion | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -104,16 +106,12 @@ class NeedsRepair(_OutcomeBase):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class NoProgram(_OutcomeBase):
-    """A rule that no extractor fits; why: one sentence about it; advice: what would help, a sentence each.
-
-    suggested: an orientation in which every rule has an extractor.
-    """
+    """A rule that no extractor fits; why: one sentence about it; advice: what would help, a sentence each."""
 
     status: ClassVar[Literal["none"]] = "none"
     nearest: Nearest
     why: str
     advice: tuple[str, ...] = ()
-    suggested: OrientationSuggestion | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
