@@ -10,9 +10,10 @@ from time import perf_counter
 from typing import Any
 
 from benchmark.assets import SEPARATE
+from benchmark.assets.pictures import upright
 from benchmark.journal import run_units
 from benchmark.report import Cell, Goal, Result, Table, Tell
-from benchmark.study import REPORTED, TRUE, Desk, open_bench
+from benchmark.study import REPORTED, TRUE, Bench, Desk, open_bench
 from benchmark.study.person import Person
 from benchmark.tasks import tasks
 from meshforge.common import MeshForgeError
@@ -26,11 +27,11 @@ _MOST_ANSWERS = 8
 
 
 def measure(tell: Tell, quick: bool) -> Result:
-    """Lessons on every task: with its orientation; and without it, where it needs one."""
+    """Lessons on every task: with its orientation, and without it."""
     names = _QUICK if quick else tuple(one.name for one in tasks())
     units = [(name, seed, count) for name in names for seed in REPORTED for count in COUNTS]
-    rows = run_units("orientation", teach_both_ways, units, tell)
-    withheld = [row for row in rows if row["withheld"]]
+    rows = run_units("orientation", teach_three_ways, units, tell)
+    withheld = [row for row in rows if row["needs"]]
     able = [row for row in withheld if row["given"]["right"]]
     return Result(
         "orientation",
@@ -44,7 +45,7 @@ def measure(tell: Tell, quick: bool) -> Result:
             f"A lesson: {COUNTS[0]} to {COUNTS[-1]} demonstrations on a family at one decomposition, true labels, the "
             "first on a mesh that shows most of what is meant, the rest at random; the tool's questions are answered. "
             "Right: on all other meshes every rule selects what the reference selects.",
-            f"Withheld on the {len({row['task'] for row in withheld})} tasks whose reference selects something else "
+            f"Needed on the {len({row['task'] for row in withheld})} tasks whose reference selects something else "
             "without its orientation on some mesh. A suggested orientation is taken, and learning goes on in its "
             "frame.",
             "*With the reference's orientation*: the same lessons with it; what is wrong there has other reasons. "
@@ -87,8 +88,13 @@ def _withheld_table(rows: Sequence[dict[str, Any]]) -> Table:
 
 def _needless_table(rows: Sequence[dict[str, Any]]) -> Table:
     lines: list[tuple[Cell, ...]] = []
-    for what, way in (("orientation withheld", "withheld"), ("as the task has it", "given")):
-        mine = [row[way] for row in rows if row[way]]
+    groups = (
+        ("withheld where it is needed", [row["withheld"] for row in rows if row["needs"]]),
+        ("withheld where it is not needed", [row["withheld"] for row in rows if not row["needs"]]),
+        ("as the task has it", [row["given"] for row in rows]),
+        ("withheld, all assets upright and the same way round", [row["upright"] for row in rows]),
+    )
+    for what, mine in groups:
         right = [row for row in mine if row["plain_right"]]
         needless = [row for row in right if row["suggested"]]
         lines.append((what, len(mine), len(right), len(needless), sum(not row["taken_right"] for row in needless)))
@@ -103,13 +109,28 @@ def _time_table(rows: Sequence[dict[str, Any]]) -> Table:
                  (("all lessons", with_, without, with_ / without if without else 0.0),))  # fmt: skip
 
 
-def teach_both_ways(name: str, seed: int, count: int, calibration: bool = False) -> dict[str, Any]:
-    """One lesson with the task's own orientation, and if it needs one, without it."""
-    desk = open_bench(name, SEPARATE[seed % len(SEPARATE)], calibration).truth
-    lesson = Lesson(desk, seed, _draw_shown(desk, seed)[:count])
-    given = lesson.teach(desk.bench.task.program.orient, take=False)
-    withheld = lesson.teach(None, take=True) if needs_orientation(name, calibration) else None
-    return {"task": name, "seed": seed, "count": count, "given": given, "withheld": withheld}
+def teach_three_ways(name: str, seed: int, count: int, calibration: bool = False) -> dict[str, Any]:
+    """One lesson with the task's own orientation, without it, and without it on assets that all stand upright."""
+    bench = open_bench(name, SEPARATE[seed % len(SEPARATE)], calibration)
+    standing = _turn_upright(name, SEPARATE[seed % len(SEPARATE)], calibration)
+    shown = _draw_shown(bench.truth, seed)[:count]
+    lesson = Lesson(bench.truth, seed, shown)
+    return {
+        "task": name,
+        "seed": seed,
+        "count": count,
+        "needs": needs_orientation(name, calibration),
+        "given": lesson.teach(bench.task.program.orient, take=False),
+        "withheld": lesson.teach(None, take=True),
+        "upright": Lesson(standing.truth, seed, shown).teach(None, take=True),
+    }
+
+
+@cache
+def _turn_upright(name: str, setting: str, calibration: bool) -> Bench:
+    """The same family, each asset turned to the frame that its generator made it in."""
+    bench = open_bench(name, setting, calibration)
+    return Bench(bench.task, [replace(one, mesh=upright(one)) for one in bench.samples.values()])
 
 
 @cache
@@ -153,7 +174,7 @@ class Lesson:
     def teach(self, orient: Orient | None, take: bool) -> dict[str, Any]:
         """What comes of it in a frame. take: whether what is suggested is taken, for what counts in the end."""
         plain, suggested, answers = self._learn(orient)
-        done = {
+        done: dict[str, Any] = {
             "program": str(plain.program) if plain and plain.program else None,
             "plain_right": self._is_right(plain),
             "suggested": show(suggested) if suggested else None,

@@ -9,14 +9,15 @@ from functools import partial
 from typing import TypedDict, assert_never
 
 from meshforge.common import MeshForgeError
-from meshforge.language import Program, Rule, Template
+from meshforge.language import Orient, Program, Rule, Template
 from meshforge.symbolic import SymbolicMesh
 from meshforge.synthesis import outcome
 from meshforge.synthesis.asset_selection import choose_question, select_sample, suggest_demonstration
 from meshforge.synthesis.demonstration import Demonstration, Example, RuleSpec, name_demonstrations
 from meshforge.synthesis.diagnosis import find_obstacles, follow_rule, give_advice
 from meshforge.synthesis.options import OutOfTime, TimeBudget
-from meshforge.synthesis.orientation.suggest import OrientationSuggestion, suggest_orientation
+from meshforge.synthesis.orientation.alternatives import find_more_believable
+from meshforge.synthesis.orientation.suggest import OrientationSuggestion, explain_orientation, suggest_orientation
 from meshforge.synthesis.paper.search import HitWithCorrections, PaperSearch
 from meshforge.synthesis.questions import Answer, LabelCorrection, Question, Repair
 from meshforge.synthesis.readings.rank import RankedReadings, enumerate_consistent
@@ -35,6 +36,17 @@ class RuleOutcome:
     rule: Rule
     readings: RankedReadings
     names: tuple[str, ...]
+
+    @property
+    def size(self) -> int:
+        """Nodes of the extractor."""
+        return self.readings.terms[0].size
+
+    def select(self) -> dict[str, frozenset[str]]:
+        """The names of the hulls that the rule selects on each mesh of the field."""
+        field, bits = self.readings.field, self.readings.terms[0].bits
+        rows = zip(self.names, field.meshes, strict=True)
+        return {name: frozenset(mesh.names_of(field.on(bits, place))) for place, (name, mesh) in enumerate(rows)}
 
 
 class _OutcomeFields(TypedDict):
@@ -154,12 +166,13 @@ class LearningRun:
         verify(program, task.demos, task.templates)
         known = [(learned.readings, learned.names) for learned in self._learned]
         hint, sample = suggest_demonstration(known), select_sample(known, self._repairs.trust)
+        suggested, common = self._suggest_alternative(), self._common_fields()
         if self._question:
             return outcome.Ambiguous(
-                program=program, question=self._question, hint=hint, sample=sample, **self._common_fields()
+                program=program, question=self._question, hint=hint, sample=sample, suggested=suggested, **common
             )
         settled = bool(self._replays.others) and all(learned.readings.settled for learned in self._learned)
-        return outcome.Found(program=program, settled=settled, hint=hint, sample=sample, **self._common_fields())
+        return outcome.Found(program=program, settled=settled, hint=hint, sample=sample, suggested=suggested, **common)
 
     def _fail(self, spec: RuleSpec, miss: Miss, examples: Sequence[Example]) -> outcome.LearningOutcome:
         nearest, repairs = _to_nearest(spec.number, miss.nearest), self._repairs.repairs
@@ -181,10 +194,47 @@ class LearningRun:
                 [*task.batch.values()],
             )
             return suggest_orientation(
-                task.demos, task.rules, task.frame, task.templates, options, self._budget, None, batch
+                task.demos, task.rules, task.frame, task.templates, options, self._budget, (), batch
             )
         except (OutOfTime, MeshForgeError):
             return None
+
+    def _suggest_alternative(self) -> OrientationSuggestion | None:
+        """An orientation in which rules that were learned are more believable, and select something else somewhere."""
+        task = self._task
+        options = task.options
+        if (
+            not options.suggest_orientation
+            or options.strategy == "paper"
+            or "G" not in options.layers
+            or task.frame.orient
+        ):
+            return None
+        try:
+            orient = find_more_believable(
+                task.demos, task.rules, task.frame, task.templates, options, self._budget,
+                [learned.rule.extractor for learned in self._learned], [*task.batch.values()],
+            )  # fmt: skip
+            return self._compare(orient) if orient else None
+        except (OutOfTime, MeshForgeError):
+            return None
+
+    def _compare(self, orient: Orient) -> OrientationSuggestion | None:
+        """What becomes of the rules in another frame; None where they select the same there, or some are not found."""
+        options = replace(self._task.options, suggest_orientation=False, repair=False, follow=None)
+        frame = replace(self._task.frame, orient=orient)
+        other = LearningRun(replace(self._task, frame=frame, options=options), self._budget)
+        if not isinstance(other.run(), outcome.Found | outcome.Ambiguous):
+            return None
+        differs = set[str]()
+        for ours, theirs in zip(self._learned, other._learned, strict=True):
+            now, then = ours.select(), theirs.select()
+            differs.update(name for name in now if now[name] != then.get(name))
+        sizes, before = (tuple(one.size for one in learned) for learned in (other._learned, self._learned))
+        if not differs:
+            return None
+        why = explain_orientation(orient, sizes, before, len(differs))
+        return OrientationSuggestion(orient, sizes, why, before, tuple(sorted(differs)))
 
     def _program(self) -> Program:
         return replace(self._task.frame, rules=tuple(learned.rule for learned in self._learned))
