@@ -140,15 +140,28 @@ def outcome_to_json(outcome: LearningOutcome) -> dict[str, Any]:
         "stale_answers": [{"rule": answer.rule, "asset": answer.asset} for answer in outcome.stale],
         "followed": list(outcome.followed),
         **_failure_json(outcome),
+        **_suggestion_json(outcome.suggested),
         "seconds": dict(outcome.seconds),
     }
 
 
 def _failure_json(outcome: LearningOutcome) -> dict[str, Any]:
-    if not isinstance(outcome, NoProgram):
-        return {}
-    orient = show(outcome.suggested.orient) if outcome.suggested else None
-    return {"why": outcome.why, "advice": list(outcome.advice), "suggested_orientation": orient}
+    return {"why": outcome.why, "advice": list(outcome.advice)} if isinstance(outcome, NoProgram) else {}
+
+
+def _suggestion_json(suggested: OrientationSuggestion | None) -> dict[str, Any]:
+    """The directive as text; its reason and its sizes beside it, where there is one."""
+    if not suggested:
+        return {"suggested_orientation": None}
+    return {
+        "suggested_orientation": show(suggested.orient),
+        "suggested_because": {
+            "why": suggested.why,
+            "sizes": list(suggested.sizes),
+            "sizes_before": list(suggested.before),
+            "differs_on": list(suggested.differs_on),
+        },
+    }
 
 
 def _reading_json(reading: Reading) -> dict[str, Any]:
