@@ -6,7 +6,7 @@ no landmarks lie along its axis on nearly all meshes, since the meshes then lie 
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 
 import numpy as np
 
@@ -18,7 +18,7 @@ from meshforge.synthesis.options import Options, TimeBudget
 from meshforge.synthesis.orientation.attempts import OrientationSearch
 from meshforge.synthesis.orientation.landmarks import ALONG, NEARLY_ALL, Landmarks
 from meshforge.synthesis.orientation.suggest import Directives
-from meshforge.synthesis.readings.belief import ALL, NODE, SELF, UPRIGHT
+from meshforge.synthesis.readings.belief import ALL, NODE, UPRIGHT
 
 UNSUPPORTED = 2.6
 """For a direction along whose axis no landmarks lie on nearly all meshes [nats]."""
@@ -49,33 +49,64 @@ def find_more_believable(
     frame: the program without its rules, and without an orientation; extractors: of the rules, as they were learned.
     Raises OutOfTime.
     """
-    least = sum(min(cost_extractor(one, "XYZ"), NODE * 2 + UPRIGHT) for one in extractors)
-    askew = UNSUPPORTED - UPRIGHT if any(rule.action.depends_on_frame for rule in rules) else 0.0
-    if cost_extractors(extractors, "") + askew - least <= DIRECTIVE:
+    doubts = FrameDoubts(rules, extractors)
+    if doubts.most - DIRECTIVE <= doubts.least:
         return None
     shown, others = [demo.mesh for demo in demos], batch[:MAX_MESHES]
     landmarks = Landmarks([*shown, *others], frame.labels)
-    most = cost_extractors(extractors, [letter for letter in "XYZ" if landmarks.supports(letter)]) - DIRECTIVE
-    if most + askew <= least:
+    supported = [letter for letter in "XYZ" if landmarks.supports(letter)]
+    if doubts.count(supported, askew=True) - DIRECTIVE <= doubts.least:
         return None
     orients = _rank(Directives(shown, others, frame.labels), landmarks)[:MAX_TRIED]
-    if askew and orients and _turns_many([*shown, *others][:MAX_TURNED], orients[0]):
-        most += askew
-    if most <= least:
+    askew = bool(orients and doubts.askew and _turns_many([*shown, *others][:MAX_TURNED], orients[0]))
+    most = doubts.count(supported, askew) - DIRECTIVE
+    if most <= doubts.least:
         return None
-    sizes = [size_of(one) for one in extractors]
     search = OrientationSearch(demos, rules, frame, templates, options, budget, extractors)
-    best: tuple[float, Orient] | None = None
+    return _find_first(search, orients, most, doubts.least)
+
+
+def _find_first(search: OrientationSearch, orients: Sequence[Orient], most: float, least: float) -> Orient | None:
+    """The first directive whose extractors cost no more than `most`, unless those of a later one cost clearly less.
+
+    least: what extractors cost in any frame [nats].
+    """
+    best: Orient | None = None
+    sizes = [size_of(one) for one in search.known]
     for orient in orients:
         attempt = search.attempt(orient)
         if attempt and attempt.learn(sum(sizes) + SLACK, max(sizes) + SLACK):
             axes = {pair.axis[1] for pair in orient.pairs}
             cost = sum(min(cost_extractor(one, axes) for one in some) for some in attempt.extractors)
-            if cost <= (best[0] - CLEARLY if best else most):
-                best = cost, orient
-        if best and best[0] - CLEARLY < least:
+            if cost <= most:
+                best, most = orient, cost - CLEARLY
+        if most < least:
             break
-    return best[1] if best else None
+    return best
+
+
+class FrameDoubts:
+    """What speaks against rules in the files' own frames.
+
+    least: what extractors cost at least in any frame; askew: what it costs besides that actions went by axes that
+    mean nothing [nats].
+    """
+
+    def __init__(self, rules: Sequence[RuleSpec], extractors: Sequence[Extractor]) -> None:
+        self._extractors = tuple(extractors)
+        self.least = sum(min(cost_extractor(one, "XYZ"), NODE * 2 + UPRIGHT) for one in extractors)
+        reach = [place for place, one in enumerate(extractors) if _asks_for_places(one)]
+        acted = [place for place, rule in enumerate(rules) if rule.action.depends_on_frame]
+        self.askew = UNSUPPORTED - UPRIGHT if acted and reach and acted[0] < reach[-1] else 0.0
+
+    @property
+    def most(self) -> float:
+        """Where no landmarks lie along any axis."""
+        return self.count((), askew=True)
+
+    def count(self, supported: Collection[str], askew: bool) -> float:
+        """The cost where landmarks lie along some axes; askew: whether actions went by axes that mean nothing."""
+        return sum(cost_extractor(one, supported) for one in self._extractors) + (self.askew if askew else 0.0)
 
 
 def _turns_many(meshes: Sequence[SymbolicMesh], orient: Orient) -> bool:
@@ -102,11 +133,6 @@ def _rank(directives: Directives, landmarks: Landmarks) -> list[Orient]:
     return sorted(plain, key=key)
 
 
-def cost_extractors(extractors: Iterable[Extractor], supported: Collection[str]) -> float:
-    """What it costs to believe in all of them [nats]; supported: the letters of the axes along which landmarks lie."""
-    return sum(cost_extractor(one, supported) for one in extractors)
-
-
 def cost_extractor(extractor: Extractor, supported: Collection[str]) -> float:
     """What it costs to believe in one [nats]."""
     return NODE * size_of(extractor) + _doubt(extractor, supported)
@@ -119,8 +145,19 @@ def _doubt(extractor: Extractor, supported: Collection[str]) -> float:
         case Is():
             return 0.0
         case Attach(selected, anchor):
-            return _doubt(selected, supported) + _doubt(anchor, supported) + SELF * (selected == anchor)
+            return _doubt(selected, supported) + _doubt(anchor, supported)
         case Geo(base, direction):
             return _doubt(base, supported) + (UPRIGHT if direction[1] in supported else UNSUPPORTED)
         case _:
             return _doubt(extractor.left, supported) + _doubt(extractor.right, supported)
+
+
+def _asks_for_places(extractor: Extractor) -> bool:
+    """Whether it asks for more than labels, so that what earlier rules made counts."""
+    match extractor:
+        case All() | Is():
+            return False
+        case Attach() | Geo():
+            return True
+        case _:
+            return _asks_for_places(extractor.left) or _asks_for_places(extractor.right)

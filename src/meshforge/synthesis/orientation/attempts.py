@@ -41,7 +41,7 @@ class OrientationSearch:
         templates: Mapping[str, language.Template],
         options: Options,
         budget: TimeBudget,
-        known: Sequence[language.Extractor],
+        known: Sequence[language.Extractor] = (),
     ) -> None:
         self.rules, self.known = tuple(rules), tuple(known)
         sizes = [language.size_of(one) for one in known]
