@@ -16,7 +16,12 @@ from meshforge.synthesis.demonstration import Example, RuleSpec
 from meshforge.synthesis.diagnosis import find_obstacles, follow_rule, give_advice
 from meshforge.synthesis.options import OutOfTime, TimeBudget
 from meshforge.synthesis.orientation.alternatives import find_more_believable
-from meshforge.synthesis.orientation.suggest import OrientationSuggestion, explain_orientation, suggest_orientation
+from meshforge.synthesis.orientation.suggest import (
+    MIN_SAVING,
+    OrientationSuggestion,
+    explain_orientation,
+    suggest_orientation,
+)
 from meshforge.synthesis.paper.search import HitWithCorrections, PaperSearch
 from meshforge.synthesis.questions import Answer, LabelCorrection, Question, Repair
 from meshforge.synthesis.readings.rank import RankedReadings, enumerate_consistent
@@ -220,7 +225,7 @@ class LearningRun:
             return None
 
     def _compare(self, orient: Orient) -> OrientationSuggestion | None:
-        """What becomes of the rules in another frame; None where they select the same there, or some are not found."""
+        """What becomes of the rules in another frame; None where that makes no difference, or some are not found."""
         options = replace(self._task.options, suggest_orientation=False, repair=False, follow=None)
         frame = replace(self._task.frame, orient=orient)
         other = LearningRun(replace(self._task, frame=frame, options=options), self._budget)
@@ -231,7 +236,7 @@ class LearningRun:
             now, then = ours.select(), theirs.select()
             differs.update(name for name in now if now[name] != then.get(name))
         sizes, before = (tuple(one.size for one in learned) for learned in (other._learned, self._learned))
-        if not differs:
+        if not differs and sum(before) - sum(sizes) < MIN_SAVING:
             return None
         why = explain_orientation(orient, sizes, before, len(differs))
         return OrientationSuggestion(orient, sizes, why, before, tuple(sorted(differs)))

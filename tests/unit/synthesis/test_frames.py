@@ -5,11 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from itertools import permutations
 
-import numpy as np
 import pytest
 
 from meshforge.common import DemonstrationError
-from meshforge.geometry import Pose
 from meshforge.language import (
     Action,
     Delete,
@@ -29,7 +27,7 @@ from meshforge.synthesis.demonstration import collect_rule_specs
 from meshforge.synthesis.options import OutOfTime, TimeBudget
 from meshforge.synthesis.orientation.attempts import MeshTurner
 from meshforge.synthesis.orientation.suggest import Directives, OrientationSuggestion, suggest_orientation
-from tests.synthesis_boxes import Piece, boxes, table, turned
+from tests.synthesis_boxes import Piece, posed, rack, table, turned
 
 LABELS = ("panel", "leg", "handle", "drawer", "misc")
 UP = "orient +Z: Is(leg) -> Is(panel)"
@@ -80,20 +78,6 @@ def suggested(
 
 def directive(found: OrientationSuggestion | None) -> str | None:
     return show(found.orient) if found else None
-
-
-def rack(off: float = 0.0, tops: int = 1, extra: Sequence[Piece] = ()) -> SymbolicMesh:
-    """Boards one above the other, the topmost in pieces; a foot below them, off their middle. Nothing touches."""
-    pieces: list[Piece] = [("leg", "leg", (0.9 + off, 0.9, 0.0), (0.2, 0.2, 0.2))]
-    pieces += [(f"board_{k}", "panel", (0.0, 0.0, 0.8 + 0.7 * k), (2.0, 2.0, 0.1)) for k in range(2)]
-    pieces += [(f"top_{k}", "panel", (2.1 * k / tops, 0.0, 2.2), (2.1 / tops - 0.1, 2.0, 0.1)) for k in range(tops)]
-    return boxes(*pieces, *extra)
-
-
-def posed(mesh: SymbolicMesh, x: Sequence[float], y: Sequence[float]) -> SymbolicMesh:
-    """The mesh turned so that its X and Y axes come to lie along two unit vectors."""
-    pose = Pose(np.column_stack([x, y, np.cross(x, y)]), np.zeros(3))
-    return mesh.with_hulls(hull.move(pose) for hull in mesh.hulls)
 
 
 def fronted(tops: int, height: float, depth: float) -> SymbolicMesh:
