@@ -109,7 +109,8 @@ class ReviewCourse:
         if self.reviewer.ledger.total >= cap:
             self.log.ended = BROKEN
         elif assessment.question is not None:
-            self._take(assessment.question)
+            shown = assessment.question.kind == "demonstrate" and assessment.question.asset in self.state.demos
+            self._recover(outcome, cap) if shown else self._take(assessment.question)
         elif self.program is None:
             self._recover(outcome, cap)
         else:
