@@ -16,7 +16,7 @@ import numpy as np
 
 from meshforge.common import MeshForgeError, pluralize
 from meshforge.geometry import Floats
-from meshforge.label_model import LabelBeliefs, is_human
+from meshforge.label_model import LabelBeliefs, LabelOdds, is_human
 from meshforge.language import All, Extractor, Orient, orient_mesh, size_of
 from meshforge.symbolic import Hull, SymbolicMesh
 from meshforge.synthesis.demonstration import name_demonstrations
@@ -25,6 +25,7 @@ from meshforge.synthesis.orientation.attempts import OrientationSearch
 from meshforge.synthesis.questions import LabelCorrection, Repair
 from meshforge.synthesis.repair import candidates
 from meshforge.synthesis.repair.candidates import key_cost
+from meshforge.synthesis.repair.reasons import list_evidence
 from meshforge.synthesis.search.terms import order_key
 from meshforge.synthesis.task import LearningTask, apply_corrections, correct_demonstrations
 
@@ -36,13 +37,12 @@ MAX_TRIED = 24
 
 @dataclass(frozen=True, slots=True)
 class FrameChange:
-    """A correction that turns a mesh; cost: to propose it, odds: of the label as it is [nats]; angle [rad]."""
+    """A correction that turns a mesh; cost: to propose it [nats]; odds: of the label as it is; angle [rad]."""
 
     correction: LabelCorrection
     cost: float
-    odds: float
+    odds: LabelOdds
     angle: float
-    by_person: bool
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,7 +60,7 @@ class _Hypothesis:
     @property
     def score(self) -> float:
         """What it costs that labels and program are so [nats]."""
-        return self.base + sum(one.odds for one in self.changes)
+        return self.base + sum(one.odds.odds[one.correction.to] for one in self.changes)
 
 
 class LandmarkCorrectionSearch:
@@ -149,9 +149,8 @@ class LandmarkCorrectionSearch:
         if now is None or then is None:
             return None
         angle = float(np.arccos(np.clip((np.trace(now @ then.T) - 1) / 2, -1, 1)))
-        if angle < MIN_TURN:
-            return None
-        return FrameChange(correction, cost, self._labels.odds(name, hull, to), angle, is_human(hull))
+        odds = self._labels.odds_of(name, hull)
+        return FrameChange(correction, cost, odds, angle) if odds and angle >= MIN_TURN else None
 
     def _rotate(self, mesh: SymbolicMesh) -> Floats | None:
         try:
@@ -186,17 +185,17 @@ class LandmarkCorrectionSearch:
         return _Hypothesis(tuple(changes), tuple(attempt.sizes), base)
 
     def _to_repair(self, change: FrameChange, belief: float, best: _Hypothesis) -> Repair:
-        most = candidates.MAX_BELIEF_AGAINST_PERSON if change.by_person else 1.0
+        most = candidates.MAX_BELIEF_AGAINST_PERSON if is_human(change.odds.hull) else 1.0
         places = [k for k, (now, then) in enumerate(zip(self._sizes, best.sizes, strict=True)) if then < now or not now]
         rule = places[0] if places else 0
         now = "no extractor" if not self._sizes[rule] else f"one of {pluralize(self._sizes[rule], 'node')}"
         all_ = "it" if len(best.changes) == 1 else "all corrections"
-        why = (
-            f"It is a landmark's: with {all_} the orientation turns {change.correction.asset} by "
-            f"{np.degrees(change.angle):.0f}° otherwise, and rule {rule + 1} has an extractor of "
-            f"{pluralize(best.sizes[rule], 'node')}, now {now}"
+        effect = (
+            f"with {all_} the orientation turns {change.correction.asset} by {np.degrees(change.angle):.0f}° "
+            f"otherwise, and rule {rule + 1} has an extractor of {pluralize(best.sizes[rule], 'node')}, now {now}"
         )
-        return Repair(change.correction, rule + 1, min(belief, most), why)
+        why = "; ".join([*list_evidence(change.odds, change.correction.to), effect])
+        return Repair(change.correction, rule + 1, min(belief, most), why[0].upper() + why[1:])
 
 
 def proposal_cost(labels: LabelBeliefs, task: LearningTask, repairs: Sequence[Repair]) -> float:
