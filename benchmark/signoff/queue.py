@@ -110,7 +110,8 @@ class ReviewCourse:
         if self.reviewer.ledger.total >= cap:
             self.log.ended = BROKEN
         elif assessment.question is not None:
-            self._take(assessment.question)
+            shown = assessment.question.kind == "demonstrate" and assessment.question.asset in self.state.demos
+            self._recover(outcome, cap) if shown else self._take(assessment.question)
         elif self.program is None:
             self._recover(outcome, cap)
         else:
@@ -120,12 +121,11 @@ class ReviewCourse:
         """Where no program keeps all that was accepted, that is forgotten, as a project does."""
         found = self.tool.learn(self.desk, self.state)
         if isinstance(found, NoProgram) and self.state.accepted:
-            self.state = replace(self.state, accepted={})
-            found = self.tool.learn(self.desk, self.state)
+            found = self.tool.learn(self.desk, replace(self.state, accepted={}))
         return found
 
     def _note(self, assessment: Assessment) -> None:
-        right = {name for name in self.bench.samples if self.judge.is_right(self.desk, self.program, name)}
+        right = {name for name in self.bench.samples if self._is_right(name)}
         signed = set(assessment.signed_off)
         wrong = (signed & self.judge.possible) - right
         figures = (len(right), len(signed), len(wrong), len(assessment.held), len(signed & right))
@@ -134,6 +134,12 @@ class ReviewCourse:
         if self.program and not self.log.first:
             rest = [name for name in assessment.assets if name in self.judge.possible and name not in self.state.demos]
             self.log.first = [(round(assessment.assets[name].probability, 4), name in right) for name in rest]
+
+    def _is_right(self, name: str) -> bool:
+        """Whether an asset ends as wanted: as it was mended, or as the program edits it."""
+        if name in self.state.mended:
+            return name in self.judge.possible and self.state.mended[name] == self.bench.truth.reference[name]
+        return self.judge.is_right(self.desk, self.program, name)
 
     def _take(self, question: ReviewQuestion) -> None:
         self._asked[question.id] += 1
@@ -149,7 +155,7 @@ class ReviewCourse:
         done = self.desk.select(self.program, question.asset) if self.program else None
         said = None if reply.choice is None or not question.choices else question.choices[reply.choice].text
         self._set(self.tool.apply(self.state, question, reply, done))
-        if question.kind == "result" and said not in (RIGHT, None):
+        if question.kind == "result" and said not in (RIGHT, None) and reply.mended is None:
             self._mend(question.asset, said == WRONG)
 
     def _set(self, state: ReviewState) -> None:

@@ -6,9 +6,9 @@ from collections import Counter
 from collections.abc import Sequence
 
 from benchmark.signoff.judge import Judge
-from benchmark.signoff.ledger import Ledger, price_of_hand
+from benchmark.signoff.ledger import Ledger, price_of_hand, price_of_mend
 from benchmark.study.condition import Condition
-from benchmark.study.desk import Bench, Desk
+from benchmark.study.desk import Bench, Desk, Selections
 from benchmark.study.keystrokes import ANSWER, APPROVAL, CONFIRMATION, GLANCE, STROKE, price_group
 from benchmark.study.person import Person
 from benchmark.study.propagation import HandLabels
@@ -71,7 +71,20 @@ class Reviewer:
         right = self.judge.looks_right(desk, program, question.asset) != self.person.errs_now()
         said = RIGHT if right else WRONG if self._truth.reference[question.asset] is not None else ASIDE
         self.ledger.add("result", GLANCE + APPROVAL)
-        return Reply(question.id, place_of(question, said))
+        place = place_of(question, said)
+        return Reply(question.id, place, mended=self._mends(desk, program, question.asset) if said == WRONG else None)
+
+    def _mends(self, desk: Desk, program: Program | None, name: str) -> Selections | None:
+        """What each rule should have selected; None where the mesh is not turned as it should be."""
+        done, wanted = desk.select(program, name) if program else None, self._truth.reference[name]
+        if wanted is None or done is None or done == wanted:
+            return None
+        self.ledger.add("mend", price_of_mend(done, wanted))
+        slips = [
+            frozenset(hull for hull in one ^ other if self.person.errs_now())
+            for one, other in zip(done, wanted, strict=True)
+        ]
+        return tuple(one ^ slip for one, slip in zip(wanted, slips, strict=True))
 
     def shows(self, desk: Desk, name: str) -> Demonstration:
         """All of an edit by hand; each hull is left out where they slip."""

@@ -8,9 +8,16 @@ from dataclasses import replace
 from benchmark.study.condition import Condition
 from benchmark.study.desk import Bench, Desk, Selections
 from meshforge.language import Program
-from meshforge.signoff import Assessment, Reply, ReviewQuestion, ReviewState, review_family
-from meshforge.signoff.question import ASIDE, RIGHT
-from meshforge.symbolic import Label, LabelSource, SymbolicMesh
+from meshforge.signoff import (
+    Assessment,
+    Reply,
+    ReviewQuestion,
+    ReviewState,
+    apply_reply,
+    list_answers,
+    review_family,
+)
+from meshforge.symbolic import SymbolicMesh
 from meshforge.synthesis import Answer, Demonstration, LearningOutcome
 
 
@@ -49,8 +56,9 @@ class Tool:
         if not state.demos:
             return None
         demos = [Demonstration(desk.meshes[name], demo.steps, name) for name, demo in state.demos.items()]
-        kept = [Answer(rule, name, done) for name, all_of in state.accepted.items() for rule, done in number(all_of)]
-        return desk.learn(demos, self._options, None, [*kept, *state.answers])
+        said = [hull.annotation for mesh in desk.meshes.values() for hull in mesh.hulls]
+        answers = list_answers(state, self._family.infer(said))
+        return desk.learn(demos, self._options, None, list(answers))
 
     def review(self, state: ReviewState, outcome: LearningOutcome | None) -> Assessment:
         """How the family stands, and what it asks next."""
@@ -63,42 +71,11 @@ class Tool:
         return apply_reply(state, question, reply, done)
 
 
-def number(selections: Selections) -> list[tuple[int, frozenset[str]]]:
-    """Selections with the numbers of their rules."""
-    return list(enumerate(selections, 1))
-
-
-def apply_reply(
-    state: ReviewState, question: ReviewQuestion, reply: Reply, done: Selections | None = None
-) -> ReviewState:
-    """What is known of a family after a reply."""
-    if reply.later:
-        return replace(state, later=state.later | {question.id})
-    choice = None if reply.choice is None else question.choices[reply.choice]
-    if question.kind == "result":
-        if choice is not None and choice.text == ASIDE:
-            return replace(state, aside=state.aside | {question.asset})
-        if choice is not None and choice.text == RIGHT and done is not None:
-            return replace(state, accepted={**state.accepted, question.asset: done})
-        return state
-    if question.rule is not None and any(one.select is not None for one in question.choices):
-        refused = [one.select for one in question.choices if one.select is not None] if choice is None else []
-        answer = Answer(question.rule, question.asset, None if choice is None else choice.select, refused)
-        return replace(state, answers=(*state.answers, answer))
-    if choice is None and not reply.exceptions:
-        return replace(state, later=state.later | {question.id})
-    given = dict.fromkeys(question.hulls, choice.label) if choice is not None and choice.label else {}
-    source: LabelSource = "repair" if question.kind == "repair" else "user"
-    meshes = dict(state.meshes)
-    for place, label in {**given, **reply.exceptions}.items():
-        meshes[place.asset] = meshes[place.asset].with_labels({place.hull: Label(str(label), 1.0, source)})
-    return replace(state, meshes=meshes)
-
-
 def show(state: ReviewState, name: str, demo: Demonstration, meshes: Mapping[str, SymbolicMesh]) -> ReviewState:
     """What is known once an asset was demonstrated; what was accepted or asked about it before is void."""
     accepted = {other: done for other, done in state.accepted.items() if other != name}
-    return replace(state, meshes=meshes, demos={**state.demos, name: demo}, accepted=accepted)
+    mended = {other: done for other, done in state.mended.items() if other != name}
+    return replace(state, meshes=meshes, demos={**state.demos, name: demo}, accepted=accepted, mended=mended)
 
 
 def forget(state: ReviewState, name: str) -> ReviewState:

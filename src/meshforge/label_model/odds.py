@@ -15,7 +15,7 @@ import numpy as np
 from meshforge.geometry import Floats
 from meshforge.label_model.consensus import PERSON
 from meshforge.label_model.lookalikes import PER_MESH
-from meshforge.label_model.posterior import FamilyModel, FamilyPosterior
+from meshforge.label_model.posterior import FamilyPosterior, model_family
 from meshforge.symbolic import HUMAN_SOURCES, Hull, SymbolicMesh
 
 MAX_ODDS_FOR_CORRECTION = 5.0
@@ -63,18 +63,19 @@ class LabelBeliefs:
     ) -> None:
         shown = list(demonstrated.values())
         others = {name: mesh for name, mesh in batch.items() if not any(_is_same_asset(mesh, other) for other in shown)}
-        self._meshes, self._vocabulary = {**demonstrated, **others}, tuple(vocabulary)
+        every = {**demonstrated, **others}
+        self._meshes, self._vocabulary = {name: every[name] for name in sorted(every)}, tuple(vocabulary)
         self._places = {name: place for place, name in enumerate(self._meshes)}
         self._shown = frozenset(demonstrated)
         self._known: dict[tuple[str, str], LabelOdds] = {}
 
     @cached_property
     def posterior(self) -> FamilyPosterior:
-        """Of all meshes, the demonstrated ones first."""
+        """Of all meshes, by name."""
         meshes = list(self._meshes.values())
         words = set(self._vocabulary)
         said = [hull.annotation for mesh in meshes for hull in mesh.hulls]
-        return FamilyModel(meshes).infer([label if label and label.name in words else None for label in said])
+        return model_family(meshes).infer([label if label and label.name in words else None for label in said])
 
     @cached_property
     def errors(self) -> Mapping[str, float]:

@@ -12,7 +12,7 @@ from scipy.spatial.distance import cdist
 
 from meshforge.geometry import Floats, Ints
 from meshforge.label_model.consensus import infer_chances
-from meshforge.label_model.describe import SHAPE_COLUMNS, MeshDescriber, describe_mesh
+from meshforge.label_model.describe import SHAPE_COLUMNS, MeshDescriber, describe_mesh, digest_mesh
 from meshforge.label_model.sides import correct_upright, find_doubtful_sides
 from meshforge.label_model.table import NO_LABEL, FamilyTable, Observations, evidence_of
 from meshforge.label_model.ties import first_greatest, pick_evenly
@@ -157,6 +157,23 @@ class FamilyModel:
         return self._turned[key]
 
 
+def model_family(meshes: Sequence[SymbolicMesh]) -> FamilyModel:
+    """The model of some meshes; that of the same hulls with other labels is not made again, of the last few families.
+
+    What it keeps of meshes holds for these, whatever their labels.
+    """
+    key = tuple(map(digest_mesh, meshes))
+    if key not in _models:
+        if len(_models) >= _FAMILIES:
+            del _models[next(iter(_models))]
+        _models[key] = FamilyModel(meshes)
+    return _models[key]
+
+
+_FAMILIES = 4  # whose models are kept
+_models: dict[tuple[bytes, ...], FamilyModel] = {}
+
+
 def infer_labels(meshes: Sequence[SymbolicMesh]) -> FamilyPosterior:
     """What the labels of some meshes say about all their hulls."""
-    return FamilyModel(meshes).infer([hull.annotation for mesh in meshes for hull in mesh.hulls])
+    return model_family(meshes).infer([hull.annotation for mesh in meshes for hull in mesh.hulls])

@@ -2,6 +2,7 @@
 
 from meshforge.signoff.assessment import BAR, Assessment, AssetConfidence, Doubt, DoubtKind
 from meshforge.signoff.question import HullPlace, QuestionKind, Reply, ReviewChoice, ReviewQuestion, ReviewState
+from meshforge.signoff.reply import apply_reply, list_answers
 from meshforge.signoff.review import review_family
 
 __all__ = [
@@ -16,5 +17,7 @@ __all__ = [
     "ReviewChoice",
     "ReviewQuestion",
     "ReviewState",
+    "apply_reply",
+    "list_answers",
     "review_family",
 ]

@@ -23,7 +23,7 @@ from meshforge.synthesis import Reading
 SURE_OF_DEMONSTRATED = 0.999
 _WORTH_TELLING = 0.01  # the probability that an edit is wrong for one reason, from which on it is told
 _MOST_DOUBTS = 6
-_USUAL_TIMES = 2.0  # a hull so many times as far from all others as is usual is unlike the rest
+_UNLIKE = 1.0  # what is so much farther than usual, as a logarithm, is unlike the rest
 
 
 @dataclass(frozen=True, eq=False)
@@ -49,10 +49,8 @@ class FamilyTrial:
         trials = list[Trial]()
         for place, (name, mesh) in enumerate(state.meshes.items()):
             trial = try_program(name, mesh, program, state.templates)
-            if not trial.error:
-                flips = find_flips(trial, mesh, program, posterior.seen.labels, posterior.chances_of(place))
-                trial = replace(trial, flips=flips)
-            trials.append(trial)
+            flips = find_flips(trial, mesh, program, posterior.seen.labels, posterior.chances_of(place))
+            trials.append(replace(trial, flips=flips))
         return FamilyTrial(
             state, program, posterior, tuple(trials), compare_readings(program, readings, trials), alarms
         )
@@ -88,24 +86,25 @@ class FamilyTrial:
 
     @cached_property
     def _unlikeness(self) -> Floats:
-        """How much farther than usual the strangest hull of each asset is from all hulls of others, as a logarithm."""
-        apart = self.posterior.table.find_lookalikes(()).apart
-        nearest = apart.min(axis=(1, 2), initial=np.inf) if apart.shape[1] else np.full(len(apart), np.inf)
-        finite = nearest[np.isfinite(nearest)]
-        usual = float(np.median(finite)) if len(finite) else 1.0
+        """How much farther than usual the strangest hull of each asset is from all hulls of other assets of which
+        something is said, as a logarithm (assets,)."""
+        table, known = self.posterior.table, self.posterior.seen.known
+        _, apart = table.find_lookalikes(()).nearest(known, 1, 1)
+        nearest = apart[:, 0]
+        usual = float(np.median(nearest[np.isfinite(nearest)])) if np.isfinite(nearest).any() else 1.0
         found = np.zeros(len(self.trials))
-        for place, span in self.posterior.table.spans.items():
+        for place, span in table.spans.items():
             worst = float(nearest[span].max(initial=0.0))
-            found[place] = 0.0 if not np.isfinite(worst) else max(0.0, np.log(worst / max(_USUAL_TIMES * usual, 1e-9)))
+            found[place] = np.log(max(worst / max(usual, 1e-9), 1.0)) if np.isfinite(worst) else 0.0
         return found
 
     def confidence_of(self, place: int) -> AssetConfidence:
         """One asset, with its doubts."""
         trial, evidence = self.trials[place], self.evidence[place]
+        if trial.asset in {*self.state.demos, *self.state.accepted, *self.state.mended}:
+            return AssetConfidence(trial.asset, SURE_OF_DEMONSTRATED)
         if trial.error:
             return AssetConfidence(trial.asset, NO_EDIT, (self._doubt_of_error(place),))
-        if trial.asset in self.state.demos or trial.asset in self.state.accepted:
-            return AssetConfidence(trial.asset, SURE_OF_DEMONSTRATED)
         doubts = [*self._reading_doubts(place), *self._label_doubts(place), *self._odd_doubts(place)]
         weightiest = sorted(doubts, key=lambda one: -one.share)[:_MOST_DOUBTS]
         return AssetConfidence(trial.asset, evidence.probability, tuple(weightiest))
@@ -162,7 +161,7 @@ class FamilyTrial:
         plain = replace(evidence, unlike=0.0, alarms=0.0).probability
         share = plain - evidence.probability
         found = [Doubt("alarm", text, share=share) for text in self.alarms.get(trial.asset, ())]
-        if evidence.unlike > 0 and share >= _WORTH_TELLING:
+        if evidence.unlike > _UNLIKE and share >= _WORTH_TELLING:
             found.append(Doubt("unlike", "unlike the rest: no other asset has such hulls", share=share))
         return found
 

@@ -6,13 +6,16 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any, Literal, NamedTuple
 
-from meshforge.language import Program, Template
+from meshforge.language import Orient, Program, Template
 from meshforge.symbolic import SymbolicMesh
 from meshforge.synthesis import Answer, Demonstration
 
 QuestionKind = Literal["group", "repair", "reading", "label", "orientation", "result", "demonstrate"]
 """A group of look-alike hulls and what they are; one hull's label; what a rule means; whether a rule is meant for a
 label that no demonstration shows; an orientation; whether a result is right; an asset to demonstrate."""
+
+Selections = tuple[frozenset[str], ...]
+"""What each rule selects on an asset, names of hulls."""
 
 RIGHT, WRONG, ASIDE = "right", "wrong", "set aside"
 """The choices of a question about a result."""
@@ -28,11 +31,12 @@ class HullPlace(NamedTuple):
 @dataclass(frozen=True, slots=True)
 class ReviewChoice:
     """One reply. text: what it says; label: that the hulls then get; select: names of the hulls of the asset that the
-    rule then selects."""
+    rule then selects; orient: how assets are turned then."""
 
     text: str
     label: str | None = None
     select: tuple[str, ...] | None = None
+    orient: Orient | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -76,11 +80,13 @@ class ReviewQuestion:
 @dataclass(frozen=True, slots=True)
 class Reply:
     """What a person said to a question. choice: the place among its choices, None for none of them; exceptions: hulls
-    of a group that are something else, with their labels; later: the question is put off."""
+    of a group that are something else, with their labels; mended: what each rule should have selected where a result
+    is wrong; later: the question is put off."""
 
     question: str
     choice: int | None = None
     exceptions: Mapping[HullPlace, str] = field(default_factory=dict)
+    mended: Selections | None = None
     later: bool = False
 
 
@@ -90,8 +96,8 @@ class ReviewState:
 
     meshes: by name, with the labels that they have; frame: the program without its rules; templates: by the paths that
     actions name; demos: of some of the meshes, by name; answers: to questions of learning; accepted: what each rule
-    selected on results that a person found right, by asset; aside: assets that a person flagged or set aside; later:
-    ids of questions that were put off.
+    selected on results that a person found right, by asset; mended: what it should have selected on results that were
+    wrong; aside: assets that a person flagged or set aside; later: ids of questions that were put off.
     """
 
     meshes: Mapping[str, SymbolicMesh]
@@ -99,6 +105,7 @@ class ReviewState:
     templates: Mapping[str, Template] = field(default_factory=dict)
     demos: Mapping[str, Demonstration] = field(default_factory=dict)
     answers: tuple[Answer, ...] = ()
-    accepted: Mapping[str, tuple[frozenset[str], ...]] = field(default_factory=dict)
+    accepted: Mapping[str, Selections] = field(default_factory=dict)
+    mended: Mapping[str, Selections] = field(default_factory=dict)
     aside: frozenset[str] = frozenset()
     later: frozenset[str] = frozenset()

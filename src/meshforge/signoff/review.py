@@ -9,6 +9,7 @@ from types import MappingProxyType
 
 import numpy as np
 
+from meshforge.geometry import Floats
 from meshforge.label_model import FamilyModel
 from meshforge.language import show
 from meshforge.signoff.assessment import BAR, Assessment, AssetConfidence, Doubt
@@ -31,10 +32,15 @@ from meshforge.synthesis import (
     Found,
     LearningOutcome,
     NeedsRepair,
+    NoProgram,
+    OrientationSuggestion,
     choose_first_demonstration,
 )
 
 _NO_ALARMS: Mapping[str, Sequence[str]] = MappingProxyType({})
+_TRUST = 2  # the power of the probability that labels on an asset are right, with which what is said there counts
+_LEAST_TRUST = 0.7  # below this nothing is asked there about readings
+_SUGGESTION_RIGHT = 0.5  # the share of held assets that an orientation which is suggested makes right
 _MOST_SPLITS = 40  # assets on which readings are told apart, those where they differ most
 
 
@@ -50,17 +56,17 @@ def review_family(
     outcome: what was learned from all that the state holds, None before anything was shown; family: its meshes, in
     their order; alarms: sentences on results that stand out, by asset.
     """
+    looked_at = frozenset([*state.demos, *state.accepted, *state.mended])
     if not isinstance(outcome, Found | Ambiguous):
         unknown = {name: AssetConfidence(name, 0.0, (_doubt_of(outcome),)) for name in state.meshes}
-        return Assessment(unknown, bar, aside=state.aside, question=_question_before(state, outcome))
+        return Assessment(unknown, bar, looked_at, state.aside, _question_before(state, outcome))
     posterior = family.infer([hull.annotation for mesh in state.meshes.values() for hull in mesh.hulls])
     trial = FamilyTrial.of(state, outcome.program, outcome.readings, posterior, alarms)
     assets = {one.asset: trial.confidence_of(place) for place, one in enumerate(trial.trials)}
-    looked_at = frozenset(state.demos) | frozenset(state.accepted)
     found = Assessment(assets, bar, looked_at, state.aside)
     if found.is_done:
         return found
-    return Assessment(assets, bar, looked_at, state.aside, _choose(_questions(trial, found), state))
+    return Assessment(assets, bar, looked_at, state.aside, _choose(_questions(trial, found, outcome.suggested), state))
 
 
 def _doubt_of(outcome: LearningOutcome | None) -> Doubt:
@@ -92,15 +98,36 @@ def _question_before(state: ReviewState, outcome: LearningOutcome | None) -> Rev
             )
             if question.id not in state.later:
                 return question
+    if isinstance(outcome, NoProgram):
+        if outcome.suggested:
+            question = _ask_orientation(outcome.suggested, state, everyone)
+            if question.id not in state.later:
+                return question
+        asset = outcome.nearest.asset
+        return _ask_demonstration(state, asset, everyone, f"Nothing fits what was shown on {{}}: {outcome.why}.")
     return None
 
 
-def _questions(family: FamilyTrial, found: Assessment) -> Iterator[ReviewQuestion]:
+def _ask_orientation(suggested: OrientationSuggestion, state: ReviewState, gain: float) -> ReviewQuestion:
+    text = f"Are assets to be turned first, by {show(suggested.orient)}? {suggested.why}."
+    choices = [ReviewChoice("yes", orient=suggested.orient), ReviewChoice("no")]
+    return _make(
+        "orientation", text, YES_OR_NO, gain, next(iter([*suggested.differs_on, *state.meshes])), None, (), choices
+    )
+
+
+def _questions(
+    family: FamilyTrial, found: Assessment, suggested: OrientationSuggestion | None
+) -> Iterator[ReviewQuestion]:
     held = set(found.held)
     open_assets = [place for place, one in enumerate(family.trials) if one.asset in held]
     yield from (_ask_group(family, group) for group in find_groups(family, open_assets))
     yield from _ask_readings(family, found)
     yield from _ask_results(family, found)
+    if suggested:
+        yield _ask_orientation(
+            suggested, family.state, _SUGGESTION_RIGHT * len(held.intersection(suggested.differs_on))
+        )
 
 
 def _choose(questions: Iterator[ReviewQuestion], state: ReviewState) -> ReviewQuestion | None:
@@ -125,11 +152,17 @@ def _ask_group(family: FamilyTrial, group: HullGroup) -> ReviewQuestion:
 def _ask_readings(family: FamilyTrial, found: Assessment) -> Iterator[ReviewQuestion]:
     names = list(found.assets)
     known = {(answer.rule, answer.asset) for answer in family.state.answers}
-    settled = set(family.state.demos) | set(family.state.accepted) | set(family.state.aside)
+    settled = {*found.looked_at, *found.aside}
     for rule in family.readings:
         doubt = 1 - rule.agreement
         places = [k for k in np.argsort(-doubt, kind="stable").tolist() if doubt[k] > 0 and names[k] not in settled]
-        open_places = [k for k in places if (rule.rule, names[k]) not in known and not family.trials[k].error]
+        open_places = [
+            k
+            for k in places
+            if (rule.rule, names[k]) not in known
+            and not family.trials[k].error
+            and family.evidence[k].labels >= _LEAST_TRUST
+        ]
         for split in split_readings(rule, open_places[:_MOST_SPLITS]):
             yield _ask_reading(family, rule.rule, split)
 
@@ -140,14 +173,24 @@ def _ask_reading(family: FamilyTrial, rule: int, split: ReadingSplit) -> ReviewQ
     for head in split.heads:
         selected = trial.names(rule, family.select(known, head, split.asset))
         choices.append(ReviewChoice(show(known.extractors[head]), select=selected))
-    gain = 0.0
-    for place, evidence in enumerate(family.evidence):
-        agreement = known.agreement[place]
-        better = min(1.0, evidence.readings * (agreement + split.gains[place]) / max(agreement, 1e-9))
-        gain += evidence.with_readings(better).probability - evidence.probability
+    gain = float(_gains_of(family, [split]).sum()) * family.evidence[split.asset].labels ** _TRUST
     kind: QuestionKind = "label" if trial.asset in family.foreign else "reading"
     text = f"What does rule {rule} mean on {trial.asset}?"
     return _make(kind, text, READING, gain, trial.asset, rule, (), choices)
+
+
+def _gains_of(family: FamilyTrial, splits: Sequence[ReadingSplit]) -> Floats:
+    """By how much more probable each edit is right (assets,) when some rules are told apart."""
+    shares = np.ones(len(family.trials))
+    for split in splits:
+        agreement = family.readings[split.rule - 1].agreement
+        shares *= np.minimum(1.0, agreement + split.gains) / np.maximum(agreement, 1e-9)
+    return np.array(
+        [
+            one.with_readings(min(1.0, one.readings * share)).probability - one.probability
+            for one, share in zip(family.evidence, shares.tolist(), strict=True)
+        ]
+    )
 
 
 def _ask_results(family: FamilyTrial, found: Assessment) -> Iterator[ReviewQuestion]:
@@ -156,9 +199,14 @@ def _ask_results(family: FamilyTrial, found: Assessment) -> Iterator[ReviewQuest
     for name in found.held:
         doubt = 1 - found.assets[name].probability
         text = f"Is the result of {name} right?"
-        trial = family.trials[family.places[name]]
+        place = family.places[name]
+        trial, trust = family.trials[place], family.evidence[place].labels ** _TRUST
+        splits = [split for rule in family.readings for split in split_readings(rule, [place])]
+        others = _gains_of(family, splits)
+        others[place] = 0.0
+        gain = doubt + float(others.sum()) * trust
         bound = [f"{bits:x}" for bits in trial.selections]
-        yield _make("result", text, YES_OR_NO + doubt * mend, doubt, name, None, (), choices, bound)
+        yield _make("result", text, YES_OR_NO + doubt * mend, gain, name, None, (), choices, bound)
 
 
 def _ask_demonstration(state: ReviewState, asset: str, gain: float, text: str) -> ReviewQuestion:

@@ -110,7 +110,7 @@ def _turns(mesh: SymbolicMesh, hull: str, to: str, orient: Orient | None) -> boo
     if before is None or after is None:
         return before is not after
     cosine = (float(np.trace(before.T @ after)) - 1) / 2
-    return cosine < _SAME_FRAME
+    return bool(cosine < _SAME_FRAME)
 
 
 def _frame_of(mesh: SymbolicMesh, orient: Orient) -> Floats | None:

@@ -19,6 +19,7 @@ from meshforge.synthesis.paper.search import HitWithCorrections
 from meshforge.synthesis.questions import LabelCorrection, Repair
 from meshforge.synthesis.repair import candidates as candidate_search
 from meshforge.synthesis.repair.candidates import NO_EXTRACTOR_COST, Candidate, key_cost, total_chance
+from meshforge.synthesis.repair.landmarks import LandmarkCorrectionSearch, proposal_cost
 from meshforge.synthesis.repair.relabelings import Variants, enumerate_relabelings
 from meshforge.synthesis.search.smallest import Hit, Miss
 from meshforge.synthesis.search.terms import order_key
@@ -83,6 +84,20 @@ class RepairCollector:
         why = describe_effect(explained.extractor, len(explained.corrections) == 1)
         self._found.update({correction: Repair(correction, rule, 1.0, why) for correction in explained.corrections})
         return explained.corrections
+
+    def find_landmark_corrections(self, learned: Sequence[Extractor], failed: bool) -> bool:
+        """Whether landmarks' labels explain better what was shown; if so, their corrections take the place of all.
+
+        learned: the extractors of the rules; failed: whether the rule after them has none. Raises OutOfTime.
+        """
+        if not self._task.options.repair or self._task.options.strategy == "paper" or not self._task.frame.orient:
+            return False
+        spent = proposal_cost(self._beliefs, self._task, self.repairs)
+        search = LandmarkCorrectionSearch(self._task, self._beliefs, self._budget, learned, failed, spent)
+        repairs = search.run()
+        if repairs:
+            self._found = {repair.correction: repair for repair in repairs}
+        return bool(repairs)
 
     @cached_property
     def _beliefs(self) -> LabelBeliefs:
