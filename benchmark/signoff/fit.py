@@ -95,7 +95,8 @@ def fit(folder: Path, tell: Tell) -> None:
     tell(f"category left out: {calibrate(pairs)}")
     weights = fit_weights(list(rows.values()))
     data: dict[str, Any] = {"about": "made by `python -m benchmark.signoff fit FOLDER`"}
-    data["weights"] = {name: round(float(one), 3) for name, one in zip(confidence.FEATURES, weights, strict=True)}
+    fitted = {name: round(float(one), 3) for name, one in zip(confidence.FEATURES, weights, strict=True)}
+    data["weights"] = fitted | confidence.BY_HAND
     write_atomically(Path(confidence.__file__).parent / confidence.WEIGHTS_FILE, json.dumps(data, indent=1) + "\n")
     tell(str(data["weights"]))
 

@@ -17,6 +17,8 @@ FEATURES = ("always", "readings and labels", "labels not demonstrated", "unlike 
 """What the probability depends on."""
 LEAST, MOST = 0.0005, 0.9995
 """Bounds of what readings and labels say."""
+BY_HAND = {"unlike the rest": -1.0, "alarms": -1.5}
+"""Weights that are chosen, not fitted: calibration families hardly have such assets."""
 NO_EDIT = 0.01
 """The probability of an edit that cannot be made."""
 

@@ -23,7 +23,7 @@ from meshforge.synthesis import Reading
 SURE_OF_DEMONSTRATED = 0.999
 _WORTH_TELLING = 0.01  # the probability that an edit is wrong for one reason, from which on it is told
 _MOST_DOUBTS = 6
-_UNLIKE = 1.0  # what is so much farther than usual, as a logarithm, is unlike the rest
+_UNLIKE = 1.5  # what is so much farther than usual, as a logarithm, is unlike the rest
 
 
 @dataclass(frozen=True, eq=False)
@@ -87,7 +87,7 @@ class FamilyTrial:
     @cached_property
     def _unlikeness(self) -> Floats:
         """How much farther than usual the strangest hull of each asset is from all hulls of other assets of which
-        something is said, as a logarithm (assets,)."""
+        something is said, as a logarithm, above what may be (assets,)."""
         table, known = self.posterior.table, self.posterior.seen.known
         _, apart = table.find_lookalikes(()).nearest(known, 1, 1)
         nearest = apart[:, 0]
@@ -95,7 +95,7 @@ class FamilyTrial:
         found = np.zeros(len(self.trials))
         for place, span in table.spans.items():
             worst = float(nearest[span].max(initial=0.0))
-            found[place] = np.log(max(worst / max(usual, 1e-9), 1.0)) if np.isfinite(worst) else 0.0
+            found[place] = max(0.0, np.log(worst / max(usual, 1e-9)) - _UNLIKE) if 0 < worst < np.inf else 0.0
         return found
 
     def confidence_of(self, place: int) -> AssetConfidence:
@@ -161,7 +161,7 @@ class FamilyTrial:
         plain = replace(evidence, unlike=0.0, alarms=0.0).probability
         share = plain - evidence.probability
         found = [Doubt("alarm", text, share=share) for text in self.alarms.get(trial.asset, ())]
-        if evidence.unlike > _UNLIKE and share >= _WORTH_TELLING:
+        if evidence.unlike > 0 and share >= _WORTH_TELLING:
             found.append(Doubt("unlike", "unlike the rest: no other asset has such hulls", share=share))
         return found
 
