@@ -38,6 +38,7 @@ from meshforge.batch.preparation.storage import (
     write_preparation,
 )
 from meshforge.batch.provenance import (
+    OutputInputs,
     Stamp,
     asset_digests,
     file_digest,
@@ -103,6 +104,7 @@ __all__ = [
     "Failed",
     "LabelStatus",
     "MeshReader",
+    "OutputInputs",
     "Preparation",
     "Replacement",
     "ReportAsset",

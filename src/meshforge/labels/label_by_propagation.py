@@ -84,7 +84,7 @@ def compare_family(
     with stage(len(doubtful), "looking at other sides") as advance:
         places = {asset: place for place, asset in enumerate(assets)}
         sides = _collect_sides(cache.describe_sides(doubtful, advance), places, lost)
-        table = correct_upright(table, said.given, sides)
+        table = correct_upright(table, said, sides)
     return FamilyComparison(assets, _compute_isolated(table, said, execution.stop), lost)
 
 
@@ -96,7 +96,7 @@ def _find_doubtful(
     stop: Callable[[], bool] | None,
 ) -> Iterator[tuple[str, tuple[int, ...]]]:
     """The assets that may lie on another side, and on which."""
-    for place, sides in find_doubtful_sides(table, said.given, lambda place: cache.read_sides(assets[place])):
+    for place, sides in find_doubtful_sides(table, said, lambda place: cache.read_sides(assets[place])):
         raise_if_stopped(stop)
         if sides:
             yield assets[place], sides
