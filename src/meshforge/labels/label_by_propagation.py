@@ -19,7 +19,7 @@ from meshforge.label_model import (
     reference_label,
 )
 from meshforge.labels.descriptor_cache import DescriptorCache
-from meshforge.labels.merge import LabelOutcome, LabelWriter, OutcomeCallback, can_replace_less_certain
+from meshforge.labels.merge import LabelOutcome, LabelWriter, OutcomeCallback, can_replace_less_certain, infer_over
 from meshforge.labels.summary import LabelEvidence, Proposals, group_evidence
 from meshforge.store import AssetFacts, Store, survey
 from meshforge.symbolic import Label, LabelFile, match_labels
@@ -166,7 +166,8 @@ def propose_propagated(
     for asset in (asset for asset in store.assets() if asset not in findings.lost):
         hulls, given = findings.hulls[asset], findings.labels_of(asset)
         current = match_labels(store.labels(asset), hulls).labels
-        taken = {name: label for name, label in given.items() if is_replaced(current.get(name), label)}
+        over = {name: infer_over(current.get(name), label) for name, label in given.items()}
+        taken = {name: label for name, label in over.items() if is_replaced(current.get(name), label)}
         found += [LabelEvidence(asset, label, "likeness", name) for name, label in taken.items()]
         labelled += len(hulls) - len(taken)
     return group_evidence(found, words, labelled, findings.lost.values())

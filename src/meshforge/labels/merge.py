@@ -9,9 +9,10 @@ from dataclasses import dataclass, replace
 from meshforge import symbolic
 from meshforge.common import AssetError, ProjectError, file_state, join_names, nearest_name
 from meshforge.geometry import Shape, digest, overlap_volume
+from meshforge.label_model import evidence_of
 from meshforge.rendering import UNSURE
 from meshforge.store import Store, hull_digests
-from meshforge.symbolic import HUMAN_SOURCES, Label, SymbolicMesh
+from meshforge.symbolic import HUMAN_SOURCES, INFERRED_SOURCES, Label, SymbolicMesh
 
 ReplacePolicy = Callable[[Label | None, Label], bool]
 """Whether a label, or none, may be replaced by a given one at all; what people said stays in any case."""
@@ -71,7 +72,7 @@ def merge_labels(
     hulls: the names of all; current: the labels that there are, by hull.
     """
     taken, same, kept, problems = dict[str, Label](), 0, 0, list[str]()
-    for name, label in given.items():
+    for name, label in ((name, infer_over(current.get(name), label)) for name, label in given.items()):
         if problem := _problem(name, label, hulls, vocabulary):
             problems.append(problem)
         elif current.get(name) == label:
@@ -88,6 +89,11 @@ def merge_labels(
 def is_protected(current: Label | None, given: Label) -> bool:
     """Whether a label stays though another one is given: a machine's does not take the place of a person's."""
     return current is not None and current.source in HUMAN_SOURCES and given.source not in HUMAN_SOURCES
+
+
+def infer_over(current: Label | None, given: Label) -> Label:
+    """A given label; one that was inferred with what was said of its hull before that."""
+    return replace(given, given=evidence_of(current)) if given.source in INFERRED_SOURCES else given
 
 
 def _problem(name: str, label: Label, hulls: Collection[str], vocabulary: Sequence[str]) -> str | None:
@@ -219,4 +225,4 @@ def _label_by_overlap(hull: symbolic.Hull, gone: Mapping[str, Shape], labels: Ma
         return None
     heir = labels[max((n for n in gone if labels[n].name == best), key=lambda n: common[n])]
     certain = shares[best] >= _WHOLE_OVERLAP
-    return heir if certain else Label(best, heir.confidence * min(shares[best], 1.0), "propagated")
+    return heir if certain else replace(heir, confidence=heir.confidence * min(shares[best], 1.0), source="propagated")
