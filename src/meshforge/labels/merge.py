@@ -82,8 +82,15 @@ def merge_labels(
         else:
             taken[name] = label
     labels = {**current, **taken}
+    outcome = _summarize(asset, hulls, labels, taken=len(taken), same=same)
+    return labels, replace(outcome, kept=kept, problems=tuple(problems))
+
+
+def _summarize(
+    asset: str, hulls: Collection[str], labels: Mapping[str, Label], *, taken: int, same: int
+) -> LabelOutcome:
     unsure = sum(label.confidence < UNSURE for label in labels.values())
-    return labels, LabelOutcome(asset, len(taken), same, kept, len(hulls) - len(labels), unsure, tuple(problems))
+    return LabelOutcome(asset, taken, same, unlabelled=len(hulls) - len(labels), unsure=unsure)
 
 
 def is_protected(current: Label | None, given: Label) -> bool:
@@ -152,6 +159,21 @@ class LabelWriter:
             if report.taken:
                 self._store.write_labels(asset, hulls, labels, self.vocabulary)
         return report
+
+    def remove_inferred(self, asset: str, hulls: Mapping[str, str]) -> tuple[dict[str, Label], LabelOutcome]:
+        """Put back what was said before labels were inferred; give these, and what became of the asset.
+
+        hulls: digests by name, in order. Raises AssetError where the present labels cannot be read.
+        """
+        with self._store.lock():
+            current = symbolic.match_labels(self._store.labels(asset), hulls).labels
+            inferred = {name: label for name, label in current.items() if label.source in INFERRED_SOURCES}
+            said = {name: evidence_of(label) for name, label in current.items()}
+            labels = {name: label for name, label in said.items() if label}
+            if inferred:
+                self._store.write_labels(asset, hulls, labels, self.vocabulary)
+        taken = sum(label.given is not None for label in inferred.values())
+        return inferred, _summarize(asset, hulls, labels, taken=taken, same=len(current) - len(inferred))
 
 
 def ignore_report(report: LabelOutcome) -> None:
