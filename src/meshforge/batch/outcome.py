@@ -9,7 +9,7 @@ from typing import Any, Literal, assert_never
 
 from meshforge.common import pluralize
 
-StatusWord = Literal["edited", "unchanged", "failed", "skipped"]
+StatusWord = Literal["edited", "unchanged", "failed", "skipped", "held"]
 
 MOST_SHOWN = 120
 """Outcomes of either kind that are kept for a report."""
@@ -68,11 +68,23 @@ class Failed:
     seconds: float
 
 
-AssetOutcome = Edited | Unchanged | Failed | Skipped
+@dataclass(frozen=True, slots=True)
+class Held:
+    """The asset was held back: its edit is less sure than was asked for. probability: of its edit; why: one sentence;
+    is_written: whether an output of an earlier run is there, which stays as it is."""
+
+    asset: str
+    probability: float
+    why: str
+    is_written: bool = False
+    seconds: float = 0.0
+
+
+AssetOutcome = Edited | Unchanged | Failed | Skipped | Held
 
 
 def status_of(outcome: AssetOutcome) -> StatusWord:
-    """The word for an outcome: `edited`, `unchanged`, `failed` or `skipped`."""
+    """The word for an outcome: `edited`, `unchanged`, `failed`, `skipped` or `held`."""
     match outcome:
         case Edited():
             return "edited"
@@ -82,14 +94,17 @@ def status_of(outcome: AssetOutcome) -> StatusWord:
             return "skipped"
         case Failed():
             return "failed"
+        case Held():
+            return "held"
         case _:
             assert_never(outcome)
 
 
 def to_json_line(outcome: AssetOutcome) -> dict[str, Any]:
     """The line of `apply --json` for an outcome; what a failed asset has not is null or empty."""
-    ran = None if isinstance(outcome, Failed) else outcome
-    return {
+    ran = None if isinstance(outcome, Failed | Held) else outcome
+    held = {"probability": outcome.probability, "why": outcome.why} if isinstance(outcome, Held) else {}
+    return held | {
         "asset": outcome.asset,
         "status": status_of(outcome),
         "out": ran.out if ran else None,
@@ -106,13 +121,15 @@ def _rule_to_json(line: RuleEffect) -> dict[str, Any]:
 
 @dataclass(eq=False, slots=True)
 class RunSummary:
-    """counts: by status; before, after: hulls of all that ran; failed, ran: the first outcomes of either kind."""
+    """counts: by status; before, after: hulls of all that ran; failed, ran: the first outcomes of either kind;
+    held: those that were held back."""
 
     counts: Counter[StatusWord] = field(default_factory=Counter)
     before: int = 0
     after: int = 0
     failed: list[Failed] = field(default_factory=list)
     ran: list[Edited | Unchanged | Skipped] = field(default_factory=list)
+    held: list[Held] = field(default_factory=list)
 
     def add(self, outcome: AssetOutcome) -> None:
         """Count one more."""
@@ -120,6 +137,9 @@ class RunSummary:
         if isinstance(outcome, Failed):
             if len(self.failed) < MOST_SHOWN:
                 self.failed.append(outcome)
+            return
+        if isinstance(outcome, Held):
+            self.held.append(outcome)
             return
         self.before += outcome.before
         self.after += outcome.after

@@ -24,6 +24,8 @@ _AT_LEAST = 0.1  # what a hull counts whose label is certain; one about which no
 
 _DIGITS = 3
 _FREE_ODDS = 2.5  # odds of what was said from which on another label must be surer [nats]
+_ALIKE = 0.6  # probability of each of two labels on hulls called the other, together, from which they look alike
+_BOTH = 0.1  # of the meshes that have the rarer of them, those that may have both
 _REMEMBERED = 2000  # meshes whose other sides are not described again
 
 
@@ -87,6 +89,24 @@ class FamilyPosterior:
         if code != NO_LABEL and math.log(chance / max(float(self.chances[hull, code]), 1e-12)) < self.margin:
             return given or said
         return Label(self.seen.labels[best], round(chance, _DIGITS), "consensus", given)
+
+    def find_alike_labels(self) -> tuple[tuple[str, str], ...]:
+        """Pairs of labels that may be two names of one part: others take hulls of one for the other, and hardly any
+        mesh has both."""
+        known, count = np.flatnonzero(self.seen.known), len(self.seen.labels)
+        codes, owner = self.seen.codes[known], self.table.owner[known]
+        taken = np.zeros((count, count))
+        for code in range(count):
+            taken[code] = self.by_others[known[codes == code]].mean(axis=0)
+        _, mesh = np.unique(owner, return_inverse=True)
+        has = np.zeros((int(mesh.max(initial=-1)) + 1, count))
+        has[mesh, codes] = 1.0
+        fewer = np.minimum.outer(has.sum(axis=0), has.sum(axis=0))
+        is_alike = (taken + taken.T > _ALIKE) & (has.T @ has <= _BOTH * fewer) & (fewer > 1)
+        return tuple(
+            (self.seen.labels[one], self.seen.labels[other])
+            for one, other in np.argwhere(np.triu(is_alike, 1)).tolist()
+        )
 
     def next_to_label(self, count: int = 1) -> list[int]:
         """The meshes to label next, the best first; those whose hulls all have given labels are not among them."""

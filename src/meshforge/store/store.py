@@ -140,7 +140,7 @@ class Store:
         vocabulary: Sequence[str],
         away: Collection[str] = (),
     ) -> None:
-        """Write the labels of an asset, under the lock that the caller holds.
+        """Write the labels of an asset, under the lock that the caller holds; without any label its file is removed.
 
         Labels of hulls that are gone stay in the file, since hulls may come back. hulls: the digests of all, by name,
         in order; away: names of hulls that are gone whose labels do not stay.
@@ -152,7 +152,10 @@ class Store:
             new["hulls"] |= {name: old["hulls"][name] for name in gone}
             new["vocabulary"] = list(dict.fromkeys([*new["vocabulary"], *old.get("vocabulary", [])]))
             text = json.dumps(new, ensure_ascii=False, indent=2) + "\n"
-        write_atomically(path, text)
+        if present or gone:
+            write_atomically(path, text)
+        else:
+            path.unlink(missing_ok=True)
 
     # Demonstrations, and edits by hand
 

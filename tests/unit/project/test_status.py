@@ -316,6 +316,10 @@ def test_the_status_is_plain_data_for_scripts(tmp_path: Path) -> None:
         "error": None,
         "flags": [],
         "review": None,
+        "sign_off": "unknown",
+        "void": [],
+        "probability": None,
+        "doubts": [],
     }
     assert data["next"]["command"].startswith("meshforge check")
 

@@ -9,6 +9,7 @@ import pytest
 from meshforge.label_model import model_family
 from meshforge.language import Delete, Program
 from meshforge.signoff import (
+    BAR,
     Assessment,
     HullPlace,
     Reply,
@@ -20,7 +21,7 @@ from meshforge.signoff import (
     review_family,
 )
 from meshforge.signoff.question import ASIDE, RIGHT, WRONG
-from meshforge.symbolic import Label, LabelSource, SymbolicMesh
+from meshforge.symbolic import Label, SymbolicMesh
 from meshforge.synthesis import Demonstration, LearningOutcome, Step, synthesize
 from tests.synthesis_boxes import table
 
@@ -28,10 +29,10 @@ LABELS = ("drawer", "handle", "leg", "misc", "panel")
 FRAME = Program(LABELS, None, ())
 
 
-def said(mesh: SymbolicMesh, source: LabelSource = "vlm", confidence: float = 0.9, **other: str | None) -> SymbolicMesh:
-    """A mesh whose labels come from a source, some of them others."""
+def said(mesh: SymbolicMesh, **other: str | None) -> SymbolicMesh:
+    """A mesh whose labels come from a model, some of them others."""
     labels = {hull.name: other.get(hull.name, hull.label) for hull in mesh.hulls}
-    return mesh.with_labels({name: Label(one, confidence, source) if one else None for name, one in labels.items()})
+    return mesh.with_labels({name: Label(one, 0.9, "vlm") if one else None for name, one in labels.items()})
 
 
 def tables(count: int = 6, **other: str | None) -> dict[str, SymbolicMesh]:
@@ -60,8 +61,8 @@ def learn(state: ReviewState) -> LearningOutcome | None:
     return synthesize(demos, state.meshes, None, {}, LABELS, answers=list(list_answers(state, posterior)))
 
 
-def review(state: ReviewState, **options: float) -> Assessment:
-    return review_family(state, learn(state), model_family(list(state.meshes.values())), **options)
+def review(state: ReviewState, bar: float = BAR) -> Assessment:
+    return review_family(state, learn(state), model_family(list(state.meshes.values())), bar)
 
 
 def test_before_anything_is_shown_a_demonstration_is_asked_for_and_nothing_is_sure() -> None:

@@ -60,7 +60,7 @@ def test_a_crate_that_is_called_a_leg_is_proposed_for_repair() -> None:
 def test_the_reason_says_how_the_frame_turns_and_what_becomes_of_the_rule() -> None:
     (repair,) = learn(family({"crate": "leg"}), "rack 1", "rack 2").repairs
     assert repair.belief > 0.75
-    assert repair.why.startswith("With it the orientation turns rack 1 by ")
+    assert "with it the orientation turns rack 1 by " in repair.why.lower()
     assert "rule 1 has an extractor of 2 nodes, now " in repair.why
 
 
