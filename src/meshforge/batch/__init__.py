@@ -19,7 +19,7 @@ from meshforge.batch.jobs import (
     template_folders,
 )
 from meshforge.batch.lock import hold_lock
-from meshforge.batch.outcome import AssetOutcome, Failed, RuleEffect, RunSummary, Skipped, status_of, to_json_line
+from meshforge.batch.outcome import AssetOutcome, Failed, Held, RuleEffect, RunSummary, Skipped, status_of, to_json_line
 from meshforge.batch.preparation.decompose import DecompositionResult, decompose_asset
 from meshforge.batch.preparation.record import (
     Preparation,
@@ -102,6 +102,7 @@ __all__ = [
     "EarlierExamination",
     "ExecutionOptions",
     "Failed",
+    "Held",
     "LabelStatus",
     "MeshReader",
     "OutputInputs",

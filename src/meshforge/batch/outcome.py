@@ -4,12 +4,13 @@ of a run, counted as outcomes come."""
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Any, Literal, assert_never
 
 from meshforge.common import pluralize
 
-StatusWord = Literal["edited", "unchanged", "failed", "skipped", "held"]
+StatusWord = Literal["edited", "unchanged", "failed", "skipped"]
 
 MOST_SHOWN = 120
 """Outcomes of either kind that are kept for a report."""
@@ -68,23 +69,40 @@ class Failed:
     seconds: float
 
 
+AssetOutcome = Edited | Unchanged | Failed | Skipped
+
+
 @dataclass(frozen=True, slots=True)
 class Held:
-    """The asset was held back: its edit is less sure than was asked for. probability: of its edit; why: one sentence;
-    is_written: whether an output of an earlier run is there, which stays as it is."""
+    """An asset that was held back from a run, since its edit is less sure than was asked for.
+
+    probability: that it is right; doubts: why it may not be, as JSON; why: one sentence; out: an output of an earlier
+    run, which stays as it is.
+    """
 
     asset: str
     probability: float
+    doubts: tuple[dict[str, Any], ...]
     why: str
-    is_written: bool = False
-    seconds: float = 0.0
+    out: str | None = None
 
-
-AssetOutcome = Edited | Unchanged | Failed | Skipped | Held
+    def to_json(self) -> dict[str, Any]:
+        """The line of `apply --json` for it."""
+        return {
+            "asset": self.asset,
+            "status": "held",
+            "out": self.out,
+            "error": None,
+            "rules": [],
+            "hulls": {"before": None, "after": None},
+            "seconds": 0.0,
+            "probability": round(self.probability, 4),
+            "doubts": list(self.doubts),
+        }
 
 
 def status_of(outcome: AssetOutcome) -> StatusWord:
-    """The word for an outcome: `edited`, `unchanged`, `failed`, `skipped` or `held`."""
+    """The word for an outcome: `edited`, `unchanged`, `failed` or `skipped`."""
     match outcome:
         case Edited():
             return "edited"
@@ -94,17 +112,14 @@ def status_of(outcome: AssetOutcome) -> StatusWord:
             return "skipped"
         case Failed():
             return "failed"
-        case Held():
-            return "held"
         case _:
             assert_never(outcome)
 
 
 def to_json_line(outcome: AssetOutcome) -> dict[str, Any]:
     """The line of `apply --json` for an outcome; what a failed asset has not is null or empty."""
-    ran = None if isinstance(outcome, Failed | Held) else outcome
-    held = {"probability": outcome.probability, "why": outcome.why} if isinstance(outcome, Held) else {}
-    return held | {
+    ran = None if isinstance(outcome, Failed) else outcome
+    return {
         "asset": outcome.asset,
         "status": status_of(outcome),
         "out": ran.out if ran else None,
@@ -131,15 +146,16 @@ class RunSummary:
     ran: list[Edited | Unchanged | Skipped] = field(default_factory=list)
     held: list[Held] = field(default_factory=list)
 
+    def hold(self, held: Sequence[Held]) -> None:
+        """Note what was held back."""
+        self.held = list(held)
+
     def add(self, outcome: AssetOutcome) -> None:
         """Count one more."""
         self.counts[status_of(outcome)] += 1
         if isinstance(outcome, Failed):
             if len(self.failed) < MOST_SHOWN:
                 self.failed.append(outcome)
-            return
-        if isinstance(outcome, Held):
-            self.held.append(outcome)
             return
         self.before += outcome.before
         self.after += outcome.after
@@ -158,7 +174,9 @@ class RunSummary:
 
     def __str__(self) -> str:
         counts = ", ".join(f"{n:,} {word}" for word, n in self.counts.items()) or "nothing to do"
-        text = f"{pluralize(self.total, 'asset')}: {counts}; hulls {self.before:,} -> {self.after:,}"
+        counts += f", {len(self.held):,} held" if self.held else ""
+        total = pluralize(self.total + len(self.held), "asset")
+        text = f"{total}: {counts}; hulls {self.before:,} -> {self.after:,}"
         more = self.counts["failed"] - len(self.failed[:_MOST_NAMED])
         names = [outcome.asset for outcome in self.failed[:_MOST_NAMED]]
         if self.total <= _MOST_NAMED or not names:  # they are on the screen

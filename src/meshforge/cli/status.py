@@ -56,7 +56,8 @@ def _print_status(found: Status) -> None:
 
 def _describe_sign_off(found: Status) -> str:
     """How far the family is signed off, and what is not."""
-    done, aside = (found.count(lambda asset, state=state: asset.sign_off == state) for state in ("signed off", "set aside"))
+    done = found.count(lambda asset: asset.sign_off == "signed off")
+    aside = found.count(lambda asset: asset.sign_off == "set aside")
     lines = [format_counts(done, len(found.assets), len(found.open_assets), aside, found.bar)]
     for asset in found.open_assets[:MOST_HELD]:
         if asset.void:
