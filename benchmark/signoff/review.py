@@ -128,8 +128,10 @@ _NOTES = (
     "program*: after the demonstrations that begin a session of the queue. The probabilities are of possible assets "
     "that nobody showed; the goals are about all conditions together.",
     "The person of the queue shows an asset, and another one while a rule has had nothing to do, replies to each "
-    "question by what is true, and mends a result that is wrong by showing it. Where no label is there at the start, "
-    "the hulls of a mesh that is shown are named by hand.",
+    "question by what is true, and mends a result that is wrong by hand: it then counts as it was left. Where a mesh "
+    "is turned wrongly, or no program fits what was shown on it, the person looks through its labels one by one, and "
+    "paints those that are wrong; where that does not help, the demonstration is taken back, and the asset set aside. "
+    "Where no label is there at the start, the hulls of a mesh that is shown are named by hand.",
     "What would make these figures fail: labels that are wrong alike on look-alike hulls of most assets, which no vote "
     "finds; a rule about parts that few assets have, which no demonstration shows; a criterion that a right selection "
     "does not meet, which the tool cannot know of.",
