@@ -119,9 +119,10 @@ _NOTES = (
     "that is as the reference's is neither right nor wrong. Means over people, then over tasks.",
     "*When done* counts what is right and signed off; what is held or set aside is not right.",
     "*As it was*: the tool before it had a queue, frozen in `benchmark/signoff/before.json` with the command and the "
-    "commit that made it. *Then by hand*: that person glances at all 25 results and mends each wrong one by hand. By "
-    "hand, who errs leaves hulls out and overlooks results; the people of *as it was* err in answers and confirmations "
-    "only, those of the queue in all acts, demonstrations too.",
+    "commit that made it. *Then by hand*: that person glances at all results and mends what differs in each wrong one, "
+    "at the prices at which the queue's person mends; *anew*: makes the whole edit again. By hand, who errs leaves "
+    "hulls out and overlooks results; the people of *as it was* err in answers and confirmations only, those of the "
+    "queue in all acts, demonstrations too.",
     f"Sessions are broken off after {CAP:.0f} s; their time counts as it stands then, so it is a lower bound, and what "
     "is held then is not right.",
     "*Before any question*: the task is taught as before, on the labels as the tool takes them now. *The first "
