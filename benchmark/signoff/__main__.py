@@ -2,6 +2,7 @@
 
 Usage: python -m benchmark.signoff before          writes `before.json` anew, from the tool as it is
        python -m benchmark.signoff tune FOLDER ... measures on families to tune on, and prints what it finds
+       python -m benchmark.signoff fit FOLDER      fits the weights of probabilities on them, and writes them
 """
 
 from __future__ import annotations
@@ -13,6 +14,7 @@ from pathlib import Path
 from benchmark.report import as_text
 from benchmark.signoff.before import freeze
 from benchmark.signoff.conditions import ASKED, MAKE, list_tasks
+from benchmark.signoff.fit import fit
 from benchmark.signoff.review import run, summarize
 from benchmark.study import CONDITIONS
 
@@ -27,7 +29,12 @@ def main(arguments: list[str] | None = None) -> int:
     tune.add_argument("--task", action="append", choices=list_tasks(), metavar="NAME")
     tune.add_argument("--condition", action="append", choices=[one.name for one in ASKED], metavar="NAME")
     tune.add_argument("--few", action="store_true", help="one person")
+    fitted = what.add_parser("fit", help="fit the weights of probabilities on families to tune on")
+    fitted.add_argument("folder", type=Path, help=f"where `{MAKE}` wrote them")
     given = parser.parse_args(arguments)
+    if given.what == "fit":
+        fit(given.folder.resolve(), _tell)
+        return 0
     if given.what == "before":
         freeze(_tell)
         return 0

@@ -35,7 +35,7 @@ def open_review(bench: Bench, condition: Condition, seed: int, tool: Tool | None
 
     tool: another than the product, for tests.
     """
-    judge, tool = Judge(bench), tool or Tool(condition)
+    judge, tool = Judge(bench), tool or Tool(bench, condition)
     course = Course(bench, condition, seed)
     course.desk = tool.take_labels(course.desk)
     course.session(())

@@ -6,9 +6,9 @@ from collections import Counter
 from collections.abc import Sequence
 
 from benchmark.signoff.judge import Judge
-from benchmark.signoff.ledger import Ledger, price_of_hand
+from benchmark.signoff.ledger import Ledger, price_of_hand, price_of_mend
 from benchmark.study.condition import Condition
-from benchmark.study.desk import Bench, Desk
+from benchmark.study.desk import Bench, Desk, Selections
 from benchmark.study.keystrokes import ANSWER, APPROVAL, CONFIRMATION, GLANCE, STROKE, price_group
 from benchmark.study.person import Person
 from benchmark.study.propagation import HandLabels
@@ -25,6 +25,7 @@ class Reviewer:
     def __init__(self, bench: Bench, seed: int, condition: Condition) -> None:
         self.person, self.judge, self.ledger = Person(bench.truth, seed, condition), Judge(bench), Ledger()
         self.slipped = set[str]()
+        self._looked_at = set[HullPlace]()
         self._truth = bench.truth
 
     def reply(self, question: ReviewQuestion, desk: Desk, program: Program | None) -> Reply:
@@ -70,7 +71,20 @@ class Reviewer:
         right = self.judge.looks_right(desk, program, question.asset) != self.person.errs_now()
         said = RIGHT if right else WRONG if self._truth.reference[question.asset] is not None else ASIDE
         self.ledger.add("result", GLANCE + APPROVAL)
-        return Reply(question.id, place_of(question, said))
+        place = place_of(question, said)
+        return Reply(question.id, place, mended=self._mends(desk, program, question.asset) if said == WRONG else None)
+
+    def _mends(self, desk: Desk, program: Program | None, name: str) -> Selections | None:
+        """What each rule should have selected; None where the mesh is not turned as it should be."""
+        done, wanted = desk.select(program, name) if program else None, self._truth.reference[name]
+        if wanted is None or done is None or done == wanted:
+            return None
+        self.ledger.add("mend", price_of_mend(done, wanted))
+        slips = [
+            frozenset(hull for hull in one ^ other if self.person.errs_now())
+            for one, other in zip(done, wanted, strict=True)
+        ]
+        return tuple(one ^ slip for one, slip in zip(wanted, slips, strict=True))
 
     def shows(self, desk: Desk, name: str) -> Demonstration:
         """All of an edit by hand; each hull is left out where they slip."""
@@ -92,11 +106,13 @@ class Reviewer:
         self.ledger.add_labels(HandLabels(inspected, len(labels), len({label.name for label in labels.values()})))
         return desk.with_meshes({**desk.meshes, name: desk.meshes[name].with_labels({**labels})}) if labels else desk
 
-    def finds_wrong_landmarks(self, desk: Desk, name: str) -> list[str]:
-        """The hulls of a mesh that turn it and are called something else, or are called so and are none."""
-        landmarks = frozenset[str | None](Program(orient=desk.bench.task.program.orient).labels_in_use)
-        pairs = ((hull, self._label_of(HullPlace(name, hull.name))) for hull in desk.meshes[name].hulls)
-        return [hull.name for hull, true in pairs if hull.label != true and {hull.label, true} & landmarks]
+    def looks_through(self, desk: Desk, name: str, hulls: Sequence[str]) -> Desk:
+        """The desk when some labels of a mesh were looked at, one by one, and the wrong ones painted; each once."""
+        left = [hull for hull in hulls if HullPlace(name, hull) not in self._looked_at]
+        self._looked_at.update(HullPlace(name, hull) for hull in left)
+        mesh = desk.meshes[name]
+        wrong = [hull for hull in left if mesh.hull_of(hull).label != self._label_of(HullPlace(name, hull))]
+        return self.paints(desk, name, [hull for hull in wrong if not self.person.errs_now()], len(left))
 
     def _label_of(self, place: HullPlace) -> str:
         return str(self._truth.meshes[place.asset].hull_of(place.hull).label)

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 from benchmark.study.condition import Condition
-from benchmark.study.desk import Desk, Selections
+from benchmark.study.desk import Bench, Desk, Selections
 from meshforge.language import Program
 from meshforge.signoff import (
     Assessment,
@@ -22,10 +22,10 @@ from meshforge.synthesis import Answer, Demonstration, LearningOutcome
 
 
 class Tool:
-    """As a person meets it, who reviews a family under a condition."""
+    """As a person meets it, who reviews a task's family under a condition."""
 
-    def __init__(self, condition: Condition) -> None:
-        self._options = condition.options
+    def __init__(self, bench: Bench, condition: Condition) -> None:
+        self._family, self._options = bench.relatives, condition.options
 
     def begin(
         self,
@@ -36,7 +36,6 @@ class Tool:
     ) -> ReviewState:
         """What is known of a family at the start: what was shown, answered and accepted before there was a queue."""
         frame = replace(desk.bench.task.program, rules=())
-        self._family = desk.bench.relatives
         return ReviewState(
             desk.meshes, frame, desk.bench.task.templates, demos or {}, tuple(answers), dict(accepted or {})
         )
@@ -44,7 +43,7 @@ class Tool:
     def take_labels(self, desk: Desk) -> Desk:
         """The meshes with the labels that all that is known of the family speaks for; a person's stay."""
         said = [hull.annotation for mesh in desk.meshes.values() for hull in mesh.hulls]
-        agreed = iter(desk.bench.relatives.infer(said).agree(said))
+        agreed = iter(self._family.infer(said).agree(said))
         meshes = dict(desk.meshes)
         for name, mesh in desk.meshes.items():
             found = {hull.name: next(agreed) for hull in mesh.hulls}

@@ -254,7 +254,7 @@ class MeshDescriber:
 
 def describe_mesh(mesh: SymbolicMesh) -> ShapeDescriptor:
     """The descriptor of a mesh; that of the same hulls with other labels is not made again."""
-    key = _digest(mesh)
+    key = digest_mesh(mesh)
     if key not in _described:
         remember_descriptor(mesh, MeshDescriber(mesh).describe())
     return _described[key]
@@ -264,15 +264,15 @@ def remember_descriptor(mesh: SymbolicMesh, descriptor: ShapeDescriptor) -> None
     """Have `describe_mesh` give a descriptor that was made before."""
     if len(_described) >= _REMEMBERED:
         del _described[next(iter(_described))]
-    _described[_digest(mesh)] = descriptor
+    _described[digest_mesh(mesh)] = descriptor
 
 
 _REMEMBERED = 4000  # meshes whose descriptors are kept
 _described: dict[bytes, ShapeDescriptor] = {}
 
 
-def _digest(mesh: SymbolicMesh) -> bytes:
-    """Of all that a descriptor is made from."""
+def digest_mesh(mesh: SymbolicMesh) -> bytes:
+    """Equal for meshes that are described alike: the same hulls, contact distance and upright axis."""
     found = blake2b(digest_size=16)
     found.update(f"{mesh.asset.up if mesh.asset else ''} {mesh.contact_distance!r}".encode())
     for hull in mesh.hulls:

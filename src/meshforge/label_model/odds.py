@@ -15,11 +15,14 @@ import numpy as np
 from meshforge.geometry import Floats
 from meshforge.label_model.consensus import PERSON
 from meshforge.label_model.lookalikes import PER_MESH
-from meshforge.label_model.posterior import FamilyModel, FamilyPosterior
+from meshforge.label_model.posterior import FamilyPosterior, model_family
 from meshforge.symbolic import HUMAN_SOURCES, Hull, SymbolicMesh
 
 MAX_ODDS_FOR_CORRECTION = 5.0
 """What may speak for a correction at most; look-alikes err too."""
+
+PERSON_ODDS = 1.5
+"""What speaks for a person's label besides its probability: they are there, and can be asked [nats]."""
 
 OTHERS_ON_PERSON = (2.0, 3.0)
 """What look-alikes say for or against a person's label counts so many times, and so much at most [nats]."""
@@ -29,6 +32,10 @@ NO_LABEL_COST = 1.5
 
 CORRECTION_COST = 0.5
 """A correction, besides its improbability: so those are proposed that serve."""
+
+SURE_ENOUGH = 0.2
+"""A label that is wrong with no more than this probability does not count among those that are expected to be wrong: so
+many of them add up where nothing is wrong."""
 
 SMOOTHING = 0.02
 """The share of each probability that is spread evenly over the vocabulary, so that no label is out of question."""
@@ -63,18 +70,19 @@ class LabelBeliefs:
     ) -> None:
         shown = list(demonstrated.values())
         others = {name: mesh for name, mesh in batch.items() if not any(_is_same_asset(mesh, other) for other in shown)}
-        self._meshes, self._vocabulary = {**demonstrated, **others}, tuple(vocabulary)
+        every = {**demonstrated, **others}
+        self._meshes, self._vocabulary = {name: every[name] for name in sorted(every)}, tuple(vocabulary)
         self._places = {name: place for place, name in enumerate(self._meshes)}
         self._shown = frozenset(demonstrated)
         self._known: dict[tuple[str, str], LabelOdds] = {}
 
     @cached_property
     def posterior(self) -> FamilyPosterior:
-        """Of all meshes, the demonstrated ones first."""
+        """Of all meshes, by name."""
         meshes = list(self._meshes.values())
         words = set(self._vocabulary)
         said = [hull.annotation for mesh in meshes for hull in mesh.hulls]
-        return FamilyModel(meshes).infer([label if label and label.name in words else None for label in said])
+        return model_family(meshes).infer([label if label and label.name in words else None for label in said])
 
     @cached_property
     def errors(self) -> Mapping[str, float]:
@@ -150,11 +158,14 @@ def _log_odds(hull: Hull, ratio: float, others: int) -> float:
     if not is_human(hull):
         return math.log(ratio)
     times, most = OTHERS_ON_PERSON
-    return math.log(PERSON / (1 - PERSON) * others) + min(most, max(-most, times * math.log(ratio)))
+    return math.log(PERSON / (1 - PERSON) * others) + PERSON_ODDS + min(most, max(-most, times * math.log(ratio)))
 
 
 def _error(hull: Hull, own: float) -> float:
-    return 1 - PERSON if is_human(hull) else 1 - own
+    """How much a label counts as wrong; own: its probability."""
+    if is_human(hull):
+        return 1 - PERSON
+    return max(0.0, 1 - own - SURE_ENOUGH) / (1 - SURE_ENOUGH)
 
 
 def _is_same_asset(mesh: SymbolicMesh, other: SymbolicMesh) -> bool:

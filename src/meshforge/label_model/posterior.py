@@ -12,8 +12,8 @@ from scipy.spatial.distance import cdist
 
 from meshforge.geometry import Floats, Ints
 from meshforge.label_model.consensus import infer_chances
-from meshforge.label_model.describe import SHAPE_COLUMNS, MeshDescriber, describe_mesh
-from meshforge.label_model.sides import correct_upright, find_doubtful_sides
+from meshforge.label_model.describe import SHAPE_COLUMNS, MeshDescriber, describe_mesh, digest_mesh
+from meshforge.label_model.sides import choose_sides, find_doubtful_sides
 from meshforge.label_model.table import NO_LABEL, FamilyTable, Observations, evidence_of
 from meshforge.label_model.ties import first_greatest, pick_evenly
 from meshforge.symbolic import Label, LabelSource, SymbolicMesh
@@ -146,7 +146,7 @@ class FamilyModel:
         self.table = FamilyTable.of([(one.rows, one.touching) for one in descriptors], metric)
         self._sides = [one.sides for one in descriptors]
         self._closely = lru_cache(_REMEMBERED)(lambda mesh: cache(MeshDescriber(meshes[mesh]).describe_side))
-        self._turned: dict[tuple[int, ...], FamilyTable] = {}
+        self._turned: dict[tuple[tuple[int, int], ...], FamilyTable] = {}
 
     def infer(self, labels: Sequence[Label | None]) -> FamilyPosterior:
         """What labels, one or None for each hull of all meshes, say about all hulls, these included.
@@ -163,20 +163,36 @@ class FamilyModel:
 
     def _set_upright(self, seen: Observations) -> FamilyTable:
         """The table with fallen meshes turned; the one made last is kept, with the look-alikes found in it."""
-        doubtful = [
-            (mesh, sides)
-            for mesh, sides in find_doubtful_sides(self.table, seen.given, self._sides.__getitem__)
-            if sides
-        ]
-        if not doubtful:
+        found = find_doubtful_sides(self.table, seen, self._sides.__getitem__)
+        doubtful = {mesh: sides for mesh, sides in found if sides}
+        rows = {mesh: [self._closely(mesh)(side) for side in sides] for mesh, sides in doubtful.items()}
+        chosen = choose_sides(self.table, seen, rows.items())
+        if not chosen:
             return self.table
-        key = tuple(np.flatnonzero(seen.given).tolist())
+        key = tuple((mesh, doubtful[mesh][place]) for mesh, place in chosen.items())
         if key not in self._turned:
-            closer = [(mesh, [self._closely(mesh)(side) for side in sides]) for mesh, sides in doubtful]
-            self._turned = {key: correct_upright(self.table, seen.given, closer)}
+            turned = ((self.table.spans[mesh], self.table.scale(rows[mesh][place])) for mesh, place in chosen.items())
+            self._turned = {key: self.table.turn(turned)}
         return self._turned[key]
+
+
+def model_family(meshes: Sequence[SymbolicMesh]) -> FamilyModel:
+    """The model of some meshes; that of the same hulls with other labels is not made again, of the last few families.
+
+    What it keeps of meshes holds for these, whatever their labels.
+    """
+    key = tuple(map(digest_mesh, meshes))
+    if key not in _models:
+        if len(_models) >= _FAMILIES:
+            del _models[next(iter(_models))]
+        _models[key] = FamilyModel(meshes)
+    return _models[key]
+
+
+_FAMILIES = 4  # whose models are kept
+_models: dict[tuple[bytes, ...], FamilyModel] = {}
 
 
 def infer_labels(meshes: Sequence[SymbolicMesh]) -> FamilyPosterior:
     """What the labels of some meshes say about all their hulls."""
-    return FamilyModel(meshes).infer([hull.annotation for mesh in meshes for hull in mesh.hulls])
+    return model_family(meshes).infer([hull.annotation for mesh in meshes for hull in mesh.hulls])

@@ -136,7 +136,7 @@ def _infer(
     with stage(len(doubtful), "looking at other sides") as advance:
         places = {asset: place for place, asset in enumerate(assets)}
         sides = _collect_sides(cache.describe_sides(doubtful, advance), places, lost)
-        table = correct_upright(table, said.given, sides)
+        table = correct_upright(table, said, sides)
     return _compute_isolated(table, said, stop)
 
 
@@ -148,7 +148,7 @@ def _find_doubtful(
     stop: Callable[[], bool] | None,
 ) -> Iterator[tuple[str, tuple[int, ...]]]:
     """The assets that may lie on another side, and on which."""
-    for place, sides in find_doubtful_sides(table, said.given, lambda place: cache.read_sides(assets[place])):
+    for place, sides in find_doubtful_sides(table, said, lambda place: cache.read_sides(assets[place])):
         raise_if_stopped(stop)
         if sides:
             yield assets[place], sides

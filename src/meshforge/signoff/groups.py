@@ -82,6 +82,9 @@ def _gain(family: FamilyTrial, some: Sequence[_Suspect]) -> float:
         by_mesh[one.mesh].append(one.share)
     found = 0.0
     for mesh, shares in by_mesh.items():
+        if family.trials[mesh].error:  # the labels with which it could be edited
+            found += max(shares)
+            continue
         evidence = family.evidence[mesh]
         rest = prod(max(1 - share, 1e-6) for share in shares)
         found += evidence.with_labels(min(1.0, evidence.labels / rest)).probability - evidence.probability

@@ -18,12 +18,20 @@ from benchmark.signoff.point import right_at
 from benchmark.signoff.queue import BROKEN, DONE, Review, sign_off
 from benchmark.signoff.reviewer import Reviewer
 from benchmark.signoff.tables import CURVES, list_tables
-from benchmark.signoff.tool import Tool, apply_reply, program_of
+from benchmark.signoff.tool import Tool, program_of
 from benchmark.study import FLAT, TRUE, Bench
 from benchmark.study.condition import PROPAGATED
 from benchmark.study.keystrokes import APPROVAL, GLANCE, STROKE, price_group
 from benchmark.tasks import task
-from meshforge.signoff import Assessment, AssetConfidence, HullPlace, ReviewChoice, ReviewQuestion, ReviewState
+from meshforge.signoff import (
+    Assessment,
+    AssetConfidence,
+    HullPlace,
+    ReviewChoice,
+    ReviewQuestion,
+    ReviewState,
+    apply_reply,
+)
 from meshforge.signoff.question import ASIDE, RIGHT, WRONG
 from meshforge.synthesis import LearningOutcome
 
@@ -67,7 +75,7 @@ def bench() -> Bench:
     "condition", [TRUE, PROPAGATED[1], *(pytest.param(one, marks=pytest.mark.slow) for one in (FLAT, ERRS))]
 )
 def test_time_only_goes_on_and_the_same_seed_does_the_same(bench: Bench, condition: object) -> None:
-    one, other = (sign_off(bench, condition, 1, FakeTool(condition)) for _ in range(2))  # type: ignore[arg-type]
+    one, other = (sign_off(bench, condition, 1, FakeTool(bench, condition)) for _ in range(2))  # type: ignore[arg-type]
     assert one == other == Review.of_json(json.loads(json.dumps(asdict(one))))
     seconds = [point.seconds for point in one.points]
     assert seconds == sorted(seconds)
@@ -80,7 +88,7 @@ def test_time_only_goes_on_and_the_same_seed_does_the_same(bench: Bench, conditi
 
 
 def test_each_question_is_paid_for_once(bench: Bench) -> None:
-    review = sign_off(bench, TRUE, 1, FakeTool(TRUE))
+    review = sign_off(bench, TRUE, 1, FakeTool(bench, TRUE))
     assert review.ended == DONE
     assert review.acts["group"] == 1
     first = next(iter(bench.samples.values()))
@@ -96,14 +104,14 @@ def test_each_question_is_paid_for_once(bench: Bench) -> None:
 
 
 def test_a_session_is_broken_off_at_the_cap(bench: Bench) -> None:
-    review = sign_off(bench, TRUE, 1, FakeTool(TRUE), cap=20.0)
+    review = sign_off(bench, TRUE, 1, FakeTool(bench, TRUE), cap=20.0)
     assert review.ended == BROKEN
     assert review.points[-1].held
     assert sum(review.seconds.values()) < 60
 
 
 def test_who_never_slips_signs_off_nothing_wrong_where_every_result_is_looked_at(bench: Bench) -> None:
-    review = sign_off(bench, FLAT, 2, FakeTool(FLAT), cap=10_000.0)
+    review = sign_off(bench, FLAT, 2, FakeTool(bench, FLAT), cap=10_000.0)
     assert review.wrong == []
     assert review.points[-1].held == 0
 
@@ -137,12 +145,12 @@ def test_each_exception_of_a_group_is_named_and_paid_for(bench: Bench) -> None:
     reply = reviewer.reply(question, bench.truth, None)
     assert (reply.choice, reply.exceptions) == (0, {HullPlace(name, other): labels[1]})
     assert reviewer.ledger.total == pytest.approx(price_group(len(hulls), 1) + STROKE)
-    state = apply_reply(FakeTool(TRUE).begin(bench.truth), question, reply)
+    state = apply_reply(FakeTool(bench, TRUE).begin(bench.truth), question, reply)
     assert all(state.meshes[name].hull_of(hull.hull).source == "user" for hull in hulls)
 
 
 def test_before_any_question_all_that_nobody_showed_has_a_probability(bench: Bench) -> None:
-    opening = open_review(bench, TRUE, 1, FakeTool(TRUE))
+    opening = open_review(bench, TRUE, 1, FakeTool(bench, TRUE))
     assert opening.right == opening.possible
     assert 0 < len(opening.pairs) < opening.possible
     assert Opening.of_json(json.loads(json.dumps(asdict(opening)))) == opening
@@ -168,8 +176,8 @@ def test_few_in_a_bin_are_judged_with_the_next() -> None:
 
 
 def test_one_page_tells_all_conditions_and_who_is_sooner(bench: Bench) -> None:
-    reviews = [sign_off(bench, TRUE, 1, FakeTool(TRUE))]
-    groups = group([TRUE.name, FLAT.name], reviews, [open_review(bench, TRUE, 1, FakeTool(TRUE))], [])
+    reviews = [sign_off(bench, TRUE, 1, FakeTool(bench, TRUE))]
+    groups = group([TRUE.name, FLAT.name], reviews, [open_review(bench, TRUE, 1, FakeTool(bench, TRUE))], [])
     assert [one.condition for one in groups] == [TRUE.name]
     tables = list_tables(groups)
     assert all(len(row) == len(table.columns) for table in tables for row in table.rows)

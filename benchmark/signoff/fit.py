@@ -1,0 +1,119 @@
+"""The weights of the probability that an edit is right, fitted on sessions of families to tune on."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Sequence
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+from scipy.optimize import minimize
+
+from benchmark.journal import run_units
+from benchmark.report import Tell
+from benchmark.signoff.calibration import calibrate
+from benchmark.signoff.conditions import open_family
+from benchmark.signoff.queue import ReviewCourse
+from benchmark.signoff.tool import Tool
+from benchmark.study import CONDITIONS, FLAT, TRUE
+from benchmark.study.condition import PROPAGATED, SYSTEMATIC, Condition
+from benchmark.study.desk import Bench
+from benchmark.tasks import task, tasks
+from meshforge.common import write_atomically
+from meshforge.geometry import Floats
+from meshforge.signoff import Assessment, ReviewState, confidence
+from meshforge.signoff.family import FamilyTrial
+from meshforge.synthesis import Ambiguous, Found, LearningOutcome
+
+LABELS = (FLAT, TRUE, SYSTEMATIC, PROPAGATED[2])
+"""Under which the sessions are."""
+SEED = 1
+_CAP = 90.0  # seconds of a person, after which a session says nothing new
+_STRAY = 1e-3  # cost of the squares of the weights
+_SIGNS = (0, 1, -1, -1, -1)  # of the weights: what speaks for an edit never speaks against it
+
+
+class _Observer(Tool):
+    """A tool that keeps what speaks for each edit that it judges."""
+
+    def __init__(self, bench: Bench, condition: Condition) -> None:
+        super().__init__(bench, condition)
+        self.trial: FamilyTrial | None = None
+
+    def review(self, state: ReviewState, outcome: LearningOutcome | None) -> Assessment:
+        self.trial = None
+        if isinstance(outcome, Found | Ambiguous):
+            said = [hull.annotation for mesh in state.meshes.values() for hull in mesh.hulls]
+            posterior = self._family.infer(said)
+            self.trial = FamilyTrial.of(state, outcome.program, outcome.readings, posterior, {})
+        return super().review(state, outcome)
+
+
+class _ObservedCourse(ReviewCourse):
+    """A session of which each judgement is kept: features, and whether the edit is right."""
+
+    rows: list[list[float]]
+
+    def _note(self, assessment: Assessment) -> None:
+        super()._note(assessment)
+        tool = self.tool
+        assert isinstance(tool, _Observer)
+        if tool.trial is None:
+            return
+        for one, evidence in zip(tool.trial.trials, tool.trial.evidence, strict=True):
+            if not one.error and one.asset in self.judge.possible and one.asset not in assessment.looked_at:
+                self.rows.append([*evidence.features.tolist(), float(self._is_right(one.asset))])
+
+
+def observe(name: str, condition: str, folder: str) -> list[list[float]]:
+    """The rows of one session."""
+    one = CONDITIONS[condition]
+    bench = open_family(name, one.setting(SEED), folder)
+    course = _ObservedCourse(bench, one, SEED, _Observer(bench, one))
+    course.rows = []
+    course.run(_CAP)
+    return course.rows
+
+
+def fit(folder: Path, tell: Tell) -> None:
+    """Fit the weights on all tasks, say how good they are on categories left out, and write them where they ship."""
+    units = [(one.name, condition.name, str(folder)) for one in tasks() for condition in LABELS]
+    found = run_units("signoff-fit", observe, units, tell)
+    rows = {unit[0]: np.zeros((0, len(_SIGNS) + 1)) for unit in units}
+    for unit, some in zip(units, found, strict=True):
+        rows[unit[0]] = np.concatenate([rows[unit[0]], np.array(some).reshape(-1, len(_SIGNS) + 1)])
+    categories = sorted({task(name).category for name in rows})
+    pairs = list[tuple[float, bool]]()
+    for left in categories:
+        weights = fit_weights([some for name, some in rows.items() if task(name).category != left])
+        for some in (some for name, some in rows.items() if task(name).category == left):
+            shares = 1 / (1 + np.exp(-(some[:, :-1] @ weights)))
+            pairs += list(zip(shares.tolist(), (some[:, -1] > 0).tolist(), strict=True))
+    tell(f"category left out: {calibrate(pairs)}")
+    weights = fit_weights(list(rows.values()))
+    data: dict[str, Any] = {"about": "made by `python -m benchmark.signoff fit FOLDER`"}
+    fitted = {name: round(float(one), 3) for name, one in zip(confidence.FEATURES, weights, strict=True)}
+    data["weights"] = fitted | confidence.BY_HAND
+    write_atomically(Path(confidence.__file__).parent / confidence.WEIGHTS_FILE, json.dumps(data, indent=1) + "\n")
+    tell(str(data["weights"]))
+
+
+def fit_weights(tables: Sequence[npt.NDArray[np.float64]]) -> Floats:
+    """Logistic regression on rows of features and whether the edit is right, each task counting alike."""
+    parts = [(rows[:, :-1], rows[:, -1], 1 / len(rows)) for rows in tables if len(rows)]
+    low = [0.0 if sign > 0 else None for sign in _SIGNS]
+    high = [0.0 if sign < 0 else None for sign in _SIGNS]
+    start = np.array([0.0, 1.0, 0.0, 0.0, 0.0])
+    return np.array(minimize(partial(_loss, parts), start, bounds=list(zip(low, high, strict=True)), jac=True).x)
+
+
+def _loss(parts: Sequence[tuple[Floats, Floats, float]], weights: Floats) -> tuple[float, Floats]:
+    total, slope = _STRAY * float(weights @ weights), 2 * _STRAY * weights
+    for some, right, worth in parts:
+        scores = some @ weights
+        total += worth * float((np.logaddexp(0.0, scores) - right * scores).sum()) / len(parts)
+        slope = slope + worth * some.T @ (1 / (1 + np.exp(-scores)) - right) / len(parts)
+    return total, slope
