@@ -17,7 +17,7 @@ from benchmark.journal import ROOT, run_units
 from benchmark.report import Tell
 from benchmark.signoff.conditions import ASKED, ON_REAL, list_benches, list_real_tasks, list_tasks
 from benchmark.signoff.judge import Judge
-from benchmark.signoff.ledger import price_of_hand
+from benchmark.signoff.ledger import price_of_hand, price_of_mend
 from benchmark.signoff.point import Point
 from benchmark.study import CONDITIONS, Condition
 from benchmark.study.course import Course
@@ -35,7 +35,8 @@ class Before:
     """One session. assets, possible: of the family, and those that the reference gets right under true labels;
     reference: those that it gets right under the labels that the person got in the end;
     points: after each round of learning, and at the end; settled: whether the tool said so, and the person accepted;
-    brute: the end of the person who goes on by hand."""
+    brute: the end of the person who goes on by hand, and mends what differs; anew: seconds of one who makes each wrong
+    edit anew."""
 
     task: str
     condition: str
@@ -47,6 +48,7 @@ class Before:
     settled: bool
     points: tuple[Point, ...]
     brute: Point
+    anew: float
 
     @staticmethod
     def of_json(row: dict[str, Any]) -> Before:
@@ -70,10 +72,13 @@ def teach_before(bench: Bench, condition: Condition, seed: int) -> Before:
     wrong = (possible - right) * settled
     points.append(Point(_spent(course), right, assets * settled, wrong, assets * (not settled)))
     reference = judge.count_right(course.desk, bench.task.program)
-    seconds, done = _mend_all(judge, course.desk, program, random.Random(f"brute {seed} {bench.task.name}"), condition)
+    draw = random.Random(f"brute {seed} {bench.task.name}")
+    seconds, anew, done = _mend_all(judge, course.desk, program, draw, condition.errs)
     brute = Point(round(points[-1].seconds + seconds, 2), done, assets, possible - done)
     family = (bench.task.name, condition.name, seed, log.setting)
-    return Before(*family, assets, possible, reference, settled, tuple(points), brute)
+    return Before(
+        *family, assets, possible, reference, settled, tuple(points), brute, round(points[-1].seconds + anew, 2)
+    )
 
 
 def _spent(course: Course) -> float:
@@ -81,21 +86,23 @@ def _spent(course: Course) -> float:
 
 
 def _mend_all(
-    judge: Judge, desk: Desk, program: Program | None, draw: random.Random, condition: Condition
-) -> tuple[float, int]:
-    """Seconds of a person who glances at every asset and mends what looks wrong; and assets that are right then."""
-    seconds, right = 0.0, 0
+    judge: Judge, desk: Desk, program: Program | None, draw: random.Random, errs: float
+) -> tuple[float, float, int]:
+    """Seconds of a person who glances at every asset and mends what differs where a result looks wrong; of one who
+    makes the edit anew there; and assets that are right then."""
+    seconds, anew, right = 0.0, 0.0, 0
     for name in judge.bench.samples:
-        seconds += GLANCE
-        as_seen = judge.looks_right(desk, program, name) != (draw.random() < condition.errs)
+        seconds, anew = seconds + GLANCE, anew + GLANCE
+        as_seen = judge.looks_right(desk, program, name) != (draw.random() < errs)
         wanted = judge.bench.truth.reference[name]
         if as_seen or wanted is None:
             right += judge.is_right(desk, program, name)
             continue
-        hulls = sum(map(len, wanted))
-        seconds += price_of_hand(wanted)
-        right += name in judge.possible and not any(draw.random() < condition.errs for _ in range(hulls))
-    return seconds, right
+        done = desk.select(program, name) if program else None
+        seconds += price_of_mend(None if done == wanted else done, wanted)
+        anew += price_of_hand(wanted)
+        right += name in judge.possible and not any(draw.random() < errs for _ in range(sum(map(len, wanted))))
+    return seconds, anew, right
 
 
 def teach(name: str, condition: str) -> list[dict[str, Any]]:

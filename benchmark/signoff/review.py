@@ -119,17 +119,20 @@ _NOTES = (
     "that is as the reference's is neither right nor wrong. Means over people, then over tasks.",
     "*When done* counts what is right and signed off; what is held or set aside is not right.",
     "*As it was*: the tool before it had a queue, frozen in `benchmark/signoff/before.json` with the command and the "
-    "commit that made it. *Then by hand*: that person glances at all 25 results and mends each wrong one by hand. By "
-    "hand, who errs leaves hulls out and overlooks results; the people of *as it was* err in answers and confirmations "
-    "only, those of the queue in all acts, demonstrations too.",
+    "commit that made it. *Then by hand*: that person glances at all results and mends what differs in each wrong one, "
+    "at the prices at which the queue's person mends; *anew*: makes the whole edit again. By hand, who errs leaves "
+    "hulls out and overlooks results; the people of *as it was* err in answers and confirmations only, those of the "
+    "queue in all acts, demonstrations too.",
     f"Sessions are broken off after {CAP:.0f} s; their time counts as it stands then, so it is a lower bound, and what "
     "is held then is not right.",
     "*Before any question*: the task is taught as before, on the labels as the tool takes them now. *The first "
     "program*: after the demonstrations that begin a session of the queue. The probabilities are of possible assets "
     "that nobody showed; the goals are about all conditions together.",
     "The person of the queue shows an asset, and another one while a rule has had nothing to do, replies to each "
-    "question by what is true, and mends a result that is wrong by showing it. Where no label is there at the start, "
-    "the hulls of a mesh that is shown are named by hand.",
+    "question by what is true, and mends a result that is wrong by hand: it then counts as it was left. Where a mesh "
+    "is turned wrongly, or no program fits what was shown on it, the person looks through its labels one by one, and "
+    "paints those that are wrong; where that does not help, the demonstration is taken back, and the asset set aside. "
+    "Where no label is there at the start, the hulls of a mesh that is shown are named by hand.",
     "What would make these figures fail: labels that are wrong alike on look-alike hulls of most assets, which no vote "
     "finds; a rule about parts that few assets have, which no demonstration shows; a criterion that a right selection "
     "does not meet, which the tool cannot know of.",

@@ -68,6 +68,7 @@ class ApplyArguments:
 def apply(given: ApplyArguments) -> None:
     """Run a program on assets; each goes back into its own format below --out, labels beside it.
 
+    Results that stand out of the family are named at the end; with --json all lines come then.
     A run that was stopped or killed goes on where it was: the same command again. Exit code 1 when some assets failed
     or were held: they are named, and the others are done.
     """
@@ -79,25 +80,32 @@ def apply(given: ApplyArguments) -> None:
     work = _work_of_project(given) if given.program.is_dir() else _work_of_program(given)
     if len(work.jobs) > 1:
         remark(str(batch.plan_run(work.jobs, work.out)))
-    summary, started = batch.RunSummary(), perf_counter()
+    summary, started, done = batch.RunSummary(), perf_counter(), list[batch.AssetOutcome]()
     run_options = batch.ApplyOptions(given.mass, given.link, given.dry_run, resume=not given.fresh)
-    with progress(len(work.jobs), "editing") as advance:
-        execution = replace(given.execution.to_options(), progress=advance)
-        for outcome in run_program(
-            work.program, work.jobs, work.out, templates=work.templates, options=run_options, execution=execution
-        ):
-            summary.add(outcome)
-            if given.json:
-                print_json(batch.to_json_line(outcome), compact=True)
-            else:
-                typer.echo(_describe_outcome(outcome))
+    try:
+        with progress(len(work.jobs), "editing") as advance:
+            execution = replace(given.execution.to_options(), progress=advance)
+            for outcome in run_program(
+                work.program, work.jobs, work.out, templates=work.templates, options=run_options, execution=execution
+            ):
+                summary.add(outcome)
+                if given.json:
+                    done.append(outcome)
+                else:
+                    typer.echo(_describe_outcome(outcome))
+    finally:  # also of a run that cannot go on
+        alarms = summary.find_alarms()
+        for outcome in done:
+            print_json(batch.to_json_line(outcome, alarms.get(outcome.asset, ())), compact=True)
     summary.hold(work.held)
     for held in work.held:
         print_json(held.to_json(), compact=True) if given.json else typer.echo(f"{'held':10} {held.asset}: {held.why}")
     if not given.json:
         typer.echo(f"{summary}{NOTHING_WRITTEN if given.dry_run else ''}")
+        if alarms:
+            typer.echo(batch.describe_alarms(alarms))
     if given.report:
-        _write_report(given.report, work, summary, perf_counter() - started, measures)
+        _write_report(given.report, work, summary, perf_counter() - started, measures, alarms)
     raise typer.Exit(int(summary.counts["failed"] > 0 or bool(work.held)))
 
 
@@ -192,12 +200,17 @@ def _describe_outcome(outcome: batch.AssetOutcome) -> str:
 
 
 def _write_report(
-    path: Path, work: _ApplyWork, summary: batch.RunSummary, seconds: float, measures: CheckOptions | None
+    path: Path,
+    work: _ApplyWork,
+    summary: batch.RunSummary,
+    seconds: float,
+    measures: CheckOptions | None,
+    alarms: Mapping[str, tuple[str, ...]],
 ) -> None:
     readers = work.readers(outcome.asset for outcome in summary.outcomes_to_show)
     write_report_page(
         path,
         batch.ReportHeader(work.out.resolve().name, seconds=seconds, figures=batch.RunFigures.of_run(summary)),
-        list(compare_outcomes(summary.outcomes_to_show, work.program, readers, work.demonstrated, measures)),
+        list(compare_outcomes(summary.outcomes_to_show, work.program, readers, work.demonstrated, measures, alarms)),
         work.program,
     )

@@ -12,8 +12,8 @@ from tests.synthesis_boxes import table
 
 
 def test_prices_of_questions_are_those_of_the_keystroke_model() -> None:
-    assert prices.READING == pytest.approx(keystrokes.ANSWER)
-    assert prices.YES_OR_NO == pytest.approx(keystrokes.CONFIRMATION)
+    assert pytest.approx(keystrokes.ANSWER) == prices.READING
+    assert pytest.approx(keystrokes.CONFIRMATION) == prices.YES_OR_NO
     assert prices.price_group(7, 2) == pytest.approx(keystrokes.price_group(7, 2))
 
 

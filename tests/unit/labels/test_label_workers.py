@@ -23,6 +23,7 @@ WAYS: dict[str, Callable[[Project, ExecutionOptions], tuple[LabelOutcome, ...]]]
     "names": lambda project, spread: project.label_from_names(execution=spread),
     "file": lambda project, spread: project.label_from_files(execution=spread),
     "propagate": lambda project, spread: project.propagate_labels(execution=spread).reports,
+    "consensus": lambda project, spread: project.label_by_consensus(execution=spread).reports,
 }
 
 

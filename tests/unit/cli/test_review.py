@@ -1,0 +1,105 @@
+"""`meshforge review`, `status --signed-off` and `apply --sure`."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+
+from meshforge.project import Project
+from tests.unit.cli.in_process import Run, runner
+from tests.unit.project.tables import SECOND, THIRD, applied
+
+
+@pytest.fixture
+def run(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], tmp_path: Path) -> Run:
+    """Runs the command line beside a project of three edited tables, of which two are demonstrated."""
+    monkeypatch.chdir(tmp_path)
+    applied(tmp_path)
+    return runner(monkeypatch, capsys)
+
+
+def test_a_family_that_is_sure_is_signed_off(run: Run) -> None:
+    told = run("review", "tables", "--sure", "0.5")
+    assert told.code == 0
+    assert told.out.strip() == "3 of 3 are at least 50% sure, or were looked at: signed off."
+    assert run("status", "tables", "--signed-off").code == 0
+
+
+def test_what_is_held_is_named_with_a_question_and_a_picture(run: Run) -> None:
+    told = run("review", "tables", "--sure", "1")
+    assert told.code == 1
+    assert told.out.startswith("2 of 3 are at least 100% sure, or were looked at; look at this one:\n  " + THIRD)
+    picture = next(line.split("picture: ")[1] for line in told.out.splitlines() if "picture: " in line)
+    assert Path(picture).read_bytes()[:4] == b"\x89PNG"
+    assert run("status", "tables", "--signed-off").code == 1
+
+
+def test_json_has_the_contract_and_a_reply_signs_off(run: Run) -> None:
+    found = json.loads(run("review", "tables", "--sure", "1", "--json").out)
+    assert found["signed_off"] == 2
+    assert [one["asset"] for one in found["held"]] == [THIRD]
+    assert set(found["held"][0]) == {"asset", "probability", "doubts"}
+    question = found["question"]
+    assert set(question) >= {"id", "kind", "seconds", "gain", "asset", "rule", "hulls", "choices", "pictures"}
+    for _ in range(12):
+        Path("said.json").write_text(json.dumps([{"id": question["id"], "choice": 0}]))
+        told = run("review", "tables", "--sure", "1", "--json", "--answers", "said.json")
+        question = json.loads(told.out)["question"]
+        if question is None:
+            break
+    assert told.code == 0
+    assert json.loads(told.out)["held"] == []
+
+
+def test_a_reply_to_a_question_that_does_not_stand_is_named_and_skipped(run: Run) -> None:
+    Path("said.json").write_text('[{"id": "group-of-old", "choice": 0}]')
+    told = run("review", "tables", "--sure", "0.5", "--answers", "said.json")
+    assert told.code == 1
+    assert "group-of-old: this question is not asked any more, so the reply is skipped" in told.err
+
+
+@pytest.mark.parametrize(
+    "text", ["{", '[{"choice": 0}]', '[{"id": "a", "choice": "x"}]', '[{"id": "a", "exceptions": {"b": "c"}}]']
+)
+def test_a_file_that_holds_no_replies_is_one_clear_message(run: Run, text: str) -> None:
+    Path("said.json").write_text(text)
+    told = run("review", "tables", "--answers", "said.json")
+    assert told.code == 2
+    assert "said.json: these are no replies" in told.err
+
+
+def test_status_says_what_is_void_and_why(run: Run) -> None:
+    run("review", "tables", "--sure", "0.5")
+    Project.open("tables").set_labels(THIRD, {"crumb": "leg"})
+    told = run("status", "tables")
+    assert f"{THIRD}: void, labels changed since it was signed off" in told.out
+    found = json.loads(run("status", "tables", "--json").out)
+    assert found["signed_off"] == 2
+    assert [one["sign_off"] for one in found["assets"]] == ["signed off", "signed off", "void"]
+
+
+def test_apply_writes_what_is_sure_and_names_what_is_held(run: Run) -> None:
+    told = run("apply", "tables", "--sure", "1", "--json")
+    rows = [json.loads(line) for line in told.out.splitlines()]
+    assert told.code == 1
+    assert {row["asset"]: row["status"] for row in rows}[THIRD] == "held"
+    held = next(row for row in rows if row["status"] == "held")
+    assert 0 < held["probability"] < 1
+    assert held["out"].endswith("model.obj")
+    assert "held" in run("apply", "tables", "--sure", "1").out
+    assert run("apply", "tables", "--sure", "0.5").code == 0
+
+
+def test_a_program_alone_does_not_say_how_sure_it_is(run: Run) -> None:
+    told = run("apply", "tables/program.mf", "assets", "--out", "out", "--sure", "0.9")
+    assert told.code == 2
+    assert "--sure needs a project" in told.err
+    assert not Path("out").exists()
+
+
+def test_a_flagged_result_is_held(run: Run) -> None:
+    Project.open("tables").set_verdict(SECOND, "flagged")
+    rows = [json.loads(line) for line in run("apply", "tables", "--sure", "0.5", "--json").out.splitlines()]
+    assert {row["asset"]: row["status"] for row in rows}[SECOND] == "held"

@@ -1,0 +1,162 @@
+"""A project reviewed and signed off: what a sign-off rests on, when it is void, and what becomes of replies."""
+
+from __future__ import annotations
+
+import json
+from datetime import UTC, datetime
+from pathlib import Path
+
+import pytest
+
+from meshforge.common import ProjectError
+from meshforge.language import Program
+from meshforge.project import Project, ProjectReview
+from meshforge.signoff import HullPlace, Reply, ReviewChoice, ReviewQuestion
+from meshforge.signoff.question import ASIDE, RIGHT, WRONG
+from meshforge.symbolic import Label
+from tests.unit.project.tables import FIRST, LEGS, SECOND, THIRD, applied, demonstrated, fresh, labelled, learned
+
+NOON = datetime(2026, 11, 25, 12, tzinfo=UTC)
+
+
+def review(project: Project, bar: float = 0.5) -> ProjectReview:
+    return project.review(bar, clock=lambda: NOON)
+
+
+def sign_off_of(project: Project, asset: str) -> str:
+    return next(one.sign_off for one in project.status().assets if one.id == asset)
+
+
+def result_of(asset: str) -> ReviewQuestion:
+    return ReviewQuestion(
+        "r", "result", "?", 2.65, 0.5, asset, None, (), tuple(map(ReviewChoice, (RIGHT, WRONG, ASIDE)))
+    )
+
+
+def test_a_demonstrated_asset_is_signed_off_by_a_person_and_a_sure_one_by_the_tool(tmp_path: Path) -> None:
+    project = applied(tmp_path)
+    found = review(project)
+    assert set(found.assessment.signed_off) == {FIRST, SECOND, THIRD}
+    signed = project.sign_offs().assets
+    assert {asset: one.by for asset, one in signed.items()} == {FIRST: "person", SECOND: "person", THIRD: "tool"}
+    assert {one.when for one in signed.values()} == {"2026-11-25T12:00:00+00:00"}
+    assert project.status().is_signed_off
+
+
+def test_before_a_review_nothing_is_known(tmp_path: Path) -> None:
+    project = applied(tmp_path)
+    assert {one.sign_off for one in project.status().assets} == {"unknown"}
+    assert {one.probability for one in project.status().assets} == {None}
+
+
+def test_nothing_demonstrated_asks_for_a_demonstration_and_writes_no_program(tmp_path: Path) -> None:
+    project = labelled(tmp_path)
+    question = review(project).assessment.question
+    assert question is not None and question.kind == "demonstrate"
+    assert project.program() is None
+
+
+def test_a_review_learns_what_was_shown(tmp_path: Path) -> None:
+    project = demonstrated(tmp_path)
+    review(project)
+    assert project.program() is not None
+
+
+def test_a_sign_off_is_void_when_a_label_changes_and_says_so(tmp_path: Path) -> None:
+    project = applied(tmp_path)
+    review(project)
+    project.set_labels(THIRD, {"crumb": "leg"})
+    status = next(one for one in project.status().assets if one.id == THIRD)
+    assert (status.sign_off, status.void) == ("void", ("labels",))
+    assert status.probability is None
+    assert not project.status().is_signed_off
+
+
+def test_a_sign_off_is_void_when_the_program_changes(tmp_path: Path) -> None:
+    project = applied(tmp_path)
+    review(project)
+    project.accept(Program.parse("labels crumb\nIs(crumb) => Delete\n"))
+    assert next(one for one in project.status().assets if one.id == THIRD).void == ("program",)
+
+
+def test_a_person_who_wrote_the_program_gets_it_reviewed_as_it_is(tmp_path: Path) -> None:
+    project = learned(tmp_path)
+    text = str(project.program())
+    (project.folder / "program.mf").write_text(text.replace("Each(Merge)", "Merge"))
+    before = (project.folder / "program.mf").read_text()
+    found = review(project)
+    assert (project.folder / "program.mf").read_text() == before
+    assert set(found.assessment.assets) == {FIRST, SECOND, THIRD}
+
+
+def test_a_result_that_is_right_is_accepted_and_its_output_made(tmp_path: Path) -> None:
+    project = learned(tmp_path)
+    found = review(project, 0.9999)
+    project.reply(found, result_of(THIRD), Reply("r", 0))
+    assert project.reviews()[THIRD].verdict == "accepted"
+    assert THIRD in review(project, 0.9999).assessment.looked_at
+    assert sign_off_of(project, THIRD) == "signed off"
+
+
+@pytest.mark.parametrize("choice", [1, 2])
+def test_a_result_that_is_wrong_or_set_aside_is_not_signed_off(tmp_path: Path, choice: int) -> None:
+    project = learned(tmp_path)
+    found = review(project)
+    project.reply(found, result_of(THIRD), Reply("r", choice))
+    assert project.reviews()[THIRD].verdict == "flagged"
+    after = review(project).assessment
+    assert THIRD in after.aside and THIRD not in after.signed_off
+    assert sign_off_of(project, THIRD) == "set aside"
+
+
+def test_labels_of_a_group_are_a_persons(tmp_path: Path) -> None:
+    project = learned(tmp_path)
+    hull = sorted(LEGS)[0]
+    question = ReviewQuestion(
+        "g", "group", "?", 3.0, 1.0, THIRD, None, (HullPlace(THIRD, hull),), (ReviewChoice("leg", "leg"),)
+    )
+    project.reply(review(project), question, Reply("g", 0))
+    assert project.mesh(THIRD).hull_of(hull).annotation == Label("leg", 1.0, "user")
+
+
+def test_a_question_that_is_put_off_stays_so(tmp_path: Path) -> None:
+    project = learned(tmp_path)
+    found = review(project)
+    project.reply(found, result_of(THIRD), Reply("r", later=True))
+    assert project.sign_offs().later == ("r",)
+    assert review(project).state.later == {"r"}
+
+
+def test_a_choice_that_is_not_there_is_one_clear_message(tmp_path: Path) -> None:
+    project = learned(tmp_path)
+    with pytest.raises(ProjectError, match="has 3 choices"):
+        project.reply(review(project), result_of(THIRD), Reply("r", 7))
+
+
+def test_a_damaged_file_of_sign_offs_is_named(tmp_path: Path) -> None:
+    project = learned(tmp_path)
+    (project.folder / "signoff.json").write_text('{"assets": {"a": {"by": "nobody"}}}')
+    with pytest.raises(ProjectError, match=r"signoff\.json"):
+        review(project)
+
+
+def test_a_damaged_assessment_is_made_again(tmp_path: Path) -> None:
+    project = learned(tmp_path)
+    review(project)
+    project.layout.assessment.write_text("{")
+    assert {one.probability for one in project.status().assets} == {None}
+    review(project)
+    assert None not in {one.probability for one in project.status().assets}
+
+
+def test_the_same_review_writes_the_same_files(tmp_path: Path) -> None:
+    project = learned(tmp_path)
+    review(project)
+    before = {name: (project.folder / name).read_bytes() for name in ("signoff.json", ".meshforge/assessment.json")}
+    review(project)
+    assert before == {name: (project.folder / name).read_bytes() for name in before}
+    json.loads(before["signoff.json"])
+
+
+def test_a_project_without_labels_is_no_error(tmp_path: Path) -> None:
+    assert review(fresh(tmp_path)).assessment.question is not None
