@@ -5,7 +5,7 @@ from __future__ import annotations
 import json as jsonlib
 import sys
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -32,7 +32,7 @@ class ReviewArguments:
         float, typer.Option("--sure", help="The probability from which on a result is signed off.", min=0.5, max=1.0)
     ] = BAR
     answers: Annotated[
-        Path | None, typer.Option("--answers", help="A JSON file of replies, given one after the other.")
+        Path | None, typer.Option("--answers", help="A JSON file of replies, each given when its question is asked.")
     ] = None
     json: options.Json = False
 
@@ -47,30 +47,36 @@ def review(given: ReviewArguments) -> None:
     replies = _read_replies(given.answers) if given.answers else []
     with show_status("looking at the family"):
         found = project.review(given.sure)
-    missed = 0
-    for reply in replies:
-        question = found.assessment.question
-        if question is None or question.id != reply.question:
-            remark(f"{reply.question}: this question is not asked any more, so the reply is skipped")
-            missed += 1
-            continue
-        found = _reply(project, found, question, reply, given.sure)
-    if not given.json and not replies and sys.stdin.isatty():
+    waiting = {reply.question: reply for reply in replies}
+    while (question := found.assessment.question) and question.id in waiting:
+        found = _reply(project, found, question, waiting.pop(question.id), given.sure)
+    for name in waiting:
+        remark(f"{name}: this question is not asked any more, so the reply is skipped")
+    if not given.json and given.answers is None and sys.stdin.isatty():
         found = _converse(project, found, given.sure)
     if given.json:
         print_json(to_json(project, found))
+        _report_losses(found)
     else:
         question = found.assessment.question
         typer.echo(format_review(found, project.folder))
+        _report_losses(found)
         if question and not sys.stdin.isatty():
             typer.echo(f"\n{format_question(question, draw_question(project, found, question))}")
-    raise typer.Exit(int(bool(found.assessment.held) or missed > 0))
+    raise typer.Exit(int(bool(found.assessment.held) or bool(waiting)))
+
+
+def _report_losses(found: ProjectReview) -> None:
+    """Name what was signed off before, and is not any more."""
+    for asset, why in found.taken_back.items():
+        remark(f"{asset} is no longer signed off: {why}")
 
 
 def _reply(project: Project, found: ProjectReview, question: ReviewQuestion, reply: Reply, bar: float) -> ProjectReview:
     project.reply(found, question, reply)
     with show_status("looking at the family"):
-        return project.review(bar)
+        after = project.review(bar)
+    return replace(after, taken_back={**found.taken_back, **after.taken_back})
 
 
 def _converse(project: Project, found: ProjectReview, bar: float) -> ProjectReview:

@@ -38,6 +38,8 @@ def _pictures(project: Project, found: ProjectReview, question: ReviewQuestion) 
             by_asset.setdefault(place.asset, set()).add(place.hull)
         for number, (asset, hulls) in enumerate([*by_asset.items()][:_MOST], 1):
             yield f"{number}", meshes[asset], frozenset(hulls), asset
+    elif question.asset not in meshes:
+        return
     elif question.rule is not None and program:
         mesh = project.mesh_before_rule(question.asset, question.rule, program, meshes)
         for number, choice in enumerate(question.choices, 1):
@@ -46,7 +48,7 @@ def _pictures(project: Project, found: ProjectReview, question: ReviewQuestion) 
         yield "before", meshes[question.asset], frozenset(), f"{question.asset} before"
         after = run_with_corrections(project, question.asset, meshes[question.asset], program).mesh
         yield "after", after, frozenset(), f"{question.asset} after"
-    elif question.asset in meshes:
+    else:
         yield "asset", meshes[question.asset], frozenset(), question.asset
 
 

@@ -27,6 +27,8 @@ from meshforge.symbolic import EPSILON, SymbolicMesh
 Arrays = Mapping[str, NDArray[Any]]
 _KEY = "made_from"
 
+_FEW = 10  # meshes that are described sooner than worker processes have started
+
 _REMEDY = "Propagate the labels again."
 
 
@@ -128,11 +130,13 @@ class DescriptorCache:
 def recall_descriptors(store: Store, meshes: Mapping[str, SymbolicMesh], execution: batch.ExecutionOptions) -> None:
     """Have `describe_mesh` know the meshes of some assets, by id, so that only those that changed are described."""
     facts = survey(store.found, store.layout, meshes, execution=execution)
-    cache = DescriptorCache(store, {asset: own for asset, own in facts.items() if not own.error}, execution)
-    missing = [asset for asset, own in facts.items() if not own.error and cache.read_rows(asset) is None]
+    few = len(meshes) <= _FEW
+    known = {asset: own for asset, own in facts.items() if not own.error}
+    cache = DescriptorCache(store, known, batch.IN_PROCESS if few else execution)
+    missing = [asset for asset in known if cache.read_rows(asset) is None]
     lost = dict(cache.describe(missing, lambda: None))
-    for asset, own in facts.items():
-        if not own.error and asset not in lost and (kept := cache.read_rows(asset)):
+    for asset in known:
+        if asset not in lost and (kept := cache.read_rows(asset)):
             remember_descriptor(meshes[asset], ShapeDescriptor(*kept, cache.read_sides(asset)))
 
 

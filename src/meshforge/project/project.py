@@ -9,7 +9,7 @@ from pathlib import Path
 from meshforge import batch
 from meshforge.labels import LabelStore
 from meshforge.language import Orient
-from meshforge.project import demonstrations, learn, overview, prepare, rename, run
+from meshforge.project import demonstrations, learn, overview, prepare, rename, run, sign_offs
 from meshforge.project.review import reply_to, review_project
 from meshforge.store import add_assets, create_folder, find_assets
 
@@ -101,4 +101,5 @@ class Project(LabelStore):
     set_verdict = run.review_assets
     review = review_project
     reply = reply_to
+    renew_sign_offs = sign_offs.renew_sign_offs
     status = overview.compute_status

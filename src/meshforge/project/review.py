@@ -8,7 +8,17 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 
-from meshforge.batch import EXECUTION_DEFAULTS, IN_PROCESS, ExecutionOptions, Failed, apply, program_digest, text_digest
+from meshforge.batch import (
+    EXECUTION_DEFAULTS,
+    IN_PROCESS,
+    ExecutionOptions,
+    Failed,
+    OutputInputs,
+    apply,
+    program_digest,
+    read_stamp,
+    text_digest,
+)
 from meshforge.common import MeshForgeError, ProjectError
 from meshforge.label_model import model_family
 from meshforge.labels.descriptor_cache import recall_descriptors
@@ -17,7 +27,7 @@ from meshforge.labels.label_by_consensus import label_by_consensus
 from meshforge.labels.merge import ignore_report, set_labels
 from meshforge.project import demonstrations, learn, run
 from meshforge.project.family_state import FamilyStateReader
-from meshforge.project.sign_offs import Clock, find_inputs, keep_assessment, now_utc, renew_sign_offs
+from meshforge.project.sign_offs import Clock, find_inputs, is_written, keep_assessment, now_utc, renew_sign_offs
 from meshforge.signoff import (
     BAR,
     Assessment,
@@ -27,6 +37,7 @@ from meshforge.signoff import (
     ReviewChoice,
     ReviewQuestion,
     ReviewState,
+    find_alarms,
     review_family,
 )
 from meshforge.signoff.prices import YES_OR_NO
@@ -66,11 +77,21 @@ def review_project(
     inputs = find_inputs(store, execution)
     program = outcome.program if outcome else None
     state = FamilyStateReader(store, meshes, program, by_hand, inputs).read()
-    found = review_family(state, outcome, model_family(list(meshes.values())), bar)
+    found = review_family(state, outcome, model_family(list(meshes.values())), bar, _find_alarms(store, inputs))
     found = _add_unreadable(store, found, state, lost)
     keep_assessment(store, found, inputs)
     taken_back = renew_sign_offs(store, clock=clock, execution=execution)
     return ProjectReview(found, outcome, state, lost, taken_back)
+
+
+def _find_alarms(store: Store, inputs: Mapping[str, OutputInputs]) -> dict[str, list[str]]:
+    """What stands out among the results that are up to date, a sentence each, by asset."""
+    measures = {}
+    for asset, now in inputs.items():
+        stamp = read_stamp(store.layout.edited, asset)
+        if stamp and stamp.measures and is_written(stamp, now):
+            measures[asset] = stamp.measures
+    return {asset: [alarm.text for alarm in alarms] for asset, alarms in find_alarms(measures).items()}
 
 
 def _read_meshes(store: Store) -> tuple[dict[str, SymbolicMesh], dict[str, str]]:
