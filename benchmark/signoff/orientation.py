@@ -211,7 +211,12 @@ class Lesson:
     ) -> LearningOutcome | None:
         """None where it cannot be done; proposals to correct labels are refused, as all are right."""
         one = self._desk.bench.task
-        options = Options(contact=one.program.contact, extremity=one.program.extremity, suggest_orientation=suggest)
+        options = Options(
+            contact=one.program.contact,
+            extremity=one.program.extremity,
+            suggest_orientation=suggest,
+            clock=process_time,  # the budget ends no search because the machine has other work
+        )
         try:
             return synthesize(
                 self._demos, self._desk.meshes, orient, one.templates, one.program.labels, options,
