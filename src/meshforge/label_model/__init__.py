@@ -3,7 +3,7 @@
 from meshforge.label_model.consensus import EVIDENCE, consensus_weights
 from meshforge.label_model.describe import MeshDescriber
 from meshforge.label_model.odds import LabelBeliefs, LabelOdds, is_human
-from meshforge.label_model.posterior import FamilyModel, FamilyPosterior, infer_labels
+from meshforge.label_model.posterior import FamilyModel, FamilyPosterior, infer_labels, model_family
 from meshforge.label_model.sides import correct_upright, find_doubtful_sides
 from meshforge.label_model.table import FamilyTable, Observations, metric_weights, reference_label
 
@@ -22,5 +22,6 @@ __all__ = [
     "infer_labels",
     "is_human",
     "metric_weights",
+    "model_family",
     "reference_label",
 ]

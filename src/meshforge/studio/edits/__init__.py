@@ -10,6 +10,7 @@ from meshforge.studio.edits import assets, program
 
 AnyEdit = Annotated[
     assets.LabelHulls
+    | assets.LabelGroup
     | assets.LabelFromFiles
     | assets.LabelFromNames
     | assets.SetVocabulary
