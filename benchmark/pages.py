@@ -68,8 +68,8 @@ PAGES = (
         "signoff",
         "# Families signed off\n\nWritten by `script/bench` from the JSON beside it. Every run gives the same. "
         "A person's seconds are modelled by keystrokes, at prices fixed beforehand.\n",
-        ("review", "real_families"),
-        ("numpy", "scipy", "mujoco"),
+        ("review", "real_families", "orientation"),
+        ("numpy", "scipy", "coal", "mujoco"),
     ),
     Page(
         "labels",

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from meshforge.geometry import Aabb, Box
+import numpy as np
+
+from meshforge.geometry import Aabb, Box, Pose
 from meshforge.symbolic import Hull, Label, SymbolicMesh
 
 Piece = tuple[str, str | None, Sequence[float], Sequence[float]]
@@ -63,3 +65,17 @@ def table(legs: int = 4, drawers: int = 1, knob: float | None = 0.1, litter: int
     for k in range(litter):
         pieces.append((f"residue_{k}", "misc", (0.3 + 0.2 * k, 0.6, 0.2), (0.01, 0.01, 0.01)))
     return boxes(*pieces)
+
+
+def rack(off: float = 0.0, tops: int = 1, extra: Sequence[Piece] = ()) -> SymbolicMesh:
+    """Boards one above the other, the topmost in pieces; a foot below them, off their middle. Nothing touches."""
+    pieces: list[Piece] = [("leg", "leg", (0.9 + off, 0.9, 0.0), (0.2, 0.2, 0.2))]
+    pieces += [(f"board_{k}", "panel", (0.0, 0.0, 0.8 + 0.7 * k), (2.0, 2.0, 0.1)) for k in range(2)]
+    pieces += [(f"top_{k}", "panel", (2.1 * k / tops, 0.0, 2.2), (2.1 / tops - 0.1, 2.0, 0.1)) for k in range(tops)]
+    return boxes(*pieces, *extra)
+
+
+def posed(mesh: SymbolicMesh, x: Sequence[float], y: Sequence[float]) -> SymbolicMesh:
+    """The mesh turned so that its X and Y axes come to lie along two unit vectors."""
+    pose = Pose(np.column_stack([x, y, np.cross(x, y)]), np.zeros(3))
+    return mesh.with_hulls(hull.move(pose) for hull in mesh.hulls)

@@ -33,7 +33,7 @@ LABELS = (FLAT, TRUE, SYSTEMATIC, PROPAGATED[2])
 SEED = 1
 _CAP = 90.0  # seconds of a person, after which a session says nothing new
 _STRAY = 1e-3  # cost of the squares of the weights
-_SIGNS = (0, 1, 1, -1, -1, -1)  # of the weights: what speaks for an edit never speaks against it
+_SIGNS = (0, 1, -1, -1, -1)  # of the weights: what speaks for an edit never speaks against it
 
 
 class _Observer(Tool):
@@ -95,7 +95,8 @@ def fit(folder: Path, tell: Tell) -> None:
     tell(f"category left out: {calibrate(pairs)}")
     weights = fit_weights(list(rows.values()))
     data: dict[str, Any] = {"about": "made by `python -m benchmark.signoff fit FOLDER`"}
-    data["weights"] = {name: round(float(one), 3) for name, one in zip(confidence.FEATURES, weights, strict=True)}
+    fitted = {name: round(float(one), 3) for name, one in zip(confidence.FEATURES, weights, strict=True)}
+    data["weights"] = fitted | confidence.BY_HAND
     write_atomically(Path(confidence.__file__).parent / confidence.WEIGHTS_FILE, json.dumps(data, indent=1) + "\n")
     tell(str(data["weights"]))
 
@@ -105,7 +106,7 @@ def fit_weights(tables: Sequence[npt.NDArray[np.float64]]) -> Floats:
     parts = [(rows[:, :-1], rows[:, -1], 1 / len(rows)) for rows in tables if len(rows)]
     low = [0.0 if sign > 0 else None for sign in _SIGNS]
     high = [0.0 if sign < 0 else None for sign in _SIGNS]
-    start = np.array([0.0, 0.5, 0.5, 0.0, 0.0, 0.0])
+    start = np.array([0.0, 1.0, 0.0, 0.0, 0.0])
     return np.array(minimize(partial(_loss, parts), start, bounds=list(zip(low, high, strict=True)), jac=True).x)
 
 

@@ -4,6 +4,7 @@ more."""
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Collection
 from dataclasses import dataclass, field, replace
 from typing import Any
 
@@ -109,7 +110,8 @@ class ReviewCourse:
         if self.reviewer.ledger.total >= cap:
             self.log.ended = BROKEN
         elif assessment.question is not None:
-            self._take(assessment.question)
+            shown = assessment.question.kind == "demonstrate" and assessment.question.asset in self.state.demos
+            self._recover(outcome, cap) if shown else self._take(assessment.question)
         elif self.program is None:
             self._recover(outcome, cap)
         else:
@@ -165,24 +167,24 @@ class ReviewCourse:
         self.state = state
 
     def _mend(self, name: str, wrong: bool) -> None:
-        """Show what is wanted where a result is wrong; or give the landmarks their labels, where the mesh cannot be
-        turned, or all is selected as wanted."""
+        """Show what is wanted where a result is wrong; or look through its labels, where the mesh cannot be turned, or
+        all is selected as wanted."""
         if not wrong:
             return
         done = self.desk.select(self.program, name) if self.program else None
         as_wanted = done == self.bench.truth.reference[name]
         turned_wrongly = as_wanted and not self.judge.looks_right(self.desk, self.program, name)
-        if (done is None or turned_wrongly) and self._paint_landmarks(name):
+        if (done is None or turned_wrongly) and self._look_through(name):
             return
         self._demonstrate(name)
 
-    def _paint_landmarks(self, name: str) -> bool:
-        """Whether a label that turns the mesh was wrong, and is right now."""
-        wrong = self.reviewer.finds_wrong_landmarks(self.desk, name)
-        count = len(self.desk.meshes[name].hulls)
-        desk = self.reviewer.paints(self.desk, name, wrong, inspected=count)
+    def _look_through(self, name: str, hulls: Collection[str] | None = None) -> bool:
+        """Whether a label of a mesh, of some hulls or of all, was found to be wrong, and is right now."""
+        there = [hull.name for hull in self.desk.meshes[name].hulls if hulls is None or hull.name in hulls]
+        desk = self.reviewer.looks_through(self.desk, name, there)
+        changed = desk is not self.desk
         self._set(replace(self.state, meshes=desk.meshes))
-        return bool(wrong)
+        return changed
 
     def _showable(self) -> list[str]:
         """The assets that a person could show, and has not."""
@@ -215,15 +217,13 @@ class ReviewCourse:
                     self._show(person.begins_with(self.desk, busy))
 
     def _recover(self, found: LearningOutcome | MeshForgeError | None, cap: float) -> None:
-        """Nothing was learned: begin; or label the landmarks of the mesh that is named; or take an answer back; or show
-        once more what was shown with a slip; or take the demonstration back that nothing fits."""
+        """Nothing was learned: begin; or take an answer back; or show once more what was shown with a slip; or look
+        through the labels there, those first that are named; or take the demonstration back that nothing fits."""
         nearest = found.nearest if found is not None and not isinstance(found, MeshForgeError) else None
         named = found.where if isinstance(found, MeshForgeError) else nearest and nearest.asset
         demos, ledger = self.state.demos, self.reviewer.ledger
         if ledger.total >= cap:
             self.log.ended = BROKEN
-            return
-        if isinstance(found, MeshForgeError) and named in demos and self._paint_landmarks(str(named)):
             return
         if nearest and self._unsay(nearest.rule, nearest.asset):
             return
@@ -232,6 +232,9 @@ class ReviewCourse:
             ledger.add("look again", GLANCE)
             if hardest in self.reviewer.slipped:
                 self._show(hardest)
+                return
+            differing = {*nearest.extra, *nearest.missing} if nearest and nearest.asset == hardest else set[str]()
+            if self._look_through(hardest, differing) or self._look_through(hardest):
                 return
             ledger.add("set aside", CONFIRMATION)
             self.state = forget(self.state, hardest)

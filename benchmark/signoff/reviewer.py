@@ -25,6 +25,7 @@ class Reviewer:
     def __init__(self, bench: Bench, seed: int, condition: Condition) -> None:
         self.person, self.judge, self.ledger = Person(bench.truth, seed, condition), Judge(bench), Ledger()
         self.slipped = set[str]()
+        self._looked_at = set[HullPlace]()
         self._truth = bench.truth
 
     def reply(self, question: ReviewQuestion, desk: Desk, program: Program | None) -> Reply:
@@ -105,11 +106,13 @@ class Reviewer:
         self.ledger.add_labels(HandLabels(inspected, len(labels), len({label.name for label in labels.values()})))
         return desk.with_meshes({**desk.meshes, name: desk.meshes[name].with_labels({**labels})}) if labels else desk
 
-    def finds_wrong_landmarks(self, desk: Desk, name: str) -> list[str]:
-        """The hulls of a mesh that turn it and are called something else, or are called so and are none."""
-        landmarks = frozenset[str | None](Program(orient=desk.bench.task.program.orient).labels_in_use)
-        pairs = ((hull, self._label_of(HullPlace(name, hull.name))) for hull in desk.meshes[name].hulls)
-        return [hull.name for hull, true in pairs if hull.label != true and {hull.label, true} & landmarks]
+    def looks_through(self, desk: Desk, name: str, hulls: Sequence[str]) -> Desk:
+        """The desk when some labels of a mesh were looked at, one by one, and the wrong ones painted; each once."""
+        left = [hull for hull in hulls if HullPlace(name, hull) not in self._looked_at]
+        self._looked_at.update(HullPlace(name, hull) for hull in left)
+        mesh = desk.meshes[name]
+        wrong = [hull for hull in left if mesh.hull_of(hull).label != self._label_of(HullPlace(name, hull))]
+        return self.paints(desk, name, [hull for hull in wrong if not self.person.errs_now()], len(left))
 
     def _label_of(self, place: HullPlace) -> str:
         return str(self._truth.meshes[place.asset].hull_of(place.hull).label)

@@ -19,7 +19,7 @@ from meshforge.batch.jobs import (
     template_folders,
 )
 from meshforge.batch.lock import hold_lock
-from meshforge.batch.outcome import AssetOutcome, Failed, RuleEffect, RunSummary, Skipped, status_of, to_json_line
+from meshforge.batch.outcome import AssetOutcome, Failed, Held, RuleEffect, RunSummary, Skipped, status_of, to_json_line
 from meshforge.batch.preparation.decompose import DecompositionResult, decompose_asset
 from meshforge.batch.preparation.record import (
     Preparation,
@@ -38,6 +38,7 @@ from meshforge.batch.preparation.storage import (
     write_preparation,
 )
 from meshforge.batch.provenance import (
+    OutputInputs,
     Stamp,
     asset_digests,
     file_digest,
@@ -101,8 +102,10 @@ __all__ = [
     "EarlierExamination",
     "ExecutionOptions",
     "Failed",
+    "Held",
     "LabelStatus",
     "MeshReader",
+    "OutputInputs",
     "Preparation",
     "Replacement",
     "ReportAsset",

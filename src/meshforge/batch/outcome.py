@@ -4,6 +4,7 @@ of a run, counted as outcomes come."""
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Any, Literal, assert_never
 
@@ -71,6 +72,35 @@ class Failed:
 AssetOutcome = Edited | Unchanged | Failed | Skipped
 
 
+@dataclass(frozen=True, slots=True)
+class Held:
+    """An asset that was held back from a run, since its edit is less sure than was asked for.
+
+    probability: that it is right; doubts: why it may not be, as JSON; why: one sentence; out: an output of an earlier
+    run, which stays as it is.
+    """
+
+    asset: str
+    probability: float
+    doubts: tuple[dict[str, Any], ...]
+    why: str
+    out: str | None = None
+
+    def to_json(self) -> dict[str, Any]:
+        """The line of `apply --json` for it."""
+        return {
+            "asset": self.asset,
+            "status": "held",
+            "out": self.out,
+            "error": None,
+            "rules": [],
+            "hulls": {"before": None, "after": None},
+            "seconds": 0.0,
+            "probability": round(self.probability, 4),
+            "doubts": list(self.doubts),
+        }
+
+
 def status_of(outcome: AssetOutcome) -> StatusWord:
     """The word for an outcome: `edited`, `unchanged`, `failed` or `skipped`."""
     match outcome:
@@ -106,13 +136,19 @@ def _rule_to_json(line: RuleEffect) -> dict[str, Any]:
 
 @dataclass(eq=False, slots=True)
 class RunSummary:
-    """counts: by status; before, after: hulls of all that ran; failed, ran: the first outcomes of either kind."""
+    """counts: by status; before, after: hulls of all that ran; failed, ran: the first outcomes of either kind;
+    held: those that were held back."""
 
     counts: Counter[StatusWord] = field(default_factory=Counter)
     before: int = 0
     after: int = 0
     failed: list[Failed] = field(default_factory=list)
     ran: list[Edited | Unchanged | Skipped] = field(default_factory=list)
+    held: list[Held] = field(default_factory=list)
+
+    def hold(self, held: Sequence[Held]) -> None:
+        """Note what was held back."""
+        self.held = list(held)
 
     def add(self, outcome: AssetOutcome) -> None:
         """Count one more."""
@@ -138,7 +174,9 @@ class RunSummary:
 
     def __str__(self) -> str:
         counts = ", ".join(f"{n:,} {word}" for word, n in self.counts.items()) or "nothing to do"
-        text = f"{pluralize(self.total, 'asset')}: {counts}; hulls {self.before:,} -> {self.after:,}"
+        counts += f", {len(self.held):,} held" if self.held else ""
+        total = pluralize(self.total + len(self.held), "asset")
+        text = f"{total}: {counts}; hulls {self.before:,} -> {self.after:,}"
         more = self.counts["failed"] - len(self.failed[:_MOST_NAMED])
         names = [outcome.asset for outcome in self.failed[:_MOST_NAMED]]
         if self.total <= _MOST_NAMED or not names:  # they are on the screen

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
 from time import perf_counter
-from typing import Annotated, Literal
+from typing import TYPE_CHECKING, Annotated, Literal
 
 import typer
 
@@ -17,9 +17,14 @@ from meshforge.checks import ENGINES, CheckOptions
 from meshforge.cli import options
 from meshforge.cli.console import progress
 from meshforge.cli.report import NOTHING_WRITTEN, compare_outcomes, describe_failure, write_report_page
+from meshforge.cli.review_text import format_share
 from meshforge.cli.terminal import print_json, remark
 from meshforge.common import UsageError, pluralize
 from meshforge.language import Program, Template
+
+if TYPE_CHECKING:
+    from meshforge.project import Project
+    from meshforge.signoff import Assessment
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,6 +52,15 @@ class ApplyArguments:
             help="fit, clearance, physics or an engine: checks for the report, of what it shows. May be repeated.",
         ),
     ] = None
+    sure: Annotated[
+        float | None,
+        typer.Option(
+            "--sure",
+            help="Write only results that are so sure, or were looked at.",
+            min=0.5,
+            max=1.0,
+        ),
+    ] = None
     json: options.Json = False
 
 
@@ -54,8 +68,8 @@ class ApplyArguments:
 def apply(given: ApplyArguments) -> None:
     """Run a program on assets; each goes back into its own format below --out, labels beside it.
 
-    A run that was stopped or killed goes on where it was: the same command again. Exit code 1 when some assets failed:
-    they are named, and the others are done.
+    A run that was stopped or killed goes on where it was: the same command again. Exit code 1 when some assets failed
+    or were held: they are named, and the others are done.
     """
     measures = _parse_measures(given.check) if given.check else None
     if measures and not given.report:
@@ -77,11 +91,14 @@ def apply(given: ApplyArguments) -> None:
                 print_json(batch.to_json_line(outcome), compact=True)
             else:
                 typer.echo(_describe_outcome(outcome))
+    summary.hold(work.held)
+    for held in work.held:
+        print_json(held.to_json(), compact=True) if given.json else typer.echo(f"{'held':10} {held.asset}: {held.why}")
     if not given.json:
         typer.echo(f"{summary}{NOTHING_WRITTEN if given.dry_run else ''}")
     if given.report:
         _write_report(given.report, work, summary, perf_counter() - started, measures)
-    raise typer.Exit(int(summary.counts["failed"] > 0))
+    raise typer.Exit(int(summary.counts["failed"] > 0 or bool(work.held)))
 
 
 def _parse_measures(names: Sequence[str]) -> CheckOptions:
@@ -96,7 +113,8 @@ def _parse_measures(names: Sequence[str]) -> CheckOptions:
 
 @dataclass(frozen=True, slots=True)
 class _ApplyWork:
-    """What is to be run on what. readers: of assets before the run, by id; demonstrated: those that somebody edited."""
+    """What is to be run on what. readers: of assets before the run, by id; demonstrated: those that somebody edited;
+    held: those that are held back."""
 
     program: Program
     jobs: Sequence[batch.AssetJob]
@@ -104,6 +122,7 @@ class _ApplyWork:
     templates: Mapping[str, Template]
     readers: Callable[[Iterable[str]], Sequence[batch.MeshReader]]
     demonstrated: Collection[str] = ()
+    held: Sequence[batch.Held] = ()
 
 
 def _work_of_project(given: ApplyArguments) -> _ApplyWork:
@@ -115,12 +134,42 @@ def _work_of_project(given: ApplyArguments) -> _ApplyWork:
     from meshforge.project import Project  # lazy: 170 modules that a program file does not need
 
     project = Project.open(given.program)
-    program, jobs, templates = project.work()
+    out = given.out or project.layout.edited
+    held = _hold_back(project, out, given.sure) if given.sure is not None else ()
+    names = {one.asset for one in held}
+    program, jobs, templates = project.work(frozenset(project.assets()) - names if names else None)
     demonstrated = frozenset(project.layout.ids_with("demonstrations"))
-    return _ApplyWork(program, jobs, given.out or project.layout.edited, templates, project.readers, demonstrated)
+    return _ApplyWork(program, jobs, out, templates, project.readers, demonstrated, held)
+
+
+def _hold_back(project: Project, out: Path, bar: float) -> tuple[batch.Held, ...]:
+    """The assets of a project whose edits are less sure than a bar, the least sure first."""
+    program = project.program()
+    found = project.review(bar)
+    if program != project.program():
+        remark("The program was learned again from what was said since.")
+    assessment = found.assessment
+    names = [*assessment.held, *sorted(assessment.aside), *(name for name in found.lost)]
+    return tuple(_hold(name, assessment, out) for name in names)
+
+
+def _hold(name: str, assessment: Assessment, out: Path) -> batch.Held:
+    one = assessment.assets.get(name)
+    written = batch.read_stamp(out, name)
+    kept = str(out / written.out) if written and written.out else None
+    why = "a person set it aside" if name in assessment.aside else "it cannot be read"
+    if one and name not in assessment.aside:
+        doubt = one.doubts[0].text if one.doubts else "no single doubt stands out"
+        why = f"{format_share(one.probability)} sure; {doubt}"
+    if kept:
+        why += "; the output of an earlier run stays as it is"
+    doubts = tuple(doubt.to_json() for doubt in one.doubts) if one else ()
+    return batch.Held(name, one.probability if one else 0.0, doubts, why, kept)
 
 
 def _work_of_program(given: ApplyArguments) -> _ApplyWork:
+    if given.sure is not None:
+        raise UsageError("--sure needs a project: a program alone does not say how sure its results are")
     if not given.assets or given.out is None:
         lacking = "assets" if not given.assets else "--out DIR"
         raise UsageError(f"{lacking} is missing", remedy="meshforge apply PROGRAM ASSETS... --out DIR")

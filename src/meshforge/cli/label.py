@@ -9,6 +9,7 @@ from typing import Annotated, Literal
 import typer
 
 from meshforge.cli import options
+from meshforge.cli.label_consensus import label_by_consensus, restore_sources
 from meshforge.cli.label_report import LabelPrinter, LabelReport
 from meshforge.cli.label_sources import SourceOptions, label_from_sources, preview
 from meshforge.cli.label_vlm import VLM, VlmOptions, forecast, label_with_vlm
@@ -22,11 +23,13 @@ class LabelArguments:
 
     project: Annotated[Path, typer.Argument(help="A project folder.")]
     source: Annotated[
-        Literal["file", "names", "propagate", "vlm"],
+        Literal["file", "names", "propagate", "vlm", "consensus", "sources"],
         typer.Option(
             "--with",
             help="Where labels come from: file takes over labels files, names reads them off the names of hulls and "
-            "bodies, propagate takes those of a few assets to all others, vlm asks a vision-language model.",
+            "bodies, propagate takes those of a few assets to all others, vlm asks a vision-language model; consensus "
+            "weighs all that these and people said against hulls that look alike, sources takes back what consensus "
+            "and propagate made of it.",
         ),
     ] = "file"
     labels: Annotated[
@@ -113,6 +116,10 @@ def label(given: LabelArguments) -> None:
     printer = LabelPrinter(given.sheets, page, json=given.json)
     if source == "vlm":
         label_with_vlm(project, given.vlm, execution, printer)
+    elif source == "consensus":
+        label_by_consensus(project, execution, printer)
+    elif source == "sources":
+        restore_sources(project, execution, printer)
     else:
         label_from_sources(project, sources, execution, printer)
     raise typer.Exit(int(printer.failed))

@@ -25,6 +25,8 @@ _ABOUT = {
     "names": "Labels read off the names of hulls and bodies.",
     "propagate": "Labels of a few assets propagated to all others.",
     "vlm": "Labels by a vision-language model.",
+    "consensus": "Labels that all sources together speak for.",
+    "sources": "Labels as their sources gave them.",
 }
 _DOUBTFUL = "Doubtful assets have hulls without a label, or with an unsure one."
 _MAX_PROBLEMS = 20  # of one asset that are shown
@@ -38,6 +40,7 @@ _SOURCE_WORDS = {
     "file": "files",
     "name": "names",
     "propagated": "propagation",
+    "consensus": "consensus",
     "vlm": "a model",
     "edit": "edits",
 }

@@ -76,6 +76,10 @@ def preview(
             found = project.propose_from_names(options.meanings, vocabulary, execution=execution)
         case "propagate":
             found = project.propose_propagated(vocabulary, execution=execution, stage=progress)
+        case "consensus":
+            found = project.propose_consensus(vocabulary, execution=execution, stage=progress)
+        case "sources":
+            found = project.propose_sources(execution=execution)
         case _:
             found = project.propose_from_files(options.labels, options.file_options, vocabulary, execution=execution)
     if json:

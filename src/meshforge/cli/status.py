@@ -9,13 +9,24 @@ import typer
 
 from meshforge.cli.console import print_table, progress
 from meshforge.cli.options import Json
+from meshforge.cli.review_text import MOST_HELD, format_asset, format_counts
 from meshforge.cli.terminal import print_json
-from meshforge.common import pluralize
+from meshforge.common import join_names, pluralize
 from meshforge.project import AssetStatus, Project, Status
+from meshforge.signoff import AssetConfidence
 
 
-def status(project: Annotated[Path, typer.Argument(help="A project folder.")], json: Json = False) -> None:
-    """Show what is labelled, demonstrated, learned, applied, stale and flagged, and the next sensible step."""
+def status(
+    project: Annotated[Path, typer.Argument(help="A project folder.")],
+    signed_off: Annotated[
+        bool, typer.Option("--signed-off", help="Exit code 1 while some asset is held, void or not looked at.")
+    ] = False,
+    json: Json = False,
+) -> None:
+    """Show what is labelled, demonstrated, learned, applied, stale and flagged, and the next sensible step.
+
+    How sure each result is, is what `meshforge review` found last, as far as nothing changed since.
+    """
     opened = Project.open(project)
     with progress(len(opened.assets()), "reading") as advance:
         found = opened.status(progress=advance)
@@ -23,6 +34,8 @@ def status(project: Annotated[Path, typer.Argument(help="A project folder.")], j
         print_json(found.to_json())
     else:
         _print_status(found)
+    if signed_off and not found.is_signed_off:
+        raise typer.Exit(1)
 
 
 def _print_status(found: Status) -> None:
@@ -36,7 +49,25 @@ def _print_status(found: Status) -> None:
     )
     for asset in found.lost:
         typer.echo(f"kept for an asset that is not there: {asset}")
+    if found.rules is not None:
+        typer.echo(f"\n{_describe_sign_off(found)}")
     typer.echo(f"\nNext: {found.next.say}" + (f"\n  {found.next.command}" if found.next.command else ""))
+
+
+def _describe_sign_off(found: Status) -> str:
+    """How far the family is signed off, and what is not."""
+    done = found.count(lambda asset: asset.sign_off == "signed off")
+    aside = found.count(lambda asset: asset.sign_off == "set aside")
+    lines = [format_counts(done, len(found.assets), len(found.open_assets), aside, found.bar)]
+    for asset in found.open_assets[:MOST_HELD]:
+        if asset.void:
+            lines.append(f"  {asset.id}: void, {join_names(asset.void)} changed since it was signed off")
+        elif asset.probability is None:
+            lines.append(f"  {asset.id}: not looked at as it is now (meshforge review)")
+        else:
+            lines.append(f"  {format_asset(AssetConfidence(asset.id, asset.probability, asset.doubts))}")
+    more = len(found.open_assets) - MOST_HELD
+    return "\n".join([*lines, *([f"  and {more} more"] if more > 0 else [])])
 
 
 def _to_row(asset: AssetStatus) -> tuple[object, ...]:

@@ -59,7 +59,7 @@ def format_remarks(outcome: synthesis.LearningOutcome, about: LearningContext) -
     if isinstance(outcome, synthesis.Found | synthesis.Ambiguous):
         took = f"learned in {sum(outcome.seconds.values()):.2f} s{_describe_inputs(about)}"
         lines += [f"{took}, kept as {about.folder / 'program.mf'}" if about.kept else took]
-        lines += _describe_agreement(outcome, about)
+        lines += [*_describe_suggestion(outcome, "may be meant"), *_describe_agreement(outcome, about)]
         lines += [f"Next: meshforge apply {about.folder_word}"] if about.kept else []
     return "\n".join(lines)
 
@@ -126,8 +126,13 @@ def _describe_failure(outcome: synthesis.NoProgram) -> Iterator[str]:
     yield from (f"- {line}" for line in outcome.advice)
     if not outcome.advice:
         yield "Look at the labels of these hulls (meshforge info), or at what was demonstrated there."
+    yield from _describe_suggestion(outcome, "would do")
+
+
+def _describe_suggestion(outcome: synthesis.LearningOutcome, how: str) -> Iterator[str]:
+    """An orientation that is suggested, and how to take it."""
     if outcome.suggested:
-        yield f"Another orientation would do: {outcome.suggested.why}."
+        yield f"Another orientation {how}: {outcome.suggested.why}."
         yield "  in meshforge.toml write: orient = " + toml_value(orientation_text(outcome.suggested.orient))
 
 

@@ -5,7 +5,7 @@ from meshforge.label_model.describe import MeshDescriber
 from meshforge.label_model.odds import LabelBeliefs, LabelOdds, is_human
 from meshforge.label_model.posterior import FamilyModel, FamilyPosterior, infer_labels, model_family
 from meshforge.label_model.sides import correct_upright, find_doubtful_sides
-from meshforge.label_model.table import FamilyTable, Observations, metric_weights, reference_label
+from meshforge.label_model.table import FamilyTable, Observations, evidence_of, metric_weights, reference_label
 
 __all__ = [
     "EVIDENCE",
@@ -18,6 +18,7 @@ __all__ = [
     "Observations",
     "consensus_weights",
     "correct_upright",
+    "evidence_of",
     "find_doubtful_sides",
     "infer_labels",
     "is_human",

@@ -21,6 +21,9 @@ from meshforge.symbolic import HUMAN_SOURCES, Hull, SymbolicMesh
 MAX_ODDS_FOR_CORRECTION = 5.0
 """What may speak for a correction at most; look-alikes err too."""
 
+PERSON_ODDS = 1.5
+"""What speaks for a person's label besides its probability: they are there, and can be asked [nats]."""
+
 OTHERS_ON_PERSON = (2.0, 3.0)
 """What look-alikes say for or against a person's label counts so many times, and so much at most [nats]."""
 
@@ -29,6 +32,10 @@ NO_LABEL_COST = 1.5
 
 CORRECTION_COST = 0.5
 """A correction, besides its improbability: so those are proposed that serve."""
+
+SURE_ENOUGH = 0.2
+"""A label that is wrong with no more than this probability does not count among those that are expected to be wrong: so
+many of them add up where nothing is wrong."""
 
 SMOOTHING = 0.02
 """The share of each probability that is spread evenly over the vocabulary, so that no label is out of question."""
@@ -151,11 +158,14 @@ def _log_odds(hull: Hull, ratio: float, others: int) -> float:
     if not is_human(hull):
         return math.log(ratio)
     times, most = OTHERS_ON_PERSON
-    return math.log(PERSON / (1 - PERSON) * others) + min(most, max(-most, times * math.log(ratio)))
+    return math.log(PERSON / (1 - PERSON) * others) + PERSON_ODDS + min(most, max(-most, times * math.log(ratio)))
 
 
 def _error(hull: Hull, own: float) -> float:
-    return 1 - PERSON if is_human(hull) else 1 - own
+    """How much a label counts as wrong; own: its probability."""
+    if is_human(hull):
+        return 1 - PERSON
+    return max(0.0, 1 - own - SURE_ENOUGH) / (1 - SURE_ENOUGH)
 
 
 def _is_same_asset(mesh: SymbolicMesh, other: SymbolicMesh) -> bool:

@@ -13,7 +13,7 @@ from scipy.spatial.distance import cdist
 from meshforge.geometry import Floats, Ints
 from meshforge.label_model.consensus import infer_chances
 from meshforge.label_model.describe import SHAPE_COLUMNS, MeshDescriber, describe_mesh, digest_mesh
-from meshforge.label_model.sides import correct_upright, find_doubtful_sides
+from meshforge.label_model.sides import choose_sides, find_doubtful_sides
 from meshforge.label_model.table import NO_LABEL, FamilyTable, Observations, evidence_of
 from meshforge.label_model.ties import first_greatest, pick_evenly
 from meshforge.symbolic import Label, LabelSource, SymbolicMesh
@@ -24,6 +24,8 @@ _AT_LEAST = 0.1  # what a hull counts whose label is certain; one about which no
 
 _DIGITS = 3
 _FREE_ODDS = 2.5  # odds of what was said from which on another label must be surer [nats]
+_ALIKE = 0.6  # probability of each of two labels on hulls called the other, together, from which they look alike
+_BOTH = 0.1  # of the meshes that have the rarer of them, those that may have both
 _REMEMBERED = 2000  # meshes whose other sides are not described again
 
 
@@ -88,6 +90,24 @@ class FamilyPosterior:
             return given or said
         return Label(self.seen.labels[best], round(chance, _DIGITS), "consensus", given)
 
+    def find_alike_labels(self) -> tuple[tuple[str, str], ...]:
+        """Pairs of labels that may be two names of one part: others take hulls of one for the other, and hardly any
+        mesh has both."""
+        known, count = np.flatnonzero(self.seen.known), len(self.seen.labels)
+        codes, owner = self.seen.codes[known], self.table.owner[known]
+        taken = np.zeros((count, count))
+        for code in range(count):
+            taken[code] = self.by_others[known[codes == code]].mean(axis=0)
+        _, mesh = np.unique(owner, return_inverse=True)
+        has = np.zeros((int(mesh.max(initial=-1)) + 1, count))
+        has[mesh, codes] = 1.0
+        fewer = np.minimum.outer(has.sum(axis=0), has.sum(axis=0))
+        is_alike = (taken + taken.T > _ALIKE) & (has.T @ has <= _BOTH * fewer) & (fewer > 1)
+        return tuple(
+            (self.seen.labels[one], self.seen.labels[other])
+            for one, other in np.argwhere(np.triu(is_alike, 1)).tolist()
+        )
+
     def next_to_label(self, count: int = 1) -> list[int]:
         """The meshes to label next, the best first; those whose hulls all have given labels are not among them."""
         table, seen = self.table, self.seen
@@ -126,7 +146,7 @@ class FamilyModel:
         self.table = FamilyTable.of([(one.rows, one.touching) for one in descriptors], metric)
         self._sides = [one.sides for one in descriptors]
         self._closely = lru_cache(_REMEMBERED)(lambda mesh: cache(MeshDescriber(meshes[mesh]).describe_side))
-        self._turned: dict[tuple[int, ...], FamilyTable] = {}
+        self._turned: dict[tuple[tuple[int, int], ...], FamilyTable] = {}
 
     def infer(self, labels: Sequence[Label | None]) -> FamilyPosterior:
         """What labels, one or None for each hull of all meshes, say about all hulls, these included.
@@ -143,17 +163,16 @@ class FamilyModel:
 
     def _set_upright(self, seen: Observations) -> FamilyTable:
         """The table with fallen meshes turned; the one made last is kept, with the look-alikes found in it."""
-        doubtful = [
-            (mesh, sides)
-            for mesh, sides in find_doubtful_sides(self.table, seen.given, self._sides.__getitem__)
-            if sides
-        ]
-        if not doubtful:
+        found = find_doubtful_sides(self.table, seen, self._sides.__getitem__)
+        doubtful = {mesh: sides for mesh, sides in found if sides}
+        rows = {mesh: [self._closely(mesh)(side) for side in sides] for mesh, sides in doubtful.items()}
+        chosen = choose_sides(self.table, seen, rows.items())
+        if not chosen:
             return self.table
-        key = tuple(np.flatnonzero(seen.given).tolist())
+        key = tuple((mesh, doubtful[mesh][place]) for mesh, place in chosen.items())
         if key not in self._turned:
-            closer = [(mesh, [self._closely(mesh)(side) for side in sides]) for mesh, sides in doubtful]
-            self._turned = {key: correct_upright(self.table, seen.given, closer)}
+            turned = ((self.table.spans[mesh], self.table.scale(rows[mesh][place])) for mesh, place in chosen.items())
+            self._turned = {key: self.table.turn(turned)}
         return self._turned[key]
 
 

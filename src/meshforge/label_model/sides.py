@@ -1,4 +1,4 @@
-"""Meshes that lie on another side than it seems are set upright, by the hulls whose labels are given."""
+"""Meshes that lie on another side than it seems are set upright, by hulls of other meshes whose labels are known."""
 
 from __future__ import annotations
 
@@ -9,62 +9,76 @@ from scipy.spatial.distance import cdist
 
 from meshforge.geometry import Floats
 from meshforge.label_model.describe import SHAPE_COLUMNS
-from meshforge.label_model.table import Bools, FamilyTable
+from meshforge.label_model.table import NO_LABEL, FamilyTable, Observations
 from meshforge.label_model.ties import EQUAL, greatest_first, pick_evenly
 
 _CLOSE = 2  # of the sides of a mesh that are looked at closely, those under which the hulls themselves are most like
 _BETTER = 0.9  # of the distance as it seems to lie, under which another side must be
-_MOST_ROWS = 3000  # hulls at most, evenly chosen
+_MOST_ROWS = 800  # hulls at most, evenly chosen
+
+
+class UprightReference:
+    """The hulls by which it is told how a mesh stands: those whose labels are given, or where none are, all of which
+    anything is said; of the labels that a mesh has itself each is compared with hulls of that label alone.
+    """
+
+    def __init__(self, table: FamilyTable, seen: Observations) -> None:
+        self._table, self._codes = table, seen.codes
+        known = seen.given if seen.given.any() else seen.known
+        self.hulls = pick_evenly(np.flatnonzero(known), _MOST_ROWS)
+
+    def apart(self, mesh: int, rows: Floats, columns: slice) -> float:
+        """How far hulls of a mesh, described by rows (n, columns), are from those of other meshes, on average."""
+        table, span = self._table, self._table.spans[mesh]
+        others = self.hulls[table.owner[self.hulls] != mesh]
+        if not len(others):
+            return 0.0
+        metric = table.metric[columns]
+        gaps = cdist(rows * metric, table.rows[others, columns] * metric, "cityblock")
+        own = self._codes[span]
+        same = (own[:, None] == self._codes[others][None]) | (own == NO_LABEL)[:, None]
+        same |= ~same.any(axis=1, keepdims=True)
+        return float(np.where(same, gaps, np.inf).min(axis=1).mean())
 
 
 def find_doubtful_sides(
-    table: FamilyTable, given: Bools, sides: Callable[[int], Floats]
+    table: FamilyTable, seen: Observations, sides: Callable[[int], Floats]
 ) -> Iterator[tuple[int, tuple[int, ...]]]:
-    """Each mesh without a hull whose label is given, and on which other sides it has to be looked at closely, none or
-    some.
+    """Each mesh, and on which other sides it has to be looked at closely, none or some.
 
-    given: (n,) of all hulls; sides: `ShapeDescriptor.sides` of the mesh of that number.
+    sides: `ShapeDescriptor.sides` of the mesh of that number.
     """
-    if not given.any():
+    reference, scale = UprightReference(table, seen), table.scale.of_columns(SHAPE_COLUMNS)
+    if not len(reference.hulls):
         return
-    known, scale = _rows_of(table, given)[:, SHAPE_COLUMNS], table.scale.of_columns(SHAPE_COLUMNS)
-
-    def apart(shapes: Floats) -> float:
-        return _mean_distance(shapes * table.metric[SHAPE_COLUMNS], known)
-
     for mesh, span in table.spans.items():
-        if given[span].any():
-            continue
-        likeness = [apart(scale(found)) for found in sides(mesh)]
-        seems = apart(table.rows[span, SHAPE_COLUMNS])
+        likeness = [reference.apart(mesh, scale(found), SHAPE_COLUMNS) for found in sides(mesh)]
+        seems = reference.apart(mesh, table.rows[span, SHAPE_COLUMNS], SHAPE_COLUMNS)
         order = greatest_first(-np.array(likeness))
         yield mesh, tuple([side for side in order if likeness[side] < seems - EQUAL][:_CLOSE])
 
 
-def correct_upright(table: FamilyTable, given: Bools, closer: Iterable[tuple[int, Sequence[Floats]]]) -> FamilyTable:
-    """The table with those meshes turned whose hulls are then clearly more like those whose labels are given.
+def choose_sides(
+    table: FamilyTable, seen: Observations, closer: Iterable[tuple[int, Sequence[Floats]]]
+) -> dict[int, int]:
+    """Those meshes whose hulls are clearly more like those of others on another side, each with which of its rows.
 
     closer: meshes, each with its rows on those sides that `find_doubtful_sides` names.
     """
-    known = _rows_of(table, given)
-
-    def apart(found: Floats) -> float:
-        return _mean_distance(found * table.metric, known)
-
-    def turned() -> Iterator[tuple[slice, Floats]]:
-        for mesh, sides in closer:
-            span = table.spans[mesh]
-            found = [table.scale(side) for side in sides]
-            order = greatest_first(np.array([-apart(side) for side in found]))
-            if order and apart(found[order[0]]) < _BETTER * apart(table.rows[span]):
-                yield span, found[order[0]]
-
-    return table.turn(turned())
+    reference, every = UprightReference(table, seen), slice(0, table.rows.shape[1])
+    found = {}
+    for mesh, sides in closer:
+        apart = [reference.apart(mesh, table.scale(side), every) for side in sides]
+        order = greatest_first(-np.array(apart))
+        if order and apart[order[0]] < _BETTER * reference.apart(mesh, table.rows[table.spans[mesh]], every):
+            found[mesh] = order[0]
+    return found
 
 
-def _rows_of(table: FamilyTable, given: Bools) -> Floats:
-    return table.rows[pick_evenly(np.flatnonzero(given), _MOST_ROWS)] * table.metric
-
-
-def _mean_distance(rows: Floats, others: Floats) -> float:
-    return float(cdist(rows, others, "cityblock").min(axis=1).mean())
+def correct_upright(
+    table: FamilyTable, seen: Observations, closer: Iterable[tuple[int, Sequence[Floats]]]
+) -> FamilyTable:
+    """The table with those meshes turned; closer: as of `choose_sides`."""
+    rows = {mesh: list(sides) for mesh, sides in closer}
+    chosen = choose_sides(table, seen, rows.items())
+    return table.turn((table.spans[mesh], table.scale(rows[mesh][side])) for mesh, side in chosen.items())

@@ -4,6 +4,7 @@ overwritten by a machine."""
 from meshforge.labels.from_files.points import PointsOptions
 from meshforge.labels.from_files.read import LabelFileOptions, label_file_beside
 from meshforge.labels.from_files.segments import PointAlignment
+from meshforge.labels.label_by_consensus import ConsensusResult, LabelChange, RestoredSources
 from meshforge.labels.label_by_propagation import PropagationResult
 from meshforge.labels.label_store import LabelStore
 from meshforge.labels.merge import LabelOutcome, label_new_hulls
@@ -14,6 +15,8 @@ from meshforge.labels.vlm.label_by_vlm import VlmForecast, VlmResult, check_vlm_
 from meshforge.labels.vlm.limits import Usage
 
 __all__ = [
+    "ConsensusResult",
+    "LabelChange",
     "LabelFileOptions",
     "LabelOutcome",
     "LabelStore",
@@ -23,6 +26,7 @@ __all__ = [
     "PropagationResult",
     "Proposal",
     "Proposals",
+    "RestoredSources",
     "SourceTally",
     "Tally",
     "Usage",

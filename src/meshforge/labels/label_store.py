@@ -8,10 +8,12 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from meshforge.batch import IN_PROCESS, ExecutionOptions
-from meshforge.labels import label_by_propagation
+from meshforge.labels import label_by_consensus, label_by_propagation
+from meshforge.labels.family_comparison import Stage, WriteBlock, ignore_stage
 from meshforge.labels.from_files.label_by_files import label_from_files, propose_from_files
 from meshforge.labels.from_files.read import LabelFileOptions
-from meshforge.labels.label_by_propagation import PropagationResult, Stage, WriteBlock, ignore_stage
+from meshforge.labels.label_by_consensus import ConsensusResult, RestoredSources
+from meshforge.labels.label_by_propagation import PropagationResult
 from meshforge.labels.merge import LabelOutcome, OutcomeCallback, ignore_report, set_labels
 from meshforge.labels.names.label_by_names import PatternPairs, label_from_names, propose_from_names
 from meshforge.labels.offers import LabelOffers, OfferCache
@@ -136,6 +138,47 @@ class LabelStore(Store):
     ) -> Proposals:
         """What `propagate_labels` would give, with nothing written; vocabulary: one to try instead."""
         return label_by_propagation.propose_propagated(self, vocabulary, execution, stage)
+
+    def label_by_consensus(
+        self,
+        *,
+        execution: ExecutionOptions = IN_PROCESS,
+        stage: Stage = ignore_stage,
+        report: OutcomeCallback = ignore_report,
+        write_block: WriteBlock = nullcontext,
+    ) -> ConsensusResult:
+        """Give each hull the label that all sources together speak for; labels of people stay.
+
+        Each source counts as far as it is right in this family, beside the labels of hulls that look alike. A label
+        that it is right about stays as that source gave it; one that was replaced is kept beside the new one, see
+        `restore_sources`. Doing it again changes nothing. stage, report, write_block: see `propagate_labels`.
+        Raises ProjectError: no vocabulary, no label at all; StoppedError on a stop, with nothing written.
+        """
+        return label_by_consensus.label_by_consensus(self, execution, stage, report, write_block)
+
+    def propose_consensus(
+        self,
+        vocabulary: Sequence[str] | None = None,
+        *,
+        execution: ExecutionOptions = IN_PROCESS,
+        stage: Stage = ignore_stage,
+    ) -> Proposals:
+        """What `label_by_consensus` would give, with nothing written; vocabulary: one to try instead."""
+        return label_by_consensus.propose_consensus(self, vocabulary, execution, stage)
+
+    def restore_sources(
+        self, *, execution: ExecutionOptions = IN_PROCESS, report: OutcomeCallback = ignore_report
+    ) -> RestoredSources:
+        """Put back what sources said where a label was inferred: a hull of which nothing was said has none then.
+
+        It undoes `label_by_consensus` and `propagate_labels`. report: called with the outcome of each asset, in their
+        order.
+        """
+        return label_by_consensus.restore_sources(self, execution, report)
+
+    def propose_sources(self, *, execution: ExecutionOptions = IN_PROCESS) -> Proposals:
+        """What `restore_sources` would put back, with nothing written."""
+        return label_by_consensus.propose_sources(self, execution)
 
     def label_with_vlm(
         self,

@@ -9,9 +9,10 @@ from dataclasses import dataclass, replace
 from meshforge import symbolic
 from meshforge.common import AssetError, ProjectError, file_state, join_names, nearest_name
 from meshforge.geometry import Shape, digest, overlap_volume
+from meshforge.label_model import evidence_of
 from meshforge.rendering import UNSURE
 from meshforge.store import Store, hull_digests
-from meshforge.symbolic import HUMAN_SOURCES, Label, SymbolicMesh
+from meshforge.symbolic import HUMAN_SOURCES, INFERRED_SOURCES, Label, SymbolicMesh
 
 ReplacePolicy = Callable[[Label | None, Label], bool]
 """Whether a label, or none, may be replaced by a given one at all; what people said stays in any case."""
@@ -71,7 +72,7 @@ def merge_labels(
     hulls: the names of all; current: the labels that there are, by hull.
     """
     taken, same, kept, problems = dict[str, Label](), 0, 0, list[str]()
-    for name, label in given.items():
+    for name, label in ((name, infer_over(current.get(name), label)) for name, label in given.items()):
         if problem := _problem(name, label, hulls, vocabulary):
             problems.append(problem)
         elif current.get(name) == label:
@@ -81,13 +82,25 @@ def merge_labels(
         else:
             taken[name] = label
     labels = {**current, **taken}
+    outcome = _summarize(asset, hulls, labels, taken=len(taken), same=same)
+    return labels, replace(outcome, kept=kept, problems=tuple(problems))
+
+
+def _summarize(
+    asset: str, hulls: Collection[str], labels: Mapping[str, Label], *, taken: int, same: int
+) -> LabelOutcome:
     unsure = sum(label.confidence < UNSURE for label in labels.values())
-    return labels, LabelOutcome(asset, len(taken), same, kept, len(hulls) - len(labels), unsure, tuple(problems))
+    return LabelOutcome(asset, taken, same, unlabelled=len(hulls) - len(labels), unsure=unsure)
 
 
 def is_protected(current: Label | None, given: Label) -> bool:
     """Whether a label stays though another one is given: a machine's does not take the place of a person's."""
     return current is not None and current.source in HUMAN_SOURCES and given.source not in HUMAN_SOURCES
+
+
+def infer_over(current: Label | None, given: Label) -> Label:
+    """A given label; one that was inferred with what was said of its hull before that."""
+    return replace(given, given=evidence_of(current)) if given.source in INFERRED_SOURCES else given
 
 
 def _problem(name: str, label: Label, hulls: Collection[str], vocabulary: Sequence[str]) -> str | None:
@@ -146,6 +159,21 @@ class LabelWriter:
             if report.taken:
                 self._store.write_labels(asset, hulls, labels, self.vocabulary)
         return report
+
+    def remove_inferred(self, asset: str, hulls: Mapping[str, str]) -> tuple[dict[str, Label], LabelOutcome]:
+        """Put back what was said before labels were inferred; give these, and what became of the asset.
+
+        hulls: digests by name, in order. Raises AssetError where the present labels cannot be read.
+        """
+        with self._store.lock():
+            current = symbolic.match_labels(self._store.labels(asset), hulls).labels
+            inferred = {name: label for name, label in current.items() if label.source in INFERRED_SOURCES}
+            said = {name: evidence_of(label) for name, label in current.items()}
+            labels = {name: label for name, label in said.items() if label}
+            if inferred:
+                self._store.write_labels(asset, hulls, labels, self.vocabulary)
+        taken = sum(label.given is not None for label in inferred.values())
+        return inferred, _summarize(asset, hulls, labels, taken=taken, same=len(current) - len(inferred))
 
 
 def ignore_report(report: LabelOutcome) -> None:
@@ -219,4 +247,4 @@ def _label_by_overlap(hull: symbolic.Hull, gone: Mapping[str, Shape], labels: Ma
         return None
     heir = labels[max((n for n in gone if labels[n].name == best), key=lambda n: common[n])]
     certain = shares[best] >= _WHOLE_OVERLAP
-    return heir if certain else Label(best, heir.confidence * min(shares[best], 1.0), "propagated")
+    return heir if certain else replace(heir, confidence=heir.confidence * min(shares[best], 1.0), source="propagated")

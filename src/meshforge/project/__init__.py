@@ -3,6 +3,7 @@
 from meshforge.project.learn import FamilyMeshes, ProgramState, select_assets, suggest_first_demonstration
 from meshforge.project.prepare import PreparationResult
 from meshforge.project.project import Project
+from meshforge.project.review import ProjectReview
 from meshforge.project.run import make_correction, output_digest, run_with_corrections
 from meshforge.project.status import AssetStatus, Status
 
@@ -12,6 +13,7 @@ __all__ = [
     "PreparationResult",
     "ProgramState",
     "Project",
+    "ProjectReview",
     "Status",
     "make_correction",
     "output_digest",

@@ -10,6 +10,7 @@ from meshforge import batch
 from meshforge.labels import LabelStore
 from meshforge.language import Orient
 from meshforge.project import demonstrations, learn, overview, prepare, rename, run
+from meshforge.project.review import reply_to, review_project
 from meshforge.store import add_assets, create_folder, find_assets
 
 
@@ -97,5 +98,7 @@ class Project(LabelStore):
     # After the program
 
     correct = run.correct
-    review = run.review_assets
+    set_verdict = run.review_assets
+    review = review_project
+    reply = reply_to
     status = overview.compute_status

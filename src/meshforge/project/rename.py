@@ -64,7 +64,7 @@ def _rewrite_files(store: Store, old: str, new: str) -> Iterator[tuple[Path, str
     layout = store.layout
     for path in map(layout.labels, layout.ids_with("labels")):
         file = read_labels(path)
-        if old in (*file.vocabulary, *(label.name for label in file.labels.values())):
+        if old in (*file.vocabulary, *(name for label in file.labels.values() for name in label.names)):
             yield path, format_labels(_rename_in_labels(file, old, new))
     for path in map(layout.demonstration, layout.ids_with("demonstrations")):
         yield from _rename_in_steps(path, files.read_json(path, files.DemonstrationFile), old, new)
@@ -77,7 +77,7 @@ def _rewrite_files(store: Store, old: str, new: str) -> Iterator[tuple[Path, str
 
 
 def _rename_in_labels(file: LabelFile, old: str, new: str) -> LabelFile:
-    labels = {key: replace(at, name=new) if at.name == old else at for key, at in file.labels.items()}
+    labels = {key: label.rename(old, new) for key, label in file.labels.items()}
     return LabelFile(tuple(new if word == old else word for word in file.vocabulary), labels, file.digests)
 
 
@@ -113,8 +113,8 @@ def _rename_in_repair(line: files.RepairLine, old: str, new: str) -> files.Repai
         to=new if line.to == old else line.to,
     )
     values: dict[str, object] = {"id": files.repair_id(right), "was": right.was, "to": right.to}
-    if isinstance(line, files.ConfirmationLine) and line.before and line.before.label == old:
-        values["before"] = line.before.model_copy(update={"label": new})
+    if isinstance(line, files.ConfirmationLine) and line.before:
+        values["before"] = line.before.rename(old, new)
     return line.model_copy(update=values)
 
 

@@ -11,8 +11,10 @@ from typing import Any, Literal
 
 from meshforge.labels import label_file_beside
 from meshforge.project.learn import ProgramState
+from meshforge.signoff import BAR, Doubt
 from meshforge.symbolic import Label
 
+SignOffState = Literal["signed off", "held", "void", "set aside", "unknown"]
 OutputState = Literal["none", "edited", "unchanged", "failed"]
 
 
@@ -29,6 +31,8 @@ class AssetStatus:
     names, labels: of the hulls, in the asset's order; geometry: the digest of names and shapes of all hulls, empty
     where it cannot be read. after, after_labels, output_digest: hulls of the output, the label of each where that is
     known, and its files; corrections: edits by hand, a number.
+    sign_off: whether it is signed off; void: what changed since it was; probability, doubts: of its edit, as of the
+    last review where nothing changed since, else None.
     """
 
     id: str
@@ -51,6 +55,10 @@ class AssetStatus:
     output_digest: str | None = None
     corrections: int = 0
     review_note: str | None = None
+    sign_off: SignOffState = "unknown"
+    void: tuple[str, ...] = ()
+    probability: float | None = None
+    doubts: tuple[Doubt, ...] = ()
 
     @property
     def is_done(self) -> bool:
@@ -78,6 +86,20 @@ class Status:
     lost: tuple[str, ...]
     next: Advice
     question: str | None = None
+    bar: float = BAR
+
+    @property
+    def open_assets(self) -> tuple[AssetStatus, ...]:
+        """Those that are neither signed off nor set aside, the least probable first."""
+        some = [asset for asset in self.assets if asset.sign_off in ("held", "void", "unknown")]
+        return tuple(
+            sorted(some, key=lambda asset: (-1.0 if asset.probability is None else asset.probability, asset.id))
+        )
+
+    @property
+    def is_signed_off(self) -> bool:
+        """Whether nothing is held, void or unknown."""
+        return not self.open_assets
 
     def count(self, holds: Callable[[AssetStatus], bool]) -> int:
         """How many assets a condition holds for."""
@@ -92,6 +114,7 @@ class Status:
             "outdated": self.outdated,
             "question": self.question,
             "problem": self.problem,
+            "signed_off": self.count(lambda asset: asset.sign_off == "signed off"),
             "assets": [_asset_json(asset) for asset in self.assets],
             "lost": list(self.lost),
             "next": {"say": self.next.say, "command": self.next.command},
@@ -112,6 +135,10 @@ def _asset_json(asset: AssetStatus) -> dict[str, Any]:
         "error": asset.error,
         "flags": list(asset.flags),
         "review": asset.review,
+        "sign_off": asset.sign_off,
+        "void": list(asset.void),
+        "probability": None if asset.probability is None else round(asset.probability, 4),
+        "doubts": [doubt.to_json() for doubt in asset.doubts],
     }
 
 

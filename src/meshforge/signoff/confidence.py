@@ -13,10 +13,12 @@ import numpy as np
 from meshforge.geometry import Floats
 
 WEIGHTS_FILE = "confidence.json"
-FEATURES = ("always", "readings", "labels", "labels not demonstrated", "unlike the rest", "alarms")
+FEATURES = ("always", "readings and labels", "labels not demonstrated", "unlike the rest", "alarms")
 """What the probability depends on."""
 LEAST, MOST = 0.0005, 0.9995
 """Bounds of what readings and labels say."""
+BY_HAND = {"unlike the rest": -1.0, "alarms": -1.5}
+"""Weights that are chosen, not fitted: calibration families hardly have such assets."""
 NO_EDIT = 0.01
 """The probability of an edit that cannot be made."""
 
@@ -32,9 +34,11 @@ def confidence_weights() -> Floats:
 
 @dataclass(frozen=True, slots=True)
 class AssetEvidence:
-    """What speaks for one edit. readings: the probability that each rule means there what it does; labels: that no
-    other labels would change the edit; foreign: whether it has labels that no demonstration shows; unlike: how far its
-    hulls are from those of other assets, in units of what is usual, above it; alarms: how many there are.
+    """What speaks for one edit.
+
+    readings: the probability that each rule means there what it does; labels: that no other labels would change the
+    edit; foreign: whether it has labels that no demonstration shows; unlike: how much farther than usual its strangest
+    hull is from all hulls of other assets of which something is said; alarms: how many there are.
     """
 
     readings: float
@@ -46,7 +50,7 @@ class AssetEvidence:
     @property
     def features(self) -> Floats:
         """The features (len(FEATURES),)."""
-        return np.array([1.0, _log_odds(self.readings), _log_odds(self.labels), self.foreign, self.unlike, self.alarms])
+        return np.array([1.0, _log_odds(self.readings * self.labels), self.foreign, self.unlike, self.alarms])
 
     @property
     def probability(self) -> float:

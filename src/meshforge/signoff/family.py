@@ -23,7 +23,7 @@ from meshforge.synthesis import Reading
 SURE_OF_DEMONSTRATED = 0.999
 _WORTH_TELLING = 0.01  # the probability that an edit is wrong for one reason, from which on it is told
 _MOST_DOUBTS = 6
-_USUAL_TIMES = 2.0  # a hull so many times as far from all others as is usual is unlike the rest
+_UNLIKE = 1.5  # what is so much farther than usual, as a logarithm, is unlike the rest
 
 
 @dataclass(frozen=True, eq=False)
@@ -86,15 +86,16 @@ class FamilyTrial:
 
     @cached_property
     def _unlikeness(self) -> Floats:
-        """How much farther than usual the strangest hull of each asset is from all hulls of others, as a logarithm."""
-        apart = self.posterior.table.find_lookalikes(()).apart
-        nearest = apart.min(axis=(1, 2), initial=np.inf) if apart.shape[1] else np.full(len(apart), np.inf)
-        finite = nearest[np.isfinite(nearest)]
-        usual = float(np.median(finite)) if len(finite) else 1.0
+        """How much farther than usual the strangest hull of each asset is from all hulls of other assets of which
+        something is said, as a logarithm, above what may be (assets,)."""
+        table, known = self.posterior.table, self.posterior.seen.known
+        _, apart = table.find_lookalikes(()).nearest(known, 1, 1)
+        nearest = apart[:, 0]
+        usual = float(np.median(nearest[np.isfinite(nearest)])) if np.isfinite(nearest).any() else 1.0
         found = np.zeros(len(self.trials))
-        for place, span in self.posterior.table.spans.items():
+        for place, span in table.spans.items():
             worst = float(nearest[span].max(initial=0.0))
-            found[place] = 0.0 if not np.isfinite(worst) else max(0.0, np.log(worst / max(_USUAL_TIMES * usual, 1e-9)))
+            found[place] = max(0.0, np.log(worst / max(usual, 1e-9)) - _UNLIKE) if 0 < worst < np.inf else 0.0
         return found
 
     def confidence_of(self, place: int) -> AssetConfidence:

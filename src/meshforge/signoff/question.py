@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any, Literal, NamedTuple
 
-from meshforge.language import Program, Template
+from meshforge.language import Orient, Program, Template
 from meshforge.symbolic import SymbolicMesh
 from meshforge.synthesis import Answer, Demonstration
 
@@ -31,11 +31,12 @@ class HullPlace(NamedTuple):
 @dataclass(frozen=True, slots=True)
 class ReviewChoice:
     """One reply. text: what it says; label: that the hulls then get; select: names of the hulls of the asset that the
-    rule then selects."""
+    rule then selects; orient: how assets are turned then."""
 
     text: str
     label: str | None = None
     select: tuple[str, ...] | None = None
+    orient: Orient | None = None
 
 
 @dataclass(frozen=True, slots=True)

@@ -30,6 +30,9 @@ def apply_reply(
         refused = [one.select for one in question.choices if one.select is not None] if choice is None else []
         answer = Answer(question.rule, question.asset, None if choice is None else choice.select, refused)
         return replace(state, answers=(*state.answers, answer))
+    if question.kind == "orientation" and choice is not None:
+        put_off = state.later | {question.id}
+        return replace(state, frame=replace(state.frame, orient=choice.orient or state.frame.orient), later=put_off)
     if choice is None and not reply.exceptions:
         return replace(state, later=state.later | {question.id})
     return _apply_labels(state, question, reply)

@@ -32,12 +32,15 @@ from meshforge.synthesis import (
     Found,
     LearningOutcome,
     NeedsRepair,
+    NoProgram,
+    OrientationSuggestion,
     choose_first_demonstration,
 )
 
 _NO_ALARMS: Mapping[str, Sequence[str]] = MappingProxyType({})
 _TRUST = 2  # the power of the probability that labels on an asset are right, with which what is said there counts
 _LEAST_TRUST = 0.7  # below this nothing is asked there about readings
+_SUGGESTION_RIGHT = 0.5  # the share of held assets that an orientation which is suggested makes right
 _MOST_SPLITS = 40  # assets on which readings are told apart, those where they differ most
 
 
@@ -53,17 +56,17 @@ def review_family(
     outcome: what was learned from all that the state holds, None before anything was shown; family: its meshes, in
     their order; alarms: sentences on results that stand out, by asset.
     """
+    looked_at = frozenset([*state.demos, *state.accepted, *state.mended])
     if not isinstance(outcome, Found | Ambiguous):
         unknown = {name: AssetConfidence(name, 0.0, (_doubt_of(outcome),)) for name in state.meshes}
-        return Assessment(unknown, bar, aside=state.aside, question=_question_before(state, outcome))
+        return Assessment(unknown, bar, looked_at, state.aside, _question_before(state, outcome))
     posterior = family.infer([hull.annotation for mesh in state.meshes.values() for hull in mesh.hulls])
     trial = FamilyTrial.of(state, outcome.program, outcome.readings, posterior, alarms)
     assets = {one.asset: trial.confidence_of(place) for place, one in enumerate(trial.trials)}
-    looked_at = frozenset([*state.demos, *state.accepted, *state.mended])
     found = Assessment(assets, bar, looked_at, state.aside)
     if found.is_done:
         return found
-    return Assessment(assets, bar, looked_at, state.aside, _choose(_questions(trial, found), state))
+    return Assessment(assets, bar, looked_at, state.aside, _choose(_questions(trial, found, outcome.suggested), state))
 
 
 def _doubt_of(outcome: LearningOutcome | None) -> Doubt:
@@ -95,15 +98,36 @@ def _question_before(state: ReviewState, outcome: LearningOutcome | None) -> Rev
             )
             if question.id not in state.later:
                 return question
+    if isinstance(outcome, NoProgram):
+        if outcome.suggested:
+            question = _ask_orientation(outcome.suggested, state, everyone)
+            if question.id not in state.later:
+                return question
+        asset = outcome.nearest.asset
+        return _ask_demonstration(state, asset, everyone, f"Nothing fits what was shown on {{}}: {outcome.why}.")
     return None
 
 
-def _questions(family: FamilyTrial, found: Assessment) -> Iterator[ReviewQuestion]:
+def _ask_orientation(suggested: OrientationSuggestion, state: ReviewState, gain: float) -> ReviewQuestion:
+    text = f"Are assets to be turned first, by {show(suggested.orient)}? {suggested.why}."
+    choices = [ReviewChoice("yes", orient=suggested.orient), ReviewChoice("no")]
+    return _make(
+        "orientation", text, YES_OR_NO, gain, next(iter([*suggested.differs_on, *state.meshes])), None, (), choices
+    )
+
+
+def _questions(
+    family: FamilyTrial, found: Assessment, suggested: OrientationSuggestion | None
+) -> Iterator[ReviewQuestion]:
     held = set(found.held)
     open_assets = [place for place, one in enumerate(family.trials) if one.asset in held]
     yield from (_ask_group(family, group) for group in find_groups(family, open_assets))
     yield from _ask_readings(family, found)
     yield from _ask_results(family, found)
+    if suggested:
+        yield _ask_orientation(
+            suggested, family.state, _SUGGESTION_RIGHT * len(held.intersection(suggested.differs_on))
+        )
 
 
 def _choose(questions: Iterator[ReviewQuestion], state: ReviewState) -> ReviewQuestion | None:

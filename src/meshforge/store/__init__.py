@@ -36,13 +36,16 @@ from meshforge.store.settings import (
     set_value,
     toml_value,
 )
+from meshforge.store.sign_off import AssessmentFile, ConfidenceLine, SignOff, SignOffFile, find_changes
 from meshforge.store.store import Store
 
 __all__ = [
     "AnswerLine",
     "AnswersFile",
+    "AssessmentFile",
     "AssetFacts",
     "AssetFiles",
+    "ConfidenceLine",
     "ConfirmationLine",
     "CorrectionsFile",
     "DemonstrationFile",
@@ -52,6 +55,8 @@ __all__ = [
     "Review",
     "RuleSelection",
     "Settings",
+    "SignOff",
+    "SignOffFile",
     "StepLine",
     "Store",
     "Verdict",
@@ -62,6 +67,7 @@ __all__ = [
     "create_folder",
     "edit_settings",
     "find_assets",
+    "find_changes",
     "geometry_digest",
     "hull_digests",
     "iterate_survey",

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from abc import abstractmethod
-from typing import Annotated, Literal, Self
+from typing import Annotated, Any, Literal, Self
 
-from pydantic import ConfigDict, Field, model_validator
+from pydantic import ConfigDict, Field, SerializerFunctionWrapHandler, model_serializer, model_validator
 
 from meshforge.store.layout import JsonFile
 from meshforge.symbolic import Label, LabelSource
@@ -74,19 +74,33 @@ class RepairLine(_Entry):
 
 
 class LabelBefore(JsonFile):
-    """The label that a hull had, by whom, and how sure that was."""
+    """The label that a hull had, by whom, and how sure that was; given: see `Label`, left out where there is none."""
 
     label: str
     source: LabelSource
     confidence: Annotated[float, Field(ge=0, le=1)]
+    given: LabelBefore | None = None
 
     @staticmethod
     def of(label: Label | None) -> LabelBefore | None:
-        return LabelBefore(label=label.name, source=label.source, confidence=label.confidence) if label else None
+        if label is None:
+            return None
+        given = LabelBefore.of(label.given)
+        return LabelBefore(label=label.name, source=label.source, confidence=label.confidence, given=given)
 
     @property
     def annotation(self) -> Label:
-        return Label(self.label, self.confidence, self.source)
+        return Label(self.label, self.confidence, self.source, self.given.annotation if self.given else None)
+
+    def rename(self, old: str, new: str) -> LabelBefore:
+        """The same where a label has another name."""
+        given = self.given.rename(old, new) if self.given else None
+        return self.model_copy(update={"label": new if self.label == old else self.label, "given": given})
+
+    @model_serializer(mode="wrap")
+    def _leave_out_none(self, write: SerializerFunctionWrapHandler) -> dict[str, Any]:
+        found: dict[str, Any] = write(self)
+        return {name: value for name, value in found.items() if name != "given" or value is not None}
 
 
 class ConfirmationLine(RepairLine):

@@ -68,6 +68,21 @@ class Layout:
         return self.folder / "review.json"
 
     @property
+    def sign_off(self) -> Path:
+        """Which assets are signed off."""
+        return self.folder / "signoff.json"
+
+    @property
+    def assessment(self) -> Path:
+        """How probable each edit was when the family was looked at last."""
+        return self.folder / STATE / "assessment.json"
+
+    @property
+    def review_pictures(self) -> Path:
+        """Pictures of the question of a review."""
+        return self.folder / STATE / "review"
+
+    @property
     def edited(self) -> Path:
         return self.folder / "edited"
 

@@ -16,6 +16,7 @@ from meshforge.store import settings as settings_file
 from meshforge.store.feedback import AnswersFile, Review, ReviewFile
 from meshforge.store.layout import Layout, read_json, write_json
 from meshforge.store.meshes import AssetFiles, read_labels_file
+from meshforge.store.sign_off import AssessmentFile, SignOffFile
 from meshforge.symbolic import Label, LabelFile, SymbolicMesh, format_labels, match_labels, transfer_labels
 from meshforge.synthesis import Demonstration, Step
 
@@ -139,7 +140,7 @@ class Store:
         vocabulary: Sequence[str],
         away: Collection[str] = (),
     ) -> None:
-        """Write the labels of an asset, under the lock that the caller holds.
+        """Write the labels of an asset, under the lock that the caller holds; without any label its file is removed.
 
         Labels of hulls that are gone stay in the file, since hulls may come back. hulls: the digests of all, by name,
         in order; away: names of hulls that are gone whose labels do not stay.
@@ -151,7 +152,10 @@ class Store:
             new["hulls"] |= {name: old["hulls"][name] for name in gone}
             new["vocabulary"] = list(dict.fromkeys([*new["vocabulary"], *old.get("vocabulary", [])]))
             text = json.dumps(new, ensure_ascii=False, indent=2) + "\n"
-        write_atomically(path, text)
+        if present or gone:
+            write_atomically(path, text)
+        else:
+            path.unlink(missing_ok=True)
 
     # Demonstrations, and edits by hand
 
@@ -232,6 +236,27 @@ class Store:
             write_json(self.layout.answers, answers)
         else:
             self.layout.answers.unlink(missing_ok=True)
+
+    def sign_offs(self) -> SignOffFile:
+        """Which assets are signed off, and which questions were put off."""
+        return read_json(self.layout.sign_off, SignOffFile) or SignOffFile()
+
+    def write_sign_offs(self, signed: SignOffFile) -> None:
+        """Write the sign-offs, under the lock that the caller holds."""
+        if signed != self.sign_offs():
+            write_json(self.layout.sign_off, signed)
+
+    def assessment(self) -> AssessmentFile | None:
+        """How the family stood when it was looked at last; None where that is not kept, or damaged."""
+        try:
+            return read_json(self.layout.assessment, AssessmentFile)
+        except ProjectError:  # it can be made again
+            return None
+
+    def write_assessment(self, found: AssessmentFile) -> None:
+        """Keep how the family stands."""
+        with self.lock():
+            write_json(self.layout.assessment, found)
 
     def reviews(self) -> dict[str, Review]:
         """What a person said about edited assets."""

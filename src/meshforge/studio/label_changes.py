@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import get_args
 
 from meshforge.common import MeshForgeError
@@ -99,7 +99,7 @@ class LabelChanges:
             if asset in known:
                 before = self._read_state(first[name])
                 for old, new in words:
-                    before = {hull: replace(x, name=new) if x.name == old else x for hull, x in before.items()}
+                    before = {hull: label.rename(old, new) for hull, label in before.items()}
                 try:
                     yield before, project.labels(asset).labels
                 except MeshForgeError:  # its card shows that they cannot be read

@@ -26,6 +26,16 @@ class Label:
     source: LabelSource = "user"
     given: Label | None = None
 
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Its own, and that of the label that it replaced."""
+        return (self.name, *(self.given.names if self.given else ()))
+
+    def rename(self, old: str, new: str) -> Label:
+        """The same where a label has another name."""
+        given = self.given.rename(old, new) if self.given else None
+        return replace(self, name=new if self.name == old else self.name, given=given)
+
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Hull:

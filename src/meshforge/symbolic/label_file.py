@@ -13,10 +13,10 @@ from typing import Any
 
 from meshforge.common import AssetError, nearest_name, write_atomically
 from meshforge.geometry import digest
-from meshforge.symbolic.hull import LABEL_SOURCES, Label
+from meshforge.symbolic.hull import INFERRED_SOURCES, LABEL_SOURCES, Label
 from meshforge.symbolic.mesh import SymbolicMesh
 
-_REMEDY = 'Expected {"vocabulary": [label, …], "hulls": {name: {"label", "confidence", "source", "digest"}}}.'
+_REMEDY = 'Expected {"vocabulary": [label, …], "hulls": {name: {"label", "confidence", "source", "given", "digest"}}}.'
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -45,7 +45,7 @@ def write_labels(path: Path | None, mesh: SymbolicMesh, vocabulary: Sequence[str
 
 def format_labels(file: LabelFile) -> str:
     """The text of a labels file: one hull a line; labels that its vocabulary lacks are added at the end of that."""
-    labels = [label.name for label in file.labels.values()]
+    labels = [name for label in file.labels.values() for name in label.names]
     words = json.dumps(list(dict.fromkeys([*file.vocabulary, *labels])), ensure_ascii=False)
     rows = [_format_row(name, label, file.digests.get(name)) for name, label in file.labels.items()]
     hulls = "{\n" + ",\n".join(rows) + "\n  }" if rows else "{}"
@@ -53,9 +53,14 @@ def format_labels(file: LabelFile) -> str:
 
 
 def _format_row(name: str, label: Label, geometry: str | None) -> str:
-    value: dict[str, Any] = {"label": label.name, "confidence": label.confidence, "source": label.source}
+    value = _to_json(label)
     value |= {"digest": geometry} if geometry else {}
     return f"    {json.dumps(name, ensure_ascii=False)}: {json.dumps(value, ensure_ascii=False)}"
+
+
+def _to_json(label: Label) -> dict[str, Any]:
+    value: dict[str, Any] = {"label": label.name, "confidence": label.confidence, "source": label.source}
+    return value | ({"given": _to_json(label.given)} if label.given else {})
 
 
 def read_labels(path: Path) -> LabelFile:
@@ -75,7 +80,8 @@ def read_labels(path: Path) -> LabelFile:
         raise AssetError("its vocabulary is not a list of labels", where=str(path), remedy=_REMEDY)
     entries = {name: _HullEntry.of(name, value, path) for name, value in data["hulls"].items() if value is not None}
     for name, entry in entries.items():
-        _check_label(name, entry.label.name, vocabulary, path)
+        for label in entry.label.names:
+            _check_label(name, label, vocabulary, path)
     return LabelFile(
         tuple(dict.fromkeys(vocabulary)),
         MappingProxyType({name: entry.label for name, entry in entries.items()}),
@@ -125,10 +131,28 @@ class _HullEntry:
                 return _HullEntry(Label(value, 1.0, "file"))
             case {"label": str(label), **rest} if label:
                 return _HullEntry(
-                    Label(label, _parse_confidence(name, rest, path), _parse_source(name, rest, path)),
+                    _parse_label(label, name, rest, path),
                     known if isinstance(known := rest.get("digest"), str) and known else None,
                 )
         raise AssetError(f"hull {name!r} has no label, which is a text", where=str(path), remedy=_REMEDY)
+
+
+def _parse_label(label: str, name: str, rest: Mapping[Any, Any], path: Path) -> Label:
+    given = _parse_given(name, rest.get("given"), path)
+    return Label(label, _parse_confidence(name, rest, path), _parse_source(name, rest, path), given)
+
+
+def _parse_given(name: str, value: Any, path: Path) -> Label | None:
+    """The label that an inferred one replaced, which was not inferred itself."""
+    match value:
+        case None:
+            return None
+        case {"label": str(label), **rest} if label and rest.get("given") is None:
+            found = _parse_label(label, name, rest, path)
+            if found.source not in INFERRED_SOURCES:
+                return found
+    problem = f"what hull {name!r} was given before is no label that a person, a file or a machine gave"
+    raise AssetError(problem, where=str(path), remedy=_REMEDY)
 
 
 def _parse_confidence(name: str, rest: Mapping[Any, Any], path: Path) -> float:

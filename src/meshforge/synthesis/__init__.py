@@ -4,6 +4,7 @@ from meshforge.synthesis.asset_selection import choose_first_demonstration
 from meshforge.synthesis.demonstration import Demonstration, Step, merge_steps, strip_each
 from meshforge.synthesis.learn import synthesize
 from meshforge.synthesis.options import LAYERS, Layers, Options
+from meshforge.synthesis.orientation.suggest import OrientationSuggestion
 from meshforge.synthesis.outcome import (
     Ambiguous,
     Found,
@@ -35,6 +36,7 @@ __all__ = [
     "NeedsRepair",
     "NoProgram",
     "Options",
+    "OrientationSuggestion",
     "Question",
     "Reading",
     "Repair",

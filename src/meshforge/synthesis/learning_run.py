@@ -3,38 +3,35 @@ every demonstration before it is returned."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
-from functools import partial
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
 from typing import TypedDict, assert_never
 
 from meshforge.common import MeshForgeError
-from meshforge.language import Program, Rule, Template
+from meshforge.language import Orient, Program, Rule
 from meshforge.symbolic import SymbolicMesh
 from meshforge.synthesis import outcome
 from meshforge.synthesis.asset_selection import choose_question, select_sample, suggest_demonstration
-from meshforge.synthesis.demonstration import Demonstration, Example, RuleSpec, name_demonstrations
+from meshforge.synthesis.demonstration import Example, RuleSpec
 from meshforge.synthesis.diagnosis import find_obstacles, follow_rule, give_advice
 from meshforge.synthesis.options import OutOfTime, TimeBudget
-from meshforge.synthesis.orientation.suggest import OrientationSuggestion, suggest_orientation
+from meshforge.synthesis.orientation.alternatives import find_more_believable
+from meshforge.synthesis.orientation.suggest import (
+    MIN_SAVING,
+    OrientationSuggestion,
+    explain_orientation,
+    suggest_orientation,
+)
 from meshforge.synthesis.paper.search import HitWithCorrections, PaperSearch
 from meshforge.synthesis.questions import Answer, LabelCorrection, Question, Repair
 from meshforge.synthesis.readings.rank import RankedReadings, enumerate_consistent
 from meshforge.synthesis.repair.explain import RepairCollector, make_confirmer
-from meshforge.synthesis.search.smallest import Hit, Miss, NearestExtractor, Search, SearchEffort, Unfinished
-from meshforge.synthesis.task import LearningTask, ReplaySet, memoize
+from meshforge.synthesis.rule_outcome import RuleOutcome, list_readings, to_nearest, verify
+from meshforge.synthesis.search.smallest import Hit, Miss, Search, SearchEffort, Unfinished
+from meshforge.synthesis.task import LearningTask, ReplaySet, correct_demonstrations
 
 PLAIN_SIZE = 7
 """Nodes up to which an extractor is plain enough to speak for an orientation that is suggested."""
-
-
-@dataclass(frozen=True, slots=True)
-class RuleOutcome:
-    """One rule, its readings, and the names of the meshes in their field."""
-
-    rule: Rule
-    readings: RankedReadings
-    names: tuple[str, ...]
 
 
 class _OutcomeFields(TypedDict):
@@ -62,13 +59,33 @@ class LearningRun:
 
     def run(self) -> outcome.LearningOutcome:
         """What comes of it."""
-        for spec in self._task.rules:
-            failed = self._learn(spec)
-            if failed:
-                return failed
+        failed = next((failure for spec in self._task.rules if (failure := self._learn(spec))), None)
+        if self._doubt_landmarks(failed):
+            return outcome.NeedsRepair(
+                repairs=self._repairs.repairs, proposed=self._learn_with_repairs(), **self._common_fields()
+            )
+        if failed:
+            return failed
         if self._repairs.repairs:
             return outcome.NeedsRepair(repairs=self._repairs.repairs, proposed=self._program(), **self._common_fields())
         return self._finish()
+
+    def _doubt_landmarks(self, failed: outcome.LearningOutcome | None) -> bool:
+        """Whether labels of landmarks are rather wrong than the rules as they are; the repairs are theirs then."""
+        if isinstance(failed, outcome.TimedOut):
+            return False
+        try:
+            learned = [one.rule.extractor for one in self._learned]
+            return self._repairs.find_landmark_corrections(learned, failed is not None)
+        except OutOfTime:
+            return False
+
+    def _learn_with_repairs(self) -> Program | None:
+        """The program once the labels are corrected, None where there is none."""
+        corrections, task = [repair.correction for repair in self._repairs.repairs], self._task
+        options = replace(task.options, repair=False, suggest_orientation=False, follow=None)
+        corrected = replace(task, demos=correct_demonstrations(task.demos, corrections), options=options)
+        return LearningRun(corrected, self._budget).run().program
 
     def _learn(self, spec: RuleSpec) -> outcome.LearningOutcome | None:
         """Learn one rule and run it on all meshes; what stands in the way, if anything does."""
@@ -87,7 +104,7 @@ class LearningRun:
                 case Miss():
                     return self._fail(spec, found, examples)
                 case Unfinished():
-                    nearest = _to_nearest(spec.number, found.nearest) if found.nearest else None
+                    nearest = to_nearest(spec.number, found.nearest) if found.nearest else None
                     return outcome.TimedOut(nearest=nearest, **self._common_fields())
                 case tuple():
                     self._replays.correct(found)
@@ -154,15 +171,16 @@ class LearningRun:
         verify(program, task.demos, task.templates)
         known = [(learned.readings, learned.names) for learned in self._learned]
         hint, sample = suggest_demonstration(known), select_sample(known, self._repairs.trust)
+        suggested, common = self._suggest_alternative(), self._common_fields()
         if self._question:
             return outcome.Ambiguous(
-                program=program, question=self._question, hint=hint, sample=sample, **self._common_fields()
+                program=program, question=self._question, hint=hint, sample=sample, suggested=suggested, **common
             )
         settled = bool(self._replays.others) and all(learned.readings.settled for learned in self._learned)
-        return outcome.Found(program=program, settled=settled, hint=hint, sample=sample, **self._common_fields())
+        return outcome.Found(program=program, settled=settled, hint=hint, sample=sample, suggested=suggested, **common)
 
     def _fail(self, spec: RuleSpec, miss: Miss, examples: Sequence[Example]) -> outcome.LearningOutcome:
-        nearest, repairs = _to_nearest(spec.number, miss.nearest), self._repairs.repairs
+        nearest, repairs = to_nearest(spec.number, miss.nearest), self._repairs.repairs
         if repairs:
             return outcome.NeedsRepair(repairs=repairs, nearest=nearest, **self._common_fields())
         return outcome.NoProgram(
@@ -181,10 +199,47 @@ class LearningRun:
                 [*task.batch.values()],
             )
             return suggest_orientation(
-                task.demos, task.rules, task.frame, task.templates, options, self._budget, None, batch
+                task.demos, task.rules, task.frame, task.templates, options, self._budget, (), batch
             )
         except (OutOfTime, MeshForgeError):
             return None
+
+    def _suggest_alternative(self) -> OrientationSuggestion | None:
+        """An orientation in which rules that were learned are more believable, and select something else somewhere."""
+        task = self._task
+        options = task.options
+        if (
+            not options.suggest_orientation
+            or options.strategy == "paper"
+            or "G" not in options.layers
+            or task.frame.orient
+        ):
+            return None
+        try:
+            orient = find_more_believable(
+                task.demos, task.rules, task.frame, task.templates, options, self._budget,
+                [learned.rule.extractor for learned in self._learned], [*task.batch.values()],
+            )  # fmt: skip
+            return self._compare(orient) if orient else None
+        except (OutOfTime, MeshForgeError):
+            return None
+
+    def _compare(self, orient: Orient) -> OrientationSuggestion | None:
+        """What becomes of the rules in another frame; None where that makes no difference, or some are not found."""
+        options = replace(self._task.options, suggest_orientation=False, repair=False, follow=None)
+        frame = replace(self._task.frame, orient=orient)
+        other = LearningRun(replace(self._task, frame=frame, options=options), self._budget)
+        if not isinstance(other.run(), outcome.Found | outcome.Ambiguous):
+            return None
+        differs = set[str]()
+        for ours, theirs in zip(self._learned, other._learned, strict=True):
+            now, then = ours.select(), theirs.select()
+            differs.update(name for name in now if now[name] != then.get(name))
+        sizes, before = (tuple(one.size for one in learned) for learned in (other._learned, self._learned))
+        if not differs and sum(before) - sum(sizes) < MIN_SAVING:
+            return None
+        why = explain_orientation(orient, sizes, before, len(differs))
+        return OrientationSuggestion(orient, sizes, why, before, tuple(sorted(differs)))
 
     def _program(self) -> Program:
         return replace(self._task.frame, rules=tuple(learned.rule for learned in self._learned))
@@ -198,46 +253,10 @@ class LearningRun:
             "readings": tuple(
                 reading
                 for number, learned in enumerate(self._learned, 1)
-                for reading in _list_readings(number, learned.readings, learned.names)
+                for reading in list_readings(number, learned.readings, learned.names)
             ),
             "tried": tuple(self._tried),
             "seconds": {"search": self._searching, "replay": self._budget.elapsed - self._searching},
             "stale": self._replays.stale,
             "followed": tuple(self._followed),
         }
-
-
-def _list_readings(rule: int, ranked: RankedReadings, names: Sequence[str]) -> Iterator[outcome.Reading]:
-    for place, (term, belief) in enumerate(zip(ranked.terms, ranked.beliefs, strict=True)):
-        differs = tuple(names[k] for k in ranked.differences(place))
-        yield outcome.Reading(outcome.reading_id(rule, place), rule, term.extractor, belief, differs)
-
-
-def _to_nearest(rule: int, miss: NearestExtractor) -> outcome.Nearest:
-    return outcome.Nearest(rule, miss.extractor, miss.asset, miss.extra, miss.missing)
-
-
-def verify(program: Program, demos: Sequence[Demonstration], templates: Mapping[str, Template]) -> None:
-    """Raises AssertionError, an error of ours, where the program selects something else than was shown.
-
-    Raises ProgramError where it cannot run: it asks for labels, and a demonstrated mesh has none.
-    """
-    made_of = tuple(templates[name].digest for name in program.templates if name in templates)
-    for name, demo in name_demonstrations(demos):
-        key = ("verified", str(program), made_of, demo.steps)
-        memoize(demo.mesh, key, bool, partial(_check_demonstration, program, demo, templates, name))
-
-
-def _check_demonstration(program: Program, demo: Demonstration, templates: Mapping[str, Template], name: str) -> bool:
-    try:
-        trace = program.run(demo.mesh, templates).trace
-    except MeshForgeError as error:
-        raise error.at(name) from None
-    for done in trace:
-        step = demo.step(done.rule)
-        if step and step.select != frozenset(done.selected):
-            raise AssertionError(
-                f"the learned rule {done.rule} selects {sorted(done.selected)} on {name}, "
-                f"not {sorted(step.select or ())} as was shown"
-            )
-    return True

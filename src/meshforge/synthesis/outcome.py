@@ -55,7 +55,8 @@ class _OutcomeBase:
     settled: whether all believable readings do the same on the whole batch; stale: answers that no longer fit, as
     their asset or hulls are gone; hint: what to demonstrate next; sample: the assets whose results show best whether
     the program is what is meant, most revealing first; overruled: assets whose result was accepted, which no program
-    keeps. followed: what became of a program that was to be followed, a sentence each.
+    keeps. followed: what became of a program that was to be followed, a sentence each. suggested: an orientation that
+    makes the rules simpler, or in which every rule has an extractor where now some rule has none.
     """
 
     rules: tuple[Rule, ...]
@@ -72,6 +73,7 @@ class _OutcomeBase:
     question: Question | None = None
     nearest: Nearest | None = None
     program: Program | None = None
+    suggested: OrientationSuggestion | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -104,16 +106,12 @@ class NeedsRepair(_OutcomeBase):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class NoProgram(_OutcomeBase):
-    """A rule that no extractor fits; why: one sentence about it; advice: what would help, a sentence each.
-
-    suggested: an orientation in which every rule has an extractor.
-    """
+    """A rule that no extractor fits; why: one sentence about it; advice: what would help, a sentence each."""
 
     status: ClassVar[Literal["none"]] = "none"
     nearest: Nearest
     why: str
     advice: tuple[str, ...] = ()
-    suggested: OrientationSuggestion | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -142,15 +140,28 @@ def outcome_to_json(outcome: LearningOutcome) -> dict[str, Any]:
         "stale_answers": [{"rule": answer.rule, "asset": answer.asset} for answer in outcome.stale],
         "followed": list(outcome.followed),
         **_failure_json(outcome),
+        **_suggestion_json(outcome.suggested),
         "seconds": dict(outcome.seconds),
     }
 
 
 def _failure_json(outcome: LearningOutcome) -> dict[str, Any]:
-    if not isinstance(outcome, NoProgram):
-        return {}
-    orient = show(outcome.suggested.orient) if outcome.suggested else None
-    return {"why": outcome.why, "advice": list(outcome.advice), "suggested_orientation": orient}
+    return {"why": outcome.why, "advice": list(outcome.advice)} if isinstance(outcome, NoProgram) else {}
+
+
+def _suggestion_json(suggested: OrientationSuggestion | None) -> dict[str, Any]:
+    """The directive as text; its reason and its sizes beside it, where there is one."""
+    if not suggested:
+        return {"suggested_orientation": None}
+    return {
+        "suggested_orientation": show(suggested.orient),
+        "suggested_because": {
+            "why": suggested.why,
+            "sizes": list(suggested.sizes),
+            "sizes_before": list(suggested.before),
+            "differs_on": list(suggested.differs_on),
+        },
+    }
 
 
 def _reading_json(reading: Reading) -> dict[str, Any]:

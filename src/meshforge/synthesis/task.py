@@ -59,6 +59,16 @@ def apply_corrections(mesh: SymbolicMesh, name: str, corrections: Iterable[Label
     return mesh.with_labels(given) if given else mesh
 
 
+def correct_demonstrations(
+    demos: Sequence[Demonstration], corrections: Sequence[LabelCorrection]
+) -> tuple[Demonstration, ...]:
+    """Demonstrations with their names, on meshes with corrected labels."""
+    rows = name_demonstrations(demos)
+    return tuple(
+        Demonstration(apply_corrections(demo.mesh, name, corrections), demo.steps, name) for name, demo in rows
+    )
+
+
 class ReplaySet:
     """All meshes as the next rule meets them.
 

@@ -18,12 +18,20 @@ from benchmark.signoff.point import right_at
 from benchmark.signoff.queue import BROKEN, DONE, Review, sign_off
 from benchmark.signoff.reviewer import Reviewer
 from benchmark.signoff.tables import CURVES, list_tables
-from benchmark.signoff.tool import Tool, apply_reply, program_of
+from benchmark.signoff.tool import Tool, program_of
 from benchmark.study import FLAT, TRUE, Bench
 from benchmark.study.condition import PROPAGATED
 from benchmark.study.keystrokes import APPROVAL, GLANCE, STROKE, price_group
 from benchmark.tasks import task
-from meshforge.signoff import Assessment, AssetConfidence, HullPlace, ReviewChoice, ReviewQuestion, ReviewState
+from meshforge.signoff import (
+    Assessment,
+    AssetConfidence,
+    HullPlace,
+    ReviewChoice,
+    ReviewQuestion,
+    ReviewState,
+    apply_reply,
+)
 from meshforge.signoff.question import ASIDE, RIGHT, WRONG
 from meshforge.synthesis import LearningOutcome
 

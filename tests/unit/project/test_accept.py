@@ -29,24 +29,24 @@ def applied(folder: Path) -> Project:
 @pytest.mark.slow
 def test_what_was_accepted_by_itself_settles_what_was_open(tmp_path: Path) -> None:
     project = applied(tmp_path)
-    project.review(SHELVED, "accepted")
+    project.set_verdict(SHELVED, "accepted")
     (seen,) = json.loads((project.folder / "review.json").read_text())["assets"][SHELVED]["seen"]
     assert seen == {"rule": 1, "action": "Delete", "select": ["shelf", "top"]}
     outcome = project.synthesize()
     assert isinstance(outcome, Found) and outcome.settled
     assert BOARDS in str(outcome.program)
     assert not outcome.stale and not outcome.overruled
-    project.review(SHELVED, None)
+    project.set_verdict(SHELVED, None)
     assert isinstance(project.synthesize(), Ambiguous)
 
 
 @pytest.mark.slow
 def test_who_accepts_many_at_once_or_flags_says_nothing_of_each(tmp_path: Path) -> None:
     project = applied(tmp_path)
-    project.review([SHELVED, ALSO], "accepted")
+    project.set_verdict([SHELVED, ALSO], "accepted")
     assert not any(said.seen for said in project.reviews().values())
     assert isinstance(project.synthesize(), Ambiguous)
-    project.review(SHELVED, "flagged")
+    project.set_verdict(SHELVED, "flagged")
     assert isinstance(project.synthesize(), Ambiguous)
 
 
@@ -54,7 +54,7 @@ def test_an_edit_by_hand_is_not_what_the_program_did(tmp_path: Path) -> None:
     project = applied(tmp_path)
     project.correct(SHELVED, ["knob"], Delete())
     list(project.apply(execution=IN_PROCESS))
-    project.review(SHELVED, "accepted")
+    project.set_verdict(SHELVED, "accepted")
     assert not project.reviews()[SHELVED].seen
     assert isinstance(project.synthesize(), Ambiguous)
 
@@ -62,13 +62,13 @@ def test_an_edit_by_hand_is_not_what_the_program_did(tmp_path: Path) -> None:
 def test_nor_is_what_another_program_did(tmp_path: Path) -> None:
     project = applied(tmp_path)
     project.accept(Program.parse("labels board, leg, knob\nIs(knob) => Delete\n"))
-    project.review(SHELVED, "accepted")
+    project.set_verdict(SHELVED, "accepted")
     assert not project.reviews()[SHELVED].seen
 
 
 def test_a_demonstration_counts_more_than_an_accepted_result(tmp_path: Path) -> None:
     project = applied(tmp_path)
-    project.review(SHELVED, "accepted")
+    project.set_verdict(SHELVED, "accepted")
     project.demonstrate(SHELVED, [Step(1, {"top"}, Delete())])
     outcome = project.synthesize()
     assert isinstance(outcome, Found)
@@ -78,7 +78,7 @@ def test_a_demonstration_counts_more_than_an_accepted_result(tmp_path: Path) -> 
 @pytest.mark.slow
 def test_where_no_program_keeps_what_was_accepted_it_is_overruled_and_named(tmp_path: Path) -> None:
     project = applied(tmp_path)
-    project.review(SHELVED, "accepted")
+    project.set_verdict(SHELVED, "accepted")
     project.demonstrate(ALSO, [Step(1, {"top"}, Delete())])
     outcome = project.synthesize(options=Options(repair=False))
     assert isinstance(outcome, Found)

@@ -23,7 +23,7 @@ CHANGES: dict[str, Callable[[Project], object]] = {
     "correction": lambda p: p.correct(FIRST, ["top"], Delete()),
     "answer": lambda p: p.add_answer(Answer(1, THIRD, ["crumb"])),
     "refused repair": lambda p: p.reject(REPAIR),
-    "review": lambda p: p.review(FIRST, "accepted"),
+    "review": lambda p: p.set_verdict(FIRST, "accepted"),
     "program": lambda p: p.accept(Program.parse("labels top\nAll => Merge\n")),
 }
 

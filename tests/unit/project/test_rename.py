@@ -8,6 +8,7 @@ import pytest
 from meshforge.common import MeshForgeError, ProjectError
 from meshforge.language import Delete, Merge, Program
 from meshforge.project import Project
+from meshforge.symbolic import Label
 from meshforge.synthesis import Answer, LabelCorrection, Step
 from tests.unit.batch.families import tree
 from tests.unit.deaths import deaths, needs_fork
@@ -83,6 +84,20 @@ def test_what_is_learned_after_a_renaming_is_the_renamed_program(tmp_path: Path)
     renamed = str(project.program())
     project.synthesize()
     assert str(project.program()) == renamed
+
+
+def test_what_an_inferred_label_replaced_is_renamed_too(tmp_path: Path) -> None:
+    project = labelled(tmp_path)
+    for asset in (FIRST, SECOND):
+        project.set_labels(asset, {"crumb": None})
+        project.set_labels(asset, {"crumb": "leg"}, source="vlm", confidence=0.5)
+        project.set_labels(asset, {"crumb": "misc"}, source="consensus", confidence=0.9)
+    project.confirm(LabelCorrection(FIRST, "crumb", "misc", "top"))
+    project.rename_label("leg", "foot")
+    now = Label("misc", 0.9, "consensus", Label("foot", 0.5, "vlm"))
+    assert project.labels(SECOND).labels["crumb"] == now
+    assert project.take_back(f"{FIRST}#crumb=top") is None
+    assert project.labels(FIRST).labels["crumb"] == now
 
 
 def test_files_that_do_not_say_the_label_are_left_alone(tmp_path: Path) -> None:

@@ -170,8 +170,8 @@ def test_what_is_kept_for_assets_that_are_gone_is_named(tmp_path: Path) -> None:
 
 def test_a_review_counts_until_the_output_changes(tmp_path: Path) -> None:
     project = applied(tmp_path)
-    project.review(FIRST, "accepted")
-    project.review(SECOND, "flagged", "left leg")
+    project.set_verdict(FIRST, "accepted")
+    project.set_verdict(SECOND, "flagged", "left leg")
     assert [a.review for a in of(project).assets] == ["accepted", "flagged", None]
     assert "first table1/model.obj" in of(project).next.say
     kept = json.loads((project.folder / "review.json").read_text())["assets"]
@@ -179,29 +179,29 @@ def test_a_review_counts_until_the_output_changes(tmp_path: Path) -> None:
     project.set_labels(FIRST, {"crumb": "leg"})
     list(project.apply(execution=IN_PROCESS))
     assert [a.review for a in of(project).assets] == [None, "flagged", None]
-    project.review(SECOND, None)
+    project.set_verdict(SECOND, None)
     assert project.reviews().keys() == {FIRST}
 
 
 def test_only_an_output_can_be_reviewed(tmp_path: Path) -> None:
     with pytest.raises(ProjectError, match="no output to be accepted"):
-        labelled(tmp_path).review(FIRST, "accepted")
+        labelled(tmp_path).set_verdict(FIRST, "accepted")
 
 
 def test_several_outputs_are_reviewed_in_one_go_or_none_is(tmp_path: Path) -> None:
     project = applied(tmp_path)
-    project.review([FIRST, THIRD], "accepted", "fine")
+    project.set_verdict([FIRST, THIRD], "accepted", "fine")
     assert [a.review for a in of(project).assets] == ["accepted", None, "accepted"]
     assert [a.review_note for a in of(project).assets] == ["fine", None, "fine"]
     (project.folder / "labels" / f"{SECOND}.json").unlink()
     list(project.apply(execution=IN_PROCESS))
     before = (project.folder / "review.json").read_bytes()
     with pytest.raises(ProjectError, match=f"{SECOND} has no output to be flagged"):
-        project.review([FIRST, SECOND], "flagged")
+        project.set_verdict([FIRST, SECOND], "flagged")
     with pytest.raises(ProjectError, match="there is no asset"):
-        project.review([FIRST, "nobody"], None)
+        project.set_verdict([FIRST, "nobody"], None)
     assert (project.folder / "review.json").read_bytes() == before
-    project.review([FIRST, SECOND, THIRD], None)
+    project.set_verdict([FIRST, SECOND, THIRD], None)
     assert project.reviews() == {}
 
 
@@ -212,7 +212,7 @@ def test_the_status_of_some_assets_is_theirs_in_the_status_of_all(tmp_path: Path
     write_table(project.folder / "templates/slab.obj")
     list(project.apply(execution=IN_PROCESS))
     project.set_labels(THIRD, {"crumb": "leg"})
-    project.review(FIRST, "flagged")
+    project.set_verdict(FIRST, "flagged")
     every = of(project)
     some = project.status([THIRD, FIRST], workers=0, others=every.assets)
     assert some == replace(every, assets=(every.assets[0], every.assets[2]))
@@ -316,6 +316,10 @@ def test_the_status_is_plain_data_for_scripts(tmp_path: Path) -> None:
         "error": None,
         "flags": [],
         "review": None,
+        "sign_off": "unknown",
+        "void": [],
+        "probability": None,
+        "doubts": [],
     }
     assert data["next"]["command"].startswith("meshforge check")
 

@@ -5,10 +5,23 @@ import pickle
 from pathlib import Path
 
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from meshforge.common import AssetError
 from meshforge.geometry import Aabb, Box, digest
-from meshforge.symbolic import Hull, Label, SymbolicMesh, read_labels, write_labels
+from meshforge.symbolic import (
+    INFERRED_SOURCES,
+    LABEL_SOURCES,
+    Hull,
+    Label,
+    LabelFile,
+    SymbolicMesh,
+    format_labels,
+    read_labels,
+    write_labels,
+)
+from tests.examples import examples
 
 
 def box(x: float) -> Box:
@@ -69,6 +82,36 @@ def test_a_labels_file_pickles(tmp_path: Path) -> None:
     assert pickle.loads(pickle.dumps(file)).labels == dict(file.labels)
 
 
+def inferred(given: object) -> dict[str, object]:
+    """A file with one label, and what was given before it."""
+    return {"hulls": {"a": {"label": "panel", "confidence": 0.9, "source": "consensus", "given": given}}}
+
+
+def test_the_label_that_an_inferred_one_replaced_is_written_and_read(tmp_path: Path) -> None:
+    label = Label("leg", 0.875, "consensus", Label("panel", 0.5, "vlm"))
+    text = write_labels(tmp_path / "x.json", SymbolicMesh((Hull("top", "body", box(0), label),)), ["leg"])
+    assert '"source": "consensus", "given": {"label": "panel", "confidence": 0.5, "source": "vlm"}, "digest"' in text
+    file = read_labels(tmp_path / "x.json")
+    assert (file.vocabulary, file.labels["top"]) == (("leg", "panel"), label)
+
+
+WORDS = st.text(st.characters(exclude_categories=["C", "Z"]), min_size=1)
+SAID = st.builds(Label, WORDS, st.floats(0, 1), st.sampled_from(sorted({*LABEL_SOURCES} - INFERRED_SOURCES)))
+INFERRED = st.builds(Label, WORDS, st.floats(0, 1), st.sampled_from(sorted(INFERRED_SOURCES)), st.none() | SAID)
+
+
+@examples(100)
+@given(labels=st.dictionaries(st.text(), SAID | INFERRED), vocabulary=st.lists(WORDS))
+def test_whatever_labels_say_is_read_as_it_was_written(
+    tmp_path_factory: pytest.TempPathFactory, labels: dict[str, Label], vocabulary: list[str]
+) -> None:
+    path = tmp_path_factory.mktemp("labels") / "x.json"
+    path.write_text(format_labels(LabelFile(tuple(vocabulary), labels)), encoding="utf-8")
+    file = read_labels(path)
+    assert dict(file.labels) == labels
+    assert format_labels(file) == path.read_text(encoding="utf-8")
+
+
 @pytest.mark.parametrize(
     ("data", "message"),
     [
@@ -84,6 +127,12 @@ def test_a_labels_file_pickles(tmp_path: Path) -> None:
         ({"hulls": {"a": {"label": "leg", "source": "me"}}}, "source of hull 'a' is 'me'"),
         ({"vocabulary": ["panel", "leg"], "hulls": {"a": "panell"}}, "'panell' of hull 'a'.*\n.*'panel'"),
         ('{"hulls": {"a": "leg", "a": "panel"}}', "'a' is given twice"),
+        (inferred("leg"), "what hull 'a' was given before is no label that a person, a file or a machine gave"),
+        (inferred({"label": "leg", "source": "consensus"}), "what hull 'a' was given before is no label"),
+        (inferred({"label": "leg", "given": {"label": "leg"}}), "what hull 'a' was given before is no label"),
+        (inferred({"label": "leg", "source": "me"}), "source of hull 'a' is 'me'"),
+        (inferred({"label": "leg", "confidence": 2}), "confidence of hull 'a' is 2"),
+        (inferred({"label": "legs"}) | {"vocabulary": ["panel", "leg"]}, "'legs' of hull 'a'.*\n.*'leg'"),
         ('{"hulls": {"a": {"label": "leg", "confidence": NaN}}}', "confidence of hull 'a' is nan"),
     ],
 )

@@ -21,6 +21,7 @@ KEYS = [
     "overruled",
     "stale_answers",
     "followed",
+    "suggested_orientation",
     "seconds",
 ]
 TWINS = boxes(
@@ -50,6 +51,7 @@ def test_a_found_program_as_json() -> None:
         "overruled": [],
         "stale_answers": [],
         "followed": [],
+        "suggested_orientation": None,
     }
 
 

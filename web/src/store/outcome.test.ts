@@ -20,6 +20,7 @@ const outcome = (more: Partial<OutcomeView>): OutcomeView => ({
   why: null,
   advice: [],
   suggested_orientation: null,
+  suggested_because: null,
   stale: [],
   sample: [],
     overruled: [],

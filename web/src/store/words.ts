@@ -33,6 +33,7 @@ const SOURCES: Readonly<Record<string, string>> = {
   user: "by you",
   repair: "by you",
   propagated: "propagated",
+  consensus: "by consensus",
   vlm: "by a model",
   edit: "by an edit",
 };

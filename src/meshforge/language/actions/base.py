@@ -202,6 +202,11 @@ class Action(ABC):
         """The template files it names."""
         return ()
 
+    @property
+    def depends_on_frame(self) -> bool:
+        """Whether it would do something else if the mesh were turned first, and back afterwards."""
+        return False
+
     @classmethod
     def arguments(cls) -> dict[str, ArgumentType]:
         """The kind of each argument by the name of its field, in order."""

@@ -46,6 +46,10 @@ class Replace(base.Action):
     def templates(self) -> tuple[str, ...]:
         return () if self.geometry in base.PRIMITIVES else (self.geometry,)
 
+    @property
+    def depends_on_frame(self) -> bool:
+        return self.fit != "tight"
+
     def edit(self, group: HullGroup) -> GroupEdit:
         if self.templates:
             return GroupEdit.insert(fit_template(group, self.geometry, turned=self.fit == "longest"), group)
@@ -98,6 +102,10 @@ class Add(base.Action):
     @property
     def templates(self) -> tuple[str, ...]:
         return (self.template,)
+
+    @property
+    def depends_on_frame(self) -> bool:
+        return True
 
     def edit(self, group: HullGroup) -> GroupEdit:
         template = group.template(self.template)
@@ -154,6 +162,11 @@ class Scale(Action):
     axis: Axis = field(metadata={"argument": WordArgument(AXES)})
     factor: float = field(metadata={"argument": FactorArgument()})
 
+    @property
+    def depends_on_frame(self) -> bool:
+        """Scaling about the centre of the bounding box in all directions alike moves it by little only."""
+        return self.axis != "all"
+
     def edit(self, group: HullGroup) -> GroupEdit:
         factors = np.array([self.factor if self.axis in ("all", axis) else 1.0 for axis in "XYZ"])
         offset = group.bounds.center * (1.0 - factors)
@@ -182,6 +195,10 @@ class Each(Action):
     @property
     def templates(self) -> tuple[str, ...]:
         return self.action.templates
+
+    @property
+    def depends_on_frame(self) -> bool:
+        return self.action.depends_on_frame
 
     @property
     def makes_hulls(self) -> bool:

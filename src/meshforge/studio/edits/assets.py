@@ -186,7 +186,7 @@ class ReviewAssets(Edit):
     note: str | None = None
 
     def apply(self, project: Project) -> None:
-        project.review(self.ids, self.verdict, self.note)
+        project.set_verdict(self.ids, self.verdict, self.note)
 
     def describe(self, project: Project) -> str:
         what = self.ids[0] if len(self.ids) == 1 else pluralize(len(self.ids), "asset")

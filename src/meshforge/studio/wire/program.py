@@ -85,9 +85,10 @@ class OutcomeView(Wire):
     """The outcome of a learning run. number: counts the runs; program: its text, null where there is none; looked_at:
     how many assets the run looked at; settled: whether the program is unambiguous.
 
-    error: a message in place of an outcome; seconds: the time it took. why, advice, suggested_orientation, nearest: for
-    a rule without an extractor. stale: ids of answers that no longer fit. sample: the assets whose results show best
-    whether the program is right, best first; overruled: those whose accepted result no program keeps.
+    error: a message in place of an outcome; seconds: the time it took. why, advice, nearest: for a rule without an
+    extractor. suggested_orientation, suggested_because: a directive in which the rules do better, and why.
+    stale: ids of answers that no longer fit. sample: the assets whose results show best whether the program is right,
+    best first; overruled: those whose accepted result no program keeps.
     """
 
     number: int
@@ -104,6 +105,7 @@ class OutcomeView(Wire):
     why: str | None = None
     advice: tuple[str, ...] = ()
     suggested_orientation: str | None = None
+    suggested_because: str | None = None
     stale: tuple[str, ...] = ()
     sample: tuple[str, ...] = ()
     overruled: tuple[str, ...] = ()

@@ -29,7 +29,8 @@ _MAX_STRETCH = 2.0
 class OrientationSearch:
     """The rules to be learned, and the attempts to learn them in the frames tried so far.
 
-    floors: nodes that each rule needs in whatever frame.
+    known: extractors of all rules in the present frame; empty where some rule has none; floors: nodes that each rule
+    needs in whatever frame.
     """
 
     def __init__(
@@ -40,9 +41,10 @@ class OrientationSearch:
         templates: Mapping[str, language.Template],
         options: Options,
         budget: TimeBudget,
-        sizes: Sequence[int] | None,
+        known: Sequence[language.Extractor] = (),
     ) -> None:
-        self.rules = tuple(rules)
+        self.rules, self.known = tuple(rules), tuple(known)
+        sizes = [language.size_of(one) for one in known]
         self._closed = all(demo.step(rule.number) for demo in demos for rule in rules)
         self.floors = [min(nodes, 2) if self._closed else 1 for nodes in sizes or [1] * len(rules)]
         self._frame, self._templates, self._options, self._budget = frame, templates, options, budget
@@ -89,6 +91,11 @@ class OrientationSearch:
         found = self._extractors.get(rule.signatures)
         return found if found and language.size_of(found) <= most else None
 
+    def selects_shown(self, extractor: language.Extractor, examples: Sequence[Example]) -> bool:
+        """Whether an extractor selects what was shown on some examples."""
+        delta = self._options.geo_extremity
+        return all(language.select_mask(extractor, one.mesh, delta) == one.selection for one in examples)
+
     def _search(self, rule: RuleInFrame, most: int) -> None:
         answer = Search(rule.examples, self._frame.labels, self._budget, replace(self._options, max_size=most)).run()
         if isinstance(answer, Unfinished):
@@ -107,13 +114,15 @@ class OrientationSearch:
 class FrameAttempt:
     """One frame's rules, learned one by one, each with its smallest extractor.
 
-    sizes: nodes of those learned so far; strays: hulls that no extractor of the next rule can get right.
+    sizes: nodes of those learned so far; extractors: which, and others that select what was shown; strays: hulls that
+    no extractor of the next rule can get right.
     """
 
     def __init__(self, search: OrientationSearch, replays: Sequence[Replay]) -> None:
         self._search, self._replays = search, list(replays)
         self._next: RuleInFrame | None = None
         self.sizes: list[int] = []
+        self.extractors: list[tuple[language.Extractor, ...]] = []
         self.strays = 0
         self._over = False
 
@@ -137,7 +146,7 @@ class FrameAttempt:
             self._next = self._next or self._search.analyze(rule, self._replays)
             extractor = self._search.find_smallest(self._next, most)
             if extractor:
-                self._apply(extractor)
+                self._apply(extractor, self._next)
             elif self._next.strays:
                 self.strays = self._next.strays
                 self._stop()
@@ -146,8 +155,11 @@ class FrameAttempt:
             return False
         return extractor is not None
 
-    def _apply(self, extractor: language.Extractor) -> None:
-        rule, self._next = self._search.rules[len(self.sizes)], None
+    def _apply(self, extractor: language.Extractor, found: RuleInFrame) -> None:
+        place, self._next = len(self.sizes), None
+        rule, known = self._search.rules[place], self._search.known[place : place + 1]
+        fits = [one for one in known if self._search.selects_shown(one, found.examples)]
+        self.extractors.append((extractor, *found.leaves, *fits))
         self._replays = self._search.advance(self._replays, rule, extractor)
         self.sizes.append(language.size_of(extractor))
 
@@ -162,7 +174,7 @@ class RuleInFrame:
     base: a base that selects what was shown; it does so in every frame, so nothing needs to be searched for.
     signatures: of all hulls; rules with equal signatures have the same extractors.
     strays: how many hulls any extractor takes or leaves wrongly, since others of their signature were not or were.
-    least: an extractor has at least that many nodes.
+    least: an extractor has at least that many nodes; leaves: those that select what was shown, where no base does.
     """
 
     examples: tuple[Example, ...]
@@ -170,6 +182,7 @@ class RuleInFrame:
     signatures: frozenset[Signature] = frozenset()
     strays: int = 0
     least: int = 1
+    leaves: tuple[language.Extractor, ...] = ()
 
 
 def analyze_rule(
@@ -184,10 +197,11 @@ def analyze_rule(
     table = HullTable([example.mesh for example in examples]).table(chosen, extremity)
     shown = [bool(e.selection >> index & 1) for e in examples for index in range(len(e.mesh.hulls))]
     fits = (table == np.array(shown)).all(axis=1)
-    least = 2 if any(isinstance(chosen[row], language.Geo) for row in np.flatnonzero(fits)) else 3
+    leaves = tuple(chosen[row] for row in np.flatnonzero(fits))
+    least = 2 if any(isinstance(leaf, language.Geo) for leaf in leaves) else 3
     seen = Counter(zip([column.tobytes() for column in np.packbits(table.T, axis=1)], shown, strict=True))
     strays = sum(min(count, seen[signature, False]) for (signature, selected), count in seen.items() if selected)
-    return RuleInFrame(tuple(examples), None, frozenset(seen), strays, least)
+    return RuleInFrame(tuple(examples), None, frozenset(seen), strays, least, leaves)
 
 
 class MeshTurner:

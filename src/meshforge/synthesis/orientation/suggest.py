@@ -9,23 +9,28 @@ from dataclasses import dataclass, replace
 from itertools import combinations
 
 import numpy as np
-import numpy.typing as npt
 
 from meshforge.common import pluralize
-from meshforge.geometry import Floats
-from meshforge.language import All, BaseExtractor, Direction, Is, LandmarkPair, Orient, Program, Template, show_label
+from meshforge.language import (
+    All,
+    BaseExtractor,
+    Direction,
+    Extractor,
+    LandmarkPair,
+    Orient,
+    Program,
+    Template,
+    show_label,
+    size_of,
+)
 from meshforge.symbolic import SymbolicMesh
 from meshforge.synthesis.demonstration import Demonstration, RuleSpec
 from meshforge.synthesis.options import Options, TimeBudget
 from meshforge.synthesis.orientation.attempts import OrientationSearch
+from meshforge.synthesis.orientation.landmarks import Landmarks
 
 _LETTERS = "ZXY"  # up and down first
 _UPWARD: Mapping[str, Direction] = {"X": "+X", "Y": "+Y", "Z": "+Z"}
-
-APART = 0.02
-"""Landmarks nearer than this share of the diagonal are not paired: how the hulls were cut may move them as far."""
-
-Bools = npt.NDArray[np.bool_]
 
 
 class Directives:
@@ -81,59 +86,6 @@ class Directives:
         return [sorted([place(pair.start), place(pair.end)]) for pair in orient.pairs]
 
 
-class Landmarks:
-    """The centres of all landmarks of some meshes, in the frames in which they came.
-
-    bases: the labels in their order, then `All`.
-    """
-
-    def __init__(self, meshes: Sequence[SymbolicMesh], vocabulary: Sequence[str]) -> None:
-        self.bases: tuple[BaseExtractor, ...] = (*map(Is, vocabulary), All())
-        centres = [_centres(mesh, vocabulary) for mesh in meshes]
-        self._centres = np.array(centres).reshape(len(meshes), len(self.bases), 3)
-        self._least = APART * np.array([mesh.diagonal for mesh in meshes])
-
-    def place(self, base: BaseExtractor) -> int:
-        """The position of a base in their order."""
-        return self.bases.index(base)
-
-    def directions(self, start: BaseExtractor, end: BaseExtractor) -> Floats:
-        """From the centre of one landmark to that of another on each mesh (n, 3) [m]; NaN where one is missing."""
-        return self._centres[:, self.place(end)] - self._centres[:, self.place(start)]
-
-    def apart(self, start: BaseExtractor, end: BaseExtractor) -> Bools:
-        """On which meshes both landmarks are present, and apart (n,)."""
-        far: Bools = np.linalg.norm(self.directions(start, end), axis=1) >= self._least
-        return far
-
-    def holds(self, orient: Orient) -> Bools:
-        """On which meshes the landmarks of a directive are apart, those of a second pair across the first (n,)."""
-        first = orient.pairs[0]
-        held = self.apart(first.start, first.end)
-        for second in orient.pairs[1:]:
-            held = held & self._across(first, second)
-        return held
-
-    def _across(self, first: LandmarkPair, second: LandmarkPair) -> Bools:
-        one, other = (self.directions(pair.start, pair.end) for pair in (first, second))
-        far: Bools = np.linalg.norm(np.cross(one, other), axis=1) >= self._least * np.linalg.norm(one, axis=1)
-        return far
-
-
-def _centres(mesh: SymbolicMesh, vocabulary: Sequence[str]) -> Floats:
-    """The volume-weighted centre of the hulls with each label, and of all (labels + 1, 3); NaN where there is none."""
-    volumes = np.array([hull.volume for hull in mesh.hulls])
-    moments = volumes[:, None] * np.array([hull.shape.centroid for hull in mesh.hulls]).reshape(-1, 3)
-    labels = np.array([hull.label or "" for hull in mesh.hulls], dtype=np.str_)
-    masks = [*(labels == label for label in vocabulary), np.ones(len(labels), dtype=np.bool_)]
-    return np.array([_centre(volumes[mask], moments[mask]) for mask in masks])
-
-
-def _centre(volumes: Floats, moments: Floats) -> Floats:
-    total = float(volumes.sum())
-    return moments.sum(axis=0) / total if total > 0 else np.full(3, np.nan)
-
-
 MIN_SAVING = 3
 """Nodes that another frame must save where the present one will do: an orientation costs the reader a line."""
 
@@ -151,12 +103,16 @@ _STEPS = (5, 9)
 class OrientationSuggestion:
     """An orientation that makes the demonstrations consistent, or the program clearly smaller.
 
-    sizes: nodes of each rule's smallest extractor in that frame; why: one sentence for the user.
+    sizes: nodes of each rule's extractor in that frame; before: of each as it was learned now, empty where some rule
+    has none; differs_on: names of the assets where the rules select something else than now; why: one sentence for
+    the user.
     """
 
     orient: Orient
     sizes: tuple[int, ...]
     why: str
+    before: tuple[int, ...] = ()
+    differs_on: tuple[str, ...] = ()
 
 
 def suggest_orientation(
@@ -166,18 +122,19 @@ def suggest_orientation(
     templates: Mapping[str, Template],
     options: Options,
     budget: TimeBudget,
-    sizes: Sequence[int] | None,
+    known: Sequence[Extractor] = (),
     batch: Sequence[SymbolicMesh] = (),
 ) -> OrientationSuggestion | None:
     """The directive under which the extractors of all rules have the fewest nodes, if it is clearly better than now.
 
-    frame: the program without its rules; sizes: what learning found in the present frame, None where some rule has
-    no extractor. A pair that is given is kept where a second one, or `snap`, is enough. Raises OutOfTime.
+    frame: the program without its rules; known: what learning found in the present frame, empty where some rule
+    has no extractor. A pair that is given is kept where a second one, or `snap`, is enough. Raises OutOfTime.
     """
-    limit = len(rules) * options.max_size if sizes is None else sum(sizes) - MIN_SAVING
+    sizes = tuple(map(size_of, known))
+    limit = sum(sizes) - MIN_SAVING if sizes else len(rules) * options.max_size
     if "G" not in options.layers:
         return None
-    search = OrientationSearch(demos, rules, frame, templates, options, budget, sizes)
+    search = OrientationSearch(demos, rules, frame, templates, options, budget, known)
     if limit < sum(search.floors):
         return None
     trials = Trials(search, options.max_size)
@@ -185,7 +142,7 @@ def suggest_orientation(
     best = _vary(trials, directives, frame.orient, limit) if frame.orient else None
     if not best and not (frame.orient and len(frame.orient.pairs) == 2):
         best = _search_all(trials, directives, limit)
-    return OrientationSuggestion(*best, _explain(*best, sizes)) if best else None
+    return OrientationSuggestion(*best, explain_orientation(*best, sizes), sizes) if best else None
 
 
 def _vary(trials: Trials, directives: Directives, given: Orient, limit: int) -> OrientationFit | None:
@@ -203,13 +160,17 @@ def _search_all(trials: Trials, directives: Directives, limit: int) -> Orientati
     return trials.best([*ones, *directives.with_two_pairs(trials.farthest_pairs(ones, MAX_EXTENDED))], limit)
 
 
-def _explain(orient: Orient, found: Sequence[int], before: Sequence[int] | None) -> str:
-    """`in the frame where +Z points from the leg hulls to the panel hulls, every rule has an extractor, of ...`."""
+def explain_orientation(orient: Orient, found: Sequence[int], before: Sequence[int], assets: int = 0) -> str:
+    """`in the frame where +Z points from the leg hulls to the panel hulls, every rule has an extractor, of ...`.
+
+    found, before: nodes of each rule in that frame and now; assets: on which the rules select something else there.
+    """
     nearly = "of quarter turns where, as nearly as can be," if orient.snap else "where"
     frame = " and ".join(map(_describe_pair, orient.pairs))
-    fewer = f", {pluralize(sum(before) - sum(found), 'node')} fewer in all than now" if before else ""
+    now = f", instead of {_describe_sizes(before)} now" if before and tuple(before) != tuple(found) else ""
     rules = "the rule" if len(found) == 1 else "every rule"
-    return f"in the frame {nearly} {frame}, {rules} has an extractor, of {_describe_sizes(found)}{fewer}"
+    differs = f", and selects something else than now on {pluralize(assets, 'asset')}" if assets else ""
+    return f"in the frame {nearly} {frame}, {rules} has an extractor, of {_describe_sizes(found)}{now}{differs}"
 
 
 def _describe_pair(pair: LandmarkPair) -> str:

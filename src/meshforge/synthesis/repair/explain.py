@@ -10,15 +10,17 @@ from functools import cached_property
 from math import exp, log, prod
 from types import MappingProxyType
 
-from meshforge.label_model import LabelBeliefs, LabelOdds, is_human
-from meshforge.language import Extractor, show, size_of
-from meshforge.symbolic import Hull, SymbolicMesh
+from meshforge.label_model import LabelBeliefs, is_human
+from meshforge.language import Extractor, size_of
+from meshforge.symbolic import SymbolicMesh
 from meshforge.synthesis.demonstration import Example, LabelChange, name_demonstrations, to_correction
 from meshforge.synthesis.options import Options, TimeBudget
 from meshforge.synthesis.paper.search import HitWithCorrections
 from meshforge.synthesis.questions import LabelCorrection, Repair
 from meshforge.synthesis.repair import candidates as candidate_search
 from meshforge.synthesis.repair.candidates import NO_EXTRACTOR_COST, Candidate, key_cost, total_chance
+from meshforge.synthesis.repair.landmarks import LandmarkCorrectionSearch, proposal_cost
+from meshforge.synthesis.repair.reasons import describe_effect, explain_correction
 from meshforge.synthesis.repair.relabelings import Variants, enumerate_relabelings
 from meshforge.synthesis.search.smallest import Hit, Miss
 from meshforge.synthesis.search.terms import order_key
@@ -84,6 +86,20 @@ class RepairCollector:
         self._found.update({correction: Repair(correction, rule, 1.0, why) for correction in explained.corrections})
         return explained.corrections
 
+    def find_landmark_corrections(self, learned: Sequence[Extractor], failed: bool) -> bool:
+        """Whether landmarks' labels explain better what was shown; if so, their corrections take the place of all.
+
+        learned: the extractors of the rules; failed: whether the rule after them has none. Raises OutOfTime.
+        """
+        if not self._task.options.repair or self._task.options.strategy == "paper" or not self._task.frame.orient:
+            return False
+        spent = proposal_cost(self._beliefs, self._task, self.repairs)
+        search = LandmarkCorrectionSearch(self._task, self._beliefs, self._budget, learned, failed, spent)
+        repairs = search.run()
+        if repairs:
+            self._found = {repair.correction: repair for repair in repairs}
+        return bool(repairs)
+
     @cached_property
     def _beliefs(self) -> LabelBeliefs:
         answered = {answer.asset for answer in self._task.answers}
@@ -105,8 +121,6 @@ _NONE_SPENT: Mapping[str, int] = MappingProxyType({})
 
 ChangeAt = tuple[int, LabelChange]
 """A change on one of the examples."""
-
-_LOW_CONFIDENCE = 0.8  # a confidence below is worth mentioning
 
 
 @dataclass(frozen=True, slots=True)
@@ -256,36 +270,3 @@ def compute_change_beliefs(candidates: Sequence[Candidate], instead: float) -> M
                 for change in way.changes:
                     shares[place, change] += others * way.chance
     return {place: share / total for place, share in shares.items()}
-
-
-def explain_correction(odds: LabelOdds, to: str, extractor: Extractor, alone: bool) -> str:
-    """One sentence on the label itself, and what its correction makes possible.
-
-    alone: whether it is the only correction.
-    """
-    evidence = "; ".join([*_label_evidence(odds, to), describe_effect(extractor, alone)])
-    return evidence[0].upper() + evidence[1:]
-
-
-def _label_evidence(odds: LabelOdds, to: str) -> list[str]:
-    similar, hull = odds.similar, odds.hull
-    agreeing, of = similar.count(to), len(similar)
-    reasons = []
-    if agreeing > similar.count(hull.label or ""):
-        reasons.append(f"{agreeing} of the {of} most similar hulls are labelled {to}")
-    return [*reasons, *_label_doubts(hull)]
-
-
-def _label_doubts(hull: Hull) -> list[str]:
-    if hull.annotation is None:
-        return ["it has no label"]
-    if is_human(hull):
-        return [f"a person labelled it {hull.annotation.name}"]
-    if hull.annotation.confidence < _LOW_CONFIDENCE:
-        return [f"{hull.annotation.name} has a confidence of {hull.annotation.confidence:.2f} only"]
-    return []
-
-
-def describe_effect(extractor: Extractor, alone: bool) -> str:
-    """What corrections make possible. alone: whether there is only one."""
-    return f"with {'it' if alone else 'all corrections'}, {show(extractor)} selects what was shown"

@@ -34,6 +34,7 @@ export function LearnPanel() {
       {outcome?.question && <QuestionCard key={outcome.question.id} question={outcome.question} />}
       {outcome && outcome.repairs.length > 0 && <Repairs repairs={outcome.repairs} />}
       {outcome && <NoProgram outcome={outcome} />}
+      {outcome?.suggested_orientation && <SuggestedOrientation outcome={outcome} orient={outcome.suggested_orientation} />}
       <ProgramSection />
       {outcome?.hint && <NextDemonstration hint={outcome.hint} />}
       <AnswerList />
@@ -145,8 +146,8 @@ function AnswerRow({ line, stale }: { line: AnswerView; stale: boolean }) {
 
 /** Why there is no program, what came nearest, and what would help. */
 function NoProgram({ outcome }: { outcome: OutcomeView }) {
-  const { nearest, advice, suggested_orientation: orient } = outcome;
-  if (!nearest && !advice.length && !orient) return null;
+  const { nearest, advice } = outcome;
+  if (!nearest && !advice.length) return null;
   return (
     <Section title="What would help">
       {nearest && <Nearest nearest={nearest} />}
@@ -157,16 +158,22 @@ function NoProgram({ outcome }: { outcome: OutcomeView }) {
           ))}
         </ul>
       )}
-      {orient && (
-        <div className={css.split}>
-          <p>
-            With another orientation every rule can be expressed: <code className={css.code}>{orient}</code>
-          </p>
-          <Button icon={RotateCw} onClick={() => void orientBy(orient)}>
-            Use it
-          </Button>
-        </div>
-      )}
+    </Section>
+  );
+}
+
+/** An orientation in which the rules do better, with why, to be taken by one click. */
+function SuggestedOrientation({ outcome, orient }: { outcome: OutcomeView; orient: string }) {
+  return (
+    <Section title="Another orientation">
+      <div className={css.split}>
+        <p>
+          <code className={css.code}>{orient}</code> {outcome.program ? "may be meant" : "would do"}: {outcome.suggested_because}
+        </p>
+        <Button icon={RotateCw} onClick={() => void orientBy(orient)}>
+          Use it
+        </Button>
+      </div>
     </Section>
   );
 }

@@ -1,0 +1,163 @@
+"""Looks for an orientation in which rules that have extractors have more believable ones.
+
+An extractor is doubted for its nodes and for what fits by accident, as in `readings/belief.py`; a direction most where
+no landmarks lie along its axis on nearly all meshes, since the meshes then lie in different frames.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping, Sequence
+
+import numpy as np
+
+from meshforge.common import MeshForgeError
+from meshforge.language import All, Attach, Extractor, Geo, Is, Orient, Program, Template, orient_mesh, size_of
+from meshforge.symbolic import SymbolicMesh
+from meshforge.synthesis.demonstration import Demonstration, RuleSpec
+from meshforge.synthesis.options import Options, TimeBudget
+from meshforge.synthesis.orientation.attempts import OrientationSearch
+from meshforge.synthesis.orientation.landmarks import ALONG, NEARLY_ALL, Landmarks
+from meshforge.synthesis.orientation.suggest import Directives
+from meshforge.synthesis.readings.belief import ALL, NODE, UPRIGHT
+
+UNSUPPORTED = 2.6
+"""For a direction along whose axis no landmarks lie on nearly all meshes [nats]."""
+DIRECTIVE = 1.2
+"""For an orientation [nats]: it costs the reader a line, and there are many that could fit by accident."""
+CLEARLY = 0.9
+"""A directive is preferred to one that comes before it where its extractors cost so much less [nats]."""
+SLACK = 2
+"""So many nodes more than now the rules may have in another frame, where they are less doubted all the same."""
+MAX_TRIED = 16
+"""So many directives are tried at most, those first that hold on most meshes."""
+MAX_MESHES, MAX_TURNED = 100, 24
+"""So many meshes say at most how landmarks lie, and are turned to see whether they lie so already."""
+
+
+def find_more_believable(
+    demos: Sequence[Demonstration],
+    rules: Sequence[RuleSpec],
+    frame: Program,
+    templates: Mapping[str, Template],
+    options: Options,
+    budget: TimeBudget,
+    extractors: Sequence[Extractor],
+    batch: Sequence[SymbolicMesh],
+) -> Orient | None:
+    """The directive of one pair in whose frame the rules are most believable, if they are clearly more so than now.
+
+    frame: the program without its rules, and without an orientation; extractors: of the rules, as they were learned.
+    Raises OutOfTime.
+    """
+    doubts = FrameDoubts(rules, extractors)
+    if doubts.most - DIRECTIVE <= doubts.least:
+        return None
+    shown, others = [demo.mesh for demo in demos], batch[:MAX_MESHES]
+    landmarks = Landmarks([*shown, *others], frame.labels)
+    supported = [letter for letter in "XYZ" if landmarks.supports(letter)]
+    if doubts.count(supported, askew=True) - DIRECTIVE <= doubts.least:
+        return None
+    orients = _rank(Directives(shown, others, frame.labels), landmarks)[:MAX_TRIED]
+    askew = bool(orients and doubts.askew and _turns_many([*shown, *others][:MAX_TURNED], orients[0]))
+    most = doubts.count(supported, askew) - DIRECTIVE
+    if most <= doubts.least:
+        return None
+    search = OrientationSearch(demos, rules, frame, templates, options, budget, extractors)
+    return _find_first(search, orients, most, doubts.least)
+
+
+def _find_first(search: OrientationSearch, orients: Sequence[Orient], most: float, least: float) -> Orient | None:
+    """The first directive whose extractors cost no more than `most`, unless those of a later one cost clearly less.
+
+    least: what extractors cost in any frame [nats].
+    """
+    best: Orient | None = None
+    sizes = [size_of(one) for one in search.known]
+    for orient in orients:
+        attempt = search.attempt(orient)
+        if attempt and attempt.learn(sum(sizes) + SLACK, max(sizes) + SLACK):
+            axes = {pair.axis[1] for pair in orient.pairs}
+            cost = sum(min(cost_extractor(one, axes) for one in some) for some in attempt.extractors)
+            if cost <= most:
+                best, most = orient, cost - CLEARLY
+        if most < least:
+            break
+    return best
+
+
+class FrameDoubts:
+    """What speaks against rules in the files' own frames.
+
+    least: what extractors cost at least in any frame; askew: what it costs besides that actions went by axes that
+    mean nothing [nats].
+    """
+
+    def __init__(self, rules: Sequence[RuleSpec], extractors: Sequence[Extractor]) -> None:
+        self._extractors = tuple(extractors)
+        self.least = sum(min(cost_extractor(one, "XYZ"), NODE * 2 + UPRIGHT) for one in extractors)
+        reach = [place for place, one in enumerate(extractors) if _asks_for_places(one)]
+        acted = [place for place, rule in enumerate(rules) if rule.action.depends_on_frame]
+        self.askew = UNSUPPORTED - UPRIGHT if acted and reach and acted[0] < reach[-1] else 0.0
+
+    @property
+    def most(self) -> float:
+        """Where no landmarks lie along any axis."""
+        return self.count((), askew=True)
+
+    def count(self, supported: Collection[str], askew: bool) -> float:
+        """The cost where landmarks lie along some axes; askew: whether actions went by axes that mean nothing."""
+        return sum(cost_extractor(one, supported) for one in self._extractors) + (self.askew if askew else 0.0)
+
+
+def _turns_many(meshes: Sequence[SymbolicMesh], orient: Orient) -> bool:
+    """Whether a directive turns more than a few of some meshes, so that they do not lie in its frame as they are."""
+    return sum(_turns(mesh, orient) for mesh in meshes) > (1 - NEARLY_ALL) * len(meshes)
+
+
+def _turns(mesh: SymbolicMesh, orient: Orient) -> bool:
+    try:
+        rotation = orient_mesh(mesh, orient)[1].rotation
+    except MeshForgeError:
+        return False
+    return float(np.trace(rotation)) < 1 + 2 * ALONG
+
+
+def _rank(directives: Directives, landmarks: Landmarks) -> list[Orient]:
+    """Directives of one pair: first those that hold on most meshes, then those nearest to where most meshes stand."""
+    plain = [orient for orient in directives.with_one_pair() if not orient.snap]
+
+    def key(orient: Orient) -> tuple[int, float, float]:
+        (pair,) = orient.pairs
+        return -int(landmarks.holds(orient).sum()), round(landmarks.deviation(pair), 2), -landmarks.likeness(pair)
+
+    return sorted(plain, key=key)
+
+
+def cost_extractor(extractor: Extractor, supported: Collection[str]) -> float:
+    """What it costs to believe in one [nats]."""
+    return NODE * size_of(extractor) + _doubt(extractor, supported)
+
+
+def _doubt(extractor: Extractor, supported: Collection[str]) -> float:
+    match extractor:
+        case All():
+            return ALL
+        case Is():
+            return 0.0
+        case Attach(selected, anchor):
+            return _doubt(selected, supported) + _doubt(anchor, supported)
+        case Geo(base, direction):
+            return _doubt(base, supported) + (UPRIGHT if direction[1] in supported else UNSUPPORTED)
+        case _:
+            return _doubt(extractor.left, supported) + _doubt(extractor.right, supported)
+
+
+def _asks_for_places(extractor: Extractor) -> bool:
+    """Whether it asks for more than labels, so that what earlier rules made counts."""
+    match extractor:
+        case All() | Is():
+            return False
+        case Attach() | Geo():
+            return True
+        case _:
+            return _asks_for_places(extractor.left) or _asks_for_places(extractor.right)

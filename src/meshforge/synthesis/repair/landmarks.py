@@ -1,0 +1,206 @@
+"""Wrong labels of landmark hulls: they turn a demonstrated mesh into another frame than the rest, where rules that are
+simple in truth become long, or have no extractor at all.
+
+Corrections that change the frame are tried one by one and in pairs, each by learning the rules anew on the demonstrated
+meshes; what is believed about a label and about a program is weighed as in `candidates.py`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterator, Sequence
+from dataclasses import dataclass
+from itertools import combinations
+from math import exp, log
+
+import numpy as np
+
+from meshforge.common import MeshForgeError, pluralize
+from meshforge.geometry import Floats
+from meshforge.label_model import LabelBeliefs, LabelOdds, is_human
+from meshforge.language import All, Extractor, Orient, orient_mesh, size_of
+from meshforge.symbolic import Hull, SymbolicMesh
+from meshforge.synthesis.demonstration import name_demonstrations
+from meshforge.synthesis.options import TimeBudget
+from meshforge.synthesis.orientation.attempts import OrientationSearch
+from meshforge.synthesis.questions import LabelCorrection, Repair
+from meshforge.synthesis.repair import candidates
+from meshforge.synthesis.repair.candidates import key_cost
+from meshforge.synthesis.repair.reasons import list_evidence
+from meshforge.synthesis.search.terms import order_key
+from meshforge.synthesis.task import LearningTask, apply_corrections, correct_demonstrations
+
+MIN_TURN = float(np.radians(8))
+"""A correction that turns the frame by less [rad] does nothing about it."""
+MAX_TRIED = 24
+"""So many corrections, and pairs of them, are tried at most, those first that are least improbable."""
+
+
+@dataclass(frozen=True, slots=True)
+class FrameChange:
+    """A correction that turns a mesh; cost: to propose it [nats]; odds: of the label as it is; angle [rad]."""
+
+    correction: LabelCorrection
+    cost: float
+    odds: LabelOdds
+    angle: float
+
+
+@dataclass(frozen=True, slots=True)
+class _Hypothesis:
+    """Corrections, and what learning finds with them; base: what its extractors cost [nats]."""
+
+    changes: tuple[FrameChange, ...]
+    sizes: tuple[int, ...]
+    base: float
+
+    @property
+    def cost(self) -> float:
+        return self.base + sum(one.cost for one in self.changes)
+
+    @property
+    def score(self) -> float:
+        """What it costs that labels and program are so [nats]."""
+        return self.base + sum(one.odds.odds[one.correction.to] for one in self.changes)
+
+
+class LandmarkCorrectionSearch:
+    """The demonstrated meshes of a task that may lie in a wrong frame.
+
+    learned: the extractors as the labels are; failed: whether the rule after them has none; spent: what was proposed
+    for these rules instead, in the frame as it is [nats].
+    """
+
+    def __init__(
+        self,
+        task: LearningTask,
+        labels: LabelBeliefs,
+        budget: TimeBudget,
+        learned: Sequence[Extractor],
+        failed: bool,
+        spent: float = 0.0,
+    ) -> None:
+        self._task, self._labels, self._budget = task, labels, budget
+        self._rules = task.rules[: len(learned) + failed]
+        self._places = {label: place for place, label in enumerate(task.frame.labels)}
+        costs = [self._cost(one) for one in learned]
+        self._sizes = (*map(size_of, learned), *(() if not failed else (0,)))
+        self._now = sum(costs) + failed * candidates.NO_EXTRACTOR_COST + spent
+        plain = 2 * candidates.NODE_COST + candidates.DOUBT_COST
+        self._least = sum(min(cost, plain) for cost in costs) + failed * candidates.NODE_COST
+        self._failed = failed
+
+    def run(self) -> tuple[Repair, ...]:
+        """The corrections that make the rules clearly more believable, none where they stand well. Raises OutOfTime."""
+        tried = [found for changes in self._combine(self._find_changes()) if (found := self._try(changes))]
+        if not tried:
+            return ()
+        least = min([self._now, *(one.score for one in tried)])
+        weights = [exp(least - one.score) for one in tried]
+        total = exp(least - self._now) + sum(weights)
+        best = min(tried, key=lambda one: (round(one.score, 9), len(one.changes)))
+        beliefs = [
+            sum(weight for one, weight in zip(tried, weights, strict=True) if change in one.changes) / total
+            for change in best.changes
+        ]
+        wanted = candidates.MIN_BELIEF_WITHOUT_EXACT if self._failed else candidates.MIN_BELIEF
+        if best.cost >= self._now or min(beliefs) < wanted:
+            return ()
+        return tuple(
+            self._to_repair(change, belief, best)
+            for change, belief in sorted(zip(best.changes, beliefs, strict=True), key=lambda row: row[0].correction)
+        )
+
+    def _cost(self, extractor: Extractor) -> float:
+        return key_cost(order_key(extractor, self._places))
+
+    def _find_changes(self) -> list[FrameChange]:
+        """Single corrections that could pay, the least improbable first."""
+        orient, within = self._task.frame.orient, self._now - self._least
+        if not orient or within <= 0:
+            return []
+        found = [
+            change
+            for name, demo in name_demonstrations(self._task.demos)
+            for hull, to, cost in self._list_suspects(name, demo.mesh, orient, within)
+            if (change := self._to_change(name, demo.mesh, hull, to, cost))
+        ]
+        return sorted(found, key=lambda one: (one.cost, one.correction))
+
+    def _list_suspects(
+        self, name: str, mesh: SymbolicMesh, orient: Orient, within: float
+    ) -> Iterator[tuple[Hull, str, float]]:
+        """Hulls with the labels that they may have in truth, where either of the two is a landmark's."""
+        bases = [base for pair in orient.pairs for base in (pair.start, pair.end)]
+        landmarks = {base.label for base in bases if not isinstance(base, All)}
+        rejected = {(one.hull, one.was) for one in self._task.rejected if one.asset == name}
+        for hull in mesh.hulls:
+            if (hull.name, hull.label) in rejected:
+                continue
+            for to in self._task.frame.labels:
+                if (to in landmarks or hull.label in landmarks) and to != hull.label:
+                    cost = self._labels.cost(name, hull, to)
+                    if cost < within:
+                        yield hull, to, cost
+
+    def _to_change(self, name: str, mesh: SymbolicMesh, hull: Hull, to: str, cost: float) -> FrameChange | None:
+        """None where the correction leaves the frame as it is, or leaves no frame."""
+        correction = LabelCorrection(name, hull.name, hull.label, to)
+        now, then = self._rotate(mesh), self._rotate(apply_corrections(mesh, name, [correction]))
+        if now is None or then is None:
+            return None
+        angle = float(np.arccos(np.clip((np.trace(now @ then.T) - 1) / 2, -1, 1)))
+        odds = self._labels.odds_of(name, hull)
+        return FrameChange(correction, cost, odds, angle) if odds and angle >= MIN_TURN else None
+
+    def _rotate(self, mesh: SymbolicMesh) -> Floats | None:
+        try:
+            return orient_mesh(mesh, self._task.frame.orient)[1].rotation
+        except MeshForgeError:
+            return None
+
+    def _combine(self, singles: Sequence[FrameChange]) -> list[tuple[FrameChange, ...]]:
+        """Single corrections and pairs of different hulls, as many as are allowed, the least improbable first."""
+        pairs = [pair for pair in combinations(singles[:MAX_TRIED], 2) if self._is_allowed(pair)]
+        some = [*((one,) for one in singles if self._is_allowed((one,))), *pairs]
+        able = [one for one in some if sum(change.cost for change in one) < self._now - self._least]
+        return sorted(able, key=lambda one: sum(change.cost for change in one))[:MAX_TRIED]
+
+    def _is_allowed(self, changes: Collection[FrameChange]) -> bool:
+        hulls = [(one.correction.asset, one.correction.hull) for one in changes]
+        assets = [asset for asset, _ in hulls] + [one.asset for one in self._task.confirmed]
+        return len(set(hulls)) == len(hulls) and max(map(assets.count, assets)) <= self._task.options.eta
+
+    def _try(self, changes: Sequence[FrameChange]) -> _Hypothesis | None:
+        """What the rules cost on meshes with corrected labels; None where they are not found for less than now."""
+        task = self._task
+        corrections = [one.correction for one in changes]
+        demos = correct_demonstrations(task.demos, corrections)
+        most = int((self._now - sum(one.cost for one in changes)) / candidates.NODE_COST)
+        search = OrientationSearch(demos, self._rules, task.frame, task.templates, task.options, self._budget)
+        assert task.frame.orient
+        attempt = search.attempt(task.frame.orient)
+        if not attempt or not attempt.learn(most, min(most, task.options.max_size)):
+            return None
+        base = sum(self._cost(some[0]) for some in attempt.extractors)
+        return _Hypothesis(tuple(changes), tuple(attempt.sizes), base)
+
+    def _to_repair(self, change: FrameChange, belief: float, best: _Hypothesis) -> Repair:
+        most = candidates.MAX_BELIEF_AGAINST_PERSON if is_human(change.odds.hull) else 1.0
+        places = [k for k, (now, then) in enumerate(zip(self._sizes, best.sizes, strict=True)) if then < now or not now]
+        rule = places[0] if places else 0
+        now = "no extractor" if not self._sizes[rule] else f"one of {pluralize(self._sizes[rule], 'node')}"
+        all_ = "it" if len(best.changes) == 1 else "all corrections"
+        effect = (
+            f"with {all_} the orientation turns {change.correction.asset} by {np.degrees(change.angle):.0f}° "
+            f"otherwise, and rule {rule + 1} has an extractor of {pluralize(best.sizes[rule], 'node')}, now {now}"
+        )
+        why = "; ".join([*list_evidence(change.odds, change.correction.to), effect])
+        return Repair(change.correction, rule + 1, min(belief, most), why[0].upper() + why[1:])
+
+
+def proposal_cost(labels: LabelBeliefs, task: LearningTask, repairs: Sequence[Repair]) -> float:
+    """What it costs to believe in corrections that were found otherwise [nats]; of meshes that have no odds, none."""
+    meshes = {name: demo.mesh for name, demo in name_demonstrations(task.demos)}
+    known = [one.correction for one in repairs if one.correction.asset in meshes]
+    costs = [labels.cost(one.asset, meshes[one.asset].hull_of(one.hull), one.to) for one in known]
+    return sum(cost for cost in costs if cost < -log(1e-12))

@@ -1,0 +1,73 @@
+"""A rule that was learned, what is told of it, and the proof that rules do on every demonstration what was shown."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from functools import partial
+
+from meshforge.common import MeshForgeError
+from meshforge.language import Program, Rule, Template
+from meshforge.synthesis import outcome
+from meshforge.synthesis.demonstration import Demonstration, name_demonstrations
+from meshforge.synthesis.readings.rank import RankedReadings
+from meshforge.synthesis.search.smallest import NearestExtractor
+from meshforge.synthesis.task import memoize
+
+
+@dataclass(frozen=True, slots=True)
+class RuleOutcome:
+    """One rule, its readings, and the names of the meshes in their field."""
+
+    rule: Rule
+    readings: RankedReadings
+    names: tuple[str, ...]
+
+    @property
+    def size(self) -> int:
+        """Nodes of the extractor."""
+        return self.readings.terms[0].size
+
+    def select(self) -> dict[str, frozenset[str]]:
+        """The names of the hulls that the rule selects on each mesh of the field."""
+        field, bits = self.readings.field, self.readings.terms[0].bits
+        rows = zip(self.names, field.meshes, strict=True)
+        return {name: frozenset(mesh.names_of(field.on(bits, place))) for place, (name, mesh) in enumerate(rows)}
+
+
+def list_readings(rule: int, ranked: RankedReadings, names: Sequence[str]) -> Iterator[outcome.Reading]:
+    """The readings of a rule, the most believable first; names: of the meshes of their field."""
+    for place, (term, belief) in enumerate(zip(ranked.terms, ranked.beliefs, strict=True)):
+        differs = tuple(names[k] for k in ranked.differences(place))
+        yield outcome.Reading(outcome.reading_id(rule, place), rule, term.extractor, belief, differs)
+
+
+def to_nearest(rule: int, miss: NearestExtractor) -> outcome.Nearest:
+    """What came nearest, as callers read it."""
+    return outcome.Nearest(rule, miss.extractor, miss.asset, miss.extra, miss.missing)
+
+
+def verify(program: Program, demos: Sequence[Demonstration], templates: Mapping[str, Template]) -> None:
+    """Raises AssertionError, an error of ours, where the program selects something else than was shown.
+
+    Raises ProgramError where it cannot run: it asks for labels, and a demonstrated mesh has none.
+    """
+    made_of = tuple(templates[name].digest for name in program.templates if name in templates)
+    for name, demo in name_demonstrations(demos):
+        key = ("verified", str(program), made_of, demo.steps)
+        memoize(demo.mesh, key, bool, partial(_check_demonstration, program, demo, templates, name))
+
+
+def _check_demonstration(program: Program, demo: Demonstration, templates: Mapping[str, Template], name: str) -> bool:
+    try:
+        trace = program.run(demo.mesh, templates).trace
+    except MeshForgeError as error:
+        raise error.at(name) from None
+    for done in trace:
+        step = demo.step(done.rule)
+        if step and step.select != frozenset(done.selected):
+            raise AssertionError(
+                f"the learned rule {done.rule} selects {sorted(done.selected)} on {name}, "
+                f"not {sorted(step.select or ())} as was shown"
+            )
+    return True

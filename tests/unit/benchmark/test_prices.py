@@ -1,0 +1,23 @@
+"""The seconds by which the tool orders its questions are those by which the benchmark counts a person's time."""
+
+from __future__ import annotations
+
+import pytest
+
+from benchmark.study import keystrokes
+from meshforge.language import Delete
+from meshforge.signoff import prices
+from meshforge.synthesis import Demonstration, Step
+from tests.synthesis_boxes import table
+
+
+def test_prices_of_questions_are_those_of_the_keystroke_model() -> None:
+    assert prices.READING == pytest.approx(keystrokes.ANSWER)
+    assert prices.YES_OR_NO == pytest.approx(keystrokes.CONFIRMATION)
+    assert prices.price_group(7, 2) == pytest.approx(keystrokes.price_group(7, 2))
+
+
+def test_a_demonstration_costs_what_it_took_before() -> None:
+    shown = Demonstration(table(), [Step(1, {"top_0", "top_1"}, Delete()), Step(2, {"shelf"}, Delete())], "t")
+    want = keystrokes.DEMONSTRATION + 2 * keystrokes.RULE + 3 * keystrokes.HULL
+    assert prices.price_demonstration([shown]) == pytest.approx(want)

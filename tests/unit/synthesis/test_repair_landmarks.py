@@ -1,0 +1,96 @@
+"""Wrong labels of landmark hulls, which turn a demonstrated mesh into another frame than the rest."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping
+
+from meshforge.language import Delete, parse_orient, show
+from meshforge.symbolic import Label, SymbolicMesh
+from meshforge.synthesis import (
+    Demonstration,
+    Found,
+    LabelCorrection,
+    LearningOutcome,
+    NeedsRepair,
+    Options,
+    Repair,
+    Step,
+    synthesize,
+)
+from tests.synthesis_boxes import rack
+
+LABELS = ("panel", "leg", "misc")
+UP = parse_orient("orient +Z: Is(leg) -> Is(panel)")
+WRONG = LabelCorrection("rack 1", "crate", "leg", "misc")
+
+
+def family(wrong: Mapping[str, str] | None = None, source: str = "vlm") -> dict[str, SymbolicMesh]:
+    """Racks with a crate beside them, labelled by a model; wrong: labels of hulls of `rack 1`."""
+    found = {}
+    for k in range(9):
+        mesh = rack(0.02 * k - 0.1, 1 + k % 3, extra=[("crate", "misc", (5.0, 0.0, 0.6 + 0.02 * k), (0.6, 0.6, 0.6))])
+        labels = {hull.name: Label(hull.label or "", 0.9, "vlm") for hull in mesh.hulls}
+        if k == 1:
+            labels |= {name: Label(label, 0.9, source) for name, label in (wrong or {}).items()}  # type: ignore[arg-type]
+        found[f"rack {k}"] = mesh.with_labels(labels)
+    return found
+
+
+def learn(
+    meshes: Mapping[str, SymbolicMesh], *names: str, rejected: Collection[LabelCorrection] = (), repair: bool = True
+) -> LearningOutcome:
+    """Of the named meshes the topmost boards are deleted."""
+    demos = [
+        Demonstration(
+            meshes[name], [Step(1, {h.name for h in meshes[name].hulls if h.name[:3] == "top"}, Delete())], name
+        )
+        for name in names
+    ]
+    options = Options(rejected=tuple(rejected), repair=repair)
+    return synthesize(demos, meshes, UP, vocabulary=LABELS, options=options)
+
+
+def test_a_crate_that_is_called_a_leg_is_proposed_for_repair() -> None:
+    outcome = learn(family({"crate": "leg"}), "rack 1", "rack 2")
+    assert isinstance(outcome, NeedsRepair)
+    assert [repair.correction for repair in outcome.repairs] == [WRONG]
+    assert outcome.proposed and [show(rule.extractor) for rule in outcome.proposed.rules] == ["Geo(Is(panel), +Z)"]
+
+
+def test_the_reason_says_how_the_frame_turns_and_what_becomes_of_the_rule() -> None:
+    (repair,) = learn(family({"crate": "leg"}), "rack 1", "rack 2").repairs
+    assert repair.belief > 0.75
+    assert "with it the orientation turns rack 1 by " in repair.why.lower()
+    assert "rule 1 has an extractor of 2 nodes, now " in repair.why
+
+
+def test_a_repair_that_is_confirmed_leads_to_the_program() -> None:
+    meshes, asked = family({"crate": "leg"}), list[Repair]()
+
+    def confirm(repair: Repair) -> bool:
+        asked.append(repair)
+        return True
+
+    demos = [
+        Demonstration(
+            meshes[name], [Step(1, {h.name for h in meshes[name].hulls if h.name[:3] == "top"}, Delete())], name
+        )
+        for name in ("rack 1", "rack 2")
+    ]
+    outcome = synthesize(demos, meshes, UP, vocabulary=LABELS, confirm=confirm)
+    assert isinstance(outcome, Found)
+    assert [repair.correction for repair in asked] == [WRONG]
+    assert show(outcome.program.rules[0].extractor) == "Geo(Is(panel), +Z)"
+
+
+def test_right_labels_of_landmarks_are_left_alone() -> None:
+    assert not learn(family(), "rack 1", "rack 2").repairs
+
+
+def test_a_refused_repair_is_not_proposed_again() -> None:
+    outcome = learn(family({"crate": "leg"}), "rack 1", "rack 2", rejected=[WRONG])
+    assert WRONG not in [repair.correction for repair in outcome.repairs]
+
+
+def test_labels_of_landmarks_stand_where_repair_is_switched_off() -> None:
+    assert not learn(family({"crate": "leg"}), "rack 1", "rack 2", repair=False).repairs
