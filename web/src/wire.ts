@@ -14,6 +14,7 @@ export type AnyEdit =
   | AnswerQuestion
   | SettleRepair
   | TakeBack
+  | PutOff
   | WriteProgram
   | CutHull
   | Unprepare
@@ -115,7 +116,7 @@ export interface Everything {
   ProjectView: ProjectView;
   PropagateJob: PropagateJob;
   PropagationState: PropagationState;
-  QuestionDelay: QuestionDelay;
+  PutOff: PutOff;
   QuestionView: QuestionView;
   Reach: Reach;
   ReachChanged: ReachChanged;
@@ -292,6 +293,13 @@ export interface TakeBack {
   id: string;
 }
 /**
+ * Ask a question of the review no more, as long as what it is about stays.
+ */
+export interface PutOff {
+  kind: "put-off";
+  id: string;
+}
+/**
  * Make a text the project's program. version: of the program that was changed.
  */
 export interface WriteProgram {
@@ -433,13 +441,14 @@ export interface HullRef {
 }
 /**
  * One reply. label: that the hulls then get; select: names of the hulls that the rule then selects; sentence: that
- * reading in words.
+ * reading in words; orient: the directive that the family then gets.
  */
 export interface ReviewChoiceView {
   text: string;
   label: string | null;
   select: string[] | null;
   sentence: string;
+  orient: string | null;
 }
 /**
  * Hulls of an asset that got a new label, by position. new: those that had none; changed: those that had another;
@@ -1153,12 +1162,6 @@ export interface ProgramCheck {
   mark: Mark | null;
   rules: RuleView[];
   orient_sentence: string;
-}
-/**
- * Put a question off.
- */
-export interface QuestionDelay {
-  id: string;
 }
 /**
  * What does an extractor select on an asset, after some of its steps, or before a rule of the program?

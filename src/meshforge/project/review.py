@@ -53,7 +53,7 @@ def review_project(
     if not meshes:
         raise ProjectError("there is no asset that can be read", where=str(store.folder))
     outcome = _learn(store, meshes)
-    state = _build_state(store, meshes)
+    state = build_review_state(store, meshes)
     assessment = review_family(state, outcome, model_family(list(meshes.values())), bar)
     _keep(store, assessment, execution or ExecutionOptions(), clock)
     return ProjectReview(assessment, outcome, state, lost)
@@ -80,7 +80,8 @@ def _learn(store: Store, meshes: Mapping[str, SymbolicMesh]) -> LearningOutcome 
     return learn.learn_program(store, meshes={name: mesh for name, mesh in meshes.items() if name in some})
 
 
-def _build_state(store: Store, meshes: Mapping[str, SymbolicMesh]) -> ReviewState:
+def build_review_state(store: Store, meshes: Mapping[str, SymbolicMesh]) -> ReviewState:
+    """All that is known of a family; meshes: of all or some of its assets, by id."""
     settings, program = store.settings, store.program()
     limits = settings.thresholds
     words = settings.vocabulary or tuple(sorted({h.label for mesh in meshes.values() for h in mesh.hulls if h.label}))
@@ -158,7 +159,7 @@ def reply_to(store: Store, review: ProjectReview, question: ReviewQuestion, repl
         raise ProjectError(f"question {question.id} has {len(choices)} choices", remedy="Count them from 0.")
     choice = None if reply.choice is None else choices[reply.choice]
     if reply.later or (choice is None and question.kind not in ("reading", "label") and not reply.exceptions):
-        _put_off(store, question.id)
+        put_off(store, question.id)
     elif question.kind == "result":
         assert choice is not None
         _make_output(store, question.asset)
@@ -167,7 +168,7 @@ def reply_to(store: Store, review: ProjectReview, question: ReviewQuestion, repl
     elif question.kind == "orientation":
         if choice is not None and choice.orient is not None:
             store.set_orientation(choice.orient)
-        _put_off(store, question.id)
+        put_off(store, question.id)
     elif question.kind in ("reading", "label"):
         refused = [one.select or () for one in choices] if choice is None else []
         select = None if choice is None else choice.select
@@ -184,7 +185,8 @@ def _make_output(store: Store, asset: str) -> None:
             raise ProjectError(f"{asset} cannot be edited: {outcome.error}", where=str(store.folder))
 
 
-def _put_off(store: Store, question: str) -> None:
+def put_off(store: Store, question: str) -> None:
+    """Ask a question no more, given by its id, which another one has as soon as what it is about is another."""
     with store.lock():
         kept = store.sign_offs()
         if question not in kept.later:

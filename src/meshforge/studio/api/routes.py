@@ -217,13 +217,6 @@ def stop_learning(session: CurrentSession) -> requests.EditReceipt:
     return requests.EditReceipt(said="stopped")
 
 
-@router.post("/questions/later")
-def put_off_question(session: CurrentSession, request: requests.QuestionDelay) -> requests.EditReceipt:
-    """Ask another question in place of one."""
-    session.learning.put_off(request.id)
-    return requests.EditReceipt(said="put off")
-
-
 @router.post("/jobs")
 def post_job(session: CurrentSession, request: Annotated[JobRequest, Body(discriminator="kind")]) -> Job:
     """Start a job."""

@@ -22,6 +22,7 @@ AnyEdit = Annotated[
     | program.AnswerQuestion
     | program.SettleRepair
     | program.TakeBack
+    | program.PutOff
     | program.WriteProgram
     | assets.CutHull
     | assets.Unprepare

@@ -2,16 +2,27 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
+from dataclasses import replace
 
 from meshforge.common import MeshForgeError
 from meshforge.label_model import model_family
-from meshforge.language import Program, explain, parse_extractor
+from meshforge.language import explain, parse_extractor, show
 from meshforge.project import Project
-from meshforge.signoff import Assessment, ReviewChoice, ReviewQuestion, ReviewState, review_family
+from meshforge.signoff import (
+    Assessment,
+    EditMeasures,
+    ReviewChoice,
+    ReviewQuestion,
+    ReviewState,
+    find_alarms,
+    measure_edit,
+    review_family,
+)
+from meshforge.studio.learning.results import ProgramWithTemplates
 from meshforge.studio.wire import signoff as wire
 from meshforge.symbolic import SymbolicMesh
-from meshforge.synthesis import Ambiguous, Demonstration, Found, LearningOutcome
+from meshforge.synthesis import Found, LearningOutcome, memoize
 
 
 def assess_project(
@@ -19,41 +30,63 @@ def assess_project(
     meshes: Mapping[str, SymbolicMesh],
     outcome: LearningOutcome | None,
     number: int,
-    later: frozenset[str] = frozenset(),
-) -> wire.AssessmentView:
-    """How sure the edits of a project are. meshes: those that were learned from; outcome: what that came to; number: of
-    the learning run; later: ids of questions that were put off."""
-    state = build_review_state(project, meshes, outcome, later)
-    assessment = review_family(state, outcome, model_family(list(meshes.values())))
-    return view_assessment(assessment, state, number, isinstance(outcome, Found | Ambiguous))
+    stop: Callable[[], bool] = lambda: False,
+) -> wire.AssessmentView | None:
+    """How sure the edits of a project are under its program, None where that was interrupted.
 
-
-def build_review_state(
-    project: Project,
-    meshes: Mapping[str, SymbolicMesh],
-    outcome: LearningOutcome | None,
-    later: frozenset[str] = frozenset(),
-) -> ReviewState:
-    """All that is known of a project's family; arguments: see `assess_project`.
-
-    A result that was accepted counts while its output is up to date; one that was flagged is set aside.
+    meshes: those that were learned from; outcome: what that came to, which does not matter where a person wrote the
+    program; number: of the learning run.
     """
-    limits, program = project.settings.thresholds, outcome.program if outcome else None
-    frame = Program(project.vocabulary, project.orientation, (), limits.contact, limits.extremity)
-    shown = [asset for asset in project.layout.ids_with("demonstrations") if asset in meshes]
-    stale = set(outcome.stale) if outcome else set()
-    reviews = [asset for asset in project.reviews() if asset in meshes]
-    verdicts = project.status(reviews).assets if reviews else ()
-    return ReviewState(
-        dict(meshes),
-        frame,
-        project.templates(program.templates if program else ()),
-        {asset: Demonstration(meshes[asset], project.steps(asset), asset) for asset in shown},
-        tuple(line.answer for line in project.answers().answers if line.answer not in stale),
-        {row.id: () for row in verdicts if row.review == "accepted" and row.is_done},
-        aside=frozenset(row.id for row in verdicts if row.review == "flagged"),
-        later=later,
+    state = read_review_state(project, meshes)
+    accepted = project.program() if project.program_state().by_hand else None
+    judged = (
+        outcome
+        if accepted is None
+        else Found(rules=accepted.rules, readings=(), tried=(), seconds={}, program=accepted)
     )
+    program = judged.program if judged else None
+    alarms = {} if program is None else raise_alarms(ProgramWithTemplates(program, state.templates), meshes, stop)
+    model = model_family(list(meshes.values()))
+    if stop():
+        return None
+    assessment = review_family(state, judged, model, alarms=alarms)
+    return view_assessment(assessment, state, number, program is not None)
+
+
+def read_review_state(project: Project, meshes: Mapping[str, SymbolicMesh]) -> ReviewState:
+    """All that is known of a project's family. A result that was accepted counts while its output is up to date."""
+    state = project.build_review_state(meshes)
+    some = [*state.accepted, *state.mended]
+    current = {row.id for row in project.status(some).assets if row.is_done} if some else set()
+    return replace(
+        state,
+        accepted={asset: done for asset, done in state.accepted.items() if asset in current},
+        mended={asset: done for asset, done in state.mended.items() if asset in current},
+    )
+
+
+def raise_alarms(
+    plan: ProgramWithTemplates, meshes: Mapping[str, SymbolicMesh], stop: Callable[[], bool]
+) -> dict[str, tuple[str, ...]]:
+    """Sentences on those edits that stand out of their family, by asset; none on those that cannot be made."""
+    found = dict[str, EditMeasures]()
+    for asset, mesh in meshes.items():
+        if stop():
+            return {}
+        try:
+            found[asset] = _measure(plan, mesh)
+        except MeshForgeError:
+            continue
+    return {asset: tuple(alarm.text for alarm in alarms) for asset, alarms in find_alarms(found).items()}
+
+
+def _measure(plan: ProgramWithTemplates, mesh: SymbolicMesh) -> EditMeasures:
+    """The measures of an edit; cached with the mesh."""
+
+    def make() -> EditMeasures:
+        return measure_edit(mesh, plan.program.run(mesh, plan.templates).mesh)
+
+    return memoize(mesh, ("measures", plan.key), EditMeasures, make)
 
 
 def view_assessment(
@@ -108,7 +141,11 @@ def _view_question(question: ReviewQuestion, state: ReviewState) -> wire.ReviewQ
 
 def _view_choice(choice: ReviewChoice) -> wire.ReviewChoiceView:
     return wire.ReviewChoiceView(
-        text=choice.text, label=choice.label, select=choice.select, sentence=_explain_reading(choice)
+        text=choice.text,
+        label=choice.label,
+        select=choice.select,
+        sentence=_explain_reading(choice),
+        orient=show(choice.orient).removeprefix("orient ") if choice.orient else None,
     )
 
 

@@ -67,11 +67,8 @@ def learn(folder: Path, token: CancelToken, number: int, take: bool) -> OutcomeV
     return build_outcome_view(number, outcome, len(meshes), perf_counter() - started)
 
 
-def assess(folder: Path, token: CancelToken, number: int, later: frozenset[str]) -> AssessmentView | None:
-    """How sure the edits are that a learning run came to, None where that was interrupted, or was not the last one.
-
-    later: ids of questions that were put off.
-    """
+def assess(folder: Path, token: CancelToken, number: int) -> AssessmentView | None:
+    """How sure the edits are that a learning run came to, None where that was interrupted, or was not the last one."""
     lesson, project = _last_lesson(folder), Project.open(folder)
     if lesson.number != number or lesson.outcome is None:
         return None
@@ -79,7 +76,7 @@ def assess(folder: Path, token: CancelToken, number: int, later: frozenset[str])
         meshes = dict(_family_cache(folder).read_meshes(project, select_assets(project), token.stop))
     except ReadInterrupted:
         return None
-    return assess_project(project, meshes, lesson.outcome, number, later)
+    return assess_project(project, meshes, lesson.outcome, number, token.stop)
 
 
 def compute_reach(folder: Path, token: CancelToken, program: str) -> tuple[Reach, ...] | None:

@@ -43,7 +43,6 @@ class LearningScheduler:
         self._number, self._paused = 0, False
         self._timer: Timer | None = None
         self._running: Future[OutcomeView] | None = None
-        self._later = frozenset[str]()
 
     def restart(self) -> None:
         """Start a learning run, in place of the one that is under way."""
@@ -95,21 +94,15 @@ class LearningScheduler:
         self._learner.reach(text).add_done_callback(partial(self._show_reach, self._number))
 
     def assess(self) -> None:
-        """Judge anew how sure the edits are of the last learning run; not of a program that a person wrote."""
-        outcome, program, number = self._pages.outcome, self._pages.program, self._number
-        judged = outcome and outcome.number == number and outcome.status in ("found", "ambiguous", "repair")
-        if not judged or (program.by_hand and outcome and outcome.program != program.text):
+        """Judge anew how sure the edits are, under the program as it is after the last learning run."""
+        outcome, number = self._pages.outcome, self._number
+        if not outcome or outcome.number != number or outcome.status in ("timeout", "error"):
             self._show_assessment(number, None)
             return
         with self._lock:
             if number == self._number:
                 self._pages.set_assessment(self._pages.assessment, assessing=True)
-        self._learner.assess(number, self._later).add_done_callback(partial(self._take_assessment, number))
-
-    def put_off(self, question: str) -> None:
-        """Ask another question in place of one, by its id, as long as the studio is open."""
-        self._later |= {question}
-        self.assess()
+        self._learner.assess(number).add_done_callback(partial(self._take_assessment, number))
 
     def generalise(self, extractor: str, rule: int) -> Future[CoverageView]:
         """What an extractor selects on all assets."""
@@ -219,9 +212,9 @@ class Learner:
         self._cancel_flag.cancel("generalise")
         return self._put("generalise", process.generalise, extractor, rule, program)
 
-    def assess(self, number: int, later: frozenset[str]) -> Future[AssessmentView]:
-        """How sure the edits are of the learning run of that number; later: ids of questions that were put off."""
-        return self._put("assess", process.assess, number, later)
+    def assess(self, number: int) -> Future[AssessmentView]:
+        """How sure the edits are after the learning run of that number."""
+        return self._put("assess", process.assess, number)
 
     def interrupt(self) -> None:
         """End the learning run, and what is worked out about the one before, soon."""

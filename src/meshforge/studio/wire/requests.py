@@ -45,12 +45,6 @@ class JobCancel(Wire):
     id: str
 
 
-class QuestionDelay(Wire):
-    """Put a question off."""
-
-    id: str
-
-
 class UploadReceipt(Wire):
     """An upload is stored. names: of a template, as actions write it; or the paths of asset files."""
 

@@ -41,12 +41,13 @@ class HullRef(Wire):
 
 class ReviewChoiceView(Wire):
     """One reply. label: that the hulls then get; select: names of the hulls that the rule then selects; sentence: that
-    reading in words."""
+    reading in words; orient: the directive that the family then gets."""
 
     text: str
     label: str | None = None
     select: tuple[str, ...] | None = None
     sentence: str = ""
+    orient: str | None = None
 
 
 class ReviewQuestionView(Wire):
