@@ -94,6 +94,13 @@ def _find_alarms(store: Store, inputs: Mapping[str, OutputInputs]) -> dict[str, 
     return {asset: [alarm.text for alarm in alarms] for asset, alarms in find_alarms(measures).items()}
 
 
+def build_review_state(store: Store, meshes: Mapping[str, SymbolicMesh]) -> ReviewState:
+    """All that is known of a family under the project's program; meshes: of all or some of its assets, by id."""
+    program = store.program()
+    by_hand = program is not None and learn.program_state_of(store, program).by_hand
+    return FamilyStateReader(store, meshes, program, by_hand, find_inputs(store, EXECUTION_DEFAULTS)).read()
+
+
 def _read_meshes(store: Store) -> tuple[dict[str, SymbolicMesh], dict[str, str]]:
     """All assets by id, and why some cannot be read."""
     meshes, lost = dict[str, SymbolicMesh](), dict[str, str]()
@@ -146,14 +153,14 @@ def reply_to(store: Store, review: ProjectReview, question: ReviewQuestion, repl
         raise ProjectError(f"question {question.id} has {len(choices)} choices", remedy="Count them from 0.")
     choice = None if reply.choice is None else choices[reply.choice]
     if reply.later or (choice is None and question.kind not in ("reading", "label") and not reply.exceptions):
-        _put_off(store, question.id)
+        put_off(store, question.id)
     elif question.kind == "result":
         assert choice is not None
         _judge(store, question.asset, choice.text)
     elif question.kind == "orientation":
         if choice is not None and choice.orient is not None:
             store.set_orientation(choice.orient)
-        _put_off(store, question.id)
+        put_off(store, question.id)
     elif question.kind in ("reading", "label"):
         refused = [one.select or () for one in choices] if choice is None else []
         select = None if choice is None else choice.select
@@ -184,7 +191,8 @@ def _make_output(store: Store, asset: str) -> None:
             raise ProjectError(f"{asset} cannot be edited: {outcome.error}", where=str(store.folder))
 
 
-def _put_off(store: Store, question: str) -> None:
+def put_off(store: Store, question: str) -> None:
+    """Ask a question of some id no more."""
     with store.lock():
         kept = store.sign_offs()
         if question not in kept.later:
