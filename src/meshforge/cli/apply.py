@@ -133,7 +133,7 @@ class _ApplyWork:
     readers: Callable[[Iterable[str]], Sequence[batch.MeshReader]]
     demonstrated: Collection[str] = ()
     held: Sequence[batch.Held] = ()
-    finish: Callable[[], object] = lambda: None
+    finish: Callable[[], object] = tuple
 
 
 def _work_of_project(given: ApplyArguments) -> _ApplyWork:
@@ -150,7 +150,7 @@ def _work_of_project(given: ApplyArguments) -> _ApplyWork:
     names = {one.asset for one in held}
     program, jobs, templates = project.work(frozenset(project.assets()) - names if names else None)
     demonstrated = frozenset(project.layout.ids_with("demonstrations"))
-    finish = project.renew_sign_offs if out.absolute() == project.layout.edited else _ApplyWork.finish
+    finish = project.renew_sign_offs if out.absolute() == project.layout.edited else tuple
     return _ApplyWork(program, jobs, out, templates, project.readers, demonstrated, held, finish)
 
 
