@@ -150,8 +150,8 @@ def _work_of_project(given: ApplyArguments) -> _ApplyWork:
     names = {one.asset for one in held}
     program, jobs, templates = project.work(frozenset(project.assets()) - names if names else None)
     demonstrated = frozenset(project.layout.ids_with("demonstrations"))
-    finish = project.renew_sign_offs if out.absolute() == project.layout.edited else _ApplyWork.finish
-    return _ApplyWork(program, jobs, out, templates, project.readers, demonstrated, held, finish)
+    work = _ApplyWork(program, jobs, out, templates, project.readers, demonstrated, held)
+    return replace(work, finish=project.renew_sign_offs) if out.absolute() == project.layout.edited else work
 
 
 def _hold_back(project: Project, out: Path, bar: float) -> tuple[batch.Held, ...]:

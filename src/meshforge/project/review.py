@@ -128,7 +128,7 @@ def _add_unreadable(store: Store, found: Assessment, state: ReviewState, lost: M
         name: AssetConfidence(name, 0.0, (Doubt("alarm", f"it cannot be read: {why}", share=1.0),))
         for name, why in lost.items()
     }
-    found = replace(found, assets={name: (found.assets | unknown)[name] for name in store.assets()})
+    found = replace(found, assets={name: {**found.assets, **unknown}[name] for name in store.assets()})
     asked = (_ask_to_set_aside(name, lost[name]) for name in found.held if name in lost)
     return replace(found, question=found.question or next((one for one in asked if one.id not in state.later), None))
 
