@@ -133,7 +133,7 @@ class _ApplyWork:
     readers: Callable[[Iterable[str]], Sequence[batch.MeshReader]]
     demonstrated: Collection[str] = ()
     held: Sequence[batch.Held] = ()
-    finish: Callable[[], object] = lambda: None
+    finish: Callable[[], object] = tuple
 
 
 def _work_of_project(given: ApplyArguments) -> _ApplyWork:
@@ -150,8 +150,8 @@ def _work_of_project(given: ApplyArguments) -> _ApplyWork:
     names = {one.asset for one in held}
     program, jobs, templates = project.work(frozenset(project.assets()) - names if names else None)
     demonstrated = frozenset(project.layout.ids_with("demonstrations"))
-    work = _ApplyWork(program, jobs, out, templates, project.readers, demonstrated, held)
-    return replace(work, finish=project.renew_sign_offs) if out.absolute() == project.layout.edited else work
+    finish = project.renew_sign_offs if out.absolute() == project.layout.edited else tuple
+    return _ApplyWork(program, jobs, out, templates, project.readers, demonstrated, held, finish)
 
 
 def _hold_back(project: Project, out: Path, bar: float) -> tuple[batch.Held, ...]:

@@ -18,7 +18,7 @@ from meshforge.cli.review_text import format_question, format_review
 from meshforge.cli.terminal import print_json, remark
 from meshforge.common import MeshForgeError, UsageError
 from meshforge.project import Project, ProjectReview
-from meshforge.signoff import BAR, HullPlace, Reply, ReviewQuestion
+from meshforge.signoff import BAR, HullPlace, ReviewQuestion, ReviewReply
 
 _ANSWER = 'a list of {"id", "choice": a number from 0 or null, "exceptions": {"ASSET#HULL": LABEL}, "later": true}'
 
@@ -72,7 +72,9 @@ def _report_losses(found: ProjectReview) -> None:
         remark(f"{asset} is no longer signed off: {why}")
 
 
-def _reply(project: Project, found: ProjectReview, question: ReviewQuestion, reply: Reply, bar: float) -> ProjectReview:
+def _reply(
+    project: Project, found: ProjectReview, question: ReviewQuestion, reply: ReviewReply, bar: float
+) -> ProjectReview:
     project.reply(found, question, reply)
     with show_status("looking at the family"):
         after = project.review(bar)
@@ -91,11 +93,11 @@ def _converse(project: Project, found: ProjectReview, bar: float) -> ProjectRevi
             found = _reply(project, found, question, reply, bar)
         except MeshForgeError as error:
             typer.echo(error.message, err=True)
-            found = _reply(project, found, question, Reply(question.id, later=True), bar)
+            found = _reply(project, found, question, ReviewReply(question.id, later=True), bar)
     return found
 
 
-def _ask(question: ReviewQuestion) -> Reply | None:
+def _ask(question: ReviewQuestion) -> ReviewReply | None:
     """What is typed: a number, n for none of these, l for later; None where the person stops."""
     count = len(question.choices)
     while True:
@@ -107,14 +109,14 @@ def _ask(question: ReviewQuestion) -> Reply | None:
             case "q":
                 return None
             case "l":
-                return Reply(question.id, later=True)
+                return ReviewReply(question.id, later=True)
             case "n" if count:
-                return Reply(question.id, None)
+                return ReviewReply(question.id, None)
             case number if number.isdigit() and 1 <= int(number) <= count:
-                return Reply(question.id, int(number) - 1)
+                return ReviewReply(question.id, int(number) - 1)
 
 
-def _read_replies(path: Path) -> list[Reply]:
+def _read_replies(path: Path) -> list[ReviewReply]:
     """Replies from a file. Raises UsageError where it is not what it should be."""
     try:
         rows = jsonlib.loads(path.read_text("utf-8"))
@@ -125,7 +127,7 @@ def _read_replies(path: Path) -> list[Reply]:
         raise UsageError("these are no replies", where=str(path), remedy=f"Expected {_ANSWER}.") from error
 
 
-def _to_reply(row: dict[str, Any]) -> Reply:
+def _to_reply(row: dict[str, Any]) -> ReviewReply:
     exceptions = {}
     for place, label in row.get("exceptions", {}).items():
         asset, mark, hull = str(place).rpartition("#")
@@ -135,7 +137,7 @@ def _to_reply(row: dict[str, Any]) -> Reply:
     choice = row.get("choice")
     if choice is not None and (not isinstance(choice, int) or isinstance(choice, bool)):
         raise ValueError(choice)
-    return Reply(str(row["id"]), choice, exceptions, later=bool(row.get("later", False)))
+    return ReviewReply(str(row["id"]), choice, exceptions, later=bool(row.get("later", False)))
 
 
 def to_json(project: Project, found: ProjectReview) -> dict[str, Any]:

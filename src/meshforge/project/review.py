@@ -33,9 +33,9 @@ from meshforge.signoff import (
     Assessment,
     AssetConfidence,
     Doubt,
-    Reply,
     ReviewChoice,
     ReviewQuestion,
+    ReviewReply,
     ReviewState,
     find_alarms,
     review_family,
@@ -94,6 +94,13 @@ def _find_alarms(store: Store, inputs: Mapping[str, OutputInputs]) -> dict[str, 
     return {asset: [alarm.text for alarm in alarms] for asset, alarms in find_alarms(measures).items()}
 
 
+def build_review_state(store: Store, meshes: Mapping[str, SymbolicMesh]) -> ReviewState:
+    """All that is known of a family under the project's program; meshes: of all or some of its assets, by id."""
+    program = store.program()
+    by_hand = program is not None and learn.program_state_of(store, program).by_hand
+    return FamilyStateReader(store, meshes, program, by_hand, find_inputs(store, EXECUTION_DEFAULTS)).read()
+
+
 def _read_meshes(store: Store) -> tuple[dict[str, SymbolicMesh], dict[str, str]]:
     """All assets by id, and why some cannot be read."""
     meshes, lost = dict[str, SymbolicMesh](), dict[str, str]()
@@ -128,7 +135,8 @@ def _add_unreadable(store: Store, found: Assessment, state: ReviewState, lost: M
         name: AssetConfidence(name, 0.0, (Doubt("alarm", f"it cannot be read: {why}", share=1.0),))
         for name, why in lost.items()
     }
-    found = replace(found, assets={name: {**found.assets, **unknown}[name] for name in store.assets()})
+    every = {**found.assets, **unknown}
+    found = replace(found, assets={name: every[name] for name in store.assets()})
     asked = (_ask_to_set_aside(name, lost[name]) for name in found.held if name in lost)
     return replace(found, question=found.question or next((one for one in asked if one.id not in state.later), None))
 
@@ -139,21 +147,21 @@ def _ask_to_set_aside(asset: str, why: str) -> ReviewQuestion:
     return ReviewQuestion(f"result-{name}", "result", text, YES_OR_NO, 0.0, asset, choices=(ReviewChoice(ASIDE),))
 
 
-def reply_to(store: Store, review: ProjectReview, question: ReviewQuestion, reply: Reply) -> None:
+def reply_to(store: Store, review: ProjectReview, question: ReviewQuestion, reply: ReviewReply) -> None:
     """Keep what a person said to a question. Raises ProjectError where it does not fit."""
     choices = question.choices
     if reply.choice is not None and not 0 <= reply.choice < len(choices):
         raise ProjectError(f"question {question.id} has {len(choices)} choices", remedy="Count them from 0.")
     choice = None if reply.choice is None else choices[reply.choice]
     if reply.later or (choice is None and question.kind not in ("reading", "label") and not reply.exceptions):
-        _put_off(store, question.id)
+        put_off(store, question.id)
     elif question.kind == "result":
         assert choice is not None
         _judge(store, question.asset, choice.text)
     elif question.kind == "orientation":
         if choice is not None and choice.orient is not None:
             store.set_orientation(choice.orient)
-        _put_off(store, question.id)
+        put_off(store, question.id)
     elif question.kind in ("reading", "label"):
         refused = [one.select or () for one in choices] if choice is None else []
         select = None if choice is None else choice.select
@@ -184,14 +192,15 @@ def _make_output(store: Store, asset: str) -> None:
             raise ProjectError(f"{asset} cannot be edited: {outcome.error}", where=str(store.folder))
 
 
-def _put_off(store: Store, question: str) -> None:
+def put_off(store: Store, question: str) -> None:
+    """Ask a question of some id no more."""
     with store.lock():
         kept = store.sign_offs()
         if question not in kept.later:
             store.write_sign_offs(kept.model_copy(update={"later": (*kept.later, question)}))
 
 
-def _write_labels(store: Store, state: ReviewState, question: ReviewQuestion, reply: Reply) -> None:
+def _write_labels(store: Store, state: ReviewState, question: ReviewQuestion, reply: ReviewReply) -> None:
     """Labels that a person gave: of a repair as such, so that it can be taken back; of a group as theirs."""
     choice = None if reply.choice is None else question.choices[reply.choice]
     given = dict.fromkeys(question.hulls, choice.label) if choice is not None and choice.label else {}
