@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from contextlib import ExitStack
 from pathlib import Path
 
@@ -185,9 +184,8 @@ def test_a_stop_leaves_all_labels_as_they_were(tmp_path: Path) -> None:
 def test_an_asset_that_cannot_be_read_is_told_and_does_not_hide_the_others(tmp_path: Path) -> None:
     project = guessed(tmp_path)
     (tmp_path / "assets/t3.obj").write_text("nothing of use")
-    ways: tuple[Callable[[], object], ...] = (project.label_by_consensus, project.restore_sources)
-    for way in ways:
-        reports = {report.asset: report for report in way().reports}
+    for outcomes in (project.label_by_consensus().reports, project.restore_sources().reports):
+        reports = {report.asset: report for report in outcomes}
         assert "t3.obj" in reports["t3.obj"].problems[0]
         assert reports["t1.obj"].taken == 1
 
@@ -212,9 +210,10 @@ def test_what_is_foretold_is_what_is_done_then(tmp_path: Path) -> None:
     assert project.propose_sources().rows == ()
 
 
+SOURCES: tuple[LabelSource, ...] = ("user", "vlm", "name", "file")
 SAID = st.lists(
     st.tuples(
-        st.sampled_from(["user", "vlm", "name", "file"]),
+        st.sampled_from(SOURCES),
         st.sampled_from(["t0.obj", "t1.obj", "t2.obj"]),
         st.sampled_from(NAMES),
         st.sampled_from(["top", "leg", "misc"]),
@@ -228,7 +227,7 @@ SAID = st.lists(
 @examples(25)
 @given(said=SAID)
 def test_whatever_is_said_people_stay_again_changes_nothing_and_sources_come_back(
-    tmp_path_factory: pytest.TempPathFactory, said: list[tuple[str, str, str, str, float]]
+    tmp_path_factory: pytest.TempPathFactory, said: list[tuple[LabelSource, str, str, str, float]]
 ) -> None:
     project = family(tmp_path_factory.mktemp("family"))
     for source, asset, hull, label, sure in said:
@@ -237,11 +236,12 @@ def test_whatever_is_said_people_stay_again_changes_nothing_and_sources_come_bac
     project.label_by_consensus()
     once, after = tree(project.folder / "labels"), labels_of(project)
     assert all(after[place] == label for place, label in before.items() if label.source in HUMAN_SOURCES)
-    for place, label in after.items():
-        assert label == before.get(place) or (label.source in INFERRED_SOURCES and label.given == before.get(place))
+    for place, one in after.items():
+        assert one == before.get(place) or (one.source in INFERRED_SOURCES and one.given == before.get(place))
     project.label_by_consensus()
     assert tree(project.folder / "labels") == once
-    project.propagate_labels() if any(label.source == "user" for label in before.values()) else None
+    if any(label.source == "user" for label in before.values()):
+        project.propagate_labels()
     project.label_by_consensus()
     assert tree(project.folder / "labels") == once
     project.restore_sources()
