@@ -19,7 +19,7 @@ from meshforge.geometry import CoacdSettings, DecomposeSettings, VhacdSettings
 from meshforge.symbolic import SymbolicMesh
 
 if TYPE_CHECKING:
-    from meshforge.batch import ExecutionOptions
+    from meshforge.batch import AssetSet, ExecutionOptions
 
 Arguments = TypeVar("Arguments")
 
@@ -199,5 +199,10 @@ def open_asset(asset: Path, labels: Path | None, project: Path | None) -> Symbol
     from meshforge.project import Project  # lazy: 500 modules that only --project needs
 
     home = Project.open(project)
-    by_path = {plain_path(path): key for key, path in home.found.ids.items()}
-    return home.mesh(by_path.get(plain_path(asset), asset.as_posix()))
+    return home.mesh(find_asset_id(home.found, asset))
+
+
+def find_asset_id(found: AssetSet, asset: Path) -> str:
+    """The id of an asset that is given by its file, or by its id."""
+    by_path = {plain_path(path): key for key, path in found.ids.items()}
+    return by_path.get(plain_path(asset), asset.as_posix())
