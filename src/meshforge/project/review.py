@@ -16,7 +16,7 @@ from meshforge.label_model import model_family
 from meshforge.labels.merge import set_labels
 from meshforge.language import Program
 from meshforge.project import demonstrations, learn, run
-from meshforge.signoff import BAR, Assessment, Reply, ReviewQuestion, ReviewState, review_family
+from meshforge.signoff import BAR, Assessment, Reply, ReviewQuestion, ReviewState, find_alarms, review_family
 from meshforge.signoff.question import ASIDE, RIGHT, Selections
 from meshforge.store import AssessmentFile, ConfidenceLine, SignOff, Store, Verdict, find_changes, survey
 from meshforge.symbolic import SymbolicMesh
@@ -54,9 +54,21 @@ def review_project(
         raise ProjectError("there is no asset that can be read", where=str(store.folder))
     outcome = _learn(store, meshes)
     state = _build_state(store, meshes)
-    assessment = review_family(state, outcome, model_family(list(meshes.values())), bar)
-    _keep(store, assessment, execution or ExecutionOptions(), clock)
+    execution = execution or ExecutionOptions()
+    alarms = _find_alarms(store, find_inputs(store, execution))
+    assessment = review_family(state, outcome, model_family(list(meshes.values())), bar, alarms)
+    _keep(store, assessment, execution, clock)
     return ProjectReview(assessment, outcome, state, lost)
+
+
+def _find_alarms(store: Store, inputs: Mapping[str, OutputInputs]) -> dict[str, list[str]]:
+    """What stands out among the results that are up to date, a sentence each, by asset."""
+    measures = {}
+    for asset, now in inputs.items():
+        stamp = read_stamp(store.layout.edited, asset)
+        if stamp and stamp.measures and stamp.inputs and not find_changes(now, stamp.inputs):
+            measures[asset] = stamp.measures
+    return {asset: [alarm.text for alarm in alarms] for asset, alarms in find_alarms(measures).items()}
 
 
 def _read_meshes(store: Store) -> tuple[dict[str, SymbolicMesh], dict[str, str]]:
@@ -87,7 +99,8 @@ def _build_state(store: Store, meshes: Mapping[str, SymbolicMesh]) -> ReviewStat
     frame = Program(words, store.orientation, (), limits.contact, limits.extremity)
     names = program.templates if program else ()
     accepted, verdicts = find_accepted(store), find_verdicts(store)
-    shown = {asset: demo for asset, demo in store.demonstrations().items() if asset in meshes}
+    by_hand = program is not None and learn.program_state_of(store, program).by_hand
+    shown = {} if by_hand else {name: demo for name, demo in store.demonstrations().items() if name in meshes}
     return ReviewState(
         meshes,
         frame,

@@ -337,10 +337,11 @@ def test_apply_runs_a_program_on_files_and_names_the_one_that_fails(run: Run) ->
 
 def test_apply_names_the_results_that_stand_out(run: Run) -> None:
     write_tables(Path("family"), 2)
-    Path("all.mf").write_text("All => Delete\n")
-    told = run("apply", "all.mf", "family", "--out", "out", "--workers", "0")
+    Path("all.mf").write_text("All => Replace(box)\n")
+    told = run("apply", "all.mf", "family", "--out", "out", "--workers", "1")
     assert told.code == 0
-    named = "table0/model.obj (no hull is left), table1/model.obj (no hull is left)"
+    said = "nearly one solid block: 100% of the free space is filled"
+    named = f"table0/model.obj ({said}), table1/model.obj ({said})"
     assert told.out.splitlines()[-1] == f"2 results stand out: {named}"
 
 
