@@ -103,3 +103,23 @@ def test_a_flagged_result_is_held(run: Run) -> None:
     Project.open("tables").set_verdict(SECOND, "flagged")
     rows = [json.loads(line) for line in run("apply", "tables", "--sure", "0.5", "--json").out.splitlines()]
     assert {row["asset"]: row["status"] for row in rows}[SECOND] == "held"
+
+
+def test_info_of_a_project_says_how_sure_a_result_is_as_far_as_that_is_known(run: Run) -> None:
+    words = ("info", THIRD, "--project", "tables", "--json")
+    assert {key: run(*words).json[key] for key in ("probability", "doubts")} == {"probability": None, "doubts": []}
+    run("review", "tables", "--sure", "0.5")
+    found = run(*words).json
+    assert 0.5 < found["probability"] < 1
+    Project.open("tables").set_labels(THIRD, {"crumb": "leg"})
+    assert run(*words).json["probability"] is None
+    assert "probability" not in run("info", "assets/table2/model.obj", "--json").json
+
+
+def test_what_was_put_off_is_asked_again_on_request(run: Run) -> None:
+    question = run("review", "tables", "--sure", "1", "--json").json["question"]
+    Path("said.json").write_text(json.dumps([{"id": question["id"], "later": True}]))
+    told = run("review", "tables", "--sure", "1", "--json", "--answers", "said.json")
+    assert told.code == 1
+    assert (told.json["question"] or {}).get("id") != question["id"]
+    assert run("review", "tables", "--sure", "1", "--json", "--again").json["question"]["id"] == question["id"]
