@@ -97,6 +97,8 @@ def apply(given: ApplyArguments) -> None:
         alarms = summary.find_alarms()
         for outcome in done:
             print_json(batch.to_json_line(outcome, alarms.get(outcome.asset, ())), compact=True)
+    if not given.dry_run:
+        work.finish()
     summary.hold(work.held)
     for held in work.held:
         print_json(held.to_json(), compact=True) if given.json else typer.echo(f"{'held':10} {held.asset}: {held.why}")
@@ -122,7 +124,7 @@ def _parse_measures(names: Sequence[str]) -> CheckOptions:
 @dataclass(frozen=True, slots=True)
 class _ApplyWork:
     """What is to be run on what. readers: of assets before the run, by id; demonstrated: those that somebody edited;
-    held: those that are held back."""
+    held: those that are held back; finish: called when all is written."""
 
     program: Program
     jobs: Sequence[batch.AssetJob]
@@ -131,6 +133,7 @@ class _ApplyWork:
     readers: Callable[[Iterable[str]], Sequence[batch.MeshReader]]
     demonstrated: Collection[str] = ()
     held: Sequence[batch.Held] = ()
+    finish: Callable[[], object] = tuple
 
 
 def _work_of_project(given: ApplyArguments) -> _ApplyWork:
@@ -147,7 +150,8 @@ def _work_of_project(given: ApplyArguments) -> _ApplyWork:
     names = {one.asset for one in held}
     program, jobs, templates = project.work(frozenset(project.assets()) - names if names else None)
     demonstrated = frozenset(project.layout.ids_with("demonstrations"))
-    return _ApplyWork(program, jobs, out, templates, project.readers, demonstrated, held)
+    finish = project.renew_sign_offs if out.absolute() == project.layout.edited else tuple
+    return _ApplyWork(program, jobs, out, templates, project.readers, demonstrated, held, finish)
 
 
 def _hold_back(project: Project, out: Path, bar: float) -> tuple[batch.Held, ...]:
@@ -157,7 +161,7 @@ def _hold_back(project: Project, out: Path, bar: float) -> tuple[batch.Held, ...
     if program != project.program():
         remark("The program was learned again from what was said since.")
     assessment = found.assessment
-    names = [*assessment.held, *sorted(assessment.aside), *(name for name in found.lost)]
+    names = [*assessment.held, *sorted(assessment.aside)]
     return tuple(_hold(name, assessment, out) for name in names)
 
 
@@ -165,7 +169,7 @@ def _hold(name: str, assessment: Assessment, out: Path) -> batch.Held:
     one = assessment.assets.get(name)
     written = batch.read_stamp(out, name)
     kept = str(out / written.out) if written and written.out else None
-    why = "a person set it aside" if name in assessment.aside else "it cannot be read"
+    why = "a person set it aside"
     if one and name not in assessment.aside:
         doubt = one.doubts[0].text if one.doubts else "no single doubt stands out"
         why = f"{format_share(one.probability)} sure; {doubt}"

@@ -7,7 +7,7 @@ from typing import Annotated, Any
 
 import typer
 
-from meshforge.cli.options import AssetFile, InProject, Json, LabelsPath, find_asset_id, open_asset
+from meshforge.cli.options import AssetFile, InProject, Json, LabelsPath, asset_id, open_asset
 from meshforge.cli.terminal import print_json
 from meshforge.common import pluralize
 from meshforge.geometry import Box, Capsule, Cylinder, Ellipsoid, Shape, Sphere
@@ -21,17 +21,24 @@ def info(
     json: Json = False,
     geometry: Annotated[bool, typer.Option("--geometry", help="With --json: the points of every hull.")] = False,
 ) -> None:
-    """Show hulls, labels, bodies, contacts and near misses of an asset, in the frame it comes in.
-
-    With --json and --project also how probable it is that its result is right, and why it may not be, as `review` found
-    it last and as far as nothing changed since.
-    """
+    """Show hulls, labels, bodies, contacts and near misses of an asset, in the frame it comes in."""
     mesh = open_asset(asset, labels, project)
     if json:
-        found = describe_asset(mesh, str(asset), geometry=geometry)
-        print_json(found | (_describe_confidence(asset, project) if project else {}))
+        print_json(describe_asset(mesh, str(asset), geometry=geometry) | (_describe_standing(asset, project)))
     else:
         _print_asset(mesh, str(asset))
+
+
+def _describe_standing(asset: Path, folder: Path | None) -> dict[str, Any]:
+    """How sure the edit of a project's asset is, as far as its last review holds; nothing without a project."""
+    if folder is None:
+        return {}
+    from meshforge.project import Project  # lazy: 500 modules that only --project needs
+
+    project = Project.open(folder)
+    name = asset_id(asset, project)
+    (found,) = (one for one in project.status().assets if one.id == name)
+    return {"probability": found.probability, "doubts": [doubt.to_json() for doubt in found.doubts]}
 
 
 def describe_asset(mesh: SymbolicMesh, asset: str, *, geometry: bool = False) -> dict[str, Any]:
@@ -47,16 +54,6 @@ def describe_asset(mesh: SymbolicMesh, asset: str, *, geometry: bool = False) ->
         "contacts": [[names[i], names[j]] for i, j in sorted(mesh.contacts)],
         "near_misses": [[names[i], names[j], gap] for i, j, gap in mesh.near_misses],
     }
-
-
-def _describe_confidence(asset: Path, project: Path) -> dict[str, Any]:
-    """How sure the result of an asset is, null where that is not known."""
-    from meshforge.project import Project  # lazy: 500 modules that only --project needs
-
-    home = Project.open(project)
-    (status,) = home.status([find_asset_id(home.found, asset)], workers=0).assets
-    probability = None if status.probability is None else round(status.probability, 4)
-    return {"probability": probability, "doubts": [doubt.to_json() for doubt in status.doubts]}
 
 
 def _describe_hull(hull: Hull, geometry: bool) -> dict[str, Any]:

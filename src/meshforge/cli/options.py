@@ -19,7 +19,8 @@ from meshforge.geometry import CoacdSettings, DecomposeSettings, VhacdSettings
 from meshforge.symbolic import SymbolicMesh
 
 if TYPE_CHECKING:
-    from meshforge.batch import AssetSet, ExecutionOptions
+    from meshforge.batch import ExecutionOptions
+    from meshforge.project import Project
 
 Arguments = TypeVar("Arguments")
 
@@ -196,13 +197,13 @@ def open_asset(asset: Path, labels: Path | None, project: Path | None) -> Symbol
         return load(asset, labels=labels)
     if labels:
         raise UsageError("a project has its own labels", remedy="Leave --labels out, or --project.")
-    from meshforge.project import Project  # lazy: 500 modules that only --project needs
+    from meshforge.project import Project as Opened  # lazy: 500 modules that only --project needs
 
-    home = Project.open(project)
-    return home.mesh(find_asset_id(home.found, asset))
+    home = Opened.open(project)
+    return home.mesh(asset_id(asset, home))
 
 
-def find_asset_id(found: AssetSet, asset: Path) -> str:
-    """The id of an asset that is given by its file, or by its id."""
-    by_path = {plain_path(path): key for key, path in found.ids.items()}
+def asset_id(asset: Path, project: Project) -> str:
+    """The id of an asset of a project that is given by its file, or by that id."""
+    by_path = {plain_path(path): key for key, path in project.found.ids.items()}
     return by_path.get(plain_path(asset), asset.as_posix())

@@ -5,7 +5,7 @@ from __future__ import annotations
 import shlex
 import sys
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -34,7 +34,7 @@ class ReviewArguments:
         float, typer.Option("--sure", help="The probability from which on a result is signed off.", min=0.5, max=1.0)
     ] = BAR
     answers: Annotated[
-        Path | None, typer.Option("--answers", help="A JSON file of replies, given one after the other.")
+        Path | None, typer.Option("--answers", help="A JSON file of replies, each given when its question is asked.")
     ] = None
     again: Annotated[bool, typer.Option("--again", help="Ask again what was put off.")] = False
     json: options.Json = False
@@ -52,14 +52,11 @@ def review(given: ReviewArguments) -> None:
         with project.lock():
             project.write_sign_offs(project.sign_offs().model_copy(update={"later": ()}))
     found = _look(project, given.sure)
-    missed = 0
-    for reply in replies:
-        question = found.assessment.question
-        if question is None or question.id != reply.question:
-            remark(f"{reply.question}: this question is not asked any more, so the reply is skipped")
-            missed += 1
-            continue
-        found = _reply(project, found, question, reply, given.sure)
+    waiting = {reply.question: reply for reply in replies}
+    while (question := found.assessment.question) and question.id in waiting:
+        found = _reply(project, found, question, waiting.pop(question.id), given.sure)
+    for name in waiting:
+        remark(f"{name}: this question is not asked any more, so the reply is skipped")
     asks = not (given.json or given.answers) and sys.stdin.isatty() and sys.stdout.isatty()
     if asks:
         found = _converse(project, found, given.sure)
@@ -67,7 +64,9 @@ def review(given: ReviewArguments) -> None:
         print_json(to_json(project, found))
     else:
         _print_review(project, found, shlex.quote(str(given.project)), asked=asks)
-    raise typer.Exit(int(bool(found.assessment.held) or missed > 0))
+    for asset, why in found.taken_back.items():
+        remark(f"{asset} is no longer signed off: {why}")
+    raise typer.Exit(int(bool(found.assessment.held or waiting)))
 
 
 def _look(project: Project, bar: float) -> ProjectReview:
@@ -84,7 +83,8 @@ def _reply(project: Project, found: ProjectReview, question: ReviewQuestion, rep
         word = shlex.quote(str(project.folder))
         show_it = f"meshforge demonstrate {word} {shlex.quote(question.asset)} 'HULLS => ACTION' ..."
         remark(f"{question.asset} is flagged; to show what is meant there: {show_it}")
-    return _look(project, bar)
+    after = _look(project, bar)
+    return replace(after, taken_back={**found.taken_back, **after.taken_back})
 
 
 def _print_review(project: Project, found: ProjectReview, word: str, *, asked: bool) -> None:

@@ -26,6 +26,8 @@ def _draw(pictures: MeshPictures, found: ProjectReview, question: ReviewQuestion
     name, program = question.id, found.outcome.program if found.outcome else None
     if question.hulls:
         return [pictures.draw_sheet(_hulls_by_asset(question), name)]
+    if question.asset not in found.state.meshes:
+        return []
     if question.kind in ("reading", "label") and program and question.rule:
         mesh = pictures.mesh_before_rule(question.asset, question.rule, program)
         return [
@@ -37,7 +39,7 @@ def _draw(pictures: MeshPictures, found: ProjectReview, question: ReviewQuestion
     turned = [choice.orient for choice in question.choices if choice.orient]
     if turned:
         return [pictures.draw_turned(question.asset, turned[0], name)]
-    return [pictures.draw_labels(question.asset, name)] if question.asset in found.state.meshes else []
+    return [pictures.draw_labels(question.asset, name)]
 
 
 def _hulls_by_asset(question: ReviewQuestion) -> dict[str, frozenset[str]]:

@@ -33,7 +33,6 @@ def format_review(found: ProjectReview, folder: Path, held: int = MOST_HELD) -> 
     lines = [format_counts(len(one.signed_off), len(one.assets), len(names), len(one.aside), one.bar)]
     lines += [f"  {format_asset(one.assets[name])}" for name in names[:held]]
     lines += [f"  and {len(names) - held} more (all with --json)"] if len(names) > held else []
-    lines += [f"  {name} cannot be read: {why}" for name, why in found.lost.items()]
     if names and one.question is None:
         lines.append(
             "Nothing is left to ask: show the edit on one of these (meshforge demonstrate), or mend its result."

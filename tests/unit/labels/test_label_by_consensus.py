@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from contextlib import ExitStack
 from pathlib import Path
+from typing import cast
 
 import pytest
 from hypothesis import given
@@ -14,7 +14,7 @@ from meshforge.batch import ExecutionOptions
 from meshforge.common import ProjectError, StoppedError
 from meshforge.labels import LabelChange
 from meshforge.project import Project
-from meshforge.symbolic import HUMAN_SOURCES, INFERRED_SOURCES, Label
+from meshforge.symbolic import HUMAN_SOURCES, INFERRED_SOURCES, Label, LabelSource
 from tests.examples import examples
 from tests.unit.batch.families import label_of, tree
 from tests.unit.labels.test_label_by_propagation import NAMES, family
@@ -170,9 +170,8 @@ def test_a_stop_leaves_all_labels_as_they_were(tmp_path: Path) -> None:
 def test_an_asset_that_cannot_be_read_is_told_and_does_not_hide_the_others(tmp_path: Path) -> None:
     project = guessed(tmp_path)
     (tmp_path / "assets/t3.obj").write_text("nothing of use")
-    ways: tuple[Callable[[], object], ...] = (project.label_by_consensus, project.restore_sources)
-    for way in ways:
-        reports = {report.asset: report for report in way().reports}
+    for found in (project.label_by_consensus(), project.restore_sources()):
+        reports = {report.asset: report for report in found.reports}
         assert "t3.obj" in reports["t3.obj"].problems[0]
         assert reports["t1.obj"].taken == 1
 
@@ -217,13 +216,14 @@ def test_whatever_is_said_people_stay_again_changes_nothing_and_sources_come_bac
 ) -> None:
     project = family(tmp_path_factory.mktemp("family"))
     for source, asset, hull, label, sure in said:
-        project.set_labels(asset, {hull: label}, source=source, confidence=1.0 if source == "user" else sure)
+        by = cast(LabelSource, source)
+        project.set_labels(asset, {hull: label}, source=by, confidence=1.0 if by == "user" else sure)
     files, before = tree(project.folder / "labels"), labels_of(project)
     project.label_by_consensus()
     once, after = tree(project.folder / "labels"), labels_of(project)
-    assert all(after[place] == label for place, label in before.items() if label.source in HUMAN_SOURCES)
-    for place, label in after.items():
-        assert label == before.get(place) or (label.source in INFERRED_SOURCES and label.given == before.get(place))
+    assert all(after[place] == told for place, told in before.items() if told.source in HUMAN_SOURCES)
+    for place, now in after.items():
+        assert now == before.get(place) or (now.source in INFERRED_SOURCES and now.given == before.get(place))
     project.label_by_consensus()
     assert tree(project.folder / "labels") == once
     project.propagate_labels() if any(label.source == "user" for label in before.values()) else None

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import pytest
 
+from meshforge.batch import IN_PROCESS
 from meshforge.common import ProjectError
 from meshforge.language import Program
 from meshforge.project import Project, ProjectReview
@@ -20,7 +21,7 @@ NOON = datetime(2026, 11, 25, 12, tzinfo=UTC)
 
 
 def review(project: Project, bar: float = 0.5) -> ProjectReview:
-    return project.review(bar, clock=lambda: NOON)
+    return project.review(bar, clock=lambda: NOON, execution=IN_PROCESS)
 
 
 def sign_off_of(project: Project, asset: str) -> str:
@@ -150,7 +151,7 @@ def test_a_damaged_assessment_is_made_again(tmp_path: Path) -> None:
 
 
 def test_the_same_review_writes_the_same_files(tmp_path: Path) -> None:
-    project = learned(tmp_path)
+    project = applied(tmp_path)
     review(project)
     before = {name: (project.folder / name).read_bytes() for name in ("signoff.json", ".meshforge/assessment.json")}
     review(project)
@@ -160,3 +161,49 @@ def test_the_same_review_writes_the_same_files(tmp_path: Path) -> None:
 
 def test_a_project_without_labels_is_no_error(tmp_path: Path) -> None:
     assert review(fresh(tmp_path)).assessment.question is not None
+
+
+def test_what_is_sure_is_signed_off_only_when_its_output_is_there(tmp_path: Path) -> None:
+    project = learned(tmp_path)
+    assert set(review(project).assessment.signed_off) == {FIRST, SECOND, THIRD}
+    assert sign_off_of(project, THIRD) == "sure" and not project.status().is_signed_off
+    list(project.apply(execution=IN_PROCESS))
+    project.renew_sign_offs(clock=lambda: NOON)
+    assert sign_off_of(project, THIRD) == "signed off" and project.status().is_signed_off
+
+
+def test_a_result_that_was_accepted_counts_only_while_the_program_does_the_same_there(tmp_path: Path) -> None:
+    project = applied(tmp_path)
+    project.set_verdict(THIRD, "accepted")
+    assert THIRD in review(project).assessment.looked_at
+    (project.folder / "program.mf").write_text("labels top, leg, misc\n\nIs(misc) => Delete\n")
+    assert THIRD not in review(project).assessment.looked_at
+
+
+def test_a_label_of_another_asset_makes_every_probability_unknown_and_no_sign_off_void(tmp_path: Path) -> None:
+    project = applied(tmp_path)
+    review(project)
+    project.set_labels(THIRD, {"crumb": "leg"})
+    assert {one.probability for one in project.status().assets} == {None}
+    assert [one.sign_off for one in project.status().assets] == ["signed off", "signed off", "void"]
+
+
+def test_what_is_signed_off_no_longer_is_named(tmp_path: Path) -> None:
+    project = applied(tmp_path)
+    review(project)
+    project.set_labels(THIRD, {"crumb": "leg"})
+    assert set(review(project, 0.9999).taken_back) == {THIRD}
+    assert THIRD not in project.sign_offs().assets
+
+
+@pytest.mark.slow
+def test_what_cannot_be_read_is_held_until_it_is_set_aside(tmp_path: Path) -> None:
+    project = learned(tmp_path)
+    project.path(THIRD).write_text("no mesh at all")
+    found = review(project)
+    assert found.assessment.held == (THIRD,) and found.assessment.question is not None
+    project.reply(found, found.assessment.question, Reply(found.assessment.question.id, 0))
+    assert review(project).assessment.is_done
+    assert sign_off_of(project, THIRD) == "set aside"
+    project.set_verdict(THIRD, None)
+    assert review(project).assessment.held == (THIRD,)
