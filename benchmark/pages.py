@@ -66,9 +66,9 @@ PAGES = (
     ),
     Page(
         "signoff",
-        "# Families signed off\n\nWritten by `script/bench` from the JSON beside it. Every run gives the same. "
-        "A person's seconds are modelled by keystrokes, at prices fixed beforehand.\n",
-        ("review", "real_families", "orientation"),
+        "# Families signed off\n\nWritten by `script/bench` from the JSON beside it. Every run gives the same, but for "
+        "times of the computer. A person's seconds are modelled by keystrokes, at prices fixed beforehand.\n",
+        ("review", "real_families", "orientation", "posterior"),
         ("numpy", "scipy", "coal", "mujoco"),
     ),
     Page(

@@ -17,7 +17,7 @@ from meshforge.language import Program, Template, select, to_canonical_frame
 from meshforge.project import Project, ProjectReview, run_with_corrections
 from meshforge.rendering import make_contact_sheet, render, write_png
 from meshforge.samples import TABLES
-from meshforge.signoff import Reply, ReviewQuestion
+from meshforge.signoff import ReviewQuestion, ReviewReply
 from meshforge.signoff.question import RIGHT, WRONG
 from meshforge.synthesis import Step
 
@@ -70,7 +70,7 @@ class _Family:
         return self.project.review()
 
     def answer(self, found: ProjectReview, question: ReviewQuestion) -> None:
-        """Reply as who knows what is meant; a result that is wrong is demonstrated instead."""
+        """ReviewReply as who knows what is meant; a result that is wrong is demonstrated instead."""
         asset, program = question.asset, self.project.program()
         assert program
         if question.kind == "demonstrate":
@@ -80,19 +80,19 @@ class _Family:
             places = select(self.meant.rules[question.rule - 1].extractor, mesh)
             wanted = {mesh.hulls[place].name for place in places}
             right = [k for k, choice in enumerate(question.choices) if set(choice.select or ()) == wanted]
-            self.project.reply(found, question, Reply(question.id, right[0] if right else None))
+            self.project.reply(found, question, ReviewReply(question.id, right[0] if right else None))
         elif question.kind == "result":
             mesh = self.project.mesh(asset)
             done, wanted_trace = program.run(mesh, self.templates).trace, self.meant.run(mesh, self.templates).trace
             is_right = [set(one.selected) for one in done] == [set(one.selected) for one in wanted_trace]
             texts = [choice.text for choice in question.choices]
             if is_right:
-                self.project.reply(found, question, Reply(question.id, texts.index(RIGHT)))
+                self.project.reply(found, question, ReviewReply(question.id, texts.index(RIGHT)))
             else:
                 assert WRONG in texts
                 self.demonstrate(asset)
         else:
-            self.project.reply(found, question, Reply(question.id, 0))
+            self.project.reply(found, question, ReviewReply(question.id, 0))
 
     def draw(self, asset: str) -> Image:
         """The table as it is edited now, upright."""

@@ -19,7 +19,7 @@ from meshforge.cli.review_text import format_prompt, format_question, format_rep
 from meshforge.cli.terminal import print_json, remark
 from meshforge.common import MeshForgeError, UsageError
 from meshforge.project import Project, ProjectReview
-from meshforge.signoff import BAR, Reply, ReviewQuestion
+from meshforge.signoff import BAR, ReviewQuestion, ReviewReply
 from meshforge.signoff.question import WRONG
 
 _FEW_HELD = 3  # held assets that are named beside a question
@@ -74,7 +74,9 @@ def _look(project: Project, bar: float) -> ProjectReview:
         return project.review(bar)
 
 
-def _reply(project: Project, found: ProjectReview, question: ReviewQuestion, reply: Reply, bar: float) -> ProjectReview:
+def _reply(
+    project: Project, found: ProjectReview, question: ReviewQuestion, reply: ReviewReply, bar: float
+) -> ProjectReview:
     project.reply(found, question, reply)
     for sentence in find_contradictions(found.state, question, reply):
         remark(sentence)
@@ -122,7 +124,7 @@ def _converse(project: Project, found: ProjectReview, bar: float) -> ProjectRevi
     return found
 
 
-def _ask(question: ReviewQuestion) -> Reply | None:
+def _ask(question: ReviewQuestion) -> ReviewReply | None:
     """What is typed, asked for until it is a reply; None where the person stops."""
     while True:
         try:

@@ -9,7 +9,7 @@ from typing import Any
 
 from meshforge.cli.review_text import letter_of
 from meshforge.common import UsageError
-from meshforge.signoff import HullPlace, Reply, ReviewQuestion, ReviewState
+from meshforge.signoff import HullPlace, ReviewQuestion, ReviewReply, ReviewState
 from meshforge.symbolic import HUMAN_SOURCES
 
 _FORM = (
@@ -18,7 +18,7 @@ _FORM = (
 )
 
 
-def read_replies(path: Path) -> list[Reply]:
+def read_replies(path: Path) -> list[ReviewReply]:
     """Replies from a file. Raises UsageError where it is not what it should be."""
     try:
         rows = json.loads(path.read_text("utf-8-sig"))
@@ -29,7 +29,7 @@ def read_replies(path: Path) -> list[Reply]:
         raise UsageError("these are no replies", where=str(path), remedy=_FORM) from error
 
 
-def _to_reply(row: dict[str, Any]) -> Reply:
+def _to_reply(row: dict[str, Any]) -> ReviewReply:
     """One entry; a ValueError, TypeError, KeyError or AttributeError where it is none."""
     if odd := row.keys() - {"id", "choice", "exceptions", "later"}:
         raise ValueError(odd)
@@ -44,15 +44,15 @@ def _to_reply(row: dict[str, Any]) -> Reply:
         choice is not None and (isinstance(choice, bool) or not isinstance(choice, int))
     ):
         raise ValueError(choice)
-    return Reply(str(row["id"]), choice, exceptions, later=later)
+    return ReviewReply(str(row["id"]), choice, exceptions, later=later)
 
 
-def parse_reply(line: str, question: ReviewQuestion) -> Reply:
+def parse_reply(line: str, question: ReviewQuestion) -> ReviewReply:
     """The reply that a person typed: nothing for the first choice, a number from 1, n for none of them, l for later;
     after the number those hulls of a group that are something else, as `c=leg`. Raises UsageError for anything else."""
     words = line.replace(",", " ").split()
     if words == ["l"]:
-        return Reply(question.id, later=True)
+        return ReviewReply(question.id, later=True)
     choice: int | None = 0
     if words and (words[0] == "n" or words[0].isdecimal()):
         word = words.pop(0)
@@ -66,10 +66,10 @@ def parse_reply(line: str, question: ReviewQuestion) -> Reply:
         exceptions[letters[letter]] = label
     if choice is not None and not 0 <= choice < len(question.choices):
         raise UsageError(f"there is no choice {choice + 1}")
-    return Reply(question.id, choice, exceptions)
+    return ReviewReply(question.id, choice, exceptions)
 
 
-def find_contradictions(state: ReviewState, question: ReviewQuestion, reply: Reply) -> Iterator[str]:
+def find_contradictions(state: ReviewState, question: ReviewQuestion, reply: ReviewReply) -> Iterator[str]:
     """A sentence for each label of a person that the reply of a person changes: the last word counts."""
     choice = None if reply.choice is None else question.choices[reply.choice]
     given = dict.fromkeys(question.hulls, choice.label) if choice and not reply.later else {}

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Sequence
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 
 import numpy as np
@@ -40,13 +42,21 @@ class Lookalikes:
 
     def nearest(self, usable: Bools, count: int, per_mesh: int) -> tuple[Places, Floats]:
         """The `count` nearest usable hulls of other meshes, at most `per_mesh` of one: (n, count) and distances."""
-        apart = np.where(usable[self.others], self.apart, np.inf)
+        starts = range(0, max(len(self.apart), 1), _AT_ONCE)
+        found = [self._nearest(slice(start, start + _AT_ONCE), usable, count, per_mesh) for start in starts]
+        return np.concatenate([hulls for hulls, _ in found]), np.concatenate([apart for _, apart in found])
+
+    def _nearest(self, some: slice, usable: Bools, count: int, per_mesh: int) -> tuple[Places, Floats]:
+        """The same of some hulls: what is sorted for all at once takes a lot of memory."""
+        others = self.others[some]
+        apart = np.where(usable[others], self.apart[some], np.inf)
         if per_mesh == 1:
             best = apart.argmin(axis=2)[:, :, None]
-            hulls = np.take_along_axis(self.others, best, axis=2)[:, :, 0]
+            hulls = np.take_along_axis(others, best, axis=2)[:, :, 0]
             apart = np.take_along_axis(apart, best, axis=2)[:, :, 0]
         else:
-            hulls, apart = self.others.reshape(len(apart), -1), apart.reshape(len(apart), -1)
+            width = others.shape[1] * others.shape[2]
+            hulls, apart = others.reshape(len(apart), width), apart.reshape(len(apart), width)
         return take_nearest(hulls, apart, count)
 
     def nearest_of(self, hull: int, usable: Bools, count: int, per_mesh: int) -> list[int]:
@@ -78,10 +88,11 @@ def take_nearest(hulls: Places, apart: Floats, count: int) -> tuple[Places, Floa
     return np.take_along_axis(hulls, order, axis=1), np.take_along_axis(apart, order, axis=1)
 
 
-def find_lookalikes(rows: Floats, owner: Ints, first: Sequence[int]) -> Lookalikes:
-    """Compare hulls by the sum of the differences of their rows (n, columns), weighted already.
+def find_lookalikes(rows: Floats, metric: Floats, owner: Ints, first: Sequence[int]) -> Lookalikes:
+    """Compare hulls by the sum of the weighted differences of their rows (n, columns), by all processors.
 
-    owner: (n,) the mesh of each, ascending; first: meshes that are looked at before others where there are too many.
+    metric: the weight of each column; owner: (n,) the mesh of each, ascending; first: meshes that are looked at before
+    others where there are too many.
     """
     meshes, starts = np.unique(owner, return_index=True)
     ends = np.append(starts[1:], len(owner)).astype(np.int64)
@@ -89,16 +100,26 @@ def find_lookalikes(rows: Floats, owner: Ints, first: Sequence[int]) -> Lookalik
     kept = len(chosen) if len(meshes) <= MOST_MESHES else min(KEPT_MESHES, len(chosen))
     others = np.zeros((len(rows), kept, PER_MESH), dtype=np.int32)
     apart = np.full((len(rows), kept, PER_MESH), np.inf)
-    for begin in range(0, len(rows), _AT_ONCE):
+    compared = [
+        (int(meshes[k]), np.arange(starts[k], ends[k], dtype=np.int32), rows[starts[k] : ends[k]] * metric)
+        for k in chosen
+    ]
+
+    def compare(begin: int) -> None:
         some = slice(begin, min(begin + _AT_ONCE, len(rows)))
-        hulls, gaps = _compare(rows, some, owner, [(int(meshes[k]), int(starts[k]), int(ends[k])) for k in chosen])
+        hulls, gaps = _compare(rows[some] * metric, owner[some], compared)
         if gaps.shape[1] > kept:
             order = np.argsort(np.round(gaps[:, :, 0] / _GRAIN), axis=1, kind="stable")[:, :kept, None]
             hulls, gaps = np.take_along_axis(hulls, order, axis=1), np.take_along_axis(gaps, order, axis=1)
         others[some], apart[some] = hulls, gaps
+
+    with ThreadPoolExecutor(os.cpu_count()) as pool:
+        for _ in pool.map(compare, range(0, len(rows), _AT_ONCE)):
+            pass
     own, own_apart = np.zeros((len(rows), OF_OWN), dtype=np.int32), np.full((len(rows), OF_OWN), np.inf)
     for start, end in zip(starts.tolist(), ends.tolist(), strict=True):
-        gaps = cdist(rows[start:end], rows[start:end], "cityblock")
+        weighted = rows[start:end] * metric
+        gaps = cdist(weighted, weighted, "cityblock")
         np.fill_diagonal(gaps, np.inf)
         hulls = np.broadcast_to(np.arange(start, end, dtype=np.int32), gaps.shape)
         own[start:end], own_apart[start:end] = take_nearest(hulls, gaps, OF_OWN)
@@ -114,13 +135,12 @@ def _choose_meshes(meshes: Ints, first: Sequence[int]) -> Ints:
     return np.sort(np.concatenate([preferred, rest]))
 
 
-def _compare(rows: Floats, some: slice, owner: Ints, meshes: Sequence[tuple[int, int, int]]) -> tuple[Places, Floats]:
-    """The nearest hulls of each of some meshes, given as number, start and end, and their distances."""
-    count = some.stop - some.start
+def _compare(rows: Floats, owner: Ints, meshes: Sequence[tuple[int, Places, Floats]]) -> tuple[Places, Floats]:
+    """The nearest hulls of each of some meshes, given as number, places of hulls and their rows; and distances."""
+    count = len(rows)
     hulls, apart = np.zeros((count, len(meshes), PER_MESH), np.int32), np.full((count, len(meshes), PER_MESH), np.inf)
-    for place, (mesh, start, end) in enumerate(meshes):
-        gaps = cdist(rows[some], rows[start:end], "cityblock")
-        gaps[owner[some] == mesh] = np.inf
-        candidates = np.broadcast_to(np.arange(start, end, dtype=np.int32), gaps.shape)
-        hulls[:, place], apart[:, place] = take_nearest(candidates, gaps, PER_MESH)
+    for place, (mesh, places, theirs) in enumerate(meshes):
+        gaps = cdist(rows, theirs, "cityblock")
+        gaps[owner == mesh] = np.inf
+        hulls[:, place], apart[:, place] = take_nearest(np.broadcast_to(places, gaps.shape), gaps, PER_MESH)
     return hulls, apart

@@ -37,6 +37,9 @@ SURE_ENOUGH = 0.2
 """A label that is wrong with no more than this probability does not count among those that are expected to be wrong: so
 many of them add up where nothing is wrong."""
 
+TIE_BREAK = 0.02
+"""What its improbability counts all the same, so that of two assets the one with surer labels comes first."""
+
 SMOOTHING = 0.02
 """The share of each probability that is spread evenly over the vocabulary, so that no label is out of question."""
 
@@ -165,7 +168,7 @@ def _error(hull: Hull, own: float) -> float:
     """How much a label counts as wrong; own: its probability."""
     if is_human(hull):
         return 1 - PERSON
-    return max(0.0, 1 - own - SURE_ENOUGH) / (1 - SURE_ENOUGH)
+    return max(0.0, 1 - own - SURE_ENOUGH) / (1 - SURE_ENOUGH) + TIE_BREAK * (1 - own)
 
 
 def _is_same_asset(mesh: SymbolicMesh, other: SymbolicMesh) -> bool:

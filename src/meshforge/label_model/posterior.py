@@ -14,7 +14,7 @@ from meshforge.geometry import Floats, Ints
 from meshforge.label_model.consensus import infer_chances
 from meshforge.label_model.describe import SHAPE_COLUMNS, MeshDescriber, describe_mesh, digest_mesh
 from meshforge.label_model.sides import choose_sides, find_doubtful_sides
-from meshforge.label_model.table import NO_LABEL, FamilyTable, Observations, evidence_of
+from meshforge.label_model.table import NO_LABEL, Bools, FamilyTable, Observations, evidence_of
 from meshforge.label_model.ties import first_greatest, pick_evenly
 from meshforge.symbolic import Label, LabelSource, SymbolicMesh
 
@@ -72,7 +72,7 @@ class FamilyPosterior:
 
     def agree(self, said: Sequence[Label | None]) -> list[Label | None]:
         """The labels of all hulls by all that is known: what was said, but where another label is surer, and where
-        nothing was said.
+        nothing was said. What a person said stays, and a label of a file that no other mesh has.
 
         said: the annotations of all hulls, as `seen` was made from.
         """
@@ -80,10 +80,27 @@ class FamilyPosterior:
         rows = zip(best.tolist(), said, strict=True)
         return [self._agree_on(hull, place, label) for hull, (place, label) in enumerate(rows)]
 
+    @cached_property
+    def _presence(self) -> Floats:
+        """Whether each label is said of a hull of each mesh of which anything is said (meshes, labels)."""
+        known = self.seen.known
+        _, mesh = np.unique(self.table.owner[known], return_inverse=True)
+        found = np.zeros((int(mesh.max(initial=-1)) + 1, len(self.seen.labels)))
+        found[mesh, self.seen.codes[known]] = 1.0
+        return found
+
+    @cached_property
+    def _is_held(self) -> Bools:
+        """Whether what was said of each hull stays whatever others say (n,): a person's label; and of those in files
+        one that a single mesh has, since hulls of other meshes cannot speak for it."""
+        alone = self._presence.sum(axis=0) == 1
+        held: Bools = self.seen.fixed | (self.seen.given & alone[self.seen.codes])
+        return held
+
     def _agree_on(self, hull: int, best: int, said: Label | None) -> Label | None:
         code = int(self.seen.codes[hull])
         given = evidence_of(said) if code != NO_LABEL else None
-        if not self.seen.labels or self.seen.fixed[hull] or best == code:
+        if not self.seen.labels or best == code or self._is_held[hull]:
             return given or said
         chance = float(self.chances[hull, best])
         if code != NO_LABEL and math.log(chance / max(float(self.chances[hull, code]), 1e-12)) < self.margin:
@@ -93,14 +110,10 @@ class FamilyPosterior:
     def find_alike_labels(self) -> tuple[tuple[str, str], ...]:
         """Pairs of labels that may be two names of one part: others take hulls of one for the other, and hardly any
         mesh has both."""
-        known, count = np.flatnonzero(self.seen.known), len(self.seen.labels)
-        codes, owner = self.seen.codes[known], self.table.owner[known]
-        taken = np.zeros((count, count))
-        for code in range(count):
-            taken[code] = self.by_others[known[codes == code]].mean(axis=0)
-        _, mesh = np.unique(owner, return_inverse=True)
-        has = np.zeros((int(mesh.max(initial=-1)) + 1, count))
-        has[mesh, codes] = 1.0
+        codes, has = self.seen.codes, self._presence
+        taken = np.zeros((has.shape[1], has.shape[1]))
+        for code in range(len(taken)):
+            taken[code] = self.by_others[codes == code].mean(axis=0)
         fewer = np.minimum.outer(has.sum(axis=0), has.sum(axis=0))
         is_alike = (taken + taken.T > _ALIKE) & (has.T @ has <= _BOTH * fewer) & (fewer > 1)
         return tuple(

@@ -55,7 +55,9 @@ class ColumnScale:
 
     def __call__(self, rows: Floats) -> Floats:
         """Rows about the middle in units of the spread, far values drawn in."""
-        return np.clip((rows - self.middle) / self.spread, -_MOST_SPREADS, _MOST_SPREADS)
+        found: Floats = rows - self.middle
+        found /= self.spread
+        return np.clip(found, -_MOST_SPREADS, _MOST_SPREADS, out=found)
 
 
 @dataclass(frozen=True, eq=False)
@@ -100,7 +102,7 @@ class FamilyTable:
         key = tuple(first) if len(self.spans) > MOST_MESHES else ()
         if key not in self._found:
             self._found.clear()
-            self._found[key] = find_lookalikes(self.rows * self.metric, self.owner, key)
+            self._found[key] = find_lookalikes(self.rows, self.metric, self.owner, key)
         return self._found[key]
 
     @cached_property

@@ -97,11 +97,14 @@ def compare_assets(
     cache = DescriptorCache(store, {asset: facts[asset] for asset in current}, execution)
     del facts
     described = _describe(cache, list(current), lost, stage)
-    spoken = (speak(current[asset].get(name)) for asset in described for name in hulls[asset])
+    assets, table = tuple(described), FamilyTable.of([*described.values()])
+    del described
+    spoken = (speak(current[asset].get(name)) for asset in assets for name in hulls[asset])
     said = tuple(label if label and label.name in vocabulary else None for label in spoken)
-    found = _infer(cache, described, said, lost, execution.stop, stage)
-    compared = FamilyComparison(hulls, current, lost, tuple(described), said, found)
-    if not found.seen.labels:
+    seen = Observations.of(said)
+    table = _set_upright(cache, assets, table, seen, lost, execution.stop, stage)
+    compared = FamilyComparison(hulls, current, lost, assets, said, _compute_isolated(table, seen, execution.stop))
+    if not compared.found.seen.labels:
         best = compared.next
         remedy = f"Label the hulls of one asset first, best {best}." if best else "Decompose the assets first."
         raise ProjectError("there is no label that others could be taken from", where=str(store.folder), remedy=remedy)
@@ -122,22 +125,21 @@ def _describe(
     return described
 
 
-def _infer(
+def _set_upright(
     cache: DescriptorCache,
-    described: Mapping[str, tuple[Floats, Ints]],
-    labels: Sequence[Label | None],
+    assets: Sequence[str],
+    table: FamilyTable,
+    said: Observations,
     lost: dict[str, str],
     stop: Callable[[], bool] | None,
     stage: Stage,
-) -> FamilyPosterior:
-    """What labels say about all hulls, fallen assets set upright."""
-    assets, table, said = list(described), FamilyTable.of([*described.values()]), Observations.of(labels)
+) -> FamilyTable:
+    """The table with fallen assets set upright; why some could not be looked at goes to `lost`."""
     doubtful = list(_find_doubtful(table, said, assets, cache, stop))
     with stage(len(doubtful), "looking at other sides") as advance:
         places = {asset: place for place, asset in enumerate(assets)}
         sides = _collect_sides(cache.describe_sides(doubtful, advance), places, lost)
-        table = correct_upright(table, said, sides)
-    return _compute_isolated(table, said, stop)
+        return correct_upright(table, said, sides)
 
 
 def _find_doubtful(

@@ -49,7 +49,7 @@ class FamilyStateReader:
             tuple(line.answer for line in store.answers().answers),
             {asset: done for asset, done in accepted.items() if asset in self.meshes},
             {},
-            flagged.union(signed.aside) - frozenset(demos),
+            flagged | (frozenset(signed.aside) - frozenset(demos)),
             frozenset(signed.later),
         )
 

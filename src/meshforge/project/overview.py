@@ -12,7 +12,7 @@ from meshforge.project.demonstrations import find_unknown_hulls
 from meshforge.project.learn import program_state_of, suggest_first_demonstration
 from meshforge.project.run import build_jobs, build_task, output_digest
 from meshforge.project.sign_offs import digest_lesson
-from meshforge.project.standing import Standings
+from meshforge.project.standings import Standings
 from meshforge.project.status import Adviser, AssetStatus, Status
 from meshforge.signoff import BAR
 from meshforge.store import AssetFacts, Review, Store, geometry_digest, survey

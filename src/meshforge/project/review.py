@@ -33,9 +33,9 @@ from meshforge.signoff import (
     Assessment,
     AssetConfidence,
     Doubt,
-    Reply,
     ReviewChoice,
     ReviewQuestion,
+    ReviewReply,
     ReviewState,
     find_alarms,
     review_family,
@@ -147,7 +147,7 @@ def _ask_to_set_aside(asset: str, why: str) -> ReviewQuestion:
     return ReviewQuestion(f"result-{name}", "result", text, YES_OR_NO, 0.0, asset, choices=(ReviewChoice(ASIDE),))
 
 
-def reply_to(store: Store, review: ProjectReview, question: ReviewQuestion, reply: Reply) -> None:
+def reply_to(store: Store, review: ProjectReview, question: ReviewQuestion, reply: ReviewReply) -> None:
     """Keep what a person said to a question. Raises ProjectError where it does not fit."""
     choices = question.choices
     if reply.choice is not None and not 0 <= reply.choice < len(choices):
@@ -200,7 +200,7 @@ def put_off(store: Store, question: str) -> None:
             store.write_sign_offs(kept.model_copy(update={"later": (*kept.later, question)}))
 
 
-def _write_labels(store: Store, state: ReviewState, question: ReviewQuestion, reply: Reply) -> None:
+def _write_labels(store: Store, state: ReviewState, question: ReviewQuestion, reply: ReviewReply) -> None:
     """Labels that a person gave: of a repair as such, so that it can be taken back; of a group as theirs."""
     choice = None if reply.choice is None else question.choices[reply.choice]
     given = dict.fromkeys(question.hulls, choice.label) if choice is not None and choice.label else {}

@@ -14,7 +14,14 @@ from meshforge.signoff.measures import EditMeasures, measure_edit
 
 if TYPE_CHECKING:
     from meshforge.signoff.assessment import BAR, Assessment, AssetConfidence, Doubt, DoubtKind
-    from meshforge.signoff.question import HullPlace, QuestionKind, Reply, ReviewChoice, ReviewQuestion, ReviewState
+    from meshforge.signoff.question import (
+        HullPlace,
+        QuestionKind,
+        ReviewChoice,
+        ReviewQuestion,
+        ReviewReply,
+        ReviewState,
+    )
     from meshforge.signoff.reply import apply_reply, list_answers
     from meshforge.signoff.review import review_family
 
@@ -29,9 +36,9 @@ __all__ = [
     "EditMeasures",
     "HullPlace",
     "QuestionKind",
-    "Reply",
     "ReviewChoice",
     "ReviewQuestion",
+    "ReviewReply",
     "ReviewState",
     "apply_reply",
     "find_alarms",
@@ -42,7 +49,7 @@ __all__ = [
 
 _MODULES = {
     "assessment": ("BAR", "Assessment", "AssetConfidence", "Doubt", "DoubtKind"),
-    "question": ("HullPlace", "QuestionKind", "Reply", "ReviewChoice", "ReviewQuestion", "ReviewState"),
+    "question": ("HullPlace", "QuestionKind", "ReviewReply", "ReviewChoice", "ReviewQuestion", "ReviewState"),
     "reply": ("apply_reply", "list_answers"),
     "review": ("review_family",),
 }

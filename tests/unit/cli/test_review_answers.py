@@ -12,7 +12,7 @@ from meshforge.cli.review_text import format_prompt, format_question, format_rep
 from meshforge.common import UsageError
 from meshforge.geometry import Box, Pose
 from meshforge.language import Program
-from meshforge.signoff import HullPlace, Reply, ReviewChoice, ReviewQuestion, ReviewState
+from meshforge.signoff import HullPlace, ReviewChoice, ReviewQuestion, ReviewReply, ReviewState
 from meshforge.symbolic import Hull, Label, SymbolicMesh
 
 LEFT, RIGHT = HullPlace("a.obj", "left"), HullPlace("b.obj", "right")
@@ -36,15 +36,15 @@ DEMONSTRATE = ReviewQuestion("demonstrate-1", "demonstrate", "Show the edit on a
 @pytest.mark.parametrize(
     ("line", "reply"),
     [
-        ("", Reply("group-1", 0)),
-        ("1", Reply("group-1", 0)),
-        ("n", Reply("group-1", None)),
-        ("l", Reply("group-1", later=True)),
-        ("1 b=panel", Reply("group-1", 0, {RIGHT: "panel"})),
-        ("a=panel, b=door", Reply("group-1", 0, {LEFT: "panel", RIGHT: "door"})),
+        ("", ReviewReply("group-1", 0)),
+        ("1", ReviewReply("group-1", 0)),
+        ("n", ReviewReply("group-1", None)),
+        ("l", ReviewReply("group-1", later=True)),
+        ("1 b=panel", ReviewReply("group-1", 0, {RIGHT: "panel"})),
+        ("a=panel, b=door", ReviewReply("group-1", 0, {LEFT: "panel", RIGHT: "door"})),
     ],
 )
-def test_a_line_is_a_reply(line: str, reply: Reply) -> None:
+def test_a_line_is_a_reply(line: str, reply: ReviewReply) -> None:
     assert parse_reply(line, GROUP) == reply
 
 
@@ -62,7 +62,11 @@ def test_replies_are_read_from_a_file(tmp_path: Path) -> None:
         {"id": "y", "later": True},
     ]
     path.write_text(json.dumps(rows))
-    assert read_replies(path) == [Reply("group-1", 0, {RIGHT: "panel"}), Reply("x", None), Reply("y", later=True)]
+    assert read_replies(path) == [
+        ReviewReply("group-1", 0, {RIGHT: "panel"}),
+        ReviewReply("x", None),
+        ReviewReply("y", later=True),
+    ]
 
 
 @pytest.mark.parametrize(
@@ -82,10 +86,10 @@ def state_of(label: Label) -> ReviewState:
 
 
 def test_what_a_person_said_before_is_told_and_the_last_word_counts() -> None:
-    told = list(find_contradictions(state_of(Label("panel")), GROUP, Reply("group-1", 0, {RIGHT: "panel"})))
+    told = list(find_contradictions(state_of(Label("panel")), GROUP, ReviewReply("group-1", 0, {RIGHT: "panel"})))
     assert told == ["left of a.obj was called panel by a person before, and is leg now: the last word counts"]
-    assert not list(find_contradictions(state_of(Label("panel", 0.5, "vlm")), GROUP, Reply("group-1", 0)))
-    assert not list(find_contradictions(state_of(Label("panel")), GROUP, Reply("group-1", later=True)))
+    assert not list(find_contradictions(state_of(Label("panel", 0.5, "vlm")), GROUP, ReviewReply("group-1", 0)))
+    assert not list(find_contradictions(state_of(Label("panel")), GROUP, ReviewReply("group-1", later=True)))
 
 
 def test_a_group_lists_its_hulls_by_letter() -> None:

@@ -138,6 +138,21 @@ def test_words_outside_of_the_vocabulary_say_nothing_but_can_be_put_back(tmp_pat
     assert tree(project.folder / "labels") == before
 
 
+@pytest.mark.parametrize(("source", "sure"), [("user", 1.0), ("file", 1.0), ("file", 0.6)])
+def test_a_label_that_one_asset_alone_has_stays_where_a_person_or_a_file_gave_it(
+    tmp_path: Path, source: LabelSource, sure: float
+) -> None:
+    project = guessed(tmp_path)
+    project.set_vocabulary(("top", "leg", "misc", "knob"))
+    hulls = ("crumb", "left_low", "right_low")
+    for hull in hulls:
+        project.set_labels("t3.obj", {hull: None})
+        project.set_labels("t3.obj", {hull: "knob"}, source=source, confidence=sure)
+    project.label_by_consensus()
+    labels = project.labels("t3.obj").labels
+    assert [labels[hull] for hull in hulls] == [Label("knob", sure, source)] * 3
+
+
 def test_two_names_of_one_part_are_told(tmp_path: Path) -> None:
     project = family(tmp_path, 8, "top", "leg", "legs", "misc")
     for place, asset in enumerate(project.assets()):
