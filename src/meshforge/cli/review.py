@@ -42,9 +42,11 @@ class ReviewArguments:
 
 @options.takes(ReviewArguments)
 def review(given: ReviewArguments) -> None:
-    """Sign a family off: say how sure each result is, and ask what makes most results right for a second of your time.
+    """Say how sure each result is, and ask what signs a family off; first what makes most results right for a second of
+    your time.
 
-    Exit code 1 while some result is held, or where a reply did not fit any more.
+    In a terminal it asks one question after the other; what is said is kept at once. Exit code 1 while some result is
+    held, or where a reply did not fit any more.
     """
     project = Project.open(given.project)
     replies = read_replies(given.answers) if given.answers else []
