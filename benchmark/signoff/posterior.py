@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import time
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import partial
 
 import numpy as np
@@ -13,7 +13,7 @@ import numpy as np
 from benchmark.assets import samples
 from benchmark.report import Goal, Result, Table, Tell
 from benchmark.speed.watch import look
-from meshforge.batch import UNBOUNDED, WorkerFailure, run_isolated
+from meshforge.batch import ExecutionOptions, WorkerFailure, run_isolated
 from meshforge.common import MeshForgeError
 from meshforge.geometry import Floats, Ints
 from meshforge.label_model import FamilyModel, FamilyPosterior, FamilyTable, Observations
@@ -52,10 +52,9 @@ class Cost:
 def measure(tell: Tell, quick: bool) -> Result:
     """Infer families of three sizes, each in a process of its own."""
     found = list[Cost]()
+    alone = ExecutionOptions(1, None)
     for count in (_MESHES,) if quick else (_MESHES, _MADE, _LARGEST):
-        (cost,) = run_isolated(
-            measure_real if count == _MESHES else measure_made, [count], replace(UNBOUNDED, workers=1)
-        )
+        (cost,) = run_isolated(_measure_real if count == _MESHES else _measure_made, [count], alone)
         if isinstance(cost, WorkerFailure):
             raise MeshForgeError(f"the posterior of {count:,} meshes: {cost.why}")
         tell(f"{cost.meshes:,} meshes: {cost.first:.2f} s, after one more answer {cost.again:.2f} s")
@@ -70,14 +69,14 @@ def measure(tell: Tell, quick: bool) -> Result:
     return Result("posterior", "How long the posterior takes", (table,), tuple(goals), _NOTES)
 
 
-def measure_real(count: int) -> Cost:
+def _measure_real(count: int) -> Cost:
     """What so many meshes of the benchmark cost."""
     meshes, rng = [row.mesh for row in samples(_KIND)[:count]], np.random.default_rng(0)
     said = _say([hull.label or "" for mesh in meshes for hull in mesh.hulls], rng)
     return _measure(FamilyModel(meshes).infer, said, len(meshes))
 
 
-def measure_made(count: int) -> Cost:
+def _measure_made(count: int) -> Cost:
     """What so many meshes that are made from described ones cost."""
     rng = np.random.default_rng(0)
     chosen = [row.mesh for row in samples(_KIND)[:_DESCRIBED]]

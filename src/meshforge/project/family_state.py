@@ -49,7 +49,7 @@ class FamilyStateReader:
             tuple(line.answer for line in store.answers().answers),
             {asset: done for asset, done in accepted.items() if asset in self.meshes},
             {},
-            flagged | (frozenset(signed.aside) - frozenset(demos)),
+            flagged.union(asset for asset in signed.aside if asset not in demos),
             frozenset(signed.later),
         )
 

@@ -3,7 +3,7 @@ import { CircleCheck, CircleQuestionMark, Crosshair, LoaderCircle } from "lucide
 import { lookAtHeld, showDoubt } from "../commands/question";
 import { lookText, moodOf, percentText, sureText } from "../store/assessment";
 import { useProject } from "../store/project";
-import { countText, shortName, toSentence } from "../store/words";
+import { countText, shortName } from "../store/words";
 import { Button } from "../ui/Button";
 import { Section } from "../ui/Section";
 import type { AssessmentView, DoubtView } from "../wire";
@@ -66,7 +66,7 @@ function DoubtRow({ asset, doubt }: { asset: string; doubt: DoubtView }) {
   const { text, hulls } = doubt;
   return (
     <li className={css.doubt}>
-      <span>{toSentence(text)}</span>
+      <span>{text}</span>
       {hulls.length > 0 && (
         <Button look="quiet" icon={Crosshair} aria-label={`Show ${countText(hulls.length, "hull")}: ${text}`} onClick={() => showDoubt(asset, doubt)}>
           Show
