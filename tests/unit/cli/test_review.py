@@ -126,3 +126,12 @@ def test_info_says_how_sure_an_edit_is_while_that_holds(run: Run) -> None:
     assert json.loads(run("info", THIRD, "--project", "tables", "--json").out)["probability"] > 0.5
     Project.open("tables").set_labels(THIRD, {"crumb": "leg"})
     assert json.loads(run("info", THIRD, "--project", "tables", "--json").out)["probability"] is None
+
+
+def test_what_was_put_off_is_asked_again_on_request(run: Run) -> None:
+    question = run("review", "tables", "--sure", "1", "--json").json["question"]
+    Path("said.json").write_text(json.dumps([{"id": question["id"], "later": True}]))
+    told = run("review", "tables", "--sure", "1", "--json", "--answers", "said.json")
+    assert told.code == 1
+    assert (told.json["question"] or {}).get("id") != question["id"]
+    assert run("review", "tables", "--sure", "1", "--json", "--again").json["question"]["id"] == question["id"]
