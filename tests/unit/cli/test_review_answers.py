@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from meshforge.cli.review_answers import find_contradictions, parse_reply, read_replies
@@ -80,7 +81,7 @@ def test_a_file_of_another_form_is_refused(tmp_path: Path, row: object) -> None:
 
 
 def state_of(label: Label) -> ReviewState:
-    shape = Box(Pose.identity(), (1.0, 1.0, 1.0))
+    shape = Box(Pose.identity(), np.ones(3))
     meshes = {place.asset: SymbolicMesh((Hull(place.hull, "body", shape, label),)) for place in (LEFT, RIGHT)}
     return ReviewState(meshes, Program())
 
