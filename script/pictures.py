@@ -15,6 +15,7 @@ from meshforge.project import Project
 from meshforge.rendering import compare, draw_labeling_pictures, make_contact_sheet, render, write_png
 from meshforge.samples import TABLES
 from meshforge.symbolic import SymbolicMesh, read_labels
+from script.sign_off_picture import draw_sign_off
 
 SHOWN = ("table_03", "table_08", "table_09", "table_11")
 CHOICES = ("Geo(Is(handle), -Z)", "Attach(Is(handle), Is(drawer))", "Geo(Is(handle), -Y)")
@@ -29,6 +30,7 @@ def main(folder: Path) -> None:
     _question(folder / "question.png")
     _draw_numbers(folder / "numbers.png")
     _labels(folder / "labels.png")
+    draw_sign_off(folder / "signoff.png")
 
 
 def _tables(path: Path) -> None:

@@ -29,7 +29,7 @@ _START = (1.0, 0.5, 0.5, 0.2, 0.2, 0.2, 0.0, 0.1)
 
 
 @dataclass(frozen=True, eq=False)
-class LabelledFamily:
+class FamilyCase:
     """A family with some labels. truth: the code of each hull among the labels of `seen`, or -1; counted: hulls of one
     part of which no person spoke."""
 
@@ -46,7 +46,7 @@ class LabelledFamily:
         return FamilyContext(self.table, self.seen)
 
 
-def draw_families(folder: Path, seed: int, metrics: Mapping[str, Floats] | None = None) -> Iterator[LabelledFamily]:
+def draw_families(folder: Path, seed: int, metrics: Mapping[str, Floats] | None = None) -> Iterator[FamilyCase]:
     """Calibration families of a folder, each with every sort of labels.
 
     metrics: of each category, one that was fitted without it; None for the one that ships.
@@ -60,14 +60,14 @@ def draw_families(folder: Path, seed: int, metrics: Mapping[str, Floats] | None 
                 yield label_family(category, sort, table, rows, seed)
 
 
-def label_family(category: str, sort: str, table: FamilyTable, rows: Sequence[Sample], seed: int) -> LabelledFamily:
+def label_family(category: str, sort: str, table: FamilyTable, rows: Sequence[Sample], seed: int) -> FamilyCase:
     """A family with labels of one sort; table: of its meshes."""
     said = [label for labels in _say(sort, rows, seed) for label in labels]
     seen = Observations.of(said)
     places = {label: place for place, label in enumerate(seen.labels)}
     truth = np.array([places.get(str(hull.label), -1) for row in rows for hull in row.mesh.hulls])
     pure = np.array([purity >= PURE for row in rows for purity in row.purities])
-    return LabelledFamily(category, sort, tuple(said), table, seen, truth, pure & ~seen.fixed)
+    return FamilyCase(category, sort, tuple(said), table, seen, truth, pure & ~seen.fixed)
 
 
 def _say(sort: str, rows: Sequence[Sample], seed: int) -> Iterator[list[Label | None]]:
@@ -83,7 +83,7 @@ def _say(sort: str, rows: Sequence[Sample], seed: int) -> Iterator[list[Label | 
         yield [Label(str(hull.label), hull.confidence or 0.0, "vlm") for hull in mesh.hulls]
 
 
-def fit_weights(families: Sequence[LabelledFamily]) -> Floats:
+def fit_weights(families: Sequence[FamilyCase]) -> Floats:
     """The weights (ROUNDS, evidence) by the log loss of the true label, round after round."""
     chances = [one.context.start() for one in families]
     rounds = []
@@ -94,7 +94,7 @@ def fit_weights(families: Sequence[LabelledFamily]) -> Floats:
     return np.array(rounds)
 
 
-def _fit_round(families: Sequence[LabelledFamily], evidence: Sequence[Floats]) -> Floats:
+def _fit_round(families: Sequence[FamilyCase], evidence: Sequence[Floats]) -> Floats:
     used = [one.counted & (one.truth >= 0) for one in families]
     rows = [(some[use], one.truth[use]) for one, some, use in zip(families, evidence, used, strict=True)]
     count = sum(len(truth) for _, truth in rows)
@@ -124,7 +124,7 @@ class LabelScore:
     right: npt.NDArray[np.bool_]
 
     @staticmethod
-    def of(family: LabelledFamily, weights: Floats | None = None) -> LabelScore:
+    def of(family: FamilyCase, weights: Floats | None = None) -> LabelScore:
         chances, by_others = infer_chances(family.table, family.seen, weights)
         agreed = FamilyPosterior(family.table, family.seen, chances, by_others).agree(family.said)
         codes = np.array([family.seen.labels.index(label.name) if label else -1 for label in agreed])

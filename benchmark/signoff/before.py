@@ -62,7 +62,7 @@ def teach_before(bench: Bench, condition: Condition, seed: int) -> Before:
 
     def watch(program: Program | None) -> None:
         programs.append(program)
-        points.append(Point(_spent(course), judge.count_right(course.desk, program)))
+        points.append(Point(_count_seconds(course), judge.count_right(course.desk, program)))
 
     course = Course(bench, condition, seed, watch)
     log, program = course.session(()), programs[-1]
@@ -70,7 +70,7 @@ def teach_before(bench: Bench, condition: Condition, seed: int) -> Before:
     settled = log.accepted and log.settled
     assets, possible = len(bench.samples), len(judge.possible)
     wrong = (possible - right) * settled
-    points.append(Point(_spent(course), right, assets * settled, wrong, assets * (not settled)))
+    points.append(Point(_count_seconds(course), right, assets * settled, wrong, assets * (not settled)))
     reference = judge.count_right(course.desk, bench.task.program)
     draw = random.Random(f"brute {seed} {bench.task.name}")
     seconds, anew, done = _mend_all(judge, course.desk, program, draw, condition.errs)
@@ -81,7 +81,7 @@ def teach_before(bench: Bench, condition: Condition, seed: int) -> Before:
     )
 
 
-def _spent(course: Course) -> float:
+def _count_seconds(course: Course) -> float:
     return round(sum(model_seconds(course.log).values()), 2)
 
 

@@ -52,7 +52,7 @@ class _Observer(Tool):
         return super().review(state, outcome)
 
 
-class _ObservedCourse(ReviewCourse):
+class _FitCourse(ReviewCourse):
     """A session of which each judgement is kept: features, and whether the edit is right."""
 
     rows: list[list[float]]
@@ -72,7 +72,7 @@ def observe(name: str, condition: str, folder: str) -> list[list[float]]:
     """The rows of one session."""
     one = CONDITIONS[condition]
     bench = open_family(name, one.setting(SEED), folder)
-    course = _ObservedCourse(bench, one, SEED, _Observer(bench, one))
+    course = _FitCourse(bench, one, SEED, _Observer(bench, one))
     course.rows = []
     course.run(_CAP)
     return course.rows

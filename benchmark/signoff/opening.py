@@ -14,7 +14,7 @@ from meshforge.common import MeshForgeError
 
 
 @dataclass(frozen=True, slots=True)
-class Opening:
+class FirstLook:
     """One family. right: of the possible assets; pairs: of each of them that was not demonstrated, the probability that
     the tool gives it, and whether it is right."""
 
@@ -26,11 +26,11 @@ class Opening:
     pairs: tuple[tuple[float, bool], ...]
 
     @staticmethod
-    def of_json(row: dict[str, Any]) -> Opening:
-        return Opening(**{**row, "pairs": tuple((share, right) for share, right in row["pairs"])})
+    def of_json(row: dict[str, Any]) -> FirstLook:
+        return FirstLook(**{**row, "pairs": tuple((share, right) for share, right in row["pairs"])})
 
 
-def open_review(bench: Bench, condition: Condition, seed: int, tool: Tool | None = None) -> Opening:
+def open_review(bench: Bench, condition: Condition, seed: int, tool: Tool | None = None) -> FirstLook:
     """Teach a task as before, on labels as the tool takes them now, and look how the family stands then.
 
     tool: another than the product, for tests.
@@ -47,4 +47,4 @@ def open_review(bench: Bench, condition: Condition, seed: int, tool: Tool | None
     right = {name for name in bench.samples if judge.is_right(desk, program, name)}
     rest = [name for name in bench.samples if name in judge.possible and name not in course.log.shown]
     pairs = tuple((round(assessment.assets[name].probability, 4), name in right) for name in rest if program)
-    return Opening(bench.task.name, condition.name, seed, len(judge.possible), len(right), pairs)
+    return FirstLook(bench.task.name, condition.name, seed, len(judge.possible), len(right), pairs)

@@ -9,7 +9,7 @@ from statistics import mean, stdev
 from typing import Protocol, TypeVar
 
 from benchmark.signoff.before import Before
-from benchmark.signoff.opening import Opening
+from benchmark.signoff.opening import FirstLook
 from benchmark.signoff.point import Point, right_at
 from benchmark.signoff.queue import CAP, Review
 
@@ -34,12 +34,12 @@ class Group:
 
     condition: str
     reviews: tuple[Review, ...]
-    openings: tuple[Opening, ...]
+    openings: tuple[FirstLook, ...]
     before: tuple[Before, ...]
 
 
 def group(
-    conditions: Iterable[str], reviews: Sequence[Review], openings: Sequence[Opening], before: Sequence[Before]
+    conditions: Iterable[str], reviews: Sequence[Review], openings: Sequence[FirstLook], before: Sequence[Before]
 ) -> list[Group]:
     """The sessions by condition; of the tool as it was those of the same people."""
     asked = {(row.task, row.condition, row.seed) for row in reviews}
@@ -71,17 +71,17 @@ def share(count: int, among: int) -> float:
     return 100 * count / among if among else 100.0
 
 
-def done_right(row: Review) -> float:
+def right_when_done(row: Review) -> float:
     """Percent of the possible assets that are right and signed off in the end."""
     return share(last(row).sure, row.possible)
 
 
-def signed_off(row: Review) -> float:
+def share_signed_off(row: Review) -> float:
     """Percent of all assets that are signed off in the end."""
     return share(last(row).signed_off, row.assets)
 
 
-def signed_off_wrong(row: Review) -> float:
+def wrong_when_done(row: Review) -> float:
     """Percent of all assets that are signed off in the end, yet not right though they could be."""
     return share(last(row).wrong, row.assets)
 

@@ -11,16 +11,16 @@ from benchmark.report import Goal, Result, Tell
 from benchmark.signoff.before import read_before
 from benchmark.signoff.calibration import calibrate
 from benchmark.signoff.conditions import ASKED, ERRS, MAKE, NONE, list_benches, list_tasks
-from benchmark.signoff.opening import Opening, open_review
+from benchmark.signoff.opening import FirstLook, open_review
 from benchmark.signoff.outcomes import (
     Group,
-    done_right,
     group,
     mean_over_tasks,
     person_time,
+    right_when_done,
     share,
-    signed_off,
-    signed_off_wrong,
+    share_signed_off,
+    wrong_when_done,
 )
 from benchmark.signoff.queue import CAP, Review, sign_off
 from benchmark.signoff.tables import list_tables, pairs_of
@@ -40,14 +40,14 @@ def measure(tell: Tell, quick: bool) -> Result:
 
 def run(
     names: Sequence[str], conditions: Sequence[Condition], tell: Tell, folder: str | None = None, few: bool = False
-) -> tuple[list[Review], list[Opening]]:
+) -> tuple[list[Review], list[FirstLook]]:
     """The sessions of some tasks by the reported people; folder: on families to tune on, by people to tune on.
 
     few: by one of them.
     """
     units = [(name, one.name, folder, few) for name in names for one in conditions]
     rows = [row for unit in run_units("signoff", teach, units, tell) for row in unit]
-    return [Review.of_json(row["review"]) for row in rows], [Opening.of_json(row["opening"]) for row in rows]
+    return [Review.of_json(row["review"]) for row in rows], [FirstLook.of_json(row["opening"]) for row in rows]
 
 
 def teach(name: str, condition: str, folder: str | None = None, few: bool = False) -> list[dict[str, Any]]:
@@ -59,7 +59,9 @@ def teach(name: str, condition: str, folder: str | None = None, few: bool = Fals
     ]
 
 
-def summarize(part: str, title: str, reviews: Sequence[Review], openings: Sequence[Opening], *, before: bool) -> Result:
+def summarize(
+    part: str, title: str, reviews: Sequence[Review], openings: Sequence[FirstLook], *, before: bool
+) -> Result:
     """What sessions come to; before: beside the tool as it was."""
     groups = group([one.name for one in ASKED], reviews, openings, read_before() if before else ())
     return Result(
@@ -85,14 +87,14 @@ def _list_goals(groups: Sequence[Group]) -> Iterator[Goal]:
             yield Goal(f"right before any question, {condition.name}, %", "at least", 88.0, right)
     for condition, wanted in ((TELLING, 98.0), (FLAT, 98.0), (SYSTEMATIC, 97.0), (PROPAGATED[2], 98.0), (ERRS, 95.0)):
         if one := by_name.get(condition.name):
-            right = mean_over_tasks(one.reviews, done_right)
+            right = mean_over_tasks(one.reviews, right_when_done)
             yield Goal(f"right and signed off when done, {condition.name}, %", "at least", wanted, right)
-    least = min(groups, key=lambda one: mean_over_tasks(one.reviews, signed_off))
+    least = min(groups, key=lambda one: mean_over_tasks(one.reviews, share_signed_off))
     told = f"signed off when done, least of all conditions ({least.condition}), %"
-    yield Goal(told, "at least", 97.0, mean_over_tasks(least.reviews, signed_off))
-    most = max(groups, key=lambda one: mean_over_tasks(one.reviews, signed_off_wrong))
+    yield Goal(told, "at least", 97.0, mean_over_tasks(least.reviews, share_signed_off))
+    most = max(groups, key=lambda one: mean_over_tasks(one.reviews, wrong_when_done))
     told = f"signed off, yet wrong, most of all conditions ({most.condition}), %"
-    yield Goal(told, "at most", 1.0, mean_over_tasks(most.reviews, signed_off_wrong))
+    yield Goal(told, "at most", 1.0, mean_over_tasks(most.reviews, wrong_when_done))
     for condition, most_seconds in ((TRUE, 60.0), (TELLING, 100.0), (FLAT, 100.0), (NONE, 200.0)):
         if one := by_name.get(condition.name):
             seconds = mean_over_tasks(one.reviews, person_time)

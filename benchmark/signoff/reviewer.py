@@ -13,7 +13,7 @@ from benchmark.study.keystrokes import ANSWER, APPROVAL, CONFIRMATION, GLANCE, S
 from benchmark.study.person import Person
 from benchmark.study.propagation import HandLabels
 from meshforge.language import Program
-from meshforge.signoff import HullPlace, Reply, ReviewQuestion
+from meshforge.signoff import HullPlace, ReviewQuestion, ReviewReply
 from meshforge.signoff.question import ASIDE, RIGHT, WRONG
 from meshforge.symbolic import Label
 from meshforge.synthesis import Demonstration, Step
@@ -28,7 +28,7 @@ class Reviewer:
         self._looked_at = set[HullPlace]()
         self._truth = bench.truth
 
-    def reply(self, question: ReviewQuestion, desk: Desk, program: Program | None) -> Reply:
+    def reply(self, question: ReviewQuestion, desk: Desk, program: Program | None) -> ReviewReply:
         """What they say to a question that needs no demonstration."""
         if question.kind == "group":
             return self._name_group(question)
@@ -38,7 +38,7 @@ class Reviewer:
             return self._look(question, desk, program)
         return self._confirm(question)
 
-    def _name_group(self, question: ReviewQuestion) -> Reply:
+    def _name_group(self, question: ReviewQuestion) -> ReviewReply:
         """The label of most of the hulls, and each exception."""
         labels = [choice.label for choice in question.choices]
         counts = Counter(self._label_of(place) for place in question.hulls)
@@ -48,31 +48,33 @@ class Reviewer:
         odd = {place: self._label_of(place) for place in question.hulls if self._label_of(place) != told}
         self.ledger.add("group", price_group(len(question.hulls), len(odd)) + STROKE * len(set(odd.values())))
         seen = {place: label for place, label in odd.items() if not self.person.errs_now()}
-        return Reply(question.id, self.person.slips_from(right, len(labels)), seen)
+        return ReviewReply(question.id, self.person.slips_from(right, len(labels)), seen)
 
-    def _pick(self, question: ReviewQuestion, desk: Desk, program: Program | None) -> Reply:
+    def _pick(self, question: ReviewQuestion, desk: Desk, program: Program | None) -> ReviewReply:
         """One of several selections, or none of them."""
         choices = [frozenset(choice.select or ()) for choice in question.choices]
         where = (question.asset, question.rule or 1)
         right = self.person.picks(desk, where, choices, program) if program else None
         self.ledger.add(question.kind, ANSWER)
-        return Reply(question.id, self.person.slips_from(right, len(choices)))
+        return ReviewReply(question.id, self.person.slips_from(right, len(choices)))
 
-    def _confirm(self, question: ReviewQuestion) -> Reply:
+    def _confirm(self, question: ReviewQuestion) -> ReviewReply:
         """The label of one hull; what is asked besides is declined."""
         labels = [choice.label for choice in question.choices]
         true = self._label_of(question.hulls[0]) if question.hulls else None
         right = labels.index(true) if true is not None and true in labels else None
         self.ledger.add(question.kind, CONFIRMATION)
-        return Reply(question.id, self.person.slips_from(right, len(labels)))
+        return ReviewReply(question.id, self.person.slips_from(right, len(labels)))
 
-    def _look(self, question: ReviewQuestion, desk: Desk, program: Program | None) -> Reply:
+    def _look(self, question: ReviewQuestion, desk: Desk, program: Program | None) -> ReviewReply:
         """Whether a result is right; set aside what nobody could show."""
         right = self.judge.looks_right(desk, program, question.asset) != self.person.errs_now()
         said = RIGHT if right else WRONG if self._truth.reference[question.asset] is not None else ASIDE
         self.ledger.add("result", GLANCE + APPROVAL)
         place = place_of(question, said)
-        return Reply(question.id, place, mended=self._mends(desk, program, question.asset) if said == WRONG else None)
+        return ReviewReply(
+            question.id, place, mended=self._mends(desk, program, question.asset) if said == WRONG else None
+        )
 
     def _mends(self, desk: Desk, program: Program | None, name: str) -> Selections | None:
         """What each rule should have selected; None where the mesh is not turned as it should be."""

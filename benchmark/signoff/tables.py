@@ -12,17 +12,17 @@ from benchmark.signoff.outcomes import (
     TIMES,
     Group,
     brute_of,
-    done_right,
     last,
     mean_over_tasks,
     person_time,
     right_before,
     right_by_hand,
     right_by_queue,
+    right_when_done,
     share,
-    signed_off,
-    signed_off_wrong,
+    share_signed_off,
     spread_over_tasks,
+    wrong_when_done,
 )
 from benchmark.signoff.queue import DONE
 from benchmark.study.keystrokes import PRICES
@@ -67,18 +67,20 @@ def _right_row(one: Group) -> tuple[Cell, ...]:
         one.condition,
         len(one.reviews),
         mean_over_tasks(one.reviews, lambda row: share(row.possible, row.assets)),
-        _told(one.before, lambda: mean_over_tasks(one.before, lambda row: share(last(row).right, row.possible))),
-        _told(one.before, lambda: mean_over_tasks(one.before, lambda row: share(row.reference, row.possible))),
-        _told(one.openings, lambda: mean_over_tasks(one.openings, lambda row: share(row.right, row.possible))),
-        mean_over_tasks(one.reviews, done_right),
+        _format_known(
+            one.before, lambda: mean_over_tasks(one.before, lambda row: share(last(row).right, row.possible))
+        ),
+        _format_known(one.before, lambda: mean_over_tasks(one.before, lambda row: share(row.reference, row.possible))),
+        _format_known(one.openings, lambda: mean_over_tasks(one.openings, lambda row: share(row.right, row.possible))),
+        mean_over_tasks(one.reviews, right_when_done),
         mean_over_tasks(one.reviews, lambda row: share(last(row).sure, row.assets)),
-        mean_over_tasks(one.reviews, signed_off),
+        mean_over_tasks(one.reviews, share_signed_off),
         mean_over_tasks(one.reviews, lambda row: share(len(row.aside), row.assets)),
-        mean_over_tasks(one.reviews, signed_off_wrong),
+        mean_over_tasks(one.reviews, wrong_when_done),
     )
 
 
-def _told(rows: Sequence[object], figure: Callable[[], Cell]) -> Cell:
+def _format_known(rows: Sequence[object], figure: Callable[[], Cell]) -> Cell:
     return figure() if rows else "–"
 
 
@@ -105,12 +107,14 @@ def _time_row(one: Group) -> tuple[Cell, ...]:
         one.condition,
         "{:.0f} ± {:.0f}".format(*spread_over_tasks(one.reviews, person_time)),
         share(sum(row.ended == DONE for row in one.reviews), len(one.reviews)),
-        _told(one.before, lambda: mean_over_tasks(one.before, lambda row: last(row).seconds)),
-        _told(one.before, lambda: mean_over_tasks(one.before, lambda row: row.brute.seconds)),
-        _told(one.before, lambda: mean_over_tasks(one.before, lambda row: row.anew)),
-        _told(one.before, lambda: mean_over_tasks(one.before, lambda row: share(row.brute.right, row.possible))),
-        _told(pairs, lambda: share(sooner, len(pairs))),
-        _told(one.before, lambda: mean_over_tasks(one.before, lambda row: share(last(row).wrong, row.assets))),
+        _format_known(one.before, lambda: mean_over_tasks(one.before, lambda row: last(row).seconds)),
+        _format_known(one.before, lambda: mean_over_tasks(one.before, lambda row: row.brute.seconds)),
+        _format_known(one.before, lambda: mean_over_tasks(one.before, lambda row: row.anew)),
+        _format_known(
+            one.before, lambda: mean_over_tasks(one.before, lambda row: share(row.brute.right, row.possible))
+        ),
+        _format_known(pairs, lambda: share(sooner, len(pairs))),
+        _format_known(one.before, lambda: mean_over_tasks(one.before, lambda row: share(last(row).wrong, row.assets))),
     )
 
 
@@ -191,8 +195,8 @@ def _tell_tasks(one: Group) -> Table:
             (
                 name,
                 sum(row.possible for row in mine) / len(mine),
-                mean_over_tasks(mine, done_right),
-                mean_over_tasks(mine, signed_off_wrong),
+                mean_over_tasks(mine, right_when_done),
+                mean_over_tasks(mine, wrong_when_done),
                 sum(len(row.aside) for row in mine) / len(mine),
                 mean_over_tasks(mine, person_time),
                 sum(hand) / len(hand) if hand else "–",

@@ -10,8 +10,8 @@ from benchmark.study.desk import Bench, Desk, Selections
 from meshforge.language import Program
 from meshforge.signoff import (
     Assessment,
-    Reply,
     ReviewQuestion,
+    ReviewReply,
     ReviewState,
     apply_reply,
     list_answers,
@@ -65,7 +65,7 @@ class Tool:
         return review_family(state, outcome, self._family)
 
     def apply(
-        self, state: ReviewState, question: ReviewQuestion, reply: Reply, done: Selections | None = None
+        self, state: ReviewState, question: ReviewQuestion, reply: ReviewReply, done: Selections | None = None
     ) -> ReviewState:
         """What is known after a reply; done: what the rules select on the asset whose result was asked about."""
         return apply_reply(state, question, reply, done)

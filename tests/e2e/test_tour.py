@@ -42,7 +42,7 @@ def test_who_follows_the_tour_has_a_program_and_edited_tables(tmp_path: Path) ->
         _stage(person, "Review")
         read.append(_mark(person, "Apply to all tables"))
         person.click("Apply to all")
-        read.append(_mark(person, "That is all"))
+        read.append(_mark(person, "Look before you export"))
         studio.cards(lambda cards: all(card["output"] in ("edited", "unchanged") for card in cards.values()))
         assert not person.complaints
     rules = [line.partition("=>")[2].strip() for line in program.splitlines() if "=>" in line]

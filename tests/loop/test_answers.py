@@ -73,6 +73,6 @@ def test_more_answers_settle_what_is_not_asked(tables: Path) -> None:
     (tables / "all.json").write_text(json.dumps(given))
     done = meshforge("synthesize", "tables", "--answers", "all.json", cwd=tables)
     assert Program.parse(done.out) == MEANT
-    assert "unambiguous: all believable readings agree on your 14 assets" in done.err
+    assert "all believable readings of the rules agree on your 14 assets" in done.err
     status = Project.open(tables / "tables").status(workers=0)
     assert (status.outdated, status.question) == (False, None)

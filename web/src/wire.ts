@@ -2,6 +2,7 @@
 
 export type AnyEdit =
   | LabelHulls
+  | LabelGroup
   | LabelFromFiles
   | LabelFromNames
   | SetVocabulary
@@ -13,6 +14,7 @@ export type AnyEdit =
   | AnswerQuestion
   | SettleRepair
   | TakeBack
+  | PutOff
   | WriteProgram
   | CutHull
   | Unprepare
@@ -28,6 +30,7 @@ export type Event =
   | AssetsChanged
   | OutcomeChanged
   | ReachChanged
+  | AssessmentChanged
   | ProgramChanged
   | JobChanged;
 export type JobRequest = ApplyJob | DecomposeJob | ExportJob | PropagateJob | ForecastJob | AskJob | CheckJob;
@@ -40,6 +43,8 @@ export interface Everything {
   ApplyJob: ApplyJob;
   Argument: Argument;
   AskJob: AskJob;
+  AssessmentChanged: AssessmentChanged;
+  AssessmentView: AssessmentView;
   AssetLabelUpdate: AssetLabelUpdate;
   AssetView: AssetView;
   AssetsChanged: AssetsChanged;
@@ -51,12 +56,14 @@ export interface Everything {
   CheckRequest: CheckRequest;
   CheckResult: CheckResult;
   ChoiceView: ChoiceView;
+  ConfidenceView: ConfidenceView;
   CorrectByHand: CorrectByHand;
   CorrectionView: CorrectionView;
   CoverageView: CoverageView;
   CutHull: CutHull;
   DecomposeJob: DecomposeJob;
   DeleteRule: DeleteRule;
+  DoubtView: DoubtView;
   DropCorrections: DropCorrections;
   EditHeader: EditHeader;
   EditReceipt: EditReceipt;
@@ -74,6 +81,8 @@ export interface Everything {
   HintView: HintView;
   HistoryChanged: HistoryChanged;
   HistoryView: HistoryView;
+  HullOfAsset: HullOfAsset;
+  HullRef: HullRef;
   HullView: HullView;
   Job: Job;
   JobCancel: JobCancel;
@@ -82,6 +91,7 @@ export interface Everything {
   JobRequest: JobRequest;
   LabelFromFiles: LabelFromFiles;
   LabelFromNames: LabelFromNames;
+  LabelGroup: LabelGroup;
   LabelHulls: LabelHulls;
   LabelSources: LabelSources;
   LabelUpdate: LabelUpdate;
@@ -106,6 +116,7 @@ export interface Everything {
   ProjectView: ProjectView;
   PropagateJob: PropagateJob;
   PropagationState: PropagationState;
+  PutOff: PutOff;
   QuestionView: QuestionView;
   Reach: Reach;
   ReachChanged: ReachChanged;
@@ -113,6 +124,8 @@ export interface Everything {
   RenameLabel: RenameLabel;
   RepairView: RepairView;
   ReviewAssets: ReviewAssets;
+  ReviewChoiceView: ReviewChoiceView;
+  ReviewQuestionView: ReviewQuestionView;
   RuleLine: RuleLine;
   RuleView: RuleView;
   SelectRequest: SelectRequest;
@@ -180,6 +193,21 @@ export interface LabelHulls {
   asset: string;
   hulls: string[];
   label: string | null;
+}
+/**
+ * Give hulls of several assets one label.
+ */
+export interface LabelGroup {
+  kind: "label-group";
+  hulls: HullOfAsset[];
+  label: string;
+}
+/**
+ * A hull of an asset, both by name.
+ */
+export interface HullOfAsset {
+  asset: string;
+  hull: string;
 }
 /**
  * Take over the labels files beside the assets.
@@ -265,6 +293,13 @@ export interface TakeBack {
   id: string;
 }
 /**
+ * Ask a question of the review no more, as long as what it is about stays.
+ */
+export interface PutOff {
+  kind: "put-off";
+  id: string;
+}
+/**
  * Make a text the project's program. version: of the program that was changed.
  */
 export interface WriteProgram {
@@ -336,6 +371,84 @@ export interface AskJob {
   kind: "ask";
   mode: "cheap" | "balanced" | "exact";
   max_cost?: number | null;
+}
+/**
+ * How sure the edits are now. assessment: null as soon as labels, answers or demonstrations changed, until that is
+ * known again; assessing: whether that is being worked out.
+ */
+export interface AssessmentChanged {
+  kind: "assessment";
+  assessment: AssessmentView | null;
+  assessing: boolean;
+}
+/**
+ * A family as the last learning run left it. number: of that run; bar: the probability from which on an asset is
+ * signed off; signed_off, held, aside: how many assets; assets: in the family's order, empty while there is no
+ * program; question: null where nothing is left to ask.
+ */
+export interface AssessmentView {
+  number: number;
+  bar: number;
+  signed_off: number;
+  held: number;
+  aside: number;
+  assets: ConfidenceView[];
+  question: ReviewQuestionView | null;
+}
+/**
+ * One asset. probability: that its edit is right; doubts: the weightiest first; state: whether it is signed off,
+ * held below the bar, or set aside by a person; told: whether a person demonstrated or accepted it.
+ */
+export interface ConfidenceView {
+  asset: string;
+  probability: number;
+  doubts: DoubtView[];
+  state: "signed" | "held" | "aside";
+  told: boolean;
+}
+/**
+ * Why an edit may be wrong. hulls: names of those concerned; rule: its number, null where it is about none.
+ */
+export interface DoubtView {
+  kind: "reading" | "label" | "orientation" | "unlike" | "alarm";
+  text: string;
+  hulls: string[];
+  rule: number | null;
+}
+/**
+ * A question. seconds: of a person; gain: assets that an answer makes right, as far as can be expected; hulls:
+ * those in question; was: the label of the first of them.
+ */
+export interface ReviewQuestionView {
+  id: string;
+  kind: "group" | "repair" | "reading" | "label" | "orientation" | "result" | "demonstrate";
+  text: string;
+  seconds: number;
+  gain: number;
+  asset: string;
+  rule: number | null;
+  hulls: HullRef[];
+  was: string | null;
+  choices: ReviewChoiceView[];
+}
+/**
+ * A hull of an asset. place: its position among the asset's own hulls.
+ */
+export interface HullRef {
+  asset: string;
+  hull: string;
+  place: number;
+}
+/**
+ * One reply. label: that the hulls then get; select: names of the hulls that the rule then selects; sentence: that
+ * reading in words; orient: the directive that the family then gets.
+ */
+export interface ReviewChoiceView {
+  text: string;
+  label: string | null;
+  select: string[] | null;
+  sentence: string;
+  orient: string | null;
 }
 /**
  * Hulls of an asset that got a new label, by position. new: those that had none; changed: those that had another;
@@ -647,6 +760,8 @@ export interface Hello {
   outcome: OutcomeView | null;
   learning: boolean;
   reach: Reach[];
+  assessment: AssessmentView | null;
+  assessing: boolean;
   jobs: Job[];
   tour: boolean;
   engines: EngineView[];

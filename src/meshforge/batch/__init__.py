@@ -19,7 +19,17 @@ from meshforge.batch.jobs import (
     template_folders,
 )
 from meshforge.batch.lock import hold_lock
-from meshforge.batch.outcome import AssetOutcome, Failed, Held, RuleEffect, RunSummary, Skipped, status_of, to_json_line
+from meshforge.batch.outcome import (
+    AssetOutcome,
+    Failed,
+    Held,
+    RuleEffect,
+    RunSummary,
+    Skipped,
+    describe_alarms,
+    status_of,
+    to_json_line,
+)
 from meshforge.batch.preparation.decompose import DecompositionResult, decompose_asset
 from meshforge.batch.preparation.record import (
     Preparation,
@@ -128,6 +138,7 @@ __all__ = [
     "count_processors",
     "cut_hull",
     "decompose_asset",
+    "describe_alarms",
     "execute",
     "expand",
     "file_digest",

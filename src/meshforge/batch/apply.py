@@ -22,6 +22,7 @@ from meshforge.batch.workers import EXECUTION_DEFAULTS, ExecutionOptions, Worker
 from meshforge.common import UsageError, describe_error, join_names
 from meshforge.formats import format_for, format_with_names, read
 from meshforge.language import Program, Template
+from meshforge.signoff import measure_edit
 from meshforge.symbolic import Asset, LabelFile, LabelTransfer, SymbolicMesh, read_labels, transfer_labels
 
 _MEMORY = "More for one asset: --memory, or fewer --workers. The other assets are not affected."
@@ -147,6 +148,7 @@ def _run_program(
         seconds=time.perf_counter() - started,
         notes=(*asset.notes, *_opaque_notes(asset), *_label_notes(followed), *draft.notes),
         flags=flags,
+        measures=measure_edit(source, mesh),
     )
     if task.options.dry_run:
         return outputs.WorkerResult(outcome)

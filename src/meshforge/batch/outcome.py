@@ -4,17 +4,19 @@ of a run, counted as outcomes come."""
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, Literal, assert_never
 
 from meshforge.common import pluralize
+from meshforge.signoff import EditMeasures, find_alarms
 
 StatusWord = Literal["edited", "unchanged", "failed", "skipped"]
 
 MOST_SHOWN = 120
 """Outcomes of either kind that are kept for a report."""
 _MOST_NAMED = 20
+_MOST_ALARMED = 5
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,7 +34,8 @@ class RunOutcome:
     """What the outcomes of a run that came to its end have in common.
 
     out: the file that was written, or that would be on a dry run; before, after: numbers of hulls;
-    notes: what the format had to write in another form; flags: edits by hand whose hulls are gone.
+    notes: what the format had to write in another form; flags: edits by hand whose hulls are gone;
+    measures: of the edit, None for what an earlier version has written.
     """
 
     asset: str
@@ -43,6 +46,7 @@ class RunOutcome:
     seconds: float
     notes: tuple[str, ...] = ()
     flags: tuple[str, ...] = ()
+    measures: EditMeasures | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -116,8 +120,11 @@ def status_of(outcome: AssetOutcome) -> StatusWord:
             assert_never(outcome)
 
 
-def to_json_line(outcome: AssetOutcome) -> dict[str, Any]:
-    """The line of `apply --json` for an outcome; what a failed asset has not is null or empty."""
+def to_json_line(outcome: AssetOutcome, alarms: Sequence[str] | None = None) -> dict[str, Any]:
+    """The line of `apply --json` for an outcome; what a failed asset has not is null or empty.
+
+    alarms: sentences about it, None where nobody looks for any: then the line does not speak of them.
+    """
     ran = None if isinstance(outcome, Failed) else outcome
     return {
         "asset": outcome.asset,
@@ -127,6 +134,7 @@ def to_json_line(outcome: AssetOutcome) -> dict[str, Any]:
         "rules": [_rule_to_json(line) for line in ran.rules] if ran else [],
         "hulls": {"before": ran.before if ran else None, "after": ran.after if ran else None},
         "seconds": round(outcome.seconds, 3),
+        **({} if alarms is None else {"alarms": list(alarms)}),
     }
 
 
@@ -137,13 +145,15 @@ def _rule_to_json(line: RuleEffect) -> dict[str, Any]:
 @dataclass(eq=False, slots=True)
 class RunSummary:
     """counts: by status; before, after: hulls of all that ran; failed, ran: the first outcomes of either kind;
-    held: those that were held back."""
+    measures: of all edits, by asset; held: those that were held back.
+    """
 
     counts: Counter[StatusWord] = field(default_factory=Counter)
     before: int = 0
     after: int = 0
     failed: list[Failed] = field(default_factory=list)
     ran: list[Edited | Unchanged | Skipped] = field(default_factory=list)
+    measures: dict[str, EditMeasures] = field(default_factory=dict)
     held: list[Held] = field(default_factory=list)
 
     def hold(self, held: Sequence[Held]) -> None:
@@ -159,6 +169,8 @@ class RunSummary:
             return
         self.before += outcome.before
         self.after += outcome.after
+        if outcome.measures:
+            self.measures[outcome.asset] = outcome.measures
         if len(self.ran) < MOST_SHOWN:
             self.ran.append(outcome)
 
@@ -166,6 +178,11 @@ class RunSummary:
     def total(self) -> int:
         """How many assets there were."""
         return self.counts.total()
+
+    def find_alarms(self) -> dict[str, tuple[str, ...]]:
+        """Sentences about the results that stand out of all so far, the weightiest first, by asset."""
+        found = find_alarms(self.measures)
+        return {asset: tuple(alarm.text for alarm in alarms) for asset, alarms in found.items()}
 
     @property
     def outcomes_to_show(self) -> tuple[AssetOutcome, ...]:
@@ -182,3 +199,11 @@ class RunSummary:
         if self.total <= _MOST_NAMED or not names:  # they are on the screen
             return text
         return f"{text}\nfailed: {', '.join(names)}{f' and {more:,} more' if more else ''}"
+
+
+def describe_alarms(alarms: Mapping[str, Sequence[str]]) -> str:
+    """Which results stand out, and the weightiest reason of each; alarms: sentences by asset, at least one."""
+    named = [f"{asset} ({alarms[asset][0]})" for asset in list(alarms)[:_MOST_ALARMED]]
+    more = len(alarms) - len(named)
+    verb = "stands" if len(alarms) == 1 else "stand"
+    return f"{pluralize(len(alarms), 'result')} {verb} out: {', '.join(named)}{f' and {more:,} more' if more else ''}"

@@ -18,6 +18,7 @@ from meshforge.common import relative_name, write_atomically
 from meshforge.formats import MESH_SUFFIXES
 from meshforge.geometry import digest as shape_digest
 from meshforge.language import Comments, HeaderComments, Program, Template
+from meshforge.signoff import EditMeasures
 
 
 class OutputInputs(BaseModel):
@@ -44,6 +45,7 @@ class Stamp(BaseModel):
 
     outputs: the digest of every file, by its path in the output folder; out: the main one of them.
     labels: of its hulls, in the order that the main file has them; empty where they are not known.
+    measures: of the edit; None in stamps of earlier versions.
     """
 
     model_config = ConfigDict(frozen=True)
@@ -60,6 +62,7 @@ class Stamp(BaseModel):
     notes: tuple[str, ...] = ()
     flags: tuple[str, ...] = ()
     error: str | None = None
+    measures: EditMeasures | None = None
 
     @staticmethod
     def of(outcome: Edited | Unchanged, inputs: OutputInputs, draft: OutputDraft) -> Stamp:
@@ -76,6 +79,7 @@ class Stamp(BaseModel):
             after=outcome.after,
             notes=outcome.notes,
             flags=outcome.flags,
+            measures=outcome.measures,
         )
 
     @staticmethod
@@ -86,7 +90,7 @@ class Stamp(BaseModel):
     def to_skipped(self, folder: Path) -> Skipped:
         """The outcome of finding this output up to date."""
         out = str(folder / self.out)
-        return Skipped(self.asset, out, self.rules, self.before, self.after, 0.0, self.notes, self.flags)
+        return Skipped(self.asset, out, self.rules, self.before, self.after, 0.0, self.notes, self.flags, self.measures)
 
     def is_whole(self, folder: Path) -> bool:
         """Whether all files of this output are there, as they were written."""

@@ -68,6 +68,7 @@ class ApplyArguments:
 def apply(given: ApplyArguments) -> None:
     """Run a program on assets; each goes back into its own format below --out, labels beside it.
 
+    Results that stand out of the family are named at the end; with --json all lines come then.
     A run that was stopped or killed goes on where it was: the same command again. Exit code 1 when some assets failed
     or were held: they are named, and the others are done.
     """
@@ -79,25 +80,34 @@ def apply(given: ApplyArguments) -> None:
     work = _work_of_project(given) if given.program.is_dir() else _work_of_program(given)
     if len(work.jobs) > 1:
         remark(str(batch.plan_run(work.jobs, work.out)))
-    summary, started = batch.RunSummary(), perf_counter()
+    summary, started, done = batch.RunSummary(), perf_counter(), list[batch.AssetOutcome]()
     run_options = batch.ApplyOptions(given.mass, given.link, given.dry_run, resume=not given.fresh)
-    with progress(len(work.jobs), "editing") as advance:
-        execution = replace(given.execution.to_options(), progress=advance)
-        for outcome in run_program(
-            work.program, work.jobs, work.out, templates=work.templates, options=run_options, execution=execution
-        ):
-            summary.add(outcome)
-            if given.json:
-                print_json(batch.to_json_line(outcome), compact=True)
-            else:
-                typer.echo(_describe_outcome(outcome))
+    try:
+        with progress(len(work.jobs), "editing") as advance:
+            execution = replace(given.execution.to_options(), progress=advance)
+            for outcome in run_program(
+                work.program, work.jobs, work.out, templates=work.templates, options=run_options, execution=execution
+            ):
+                summary.add(outcome)
+                if given.json:
+                    done.append(outcome)
+                else:
+                    typer.echo(_describe_outcome(outcome))
+    finally:  # also of a run that cannot go on
+        alarms = summary.find_alarms()
+        for outcome in done:
+            print_json(batch.to_json_line(outcome, alarms.get(outcome.asset, ())), compact=True)
+    if not given.dry_run:
+        work.finish()
     summary.hold(work.held)
     for held in work.held:
         print_json(held.to_json(), compact=True) if given.json else typer.echo(f"{'held':10} {held.asset}: {held.why}")
     if not given.json:
         typer.echo(f"{summary}{NOTHING_WRITTEN if given.dry_run else ''}")
+        if alarms:
+            typer.echo(batch.describe_alarms(alarms))
     if given.report:
-        _write_report(given.report, work, summary, perf_counter() - started, measures)
+        _write_report(given.report, work, summary, perf_counter() - started, measures, alarms)
     raise typer.Exit(int(summary.counts["failed"] > 0 or bool(work.held)))
 
 
@@ -114,7 +124,7 @@ def _parse_measures(names: Sequence[str]) -> CheckOptions:
 @dataclass(frozen=True, slots=True)
 class _ApplyWork:
     """What is to be run on what. readers: of assets before the run, by id; demonstrated: those that somebody edited;
-    held: those that are held back."""
+    held: those that are held back; finish: called when all is written."""
 
     program: Program
     jobs: Sequence[batch.AssetJob]
@@ -123,6 +133,7 @@ class _ApplyWork:
     readers: Callable[[Iterable[str]], Sequence[batch.MeshReader]]
     demonstrated: Collection[str] = ()
     held: Sequence[batch.Held] = ()
+    finish: Callable[[], object] = tuple
 
 
 def _work_of_project(given: ApplyArguments) -> _ApplyWork:
@@ -139,7 +150,8 @@ def _work_of_project(given: ApplyArguments) -> _ApplyWork:
     names = {one.asset for one in held}
     program, jobs, templates = project.work(frozenset(project.assets()) - names if names else None)
     demonstrated = frozenset(project.layout.ids_with("demonstrations"))
-    return _ApplyWork(program, jobs, out, templates, project.readers, demonstrated, held)
+    finish = project.renew_sign_offs if out.absolute() == project.layout.edited else tuple
+    return _ApplyWork(program, jobs, out, templates, project.readers, demonstrated, held, finish)
 
 
 def _hold_back(project: Project, out: Path, bar: float) -> tuple[batch.Held, ...]:
@@ -149,7 +161,7 @@ def _hold_back(project: Project, out: Path, bar: float) -> tuple[batch.Held, ...
     if program != project.program():
         remark("The program was learned again from what was said since.")
     assessment = found.assessment
-    names = [*assessment.held, *sorted(assessment.aside), *(name for name in found.lost)]
+    names = [*assessment.held, *sorted(assessment.aside)]
     return tuple(_hold(name, assessment, out) for name in names)
 
 
@@ -157,7 +169,7 @@ def _hold(name: str, assessment: Assessment, out: Path) -> batch.Held:
     one = assessment.assets.get(name)
     written = batch.read_stamp(out, name)
     kept = str(out / written.out) if written and written.out else None
-    why = "a person set it aside" if name in assessment.aside else "it cannot be read"
+    why = "a person set it aside"
     if one and name not in assessment.aside:
         doubt = one.doubts[0].text if one.doubts else "no single doubt stands out"
         why = f"{format_share(one.probability)} sure; {doubt}"
@@ -192,12 +204,17 @@ def _describe_outcome(outcome: batch.AssetOutcome) -> str:
 
 
 def _write_report(
-    path: Path, work: _ApplyWork, summary: batch.RunSummary, seconds: float, measures: CheckOptions | None
+    path: Path,
+    work: _ApplyWork,
+    summary: batch.RunSummary,
+    seconds: float,
+    measures: CheckOptions | None,
+    alarms: Mapping[str, tuple[str, ...]],
 ) -> None:
     readers = work.readers(outcome.asset for outcome in summary.outcomes_to_show)
     write_report_page(
         path,
         batch.ReportHeader(work.out.resolve().name, seconds=seconds, figures=batch.RunFigures.of_run(summary)),
-        list(compare_outcomes(summary.outcomes_to_show, work.program, readers, work.demonstrated, measures)),
+        list(compare_outcomes(summary.outcomes_to_show, work.program, readers, work.demonstrated, measures, alarms)),
         work.program,
     )

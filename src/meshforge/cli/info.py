@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import Annotated, Any
 
 import typer
 
-from meshforge.cli.options import AssetFile, InProject, Json, LabelsPath, open_asset
+from meshforge.cli.options import AssetFile, InProject, Json, LabelsPath, asset_id, open_asset
 from meshforge.cli.terminal import print_json
 from meshforge.common import pluralize
 from meshforge.geometry import Box, Capsule, Cylinder, Ellipsoid, Shape, Sphere
@@ -23,9 +24,21 @@ def info(
     """Show hulls, labels, bodies, contacts and near misses of an asset, in the frame it comes in."""
     mesh = open_asset(asset, labels, project)
     if json:
-        print_json(describe_asset(mesh, str(asset), geometry=geometry))
+        print_json(describe_asset(mesh, str(asset), geometry=geometry) | (_describe_standing(asset, project)))
     else:
         _print_asset(mesh, str(asset))
+
+
+def _describe_standing(asset: Path, folder: Path | None) -> dict[str, Any]:
+    """How sure the edit of a project's asset is, as far as its last review holds; nothing without a project."""
+    if folder is None:
+        return {}
+    from meshforge.project import Project  # lazy: 500 modules that only --project needs
+
+    project = Project.open(folder)
+    name = asset_id(asset, project)
+    (found,) = (one for one in project.status().assets if one.id == name)
+    return {"probability": found.probability, "doubts": [doubt.to_json() for doubt in found.doubts]}
 
 
 def describe_asset(mesh: SymbolicMesh, asset: str, *, geometry: bool = False) -> dict[str, Any]:

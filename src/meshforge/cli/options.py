@@ -20,6 +20,7 @@ from meshforge.symbolic import SymbolicMesh
 
 if TYPE_CHECKING:
     from meshforge.batch import ExecutionOptions
+    from meshforge.project import Project
 
 Arguments = TypeVar("Arguments")
 
@@ -196,8 +197,13 @@ def open_asset(asset: Path, labels: Path | None, project: Path | None) -> Symbol
         return load(asset, labels=labels)
     if labels:
         raise UsageError("a project has its own labels", remedy="Leave --labels out, or --project.")
-    from meshforge.project import Project  # lazy: 500 modules that only --project needs
+    from meshforge.project import Project as Opened  # lazy: 500 modules that only --project needs
 
-    home = Project.open(project)
-    by_path = {plain_path(path): key for key, path in home.found.ids.items()}
-    return home.mesh(by_path.get(plain_path(asset), asset.as_posix()))
+    home = Opened.open(project)
+    return home.mesh(asset_id(asset, home))
+
+
+def asset_id(asset: Path, project: Project) -> str:
+    """The id of an asset of a project that is given by its file, or by that id."""
+    by_path = {plain_path(path): key for key, path in project.found.ids.items()}
+    return by_path.get(plain_path(asset), asset.as_posix())

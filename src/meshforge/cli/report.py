@@ -41,10 +41,12 @@ def compare_outcomes(
     readers: Sequence[batch.MeshReader],
     demonstrated: Collection[str] = (),
     measures: CheckOptions | None = None,
+    alarms: Mapping[str, tuple[str, ...]] | None = None,
 ) -> Iterator[batch.ReportAsset]:
     """Each asset before and after, standing upright where the program orients it; readers: of the assets before.
 
     measures: what is measured of it after; such assets are shown as they lie, for what they show was not turned.
+    alarms: sentences about results that stand out, by asset.
     """
     made = [None if isinstance(outcome, batch.Failed) else partial(load, outcome.out) for outcome in outcomes]
     meshes = batch.read_again([*readers, *made])
@@ -65,7 +67,8 @@ def compare_outcomes(
             was, pose = to_canonical_frame(was, program.orient, program.contact)
             now = replace(now, hulls=tuple(hull.move(pose) for hull in now.hulls))
         trace = tuple(RuleTrace(line.rule, line.selected, line.made, line.note) for line in outcome.rules)
-        yield batch.ReportAsset(name, was, now, trace, batch.status_of(outcome), None, is_shown, notes, checked)
+        told = (alarms or {}).get(name, ())
+        yield batch.ReportAsset(name, was, now, trace, batch.status_of(outcome), None, is_shown, notes, checked, told)
 
 
 def _split_checks(found: Examination | batch.WorkerFailure) -> tuple[Examination | None, tuple[str, ...]]:

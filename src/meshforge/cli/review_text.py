@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import json
+import shlex
 from collections.abc import Sequence
 from pathlib import Path
 
-from meshforge.common import pluralize
+from meshforge.common import join_names, pluralize
 from meshforge.project import ProjectReview
 from meshforge.signoff import AssetConfidence, ReviewQuestion
 
@@ -31,7 +33,6 @@ def format_review(found: ProjectReview, folder: Path, held: int = MOST_HELD) -> 
     lines = [format_counts(len(one.signed_off), len(one.assets), len(names), len(one.aside), one.bar)]
     lines += [f"  {format_asset(one.assets[name])}" for name in names[:held]]
     lines += [f"  and {len(names) - held} more (all with --json)"] if len(names) > held else []
-    lines += [f"  {name} cannot be read: {why}" for name, why in found.lost.items()]
     if names and one.question is None:
         lines.append(
             "Nothing is left to ask: show the edit on one of these (meshforge demonstrate), or mend its result."
@@ -51,15 +52,42 @@ def format_share(share: float) -> str:
 
 
 def format_question(question: ReviewQuestion, pictures: Sequence[Path]) -> str:
-    """A question as it is asked, with where its pictures lie."""
+    """A question as it is asked, with its numbered choices, the hulls in question, and where its pictures lie."""
     lines = [f"{question.text}  [{question.id}, about {question.seconds:.0f} s]"]
-    by_asset: dict[str, list[str]] = {}
-    for place in question.hulls:
-        by_asset.setdefault(place.asset, []).append(place.hull)
-    lines += [f"  {asset}: {', '.join(hulls)}" for asset, hulls in by_asset.items()]
+    each = len(pictures) == len(question.choices) > 1
     for number, choice in enumerate(question.choices, 1):
         selected = "" if choice.select is None else f": {pluralize(len(choice.select), 'hull')}"
-        selected += f", {', '.join(choice.select)}" if choice.select else ""
-        lines.append(f"  {number} {choice.text}{selected}")
-    lines += [f"  picture: {path}" for path in pictures]
+        selected += f", {join_names(choice.select)}" if choice.select else ""
+        lines += [f"  {number} {choice.text}{selected}", *([f"    picture: {pictures[number - 1]}"] if each else [])]
+    if len(question.hulls) > 1:
+        lines.append("  hulls:")
+        lines += [f"    {letter_of(k)} {hull.hull} of {hull.asset}" for k, hull in enumerate(question.hulls)]
+    lines += [] if each else [f"  picture: {path}" for path in pictures]
     return "\n".join(lines)
+
+
+def letter_of(place: int) -> str:
+    """What the hull at a place is called where exceptions are typed: a, b, ..., z, aa, ab, ..."""
+    return (letter_of(place // 26 - 1) if place >= 26 else "") + chr(ord("a") + place % 26)
+
+
+def format_prompt(question: ReviewQuestion) -> str:
+    """What can be typed."""
+    count = len(question.choices)
+    if not count:
+        return "l later, q stop: "
+    numbers = ", ".join(map(str, range(1, count + 1)))
+    but = " (what is something else after it: 1 b=LABEL)" if len(question.hulls) > 1 else ""
+    return f"{numbers}{but}, n for none, l later, q stop; Enter: 1: "
+
+
+def format_reply_help(question: ReviewQuestion, folder: str) -> str:
+    """How to reply where nobody can be asked; folder: of the project, as one types it."""
+    if not question.choices:
+        return f"Show it: meshforge demonstrate {folder} {shlex.quote(question.asset)} 'HULLS => ACTION' ..."
+    entry = json.dumps([{"id": question.id, "choice": 0}])
+    return (
+        f"Reply in a terminal: meshforge review {folder}\n"
+        f"  or in a script: meshforge review {folder} --answers FILE, where FILE holds {entry}\n"
+        '  (the first choice; null in place of 0: none of them; "later": true puts it off)'
+    )

@@ -19,7 +19,7 @@ from meshforge.signoff import AssetConfidence
 def status(
     project: Annotated[Path, typer.Argument(help="A project folder.")],
     signed_off: Annotated[
-        bool, typer.Option("--signed-off", help="Exit code 1 while some asset is held, void or not looked at.")
+        bool, typer.Option("--signed-off", help="Exit code 1 while some asset is not signed off.")
     ] = False,
     json: Json = False,
 ) -> None:
@@ -56,9 +56,12 @@ def _print_status(found: Status) -> None:
 
 def _describe_sign_off(found: Status) -> str:
     """How far the family is signed off, and what is not."""
-    done = found.count(lambda asset: asset.sign_off == "signed off")
+    waits = found.count(lambda asset: asset.sign_off == "sure")
+    done = waits + found.count(lambda asset: asset.sign_off == "signed off")
     aside = found.count(lambda asset: asset.sign_off == "set aside")
     lines = [format_counts(done, len(found.assets), len(found.open_assets), aside, found.bar)]
+    if waits:
+        lines.append(f"  {waits} of them will be signed off when their outputs are up to date (meshforge apply)")
     for asset in found.open_assets[:MOST_HELD]:
         if asset.void:
             lines.append(f"  {asset.id}: void, {join_names(asset.void)} changed since it was signed off")

@@ -5,23 +5,20 @@ terminal, with answers from a file.
 from __future__ import annotations
 
 import json
-import shutil
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
 from typing import Any
 
+from meshforge.cli.mesh_pictures import MeshPictures
 from meshforge.cli.synthesize_text import describe_change
 from meshforge.cli.terminal import catch_interrupt, remark
 from meshforge.common import MeshForgeError, UsageError
 from meshforge.language import Program
 from meshforge.project import FamilyMeshes, Project
-from meshforge.rendering import Up, render, write_png
 from meshforge.symbolic import SymbolicMesh
 from meshforge.synthesis import Ambiguous, Answer, LearningOutcome, Options, Question, Repair
-
-PICTURE_SIZE = (720, 560)
 
 
 @dataclass
@@ -73,19 +70,18 @@ class QuestionPictures:
     """Draws into `.meshforge/questions` of a project; every new card takes away the pictures of the one before."""
 
     def __init__(self, session: LearningSession) -> None:
-        self._session = session
-        self._folder = session.project.layout.questions
+        self._pictures = MeshPictures(session.project, session.meshes, session.project.layout.questions)
 
     def of_question(self, question: Question, program: Program) -> list[Path]:
         """A picture of each choice, on the asset as the rule meets it; none where it cannot be drawn."""
         self.clear()
         name = f"rule-{question.rule}-{Path(question.asset).stem}"
         try:
-            mesh = self._session.project.mesh_before_rule(
-                question.asset, question.rule, program, self._session.meshes()
-            )
+            mesh = self._pictures.mesh_before_rule(question.asset, question.rule, program)
             return [
-                self._draw(mesh, frozenset(choice.select), f"{name}-choice-{k}", f"choice {k} on {question.asset}")
+                self._pictures.draw(
+                    mesh, frozenset(choice.select), f"{name}-choice-{k}", f"choice {k} on {question.asset}"
+                )
                 for k, choice in enumerate(question.choices, 1)
             ]
         except MeshForgeError:
@@ -96,31 +92,15 @@ class QuestionPictures:
         self.clear()
         wrong = repair.correction
         try:
-            mesh = self._upright_mesh(wrong.asset)
-            return self._draw(mesh, frozenset({wrong.hull}), f"label-{Path(wrong.asset).stem}", describe_change(repair))
+            mesh = self._pictures.upright_mesh(wrong.asset)
+            name = f"label-{Path(wrong.asset).stem}"
+            return self._pictures.draw(mesh, frozenset({wrong.hull}), name, describe_change(repair))
         except MeshForgeError:
             return None
 
     def clear(self) -> None:
         """Take all pictures away."""
-        shutil.rmtree(self._folder, ignore_errors=True)
-
-    def _upright_mesh(self, asset: str) -> SymbolicMesh:
-        return self._session.project.mesh_before_rule(
-            asset, 1, Program(orient=self._session.project.orientation), self._session.meshes()
-        )
-
-    def _draw(self, mesh: SymbolicMesh, chosen: frozenset[str], name: str, title: str) -> Path:
-        path, here = self._folder / f"{name}.png", Path.cwd()
-        up: Up | None = "Z" if self._has_upright_axis else None
-        write_png(path, render(mesh, highlight=chosen, size=PICTURE_SIZE, title=title, up=up))
-        return path.relative_to(here) if path.is_relative_to(here) else path
-
-    @property
-    def _has_upright_axis(self) -> bool:
-        """Whether the orientation says what +Z is, so that Z points up whatever the files say."""
-        orient = self._session.project.orientation
-        return orient is not None and any(pair.axis.endswith("Z") for pair in orient.pairs)
+        self._pictures.clear()
 
 
 ANSWERS_FORM = (

@@ -75,7 +75,7 @@ def _describe_agreement(outcome: synthesis.Found | synthesis.Ambiguous, about: L
         all_ = "your one asset" if about.assets == 1 else f"your {about.assets:,} assets"
         part = "were looked at" if about.in_use < about.assets else "can be read"
         seen = all_ if about.readable == about.assets else f"the {about.readable} of {all_} that {part}"
-        yield f"unambiguous: all believable readings agree on {seen}"
+        yield f"all believable readings of the rules agree on {seen}"
         return
     if outcome.question:
         yield f"ambiguous: it is open what rule {outcome.question.rule} does on {outcome.question.asset}"
@@ -94,10 +94,7 @@ def _describe_doubt(outcome: synthesis.Found | synthesis.Ambiguous) -> Iterator[
     rules, assets = sorted({str(rule) for rule, _ in rows}), sorted({asset for _, asset in rows})
     if rows:
         many = "s" * (len(rules) > 1)
-        yield (
-            f"almost unambiguous: rule{many} {join_names(rules)} might mean something else on "
-            f"{join_names(assets)}; look there"
-        )
+        yield f"rule{many} {join_names(rules)} might mean something else on {join_names(assets)}: look there"
 
 
 def _doubtful_pairs(outcome: synthesis.Found | synthesis.Ambiguous) -> set[tuple[int, str]]:

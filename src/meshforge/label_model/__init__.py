@@ -1,7 +1,7 @@
 """The one model of what labels are: all that is said of a family weighed into a probability for each hull and label."""
 
 from meshforge.label_model.consensus import EVIDENCE, consensus_weights
-from meshforge.label_model.describe import MeshDescriber
+from meshforge.label_model.describe import MeshDescriber, ShapeDescriptor, remember_descriptor
 from meshforge.label_model.odds import LabelBeliefs, LabelOdds, is_human
 from meshforge.label_model.posterior import FamilyModel, FamilyPosterior, infer_labels, model_family
 from meshforge.label_model.sides import correct_upright, find_doubtful_sides
@@ -16,6 +16,7 @@ __all__ = [
     "LabelOdds",
     "MeshDescriber",
     "Observations",
+    "ShapeDescriptor",
     "consensus_weights",
     "correct_upright",
     "evidence_of",
@@ -25,4 +26,5 @@ __all__ = [
     "metric_weights",
     "model_family",
     "reference_label",
+    "remember_descriptor",
 ]

@@ -77,7 +77,7 @@ def softmax(scores: Floats) -> Floats:
 
 
 @dataclass(frozen=True, eq=False)
-class _Informed:
+class _Helpers:
     """Hulls that say something about others. usable: (n,); worth: (n,) what each counts."""
 
     usable: Bools
@@ -119,7 +119,7 @@ class FamilyContext:
     def collect_evidence(self, chances: Floats) -> Floats:
         """The evidence (n, labels, len(EVIDENCE)) [nats] on each label of each hull."""
         seen, rows = self.seen, np.arange(len(chances))
-        informed = self._informed(chances)
+        informed = self._find_helpers(chances)
         counted = chances * np.where(seen.known, 1.0, _UNSAID)[:, None]
         prior = counted.sum(axis=0) + 0.5
         prior /= prior.sum()
@@ -137,11 +137,11 @@ class FamilyContext:
         columns = [self._own(reliability, self.free), kinds, nearest, np.log(distinct), together, own_mesh, common]
         return np.stack([*columns, self._hear_neighbors(chances, informed)], axis=-1)
 
-    def _informed(self, chances: Floats) -> _Informed:
+    def _find_helpers(self, chances: Floats) -> _Helpers:
         sure = ~self.seen.known & (chances.max(axis=1, initial=0.0) > _CERTAIN)
-        return _Informed(self.seen.known | sure, np.where(self.seen.known, 1.0, _HELP))
+        return _Helpers(self.seen.known | sure, np.where(self.seen.known, 1.0, _HELP))
 
-    def _share_nearest(self, chances: Floats, informed: _Informed, prior: Floats) -> Floats:
+    def _share_nearest(self, chances: Floats, informed: _Helpers, prior: Floats) -> Floats:
         """The shares of the labels among the nearest hulls, the nearer the more."""
         hulls, apart = self.lookalikes.nearest(informed.usable, _NEAREST, PER_MESH)
         there = np.isfinite(apart)
@@ -153,7 +153,7 @@ class FamilyContext:
         found: Floats = (_sum_votes(votes, chances, hulls) + strange * prior) / (total + strange)
         return found
 
-    def _share_distinct(self, chances: Floats, informed: _Informed, prior: Floats) -> tuple[Floats, Floats]:
+    def _share_distinct(self, chances: Floats, informed: _Helpers, prior: Floats) -> tuple[Floats, Floats]:
         """Of the nearest hulls of distinct meshes the shares of the labels, and their evidence multiplied [nats]."""
         hulls, apart = self.lookalikes.nearest(informed.usable, _DISTINCT, 1)
         there = np.isfinite(apart)
@@ -165,7 +165,7 @@ class FamilyContext:
             together += np.log(degree * chances[hulls[:, place]] + (1 - degree) * prior)
         return share, together
 
-    def _share_own(self, chances: Floats, informed: _Informed, prior: Floats) -> Floats:
+    def _share_own(self, chances: Floats, informed: _Helpers, prior: Floats) -> Floats:
         """The shares of the labels among look-alikes of the same mesh."""
         hulls, apart = self.lookalikes.own, self.lookalikes.own_apart
         there = np.isfinite(apart) & informed.usable[hulls]
@@ -174,7 +174,7 @@ class FamilyContext:
         found: Floats = (_sum_votes(alike, chances, hulls) + _PRIOR_SHARE * prior) / total
         return found
 
-    def _hear_neighbors(self, chances: Floats, informed: _Informed) -> Floats:
+    def _hear_neighbors(self, chances: Floats, informed: _Helpers) -> Floats:
         """What hulls in contact say, by how much more often two labels touch than by accident."""
         weighty = chances * (informed.worth * informed.usable)[:, None]
         pairs = weighty.T @ np.asarray(self.links @ weighty) + _PAIRS

@@ -16,13 +16,13 @@ from meshforge.geometry import Floats
 from meshforge.label_model.consensus import PERSON
 from meshforge.label_model.lookalikes import PER_MESH
 from meshforge.label_model.posterior import FamilyPosterior, model_family
-from meshforge.symbolic import HUMAN_SOURCES, Hull, SymbolicMesh
+from meshforge.symbolic import GIVEN_SOURCES, HUMAN_SOURCES, Hull, SymbolicMesh
 
 MAX_ODDS_FOR_CORRECTION = 5.0
 """What may speak for a correction at most; look-alikes err too."""
 
-PERSON_ODDS = 1.5
-"""What speaks for a person's label besides its probability: they are there, and can be asked [nats]."""
+PERSON_ODDS, FILE_ODDS = 1.5, 2.0
+"""What speaks for a person's label, and for one in a file that somebody made, besides its probability [nats]."""
 
 OTHERS_ON_PERSON = (2.0, 3.0)
 """What look-alikes say for or against a person's label counts so many times, and so much at most [nats]."""
@@ -37,7 +37,7 @@ SURE_ENOUGH = 0.2
 """A label that is wrong with no more than this probability does not count among those that are expected to be wrong: so
 many of them add up where nothing is wrong."""
 
-SMOOTHING = 0.02
+SMOOTHING = 0.0005
 """The share of each probability that is spread evenly over the vocabulary, so that no label is out of question."""
 
 MAX_MENTIONED = 6
@@ -156,7 +156,7 @@ def _log_odds(hull: Hull, ratio: float, others: int) -> float:
     if hull.annotation is None:
         return NO_LABEL_COST + math.log(ratio)
     if not is_human(hull):
-        return math.log(ratio)
+        return math.log(ratio) + FILE_ODDS * (hull.source in GIVEN_SOURCES)
     times, most = OTHERS_ON_PERSON
     return math.log(PERSON / (1 - PERSON) * others) + PERSON_ODDS + min(most, max(-most, times * math.log(ratio)))
 

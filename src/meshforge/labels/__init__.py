@@ -4,7 +4,7 @@ overwritten by a machine."""
 from meshforge.labels.from_files.points import PointsOptions
 from meshforge.labels.from_files.read import LabelFileOptions, label_file_beside
 from meshforge.labels.from_files.segments import PointAlignment
-from meshforge.labels.label_by_consensus import ConsensusResult, LabelChange, RestorationResult
+from meshforge.labels.label_by_consensus import ConsensusResult, LabelChange, SourceRestoration
 from meshforge.labels.label_by_propagation import PropagationResult
 from meshforge.labels.label_store import LabelStore
 from meshforge.labels.merge import LabelOutcome, label_new_hulls
@@ -26,7 +26,7 @@ __all__ = [
     "PropagationResult",
     "Proposal",
     "Proposals",
-    "RestorationResult",
+    "SourceRestoration",
     "SourceTally",
     "Tally",
     "Usage",

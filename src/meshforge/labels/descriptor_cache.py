@@ -20,12 +20,14 @@ from numpy.typing import NDArray
 from meshforge import batch
 from meshforge.common import AssetError, describe_error, replace_atomically
 from meshforge.geometry import Floats, Ints
-from meshforge.label_model import MeshDescriber
-from meshforge.store import AssetFacts, Store
+from meshforge.label_model import MeshDescriber, ShapeDescriptor, remember_descriptor
+from meshforge.store import AssetFacts, Store, survey
 from meshforge.symbolic import EPSILON, SymbolicMesh
 
 Arrays = Mapping[str, NDArray[Any]]
 _KEY = "made_from"
+
+_FEW = 10  # meshes that are described sooner than worker processes have started
 
 _REMEDY = "Propagate the labels again."
 
@@ -123,6 +125,19 @@ class DescriptorCache:
             if isinstance(result, batch.WorkerFailure):
                 result = f"{self._work[asset].path}: {result.why}"
             yield asset, result
+
+
+def recall_descriptors(store: Store, meshes: Mapping[str, SymbolicMesh], execution: batch.ExecutionOptions) -> None:
+    """Have `describe_mesh` know the meshes of some assets, by id, so that only those that changed are described."""
+    facts = survey(store.found, store.layout, meshes, execution=execution)
+    few = len(meshes) <= _FEW
+    known = {asset: own for asset, own in facts.items() if not own.error}
+    cache = DescriptorCache(store, known, batch.IN_PROCESS if few else execution)
+    missing = [asset for asset in known if cache.read_rows(asset) is None]
+    lost = dict(cache.describe(missing, lambda: None))
+    for asset in known:
+        if asset not in lost and (kept := cache.read_rows(asset)):
+            remember_descriptor(meshes[asset], ShapeDescriptor(*kept, cache.read_sides(asset)))
 
 
 def _read_kept(work: _Work, what: str, *names: str) -> list[NDArray[Any]] | None:

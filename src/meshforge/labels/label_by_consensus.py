@@ -129,14 +129,14 @@ def count_changes(labels: Iterable[_BeforeAndAfter]) -> tuple[LabelChange, ...]:
 
 
 @dataclass(frozen=True, slots=True)
-class RestorationResult:
+class SourceRestoration:
     """What became of each asset, and which labels went for which, the most frequent first."""
 
     reports: tuple[LabelOutcome, ...]
     changes: tuple[LabelChange, ...]
 
 
-def restore_sources(store: Store, execution: ExecutionOptions, report: OutcomeCallback) -> RestorationResult:
+def restore_sources(store: Store, execution: ExecutionOptions, report: OutcomeCallback) -> SourceRestoration:
     """Put what sources said in the place of labels that were inferred; see `LabelStore.restore_sources`."""
     writer, reports, changed = LabelWriter(store), list[LabelOutcome](), list[_BeforeAndAfter]()
     for asset, facts in iterate_survey(store.found, store.layout, execution=execution):
@@ -150,7 +150,7 @@ def restore_sources(store: Store, execution: ExecutionOptions, report: OutcomeCa
             except AssetError as error:
                 reports.append(LabelOutcome(asset, problems=(error.message,)))
         report(reports[-1])
-    return RestorationResult(tuple(reports), count_changes(changed))
+    return SourceRestoration(tuple(reports), count_changes(changed))
 
 
 def propose_sources(store: Store, execution: ExecutionOptions) -> Proposals:

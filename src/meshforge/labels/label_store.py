@@ -12,7 +12,7 @@ from meshforge.labels import label_by_consensus, label_by_propagation
 from meshforge.labels.family_comparison import Stage, WriteBlock, ignore_stage
 from meshforge.labels.from_files.label_by_files import label_from_files, propose_from_files
 from meshforge.labels.from_files.read import LabelFileOptions
-from meshforge.labels.label_by_consensus import ConsensusResult, RestorationResult
+from meshforge.labels.label_by_consensus import ConsensusResult, SourceRestoration
 from meshforge.labels.label_by_propagation import PropagationResult
 from meshforge.labels.merge import LabelOutcome, OutcomeCallback, ignore_report, set_labels
 from meshforge.labels.names.label_by_names import PatternPairs, label_from_names, propose_from_names
@@ -168,7 +168,7 @@ class LabelStore(Store):
 
     def restore_sources(
         self, *, execution: ExecutionOptions = IN_PROCESS, report: OutcomeCallback = ignore_report
-    ) -> RestorationResult:
+    ) -> SourceRestoration:
         """Put back what sources said where a label was inferred: a hull of which nothing was said has none then.
 
         It undoes `label_by_consensus` and `propagate_labels`. report: called with the outcome of each asset, in their

@@ -3,27 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterable, Iterator
-from dataclasses import replace
 from functools import partial
 
-from meshforge.batch import ApplyTask, AssetJob, ExecutionOptions, OutputInputs, Stamp, inputs_of, read_stamp
+from meshforge.batch import ApplyTask, AssetJob, ExecutionOptions, Stamp, inputs_of, read_stamp
 from meshforge.common import MeshForgeError
 from meshforge.language import Program
 from meshforge.project.demonstrations import find_unknown_hulls
 from meshforge.project.learn import program_state_of, suggest_first_demonstration
 from meshforge.project.run import build_jobs, build_task, output_digest
-from meshforge.project.status import Adviser, AssetStatus, SignOffState, Status
+from meshforge.project.sign_offs import digest_lesson
+from meshforge.project.standings import Standings
+from meshforge.project.status import Adviser, AssetStatus, Status
 from meshforge.signoff import BAR
-from meshforge.store import (
-    AssetFacts,
-    ConfidenceLine,
-    Review,
-    SignOff,
-    Store,
-    find_changes,
-    geometry_digest,
-    survey,
-)
+from meshforge.store import AssetFacts, Review, Store, geometry_digest, survey
 from meshforge.symbolic import LabelFile, match_labels
 
 
@@ -48,17 +40,11 @@ def compute_status(
     execution = ExecutionOptions(workers=workers, stop=stop)
     facts = survey(store.found, store.layout, only, execution=execution, progress=progress)
     program, task, problem = _read_program(store)
-    signed, last = store.sign_offs().assets, store.assessment()
-    known_last = last.assets if last else {}
-    assets = tuple(
-        _with_sign_off(
-            _asset_status(store, job, facts[job.id], task, reviews.get(job.id)),
-            inputs_of(task, job, dict(facts[job.id].files)) if task and not facts[job.id].error else None,
-            signed.get(job.id),
-            known_last.get(job.id),
-        )
-        for job in work
-    )
+    rows = [_asset_status(store, job, facts[job.id], task, reviews.get(job.id)) for job in work]
+    now = {job.id: inputs_of(task, job, dict(facts[job.id].files)) for job in work if task and not facts[job.id].error}
+    last = store.assessment()
+    standings = Standings(now, store.sign_offs(), last if last and last.holds(digest_lesson(store), now) else None)
+    assets = tuple(map(standings.add_to, rows))
     state = program_state_of(store, program)
     rules = len(program.rules) if program else None
     known = {asset.id: asset for asset in (*others, *assets)}
@@ -77,25 +63,6 @@ def compute_status(
         state.question,
         last.bar if last else BAR,
     )
-
-
-def _with_sign_off(
-    asset: AssetStatus, inputs: OutputInputs | None, signed: SignOff | None, last: ConfidenceLine | None
-) -> AssetStatus:
-    """The asset with whether it is signed off, by what was found last; inputs: of its edit as it is now."""
-    holds = bool(inputs and last and not find_changes(inputs, last.rests_on))
-    sure = last.to_confidence(asset.id) if last and holds else None
-    void = find_changes(inputs, signed.rests_on) if inputs and signed else (("asset",) if signed else ())
-    if asset.review == "flagged":
-        state: SignOffState = "set aside"
-    elif asset.review == "accepted" and not asset.stale:
-        state = "signed off"
-    elif signed:
-        state = "void" if void else "signed off"
-    else:
-        state = "held" if sure else "unknown"
-    doubts, probability = (sure.doubts, sure.probability) if sure else ((), None)
-    return replace(asset, sign_off=state, void=void, probability=probability, doubts=doubts)
 
 
 def _read_program(store: Store) -> tuple[Program | None, ApplyTask | None, str | None]:

@@ -142,16 +142,19 @@ def pick_evenly(items: Sequence[Item], most: int) -> Sequence[Item]:
 
 
 def review_assets(store: Store, assets: str | Iterable[str], verdict: Verdict | None, note: str | None = None) -> None:
-    """Accept or flag the output of one or several assets, or take that back by None; it counts until that changes.
+    """Accept or flag the output of one or several assets, or take that back by None, also that they were set aside; it
+    counts until that changes.
 
     One that is accepted by itself was looked at: learning keeps to what the program selected there.
     Raises ProjectError, with nothing written, where there is no output that a verdict could be about.
     """
     assets = (assets,) if isinstance(assets, str) else tuple(assets)
     own = {asset: _build_review(store, asset, verdict, note) for asset in assets}
-    if verdict == "accepted" and len(assets) == 1 and (review := own[assets[0]]):
+    if len(assets) == 1 and (review := own[assets[0]]):
         own = {assets[0]: review.model_copy(update={"seen": _read_selections(store, assets[0])})}
-    store.write_reviews(own)
+    with store.lock():
+        store.write_reviews(own)
+        store.write_sign_offs(store.sign_offs().without_aside(assets))
 
 
 def _build_review(store: Store, asset: str, verdict: Verdict | None, note: str | None) -> Review | None:
@@ -169,7 +172,9 @@ def _build_review(store: Store, asset: str, verdict: Verdict | None, note: str |
 def find_accepted_results(store: Store) -> dict[str, tuple[RuleSelection, ...]]:
     """What the program did on the results that were looked at and accepted, by asset; of very many some, evenly."""
     rows = sorted(
-        (asset, review) for asset, review in store.reviews().items() if review.seen and asset in store.found.ids
+        (asset, review)
+        for asset, review in store.reviews().items()
+        if review.verdict == "accepted" and review.seen and asset in store.found.ids
     )
     some = pick_evenly(rows, MOST_ACCEPTED)
     present = {asset: output_digest(batch.read_stamp(store.layout.edited, asset)) for asset, _ in some}
@@ -182,12 +187,16 @@ def _read_selections(store: Store, asset: str) -> tuple[RuleSelection, ...]:
     made = stamp and stamp.inputs
     if not stamp or not made or not program or made.corrections or made.program != batch.program_digest(program):
         return ()
+    return number_selections(program, {line.rule: line.selected for line in stamp.rules})
+
+
+def number_selections(program: Program, selected: Mapping[int, Iterable[str]]) -> tuple[RuleSelection, ...]:
+    """What the rules of a program do to which hulls; selected: names of hulls, by the number of the rule."""
     actions = {
         number: action_text_without_each(rule.action, rule.label) for number, rule in enumerate(program.rules, 1)
     }
     return tuple(
-        RuleSelection(rule=line.rule, action=actions[line.rule], select=tuple(sorted(line.selected)))
-        for line in stamp.rules
+        RuleSelection(rule=rule, action=actions[rule], select=tuple(sorted(hulls))) for rule, hulls in selected.items()
     )
 
 

@@ -14,7 +14,9 @@ from meshforge.project.learn import ProgramState
 from meshforge.signoff import BAR, Doubt
 from meshforge.symbolic import Label
 
-SignOffState = Literal["signed off", "held", "void", "set aside", "unknown"]
+SignOffState = Literal["signed off", "sure", "held", "void", "set aside", "unknown"]
+"""Sure: sure enough to be signed off, once its output is up to date; void: signed off, but something changed since;
+unknown: not reviewed as it is now."""
 OutputState = Literal["none", "edited", "unchanged", "failed"]
 
 
@@ -90,7 +92,7 @@ class Status:
 
     @property
     def open_assets(self) -> tuple[AssetStatus, ...]:
-        """Those that are neither signed off nor set aside, the least probable first."""
+        """Those to be looked at: neither sure enough nor set aside, the least probable first."""
         some = [asset for asset in self.assets if asset.sign_off in ("held", "void", "unknown")]
         return tuple(
             sorted(some, key=lambda asset: (-1.0 if asset.probability is None else asset.probability, asset.id))
@@ -98,8 +100,8 @@ class Status:
 
     @property
     def is_signed_off(self) -> bool:
-        """Whether nothing is held, void or unknown."""
-        return not self.open_assets
+        """Whether every asset is signed off or set aside."""
+        return all(asset.sign_off in ("signed off", "set aside") for asset in self.assets)
 
     def count(self, holds: Callable[[AssetStatus], bool]) -> int:
         """How many assets a condition holds for."""

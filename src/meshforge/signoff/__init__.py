@@ -1,11 +1,29 @@
-"""How probable it is that each edit of a family is right, why it may not be, and what to ask a person next."""
+"""How probable it is that each edit of a family is right, why it may not be, and what to ask a person next.
+
+Workers measure edits with this package: what else it offers is imported when it is first used, since that needs
+learning, half a second of imports.
+"""
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
 
 from meshforge.signoff.alarms import Alarm, AlarmKind, find_alarms
-from meshforge.signoff.assessment import BAR, Assessment, AssetConfidence, Doubt, DoubtKind
 from meshforge.signoff.measures import EditMeasures, measure_edit
-from meshforge.signoff.question import HullPlace, QuestionKind, Reply, ReviewChoice, ReviewQuestion, ReviewState
-from meshforge.signoff.reply import apply_reply, list_answers
-from meshforge.signoff.review import review_family
+
+if TYPE_CHECKING:
+    from meshforge.signoff.assessment import BAR, Assessment, AssetConfidence, Doubt, DoubtKind
+    from meshforge.signoff.question import (
+        HullPlace,
+        QuestionKind,
+        ReviewChoice,
+        ReviewQuestion,
+        ReviewReply,
+        ReviewState,
+    )
+    from meshforge.signoff.reply import apply_reply, list_answers
+    from meshforge.signoff.review import review_family
 
 __all__ = [
     "BAR",
@@ -18,9 +36,9 @@ __all__ = [
     "EditMeasures",
     "HullPlace",
     "QuestionKind",
-    "Reply",
     "ReviewChoice",
     "ReviewQuestion",
+    "ReviewReply",
     "ReviewState",
     "apply_reply",
     "find_alarms",
@@ -28,3 +46,19 @@ __all__ = [
     "measure_edit",
     "review_family",
 ]
+
+_MODULES = {
+    "assessment": ("BAR", "Assessment", "AssetConfidence", "Doubt", "DoubtKind"),
+    "question": ("HullPlace", "QuestionKind", "ReviewReply", "ReviewChoice", "ReviewQuestion", "ReviewState"),
+    "reply": ("apply_reply", "list_answers"),
+    "review": ("review_family",),
+}
+_HOMES = {name: module for module, names in _MODULES.items() for name in names}
+
+
+def __getattr__(name: str) -> Any:
+    if name not in _HOMES:
+        raise AttributeError(f"module 'meshforge.signoff' has no attribute {name!r}")
+    value = getattr(import_module(f"meshforge.signoff.{_HOMES[name]}"), name)
+    globals()[name] = value
+    return value

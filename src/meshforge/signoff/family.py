@@ -79,8 +79,10 @@ class FamilyTrial:
 
     @cached_property
     def foreign(self) -> frozenset[str]:
-        """The assets with labels that no demonstrated one has."""
+        """The assets with labels that no demonstrated one has; none under a program that was learned from nothing."""
         meshes = self.state.meshes
+        if not self.state.demos:
+            return frozenset()
         known = {hull.label for name in self.state.demos for hull in meshes[name].hulls}
         return frozenset(name for name, mesh in meshes.items() if any(h.label not in known for h in mesh.hulls))
 

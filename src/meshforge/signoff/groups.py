@@ -35,7 +35,7 @@ class _Suspect:
 
 
 @dataclass(frozen=True, slots=True)
-class HullGroup:
+class LookalikeGroup:
     """Hulls that look alike, and what they probably are. gain: assets made right by confirming that; seconds: of it."""
 
     label: str
@@ -44,7 +44,7 @@ class HullGroup:
     seconds: float
 
 
-def find_groups(family: FamilyTrial, open_assets: Sequence[int]) -> Iterator[HullGroup]:
+def find_groups(family: FamilyTrial, open_assets: Sequence[int]) -> Iterator[LookalikeGroup]:
     """Groups about the hulls that matter most, each as large as is worth its seconds."""
     suspects = list(_suspects(family, open_assets))
     by_label = defaultdict[str, list[_Suspect]](list)
@@ -91,20 +91,20 @@ def _gain(family: FamilyTrial, some: Sequence[_Suspect]) -> float:
     return found
 
 
-def _best_of(family: FamilyTrial, label: str, some: Sequence[_Suspect]) -> HullGroup:
+def _best_of(family: FamilyTrial, label: str, some: Sequence[_Suspect]) -> LookalikeGroup:
     """The first hulls of some that are worth most a second."""
-    best: HullGroup | None = None
+    best: LookalikeGroup | None = None
     for count in range(1, min(len(some), MOST_HULLS) + 1):
         part = some[:count]
         seconds = price_group(count, sum(one.wrong for one in part))
-        group = HullGroup(label, tuple(sorted(one.place for one in part)), _gain(family, part), seconds)
+        group = LookalikeGroup(label, tuple(sorted(one.place for one in part)), _gain(family, part), seconds)
         if best is None or group.gain / group.seconds > best.gain / best.seconds:
             best = group
     assert best
     return best
 
 
-def labels_of_group(family: FamilyTrial, group: HullGroup) -> Mapping[str, int]:
+def labels_of_group(family: FamilyTrial, group: LookalikeGroup) -> Mapping[str, int]:
     """How many of the hulls are called what, the commonest first."""
     counts = defaultdict[str, int](int)
     for asset, hull in group.hulls:

@@ -78,7 +78,7 @@ class ReviewQuestion:
 
 
 @dataclass(frozen=True, slots=True)
-class Reply:
+class ReviewReply:
     """What a person said to a question. choice: the place among its choices, None for none of them; exceptions: hulls
     of a group that are something else, with their labels; mended: what each rule should have selected where a result
     is wrong; later: the question is put off."""

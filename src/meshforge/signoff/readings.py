@@ -16,6 +16,8 @@ from meshforge.synthesis import Reading
 MOST_READINGS = 24
 """Of the readings of a rule so many are compared, the most believed ones."""
 LEAST_BELIEF = 0.0005
+FEW_ASSETS = 400
+"""Up to so many assets learning has looked at all of them, and says where readings differ."""
 MOST_CHOICES = 3
 
 
@@ -64,11 +66,14 @@ def compare_readings(
         extractors = (rule.extractor, *(one.extractor for one in mine))
         weights = np.array([own or 1.0, *(one.belief for one in mine)])
         kinds = np.zeros((len(extractors), len(trials)), dtype=np.int64)
+        every = len(trials) > FEW_ASSETS
         differs = [frozenset(one.differs_on) for one in mine]
         for place, trial in enumerate(trials):
             masks = [select_by(trial, number, rule.extractor, delta)]
             masks += [
-                select_by(trial, number, one.extractor, delta) if trial.asset in some or trial.error else masks[0]
+                select_by(trial, number, one.extractor, delta)
+                if every or trial.asset in some or trial.error
+                else masks[0]
                 for one, some in zip(mine, differs, strict=True)
             ]
             numbers: dict[int | None, int] = {}

@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from meshforge.label_model import FamilyPosterior
-from meshforge.signoff.question import ASIDE, RIGHT, Reply, ReviewQuestion, ReviewState, Selections
+from meshforge.signoff.question import ASIDE, RIGHT, ReviewQuestion, ReviewReply, ReviewState, Selections
 from meshforge.symbolic import Label, LabelSource
 from meshforge.synthesis import Answer
 
@@ -18,7 +18,7 @@ labels may be at fault, and no rule."""
 
 
 def apply_reply(
-    state: ReviewState, question: ReviewQuestion, reply: Reply, done: Selections | None = None
+    state: ReviewState, question: ReviewQuestion, reply: ReviewReply, done: Selections | None = None
 ) -> ReviewState:
     """What is known after a reply; done: what the rules select on the asset whose result was asked about."""
     choice = None if reply.choice is None else question.choices[reply.choice]
@@ -38,7 +38,9 @@ def apply_reply(
     return _apply_labels(state, question, reply)
 
 
-def _apply_verdict(state: ReviewState, question: ReviewQuestion, reply: Reply, done: Selections | None) -> ReviewState:
+def _apply_verdict(
+    state: ReviewState, question: ReviewQuestion, reply: ReviewReply, done: Selections | None
+) -> ReviewState:
     said = None if reply.choice is None else question.choices[reply.choice].text
     if said == ASIDE:
         return replace(state, aside=state.aside | {question.asset})
@@ -49,7 +51,7 @@ def _apply_verdict(state: ReviewState, question: ReviewQuestion, reply: Reply, d
     return state
 
 
-def _apply_labels(state: ReviewState, question: ReviewQuestion, reply: Reply) -> ReviewState:
+def _apply_labels(state: ReviewState, question: ReviewQuestion, reply: ReviewReply) -> ReviewState:
     """Labels that a person gave, to hulls of a group or to one."""
     choice = None if reply.choice is None else question.choices[reply.choice]
     given = dict.fromkeys(question.hulls, choice.label) if choice is not None and choice.label else {}

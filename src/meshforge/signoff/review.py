@@ -4,6 +4,7 @@ person's time (the expected value of information, Howard 1966)."""
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
 from hashlib import blake2b
 from types import MappingProxyType
 
@@ -14,7 +15,7 @@ from meshforge.label_model import FamilyModel
 from meshforge.language import show
 from meshforge.signoff.assessment import BAR, Assessment, AssetConfidence, Doubt
 from meshforge.signoff.family import FamilyTrial
-from meshforge.signoff.groups import HullGroup, find_groups, labels_of_group
+from meshforge.signoff.groups import LookalikeGroup, find_groups, labels_of_group
 from meshforge.signoff.prices import READING, YES_OR_NO, price_demonstration
 from meshforge.signoff.question import (
     ASIDE,
@@ -91,10 +92,13 @@ def _question_before(state: ReviewState, outcome: LearningOutcome | None) -> Rev
         for repair in outcome.repairs:
             wrong = repair.correction
             text = f"{wrong.hull} of {wrong.asset} is called {wrong.was or 'nothing'}: is it {wrong.to}? {repair.why}."
-            choices = [ReviewChoice(wrong.to, wrong.to)] + ([ReviewChoice(wrong.was, wrong.was)] if wrong.was else [])
+            words = [wrong.to, *([wrong.was] if wrong.was else [])]
+            choices = tuple(ReviewChoice(word, word) for word in words)
             place = HullPlace(wrong.asset, wrong.hull)
-            question = _make(
-                "repair", text, YES_OR_NO, everyone * repair.belief, wrong.asset, repair.rule, (place,), choices
+            question = _identify(
+                ReviewQuestion(
+                    "", "repair", text, YES_OR_NO, everyone * repair.belief, wrong.asset, repair.rule, (place,), choices
+                )
             )
             if question.id not in state.later:
                 return question
@@ -110,10 +114,9 @@ def _question_before(state: ReviewState, outcome: LearningOutcome | None) -> Rev
 
 def _ask_orientation(suggested: OrientationSuggestion, state: ReviewState, gain: float) -> ReviewQuestion:
     text = f"Are assets to be turned first, by {show(suggested.orient)}? {suggested.why}."
-    choices = [ReviewChoice("yes", orient=suggested.orient), ReviewChoice("no")]
-    return _make(
-        "orientation", text, YES_OR_NO, gain, next(iter([*suggested.differs_on, *state.meshes])), None, (), choices
-    )
+    choices = (ReviewChoice("yes", orient=suggested.orient), ReviewChoice("no"))
+    asset = next(iter([*suggested.differs_on, *state.meshes]))
+    return _identify(ReviewQuestion("", "orientation", text, YES_OR_NO, gain, asset, choices=choices))
 
 
 def _questions(
@@ -136,17 +139,21 @@ def _choose(questions: Iterator[ReviewQuestion], state: ReviewState) -> ReviewQu
     return min(asked, key=lambda one: (-round(one.gain / one.seconds, 9), one.id), default=None)
 
 
-def _ask_group(family: FamilyTrial, group: HullGroup) -> ReviewQuestion:
+def _ask_group(family: FamilyTrial, group: LookalikeGroup) -> ReviewQuestion:
     counts = labels_of_group(family, group)
     called = ", ".join(f"{count} {'is' if count == 1 else 'are'} called {name}" for name, count in counts.items())
     labels = list(dict.fromkeys([group.label, *(name for name in counts if name != "nothing")]))
-    choices = [ReviewChoice(label, label) for label in labels]
+    choices = tuple(ReviewChoice(label, label) for label in labels)
     first = group.hulls[0]
     if len(group.hulls) == 1:
         text = f"{first.hull} of {first.asset} is called {next(iter(counts))}: is it {group.label}?"
-        return _make("group", text, group.seconds, group.gain, first.asset, None, group.hulls, choices)
+        return _identify(
+            ReviewQuestion("", "group", text, group.seconds, group.gain, first.asset, None, group.hulls, choices)
+        )
     text = f"These {len(group.hulls)} hulls look alike; {called}: are all of them {group.label}?"
-    return _make("group", text, group.seconds, group.gain, first.asset, None, group.hulls, choices)
+    return _identify(
+        ReviewQuestion("", "group", text, group.seconds, group.gain, first.asset, None, group.hulls, choices)
+    )
 
 
 def _ask_readings(family: FamilyTrial, found: Assessment) -> Iterator[ReviewQuestion]:
@@ -176,7 +183,7 @@ def _ask_reading(family: FamilyTrial, rule: int, split: ReadingSplit) -> ReviewQ
     gain = float(_gains_of(family, [split]).sum()) * family.evidence[split.asset].labels ** _TRUST
     kind: QuestionKind = "label" if trial.asset in family.foreign else "reading"
     text = f"What does rule {rule} mean on {trial.asset}?"
-    return _make(kind, text, READING, gain, trial.asset, rule, (), choices)
+    return _identify(ReviewQuestion("", kind, text, READING, gain, trial.asset, rule, (), tuple(choices)))
 
 
 def _gains_of(family: FamilyTrial, splits: Sequence[ReadingSplit]) -> Floats:
@@ -195,7 +202,7 @@ def _gains_of(family: FamilyTrial, splits: Sequence[ReadingSplit]) -> Floats:
 
 def _ask_results(family: FamilyTrial, found: Assessment) -> Iterator[ReviewQuestion]:
     mend = price_demonstration(family.state.demos.values())
-    choices = [ReviewChoice(RIGHT), ReviewChoice(WRONG), ReviewChoice(ASIDE)]
+    choices = (ReviewChoice(RIGHT), ReviewChoice(WRONG), ReviewChoice(ASIDE))
     for name in found.held:
         doubt = 1 - found.assets[name].probability
         text = f"Is the result of {name} right?"
@@ -206,27 +213,18 @@ def _ask_results(family: FamilyTrial, found: Assessment) -> Iterator[ReviewQuest
         others[place] = 0.0
         gain = doubt + float(others.sum()) * trust
         bound = [f"{bits:x}" for bits in trial.selections]
-        yield _make("result", text, YES_OR_NO + doubt * mend, gain, name, None, (), choices, bound)
+        seconds = YES_OR_NO + doubt * mend
+        yield _identify(ReviewQuestion("", "result", text, seconds, gain, name, choices=choices), bound)
 
 
 def _ask_demonstration(state: ReviewState, asset: str, gain: float, text: str) -> ReviewQuestion:
-    return _make(
-        "demonstrate", text.format(asset), price_demonstration(state.demos.values()), gain, asset, None, (), []
-    )
+    seconds = price_demonstration(state.demos.values())
+    return _identify(ReviewQuestion("", "demonstrate", text.format(asset), seconds, gain, asset))
 
 
-def _make(
-    kind: QuestionKind,
-    text: str,
-    seconds: float,
-    gain: float,
-    asset: str,
-    rule: int | None,
-    hulls: tuple[HullPlace, ...],
-    choices: Sequence[ReviewChoice],
-    bound: Sequence[str] = (),
-) -> ReviewQuestion:
-    words = [kind, asset, str(rule), *(f"{one.asset}#{one.hull}" for one in hulls), *bound]
-    words += [f"{one.text} {one.label} {one.select}" for one in choices]
+def _identify(draft: ReviewQuestion, bound: Sequence[str] = ()) -> ReviewQuestion:
+    """A question with its id, which all that it is about decides. bound: what else it is about."""
+    words = [draft.kind, draft.asset, str(draft.rule), *(f"{one.asset}#{one.hull}" for one in draft.hulls), *bound]
+    words += [f"{one.text} {one.label} {one.select}" for one in draft.choices]
     name = blake2b("\n".join(words).encode(), digest_size=6).hexdigest()
-    return ReviewQuestion(f"{kind}-{name}", kind, text, seconds, gain, asset, rule, hulls, tuple(choices))
+    return replace(draft, id=f"{draft.kind}-{name}")

@@ -78,6 +78,7 @@ def find_flips(
     """
     delta = EXTREMITY if program.extremity is None else program.extremity
     asked = [frozenset(labels_of(rule.extractor)) for rule in program.rules]
+    before = _frame_of(mesh, program.orient) if program.orient else None
     landmarks = frozenset(Program(orient=program.orient).labels_asked)
     every = landmarks.union(*asked)
     seen = [[hull.label for hull in met.hulls] for met in trial.meshes]
@@ -87,7 +88,7 @@ def find_flips(
             to = labels[place]
             if to == hull.label or not {to, hull.label} & every:
                 continue
-            turned = {to, hull.label} & landmarks and _turns(mesh, hull.name, to, program.orient)
+            turned = {to, hull.label} & landmarks and _turns(mesh, hull.name, to, program.orient, before)
             rules = [RULE_OF_FRAME] if turned else []
             for number, (rule, met, names) in enumerate(zip(program.rules, trial.meshes, seen, strict=False), 1):
                 at = met.index.get(hull.name)
@@ -101,11 +102,10 @@ def find_flips(
     return tuple(found)
 
 
-def _turns(mesh: SymbolicMesh, hull: str, to: str, orient: Orient | None) -> bool:
-    """Whether the asset is turned otherwise, or cannot be, with another label of a hull."""
+def _turns(mesh: SymbolicMesh, hull: str, to: str, orient: Orient | None, before: Floats | None) -> bool:
+    """Whether the asset is turned otherwise, or cannot be, with another label of a hull; before: its frame now."""
     if orient is None:
         return False
-    before = _frame_of(mesh, orient)
     after = _frame_of(mesh.with_labels({hull: Label(to)}), orient)
     if before is None or after is None:
         return before is not after

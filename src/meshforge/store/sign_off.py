@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from typing import Annotated, Literal
 
 from pydantic import Field
@@ -26,10 +26,20 @@ class SignOff(JsonFile):
 
 
 class SignOffFile(JsonFile):
-    """signoff.json: sign-offs by asset, and the ids of questions that were put off."""
+    """signoff.json: sign-offs by asset, assets that a person set aside though they have no output that could be
+    flagged, and the ids of questions that were put off."""
 
     assets: dict[str, SignOff] = Field(default_factory=dict)
+    aside: tuple[str, ...] = ()
     later: tuple[str, ...] = ()
+
+    def with_aside(self, asset: str) -> SignOffFile:
+        """The same, and an asset set aside."""
+        return self.model_copy(update={"aside": tuple(sorted({*self.aside, asset}))})
+
+    def without_aside(self, assets: Collection[str]) -> SignOffFile:
+        """The same, and some assets not set aside any more."""
+        return self.model_copy(update={"aside": tuple(name for name in self.aside if name not in assets)})
 
 
 class DoubtLine(JsonFile):
@@ -43,19 +53,21 @@ class DoubtLine(JsonFile):
 
 
 class ConfidenceLine(JsonFile):
-    """How an asset stood when the family was looked at last; rests_on: as of `SignOff`."""
+    """How an asset stood when the family was looked at last; rests_on: as of `SignOff`; looked_at: whether a person
+    showed its edit, or accepted it."""
 
     probability: Probability
     doubts: tuple[DoubtLine, ...] = ()
     rests_on: OutputInputs
+    looked_at: bool = False
 
     @staticmethod
-    def of(found: AssetConfidence, rests_on: OutputInputs) -> ConfidenceLine:
+    def of(found: AssetConfidence, rests_on: OutputInputs, looked_at: bool) -> ConfidenceLine:
         doubts = tuple(
             DoubtLine(kind=one.kind, text=one.text, hulls=one.hulls, rule=one.rule, share=one.share)
             for one in found.doubts
         )
-        return ConfidenceLine(probability=found.probability, doubts=doubts, rests_on=rests_on)
+        return ConfidenceLine(probability=found.probability, doubts=doubts, rests_on=rests_on, looked_at=looked_at)
 
     def to_confidence(self, asset: str) -> AssetConfidence:
         doubts = tuple(Doubt(one.kind, one.text, one.hulls, one.rule, one.share) for one in self.doubts)
@@ -63,10 +75,20 @@ class ConfidenceLine(JsonFile):
 
 
 class AssessmentFile(JsonFile):
-    """What was found last; bar: the probability from which on an asset was signed off."""
+    """What was found last. bar: the probability from which on an asset is signed off; lesson: the digest of what was
+    learned from and of all verdicts; aside: assets that a person had flagged or set aside.
+    """
 
     bar: float
+    lesson: str
+    aside: tuple[str, ...] = ()
     assets: dict[str, ConfidenceLine] = Field(default_factory=dict)
+
+    def holds(self, lesson: str, inputs: Mapping[str, OutputInputs]) -> bool:
+        """Whether nothing changed since; inputs: of the edits of all assets that can be read, or of some."""
+        return lesson == self.lesson and all(
+            name in self.assets and not find_changes(now, self.assets[name].rests_on) for name, now in inputs.items()
+        )
 
 
 def find_changes(now: OutputInputs, then: OutputInputs) -> tuple[str, ...]:

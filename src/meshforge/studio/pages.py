@@ -14,6 +14,7 @@ from meshforge.studio.wire.asset import EngineView
 from meshforge.studio.wire.family import Card, HistoryView, ProjectView, VocabularyLabel
 from meshforge.studio.wire.jobs import Job, LabelUpdate
 from meshforge.studio.wire.program import OutcomeView, ProgramView, Reach
+from meshforge.studio.wire.signoff import AssessmentView
 
 MOST_FINISHED_JOBS = 20
 """Jobs that are over and still sent to pages that connect."""
@@ -47,6 +48,10 @@ class PageState:
     @property
     def outcome(self) -> OutcomeView | None:
         return self._rest.outcome
+
+    @property
+    def assessment(self) -> AssessmentView | None:
+        return self._rest.assessment
 
     @property
     def program(self) -> ProgramView:
@@ -116,6 +121,11 @@ class PageState:
     def set_reach(self, number: int, reach: tuple[Reach, ...]) -> None:
         """Show what the program does on all assets; number: the number of the learning run."""
         self._change(events.ReachChanged(number=number, reach=reach), reach=reach)
+
+    def set_assessment(self, assessment: AssessmentView | None, assessing: bool) -> None:
+        """Show how sure the edits are, or that this is not known now."""
+        event = events.AssessmentChanged(assessment=assessment, assessing=assessing)
+        self._change(event, assessment=assessment, assessing=assessing)
 
     def set_job(self, job: Job) -> None:
         """Show a job as it stands."""

@@ -5,7 +5,7 @@ import pickle
 
 import pytest
 
-from meshforge.batch import AssetOutcome, Failed, RuleEffect, Skipped, status_of, to_json_line
+from meshforge.batch import AssetOutcome, Failed, RuleEffect, Skipped, describe_alarms, status_of, to_json_line
 from meshforge.batch.outcome import Edited, Unchanged
 
 RULES = (RuleEffect(1, ("a", "b"), ("a~1",), "two pieces"), RuleEffect(2, ()))
@@ -40,6 +40,18 @@ def test_the_json_line_of_an_edited_asset() -> None:
         "hulls": {"before": 5, "after": 4},
         "seconds": 1.235,
     }
+
+
+def test_the_json_line_has_alarms_where_somebody_looked_for_them() -> None:
+    line = to_json_line(OUTCOMES[0][1], ("volume +480%, the family -12% to +3%",))
+    assert line == {**to_json_line(OUTCOMES[0][1]), "alarms": ["volume +480%, the family -12% to +3%"]}
+    assert to_json_line(OUTCOMES[3][1], ())["alarms"] == []
+
+
+def test_the_first_results_that_stand_out_are_named_with_their_first_alarm() -> None:
+    assert describe_alarms({"a.obj": ("no hull is left", "more")}) == "1 result stands out: a.obj (no hull is left)"
+    told = describe_alarms({f"a{k}": ("x",) for k in range(7)})
+    assert told == "7 results stand out: a0 (x), a1 (x), a2 (x), a3 (x), a4 (x) and 2 more"
 
 
 def test_the_json_line_of_a_failed_asset_has_the_message_and_no_output() -> None:

@@ -143,6 +143,13 @@ def test_the_legend_counts_labels_before_and_after(tree: Any) -> None:
     assert texts(tree, "//ul[@class='legend of-changes']/li") == ["removed 2", "made 1", "kept 5"]
 
 
+def test_a_result_that_stands_out_says_why_and_can_be_found(tmp_path: Path) -> None:
+    asset = ReportAsset("a", table(), table(), alarms=("volume +480%, the family -12% to +3%",))
+    tree: Any = lxml.html.document_fromstring(written(tmp_path, [asset], pictured=0))
+    assert texts(tree, "//p[@class='alarm']") == ["This result stands out: volume +480%, the family -12% to +3%"]
+    assert tree.xpath("//article/@data-kind") == ["edited doubtful"]
+
+
 def test_without_labels_the_legend_says_so(tmp_path: Path) -> None:
     mesh = SymbolicMesh(table().hulls[4:])
     tree: Any = lxml.html.document_fromstring(written(tmp_path, [ReportAsset("a", mesh, mesh)], pictured=0))

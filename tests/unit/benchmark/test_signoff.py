@@ -12,7 +12,7 @@ from benchmark.signoff.before import Before, teach_before
 from benchmark.signoff.calibration import calibrate
 from benchmark.signoff.conditions import ERRS
 from benchmark.signoff.judge import Judge
-from benchmark.signoff.opening import Opening, open_review
+from benchmark.signoff.opening import FirstLook, open_review
 from benchmark.signoff.outcomes import group
 from benchmark.signoff.point import right_at
 from benchmark.signoff.queue import BROKEN, DONE, Review, sign_off
@@ -153,7 +153,7 @@ def test_before_any_question_all_that_nobody_showed_has_a_probability(bench: Ben
     opening = open_review(bench, TRUE, 1, FakeTool(bench, TRUE))
     assert opening.right == opening.possible
     assert 0 < len(opening.pairs) < opening.possible
-    assert Opening.of_json(json.loads(json.dumps(asdict(opening)))) == opening
+    assert FirstLook.of_json(json.loads(json.dumps(asdict(opening)))) == opening
 
 
 def test_probabilities_that_are_met_are_calibrated_and_order_what_they_can() -> None:

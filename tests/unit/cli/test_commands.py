@@ -328,11 +328,21 @@ def test_apply_runs_a_program_on_files_and_names_the_one_that_fails(run: Run) ->
     assert lines["bad.obj"]["status"] == "failed"
     assert lines["bad.obj"]["error"]
     row = lines["row.obj"]
-    assert list(row) == ["asset", "status", "out", "error", "rules", "hulls", "seconds"]
-    assert row["status"] == "edited"
+    assert list(row) == ["asset", "status", "out", "error", "rules", "hulls", "seconds", "alarms"]
+    assert row["status"] == "edited" and row["alarms"] == []
     assert row["hulls"] == {"before": 3, "after": 1}
     assert row["rules"] == [{"rule": 1, "selected": ["left", "far"], "made": [], "note": None}]
     assert not Path("out/bad.obj").exists()
+
+
+def test_apply_names_the_results_that_stand_out(run: Run) -> None:
+    write_tables(Path("family"), 2)
+    Path("all.mf").write_text("All => Replace(box)\n")
+    told = run("apply", "all.mf", "family", "--out", "out", "--workers", "1")
+    assert told.code == 0
+    said = "nearly one solid block: 100% of the free space is filled"
+    named = f"table0/model.obj ({said}), table1/model.obj ({said})"
+    assert told.out.splitlines()[-1] == f"2 results stand out: {named}"
 
 
 @pytest.mark.slow

@@ -103,3 +103,35 @@ def test_a_flagged_result_is_held(run: Run) -> None:
     Project.open("tables").set_verdict(SECOND, "flagged")
     rows = [json.loads(line) for line in run("apply", "tables", "--sure", "0.5", "--json").out.splitlines()]
     assert {row["asset"]: row["status"] for row in rows}[SECOND] == "held"
+
+
+def test_outputs_in_another_folder_sign_nothing_off(run: Run) -> None:
+    run("review", "tables", "--sure", "0.5")
+    Path("tables/signoff.json").unlink()
+    assert run("apply", "tables", "--out", "elsewhere").code == 0
+    assert not Path("tables/signoff.json").exists()
+    assert run("apply", "tables").code == 0
+    assert Path("tables/signoff.json").exists()
+
+
+def test_replies_are_given_in_the_order_in_which_they_are_asked(run: Run) -> None:
+    question = json.loads(run("review", "tables", "--sure", "1", "--json").out)["question"]
+    Path("said.json").write_text(json.dumps([{"id": "of-old", "choice": 0}, {"id": question["id"], "choice": 0}]))
+    told = run("review", "tables", "--sure", "1", "--json", "--answers", "said.json")
+    assert told.code == 1 and "of-old" in told.err and question["id"] not in told.err
+
+
+def test_info_says_how_sure_an_edit_is_while_that_holds(run: Run) -> None:
+    run("review", "tables", "--sure", "0.5")
+    assert json.loads(run("info", THIRD, "--project", "tables", "--json").out)["probability"] > 0.5
+    Project.open("tables").set_labels(THIRD, {"crumb": "leg"})
+    assert json.loads(run("info", THIRD, "--project", "tables", "--json").out)["probability"] is None
+
+
+def test_what_was_put_off_is_asked_again_on_request(run: Run) -> None:
+    question = run("review", "tables", "--sure", "1", "--json").json["question"]
+    Path("said.json").write_text(json.dumps([{"id": question["id"], "later": True}]))
+    told = run("review", "tables", "--sure", "1", "--json", "--answers", "said.json")
+    assert told.code == 1
+    assert (told.json["question"] or {}).get("id") != question["id"]
+    assert run("review", "tables", "--sure", "1", "--json", "--again").json["question"]["id"] == question["id"]

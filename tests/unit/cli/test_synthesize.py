@@ -75,7 +75,7 @@ def test_answers_come_from_a_file_by_the_choice(run: Run, tmp_path: Path) -> Non
         timeless(told.err)
         == """
 learned in TIME with 1 answer, kept as racks/program.mf
-unambiguous: all believable readings agree on your 30 assets
+all believable readings of the rules agree on your 30 assets
 Next: meshforge apply racks
 """
     )
@@ -103,7 +103,7 @@ def test_a_dry_run_keeps_nothing(run: Run, tmp_path: Path) -> None:
     assert told.out == f"{LABELS}Geo(Is(board), +Z) => Delete\n"
     assert timeless(told.err).splitlines()[1:] == [
         "learned in TIME with 1 answer",
-        "unambiguous: all believable readings agree on your 30 assets",
+        "all believable readings of the rules agree on your 30 assets",
     ]
     assert project.program() is None and not project.answers().ids
 
@@ -156,7 +156,7 @@ def test_repairs_are_accepted_listed_and_taken_back(run: Run, tmp_path: Path) ->
         == """repaired: knob of rack0.obj: leg -> knob
 
 learned in TIME with 1 repaired label, kept as racks/program.mf
-unambiguous: all believable readings agree on your 7 assets
+all believable readings of the rules agree on your 7 assets
 Next: meshforge apply racks
 """
     )

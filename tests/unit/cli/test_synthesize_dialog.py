@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 from PIL import Image
 
-from meshforge.cli import synthesize_session
+from meshforge.cli import mesh_pictures
 from meshforge.cli.synthesize_dialog import Conversation
 from meshforge.cli.synthesize_session import LearningSession
 from meshforge.project import Project
@@ -20,7 +20,7 @@ HIGHEST = "labels board, leg, knob\n\nGeo(Is(board), +Z) => Delete\n"
 
 @pytest.fixture(autouse=True)
 def _small(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
-    monkeypatch.setattr(synthesize_session, "PICTURE_SIZE", (240, 160))
+    monkeypatch.setattr(mesh_pictures, "PICTURE_SIZE", (240, 160))
     monkeypatch.chdir(tmp_path)
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from contextlib import ExitStack
 from pathlib import Path
+from typing import cast
 
 import pytest
 from hypothesis import given
@@ -184,8 +185,8 @@ def test_a_stop_leaves_all_labels_as_they_were(tmp_path: Path) -> None:
 def test_an_asset_that_cannot_be_read_is_told_and_does_not_hide_the_others(tmp_path: Path) -> None:
     project = guessed(tmp_path)
     (tmp_path / "assets/t3.obj").write_text("nothing of use")
-    for outcomes in (project.label_by_consensus().reports, project.restore_sources().reports):
-        reports = {report.asset: report for report in outcomes}
+    for found in (project.label_by_consensus(), project.restore_sources()):
+        reports = {report.asset: report for report in found.reports}
         assert "t3.obj" in reports["t3.obj"].problems[0]
         assert reports["t1.obj"].taken == 1
 
@@ -210,10 +211,9 @@ def test_what_is_foretold_is_what_is_done_then(tmp_path: Path) -> None:
     assert project.propose_sources().rows == ()
 
 
-SOURCES: tuple[LabelSource, ...] = ("user", "vlm", "name", "file")
 SAID = st.lists(
     st.tuples(
-        st.sampled_from(SOURCES),
+        st.sampled_from(["user", "vlm", "name", "file"]),
         st.sampled_from(["t0.obj", "t1.obj", "t2.obj"]),
         st.sampled_from(NAMES),
         st.sampled_from(["top", "leg", "misc"]),
@@ -227,21 +227,21 @@ SAID = st.lists(
 @examples(25)
 @given(said=SAID)
 def test_whatever_is_said_people_stay_again_changes_nothing_and_sources_come_back(
-    tmp_path_factory: pytest.TempPathFactory, said: list[tuple[LabelSource, str, str, str, float]]
+    tmp_path_factory: pytest.TempPathFactory, said: list[tuple[str, str, str, str, float]]
 ) -> None:
     project = family(tmp_path_factory.mktemp("family"))
     for source, asset, hull, label, sure in said:
-        project.set_labels(asset, {hull: label}, source=source, confidence=1.0 if source == "user" else sure)
+        by = cast(LabelSource, source)
+        project.set_labels(asset, {hull: label}, source=by, confidence=1.0 if by == "user" else sure)
     files, before = tree(project.folder / "labels"), labels_of(project)
     project.label_by_consensus()
     once, after = tree(project.folder / "labels"), labels_of(project)
-    assert all(after[place] == label for place, label in before.items() if label.source in HUMAN_SOURCES)
-    for place, one in after.items():
-        assert one == before.get(place) or (one.source in INFERRED_SOURCES and one.given == before.get(place))
+    assert all(after[place] == told for place, told in before.items() if told.source in HUMAN_SOURCES)
+    for place, now in after.items():
+        assert now == before.get(place) or (now.source in INFERRED_SOURCES and now.given == before.get(place))
     project.label_by_consensus()
     assert tree(project.folder / "labels") == once
-    if any(label.source == "user" for label in before.values()):
-        project.propagate_labels()
+    project.propagate_labels() if any(label.source == "user" for label in before.values()) else None
     project.label_by_consensus()
     assert tree(project.folder / "labels") == once
     project.restore_sources()

@@ -8,10 +8,11 @@ from pathlib import Path
 
 import pytest
 
+from meshforge.batch import IN_PROCESS
 from meshforge.common import ProjectError
 from meshforge.language import Program
 from meshforge.project import Project, ProjectReview
-from meshforge.signoff import HullPlace, Reply, ReviewChoice, ReviewQuestion
+from meshforge.signoff import HullPlace, ReviewChoice, ReviewQuestion, ReviewReply
 from meshforge.signoff.question import ASIDE, RIGHT, WRONG
 from meshforge.symbolic import Label
 from tests.unit.project.tables import FIRST, LEGS, SECOND, THIRD, applied, demonstrated, fresh, labelled, learned
@@ -20,7 +21,7 @@ NOON = datetime(2026, 11, 25, 12, tzinfo=UTC)
 
 
 def review(project: Project, bar: float = 0.5) -> ProjectReview:
-    return project.review(bar, clock=lambda: NOON)
+    return project.review(bar, clock=lambda: NOON, execution=IN_PROCESS)
 
 
 def sign_off_of(project: Project, asset: str) -> str:
@@ -92,7 +93,7 @@ def test_a_person_who_wrote_the_program_gets_it_reviewed_as_it_is(tmp_path: Path
 def test_a_result_that_is_right_is_accepted_and_its_output_made(tmp_path: Path) -> None:
     project = learned(tmp_path)
     found = review(project, 0.9999)
-    project.reply(found, result_of(THIRD), Reply("r", 0))
+    project.reply(found, result_of(THIRD), ReviewReply("r", 0))
     assert project.reviews()[THIRD].verdict == "accepted"
     assert THIRD in review(project, 0.9999).assessment.looked_at
     assert sign_off_of(project, THIRD) == "signed off"
@@ -102,7 +103,7 @@ def test_a_result_that_is_right_is_accepted_and_its_output_made(tmp_path: Path) 
 def test_a_result_that_is_wrong_or_set_aside_is_not_signed_off(tmp_path: Path, choice: int) -> None:
     project = learned(tmp_path)
     found = review(project)
-    project.reply(found, result_of(THIRD), Reply("r", choice))
+    project.reply(found, result_of(THIRD), ReviewReply("r", choice))
     assert project.reviews()[THIRD].verdict == "flagged"
     after = review(project).assessment
     assert THIRD in after.aside and THIRD not in after.signed_off
@@ -115,14 +116,14 @@ def test_labels_of_a_group_are_a_persons(tmp_path: Path) -> None:
     question = ReviewQuestion(
         "g", "group", "?", 3.0, 1.0, THIRD, None, (HullPlace(THIRD, hull),), (ReviewChoice("leg", "leg"),)
     )
-    project.reply(review(project), question, Reply("g", 0))
+    project.reply(review(project), question, ReviewReply("g", 0))
     assert project.mesh(THIRD).hull_of(hull).annotation == Label("leg", 1.0, "user")
 
 
 def test_a_question_that_is_put_off_stays_so(tmp_path: Path) -> None:
     project = learned(tmp_path)
     found = review(project)
-    project.reply(found, result_of(THIRD), Reply("r", later=True))
+    project.reply(found, result_of(THIRD), ReviewReply("r", later=True))
     assert project.sign_offs().later == ("r",)
     assert review(project).state.later == {"r"}
 
@@ -130,7 +131,7 @@ def test_a_question_that_is_put_off_stays_so(tmp_path: Path) -> None:
 def test_a_choice_that_is_not_there_is_one_clear_message(tmp_path: Path) -> None:
     project = learned(tmp_path)
     with pytest.raises(ProjectError, match="has 3 choices"):
-        project.reply(review(project), result_of(THIRD), Reply("r", 7))
+        project.reply(review(project), result_of(THIRD), ReviewReply("r", 7))
 
 
 def test_a_damaged_file_of_sign_offs_is_named(tmp_path: Path) -> None:
@@ -150,7 +151,7 @@ def test_a_damaged_assessment_is_made_again(tmp_path: Path) -> None:
 
 
 def test_the_same_review_writes_the_same_files(tmp_path: Path) -> None:
-    project = learned(tmp_path)
+    project = applied(tmp_path)
     review(project)
     before = {name: (project.folder / name).read_bytes() for name in ("signoff.json", ".meshforge/assessment.json")}
     review(project)
@@ -160,3 +161,49 @@ def test_the_same_review_writes_the_same_files(tmp_path: Path) -> None:
 
 def test_a_project_without_labels_is_no_error(tmp_path: Path) -> None:
     assert review(fresh(tmp_path)).assessment.question is not None
+
+
+def test_what_is_sure_is_signed_off_only_when_its_output_is_there(tmp_path: Path) -> None:
+    project = learned(tmp_path)
+    assert set(review(project).assessment.signed_off) == {FIRST, SECOND, THIRD}
+    assert sign_off_of(project, THIRD) == "sure" and not project.status().is_signed_off
+    list(project.apply(execution=IN_PROCESS))
+    project.renew_sign_offs(clock=lambda: NOON)
+    assert sign_off_of(project, THIRD) == "signed off" and project.status().is_signed_off
+
+
+def test_a_result_that_was_accepted_counts_only_while_the_program_does_the_same_there(tmp_path: Path) -> None:
+    project = applied(tmp_path)
+    project.set_verdict(THIRD, "accepted")
+    assert THIRD in review(project).assessment.looked_at
+    (project.folder / "program.mf").write_text("labels top, leg, misc\n\nIs(misc) => Delete\n")
+    assert THIRD not in review(project).assessment.looked_at
+
+
+def test_a_label_of_another_asset_makes_every_probability_unknown_and_no_sign_off_void(tmp_path: Path) -> None:
+    project = applied(tmp_path)
+    review(project)
+    project.set_labels(THIRD, {"crumb": "leg"})
+    assert {one.probability for one in project.status().assets} == {None}
+    assert [one.sign_off for one in project.status().assets] == ["signed off", "signed off", "void"]
+
+
+def test_what_is_signed_off_no_longer_is_named(tmp_path: Path) -> None:
+    project = applied(tmp_path)
+    review(project)
+    project.set_labels(THIRD, {"crumb": "leg"})
+    assert set(review(project, 0.9999).taken_back) == {THIRD}
+    assert THIRD not in project.sign_offs().assets
+
+
+@pytest.mark.slow
+def test_what_cannot_be_read_is_held_until_it_is_set_aside(tmp_path: Path) -> None:
+    project = learned(tmp_path)
+    project.path(THIRD).write_text("no mesh at all")
+    found = review(project)
+    assert found.assessment.held == (THIRD,) and found.assessment.question is not None
+    project.reply(found, found.assessment.question, ReviewReply(found.assessment.question.id, 0))
+    assert review(project).assessment.is_done
+    assert sign_off_of(project, THIRD) == "set aside"
+    project.set_verdict(THIRD, None)
+    assert review(project).assessment.held == (THIRD,)

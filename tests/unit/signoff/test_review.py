@@ -12,9 +12,9 @@ from meshforge.signoff import (
     BAR,
     Assessment,
     HullPlace,
-    Reply,
     ReviewChoice,
     ReviewQuestion,
+    ReviewReply,
     ReviewState,
     apply_reply,
     list_answers,
@@ -118,9 +118,9 @@ def test_the_queue_ends_whatever_is_said() -> None:
     assert len(asked) == len(set(asked))
 
 
-def reply_to(question: ReviewQuestion) -> Reply:
+def reply_to(question: ReviewQuestion) -> ReviewReply:
     """The first choice; a result is right."""
-    return Reply(question.id, 0)
+    return ReviewReply(question.id, 0)
 
 
 def test_what_is_put_off_is_not_asked_again() -> None:
@@ -128,7 +128,7 @@ def test_what_is_put_off_is_not_asked_again() -> None:
     state = ReviewState(meshes, FRAME, demos=shown(meshes, "t0"))
     first = review(state).question
     assert first is not None
-    second = review(apply_reply(state, first, Reply(first.id, later=True))).question
+    second = review(apply_reply(state, first, ReviewReply(first.id, later=True))).question
     assert second is None or second.id != first.id
 
 
@@ -137,7 +137,7 @@ def test_a_label_that_is_told_is_a_persons_and_the_doubt_is_gone() -> None:
     state = ReviewState(meshes, FRAME, demos=shown(meshes, "t0"))
     place = HullPlace("t5", "leg2_low")
     question = ReviewQuestion("q", "group", "?", 3.0, 1.0, "t5", None, (place,), ())
-    after = apply_reply(state, question, Reply("q", None, {place: "leg"}))
+    after = apply_reply(state, question, ReviewReply("q", None, {place: "leg"}))
     assert after.meshes["t5"].hull_of("leg2_low").annotation == Label("leg", 1.0, "user")
     found = review(after)
     assert not [doubt for doubt in found.assets["t5"].doubts if "leg2_low" in doubt.hulls]
@@ -162,7 +162,7 @@ def test_a_verdict_is_kept_where_it_belongs(said_word: str, kept: str) -> None:
     words = (RIGHT, WRONG, ASIDE)
     result = ReviewQuestion("r", "result", "?", 2.65, 0.5, "t5", None, (), tuple(map(ReviewChoice, words)))
     place = words.index(said_word)
-    after = apply_reply(state, result, Reply("r", place, mended=(frozenset(),)), (frozenset(),))
+    after = apply_reply(state, result, ReviewReply("r", place, mended=(frozenset(),)), (frozenset(),))
     assert "t5" in getattr(after, kept)
     assert question.seconds > 0
 

@@ -33,10 +33,10 @@ export const noteFlag = (asset: string, note: string | null): Promise<boolean> =
 export const withdrawReview = (asset: string): Promise<boolean> =>
   perform({ kind: "review", ids: [asset], verdict: null });
 
-/** Accepts all outputs that nobody reviewed, that are up to date, without flags, and legal; reports how many are not. */
+/** Accepts all outputs that nobody reviewed, that are up to date, without flags, sure and legal; reports how many are not. */
 export async function acceptLegal(progress: (done: number, total: number) => void): Promise<void> {
-  const { cards } = useProject.getState();
-  const open = listAcceptable(cardsInOrder()).flatMap((asset) => cards[asset] ?? []);
+  const { cards, confidence } = useProject.getState();
+  const open = listAcceptable(cardsInOrder(), confidence).flatMap((asset) => cards[asset] ?? []);
   let done = 0;
   progress(0, open.length);
   const verdicts = open.map(async (card) => {

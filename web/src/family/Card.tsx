@@ -7,6 +7,7 @@ import {
   CircleAlert,
   CircleDashed,
   CircleDot,
+  CircleQuestionMark,
   Flag,
   Hand,
   type LucideIcon,
@@ -19,6 +20,7 @@ import { memo, useState } from "react";
 import { Thumbnail } from "../pictures/Thumbnail";
 import { makeHulls, useIsDecomposing } from "../store/jobs";
 import { useLabelChangesOf } from "../store/labelChanges";
+import { doubtsText, probabilityText } from "../store/assessment";
 import { useProject } from "../store/project";
 import { openAsset, setLayout, useWorkspace } from "../store/workspace";
 import { Button } from "../ui/Button";
@@ -43,20 +45,22 @@ export const Card = memo(function Card({ asset, width, place, of, large }: CardP
   const found = useLabelChangesOf(asset);
   const relabelled = useWorkspace((workspace) => workspace.stage === "label") ? found : null;
   const engine = useWorkspace((workspace) => workspace.checks.engine);
+  const title = useProject((state) => doubtsText(asset, state.confidence[asset], state.assessment?.bar ?? null));
+  const sure = useProject((state) => probabilityText(state, asset));
   if (!card) return null;
   return (
     <div
       id={cardId(asset)}
       role="option"
       aria-selected={current}
-      aria-label={[cardText(card, engine), relabelled && relabelledText(relabelled)].filter(Boolean).join("; ")}
+      aria-label={[cardText(card, engine), sure && sure !== "…" && `${sure} sure`, relabelled && relabelledText(relabelled)].filter(Boolean).join("; ")}
       aria-posinset={place + 1}
       aria-setsize={of}
       data-asset={asset}
       className={css.card}
       data-state={card.error === null ? "fine" : "broken"}
       style={{ width }}
-      title={asset}
+      title={title}
       onClick={() => openAsset(asset)}
       onDoubleClick={() => setLayout({ gallery: false })}
     >
@@ -65,7 +69,8 @@ export const Card = memo(function Card({ asset, width, place, of, large }: CardP
         <span className={css.name}>{shortenMiddle(asset, Math.floor((width - 16) / 6.3))}</span>
         <span className={css.line}>
           <Amount card={card} />
-          <Badges card={card} room={width - 72} />
+          <Sure asset={asset} />
+          <Badges card={card} room={width - 104} />
         </span>
       </div>
     </div>
@@ -146,6 +151,17 @@ function Amount({ card }: { card: CardData }) {
   );
 }
 
+/** The probability that its edit is right. */
+function Sure({ asset }: { asset: string }) {
+  const text = useProject((state) => probabilityText(state, asset));
+  const held = useProject((state) => state.assessment !== null && state.confidence[asset]?.state === "held");
+  return text === null ? null : (
+    <span className={css.sure} data-held={held} aria-hidden>
+      {text}
+    </span>
+  );
+}
+
 /** The button that cuts the geometry of an asset into hulls. */
 function MakeHulls({ asset }: { asset: string }) {
   const making = useIsDecomposing();
@@ -176,6 +192,7 @@ export const ICONS: Readonly<Record<Badge["name"], LucideIcon>> = {
   failed: CircleAlert,
   corrected: Hand,
   findings: TriangleAlert,
+  held: CircleQuestionMark,
 };
 
 /** room: for signs and their counts [px]. */

@@ -11,6 +11,7 @@ import { AddMenu } from "./AddAssets";
 import { Cards } from "./Cards";
 import css from "./family.module.css";
 import { Filters } from "./Filters";
+import { SureLine } from "./Sureness";
 
 export function Family() {
   const any = useProject((state) => state.order.length > 0);
@@ -21,6 +22,7 @@ export function Family() {
       {any && (
         <>
           <MissingHulls />
+          <SureLine />
           <Filters />
           <Cards least={112} />
         </>
@@ -36,6 +38,7 @@ export function Gallery() {
       <FamilyHead />
       <ReadProgress />
       <MissingHulls />
+      <SureLine />
       <Filters />
       <div className={css.outcome}>
         <LabelChanges />

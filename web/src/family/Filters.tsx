@@ -15,6 +15,7 @@ const SORTS: Readonly<Record<FiltersState["sort"], string>> = {
   unsure: "Most unsure labels first",
   changed: "Most changed first",
   findings: "Worst by the checks first",
+  probability: "Least sure first",
 };
 
 export function Filters() {
@@ -55,7 +56,8 @@ function SearchField() {
 function Chips() {
   const only = useWorkspace((workspace) => workspace.filters.only);
   const engine = useWorkspace((workspace) => workspace.checks.engine);
-  const counts = countByFilter(useProject((state) => state.cards), engine);
+  const confidence = useProject((state) => state.confidence);
+  const counts = countByFilter(useProject((state) => state.cards), engine, confidence);
   const there = FILTERS.filter((name) => counts[name] > 0 || only.includes(name));
   if (there.length === 0) return null;
   return (

@@ -43,7 +43,7 @@ function ChangeBar({ relabelled }: { relabelled: LabelUpdate }) {
       <ChangeButton relabelled={relabelled} sort="new" />
       <ChangeButton relabelled={relabelled} sort="changed" />
       {settled > 0 && <span className={css.count}>{settled.toLocaleString("en-GB")} now sure</span>}
-      <span className={css.count}>{unsure ? `${unsure.toLocaleString("en-GB")} unsure` : "all sure"}</span>
+      <span className={css.count}>{unsure ? `${unsure.toLocaleString("en-GB")} unsure` : "none unsure"}</span>
       <span className={css.buttons}>
         <Button look="quiet" icon={Undo2} onClick={() => void undo()} tip="Undo all changes" keys="Ctrl+Z">
           Undo

@@ -14,7 +14,7 @@ const GROUPS: readonly Command["group"][] = ["Go", "Select", "View", "Label", "D
 const HOW = [
   ["Label", "Label hulls: select them and press a digit, on a few assets or on all."],
   ["Demonstrate", "On one or two assets, select hulls and choose an action, step by step."],
-  ["Learn", "MeshForge finds the program that does the same. Answer its questions until it is unambiguous."],
+  ["Learn", "MeshForge finds the program that does the same. Answer its questions until every result is sure, or was looked at."],
   ["Review", "Apply the program to the family, accept or flag each result, and export."],
 ] as const;
 

@@ -22,6 +22,7 @@ const rememberEnd = () => localStorage.setItem(KEY, "done");
 
 function StopCard({ step }: { step: number }) {
   const mark = TOUR_STOPS[step];
+  const text = useProject((state) => (typeof mark?.text === "function" ? mark.text(state) : mark?.text));
   const target = usePlace(mark?.at ?? "view");
   if (!mark) return null;
   const last = step === TOUR_STOPS.length - 1;
@@ -30,7 +31,7 @@ function StopCard({ step }: { step: number }) {
       {target && <div className={css.ring} style={ringStyle(target)} aria-hidden />}
       <div className={css.mark} style={cardStyle(target, mark.at)} role="dialog" data-modeless aria-label={`Tour: ${mark.title}`}>
         <h2>{mark.title}</h2>
-        <p aria-live="polite">{mark.text}</p>
+        <p aria-live="polite">{text}</p>
         <footer>
           <span className={css.count}>
             {step + 1} of {TOUR_STOPS.length}

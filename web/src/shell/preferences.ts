@@ -19,7 +19,7 @@ export const WIDTHS = { family: [180, 720], panel: [300, 720] } as const;
 /** The words that a setting may be; an engine that is not known any more has no limits. */
 const WORDS: Readonly<Record<string, readonly string[]>> = {
   theme: ["system", "light", "dark"],
-  sort: ["name", "hulls", "unlabelled", "unsure", "changed", "findings"],
+  sort: ["name", "hulls", "unlabelled", "unsure", "changed", "findings", "probability"],
   colorBy: ["hull", "label", "confidence", "body"],
   projection: ["perspective", "orthographic"],
 };

@@ -1,5 +1,5 @@
 // Which assets the family shows, and in which order.
-import type { Card, ProjectView } from "../wire";
+import type { Card, ConfidenceView, ProjectView } from "../wire";
 import { faultsOf, weightOf } from "./checks";
 import { useProject } from "./project";
 import { type FilterName, type Filters, useWorkspace } from "./workspace";
@@ -14,14 +14,16 @@ export const FILTERS: readonly FilterName[] = [
   "failed",
   "stale",
   "findings",
+  "held",
 ];
 
 type Cards = Readonly<Record<string, Card>>;
+type Confidence = Readonly<Record<string, ConfidenceView>>;
 
 /** How many hulls of an asset have no label. */
 export const unlabelled = (card: Card): number => card.labels.filter((label) => label < 0).length;
 
-const MATCHES: Readonly<Record<FilterName, (card: Card, engine: string) => boolean>> = {
+const MATCHES: Readonly<Record<FilterName, (card: Card, engine: string, sure?: ConfidenceView) => boolean>> = {
   unlabelled: (card) => card.labels.some((label) => label < 0),
   unsure: (card) => card.unsure.length > 0,
   demonstrated: (card) => card.demonstrated,
@@ -31,15 +33,17 @@ const MATCHES: Readonly<Record<FilterName, (card: Card, engine: string) => boole
   failed: (card) => card.output === "failed" || card.error !== null,
   stale: (card) => card.output !== "none" && card.stale.length > 0,
   findings: (card, engine) => faultsOf(card, engine).length > 0,
+  held: (_card, _engine, sure) => sure?.state === "held",
 };
 
-/** engine: whose limits count as findings of checks. */
-export const matchesFilter = (card: Card, filter: FilterName, engine = ""): boolean => MATCHES[filter](card, engine);
+/** engine: whose limits count as findings of checks; sure: how sure its edit is. */
+export const matchesFilter = (card: Card, filter: FilterName, engine = "", sure?: ConfidenceView): boolean =>
+  MATCHES[filter](card, engine, sure);
 
 /** How many cards each filter would show. */
-export function countByFilter(cards: Cards, engine = ""): Record<FilterName, number> {
+export function countByFilter(cards: Cards, engine = "", confidence: Confidence = {}): Record<FilterName, number> {
   const all = Object.values(cards);
-  return Object.fromEntries(FILTERS.map((name) => [name, all.filter((card) => MATCHES[name](card, engine)).length])) as Record<FilterName, number>;
+  return Object.fromEntries(FILTERS.map((name) => [name, all.filter((card) => MATCHES[name](card, engine, confidence[card.asset])).length])) as Record<FilterName, number>;
 }
 
 /** The assets to show: any of the filters that are on, every word of the search, sorted. */
@@ -49,16 +53,17 @@ export function filterAssets(
   filters: Filters,
   project: Pick<ProjectView, "vocabulary">,
   engine = "",
+  confidence: Confidence = {},
 ): readonly string[] {
   const words = filters.search.toLowerCase().split(/\s+/).filter(Boolean);
   const labels = project.vocabulary.map((label) => label.name.toLowerCase());
   const kept = order.filter((asset) => {
     const card = cards[asset];
     if (!card) return false;
-    const wanted = filters.only.length === 0 || filters.only.some((name) => MATCHES[name](card, engine));
+    const wanted = filters.only.length === 0 || filters.only.some((name) => MATCHES[name](card, engine, confidence[asset]));
     return wanted && words.every((word) => matchesWord(card, word, labels));
   });
-  return sortAssets(kept, cards, filters.sort, engine);
+  return sortAssets(kept, cards, filters.sort, engine, confidence);
 }
 
 /** Whether a word stands in the id of an asset, or begins a label that one of its hulls has. */
@@ -67,7 +72,9 @@ function matchesWord(card: Card, word: string, labels: readonly string[]): boole
   return card.labels.some((label) => labels[label]?.startsWith(word));
 }
 
-const AMOUNT: Readonly<Record<Exclude<Filters["sort"], "name">, (card: Card, engine: string) => number>> = {
+type Amount = Exclude<Filters["sort"], "name" | "probability">;
+
+const AMOUNT: Readonly<Record<Amount, (card: Card, engine: string) => number>> = {
   hulls: (card) => card.hulls ?? -1,
   unlabelled,
   unsure: (card) => card.unsure.length,
@@ -75,14 +82,27 @@ const AMOUNT: Readonly<Record<Exclude<Filters["sort"], "name">, (card: Card, eng
   findings: (card, engine) => weightOf(card, engine),
 };
 
-function sortAssets(assets: readonly string[], cards: Cards, by: Filters["sort"], engine: string): readonly string[] {
+function sortAssets(
+  assets: readonly string[],
+  cards: Cards,
+  by: Filters["sort"],
+  engine: string,
+  confidence: Confidence,
+): readonly string[] {
   const natural = [...assets].sort(byName.compare);
   if (by === "name") return natural;
+  if (by === "probability") return natural.sort((a, b) => urgency(confidence[a]) - urgency(confidence[b]));
   const amounts = new Map(natural.map((asset) => [asset, amount(cards[asset], by, engine)]));
   return natural.sort((a, b) => (amounts.get(b) ?? 0) - (amounts.get(a) ?? 0));
 }
 
-const amount = (card: Card | undefined, by: Exclude<Filters["sort"], "name">, engine: string) =>
+/** The least probable first; after them those that a person set aside, and those of which nothing is known. */
+function urgency(sure: ConfidenceView | undefined): number {
+  if (!sure) return 3;
+  return sure.state === "aside" ? 2 : sure.probability;
+}
+
+const amount = (card: Card | undefined, by: Amount, engine: string) =>
   card ? AMOUNT[by](card, engine) : -1;
 
 const byName = new Intl.Collator("en", { numeric: true });
@@ -105,20 +125,20 @@ export function neighbour(
   return null;
 }
 
-let last: { cards: Cards; order: readonly string[]; filters: Filters; engine: string; labels: unknown; shown: readonly string[] } | null =
+let last: { cards: Cards; order: readonly string[]; filters: Filters; engine: string; labels: unknown; confidence: unknown; shown: readonly string[] } | null =
   null;
 
 /** The assets that the family shows now; the same array as long as it is the same. */
 export function shownAssets(): readonly string[] {
-  const { cards, order, project } = useProject.getState();
+  const { cards, order, project, confidence } = useProject.getState();
   const { filters, checks } = useWorkspace.getState();
   const { engine } = checks;
   const labels = project.vocabulary;
-  const same = last?.cards === cards && last.order === order && last.filters === filters && last.labels === labels;
+  const same = last?.cards === cards && last.order === order && last.filters === filters && last.labels === labels && last.confidence === confidence;
   if (last && same && last.engine === engine) return last.shown;
-  const fresh = filterAssets(cards, order, filters, project, engine);
+  const fresh = filterAssets(cards, order, filters, project, engine, confidence);
   const shown = last && isEqual(last.shown, fresh) ? last.shown : fresh;
-  last = { cards, order, filters, engine, labels, shown };
+  last = { cards, order, filters, engine, labels, confidence, shown };
   return shown;
 }
 
@@ -128,6 +148,7 @@ const isEqual = (a: readonly string[], b: readonly string[]) => a.length === b.l
 export function useShown(): readonly string[] {
   useProject((state) => state.cards);
   useProject((state) => state.order);
+  useProject((state) => state.confidence);
   useProject((state) => state.project.vocabulary);
   useWorkspace((workspace) => workspace.filters);
   return shownAssets();

@@ -1,5 +1,6 @@
 // What a outcome came to, in words, and what a rule reaches; knows neither DOM nor three.js.
-import type { OutcomeView, Reach } from "../wire";
+import type { AssessmentView, OutcomeView, Reach } from "../wire";
+import { familyText, moodOf } from "./assessment";
 import { sampleText, countText, listText, shortName } from "./words";
 
 /** How learning stands: a title, what more there is to say, and whether that is good. */
@@ -12,12 +13,19 @@ export interface Summary {
 /** From which belief on another reading is worth a look; the same as in the synthesis. */
 const BELIEVABLE = 0.005;
 
-/** assets: how many there are to be learned from. */
-export function summarizeOutcome(outcome: OutcomeView | null, assets: number): Summary {
+/** How sure the edits are: what is known of that, and whether it is being worked out. */
+type Sureness = { assessment: AssessmentView | null; assessing: boolean };
+
+/** assets: how many there are to be learned from; sure: without it nothing is known of how sure the edits are. */
+export function summarizeOutcome(
+  outcome: OutcomeView | null,
+  assets: number,
+  sure: Sureness = { assessment: null, assessing: false },
+): Summary {
   if (!outcome) return summary("plain", "No demonstration yet", "Demonstrate the steps on an asset; MeshForge then learns the program.");
   switch (outcome.status) {
     case "found":
-      return outcome.settled ? summarizeUnambiguous(outcome.looked_at, assets) : summarizeFound(outcome);
+      return summarizeFamily(outcome.settled ? sameText(outcome.looked_at, assets) : differText(outcome), sure);
     case "ambiguous":
       return summary("warn", "One question is open", "The program fits your demonstrations; your answer decides the rest.");
     case "repair": {
@@ -33,19 +41,26 @@ export function summarizeOutcome(outcome: OutcomeView | null, assets: number): S
   }
 }
 
-function summarizeUnambiguous(lookedAt: number, assets: number): Summary {
-  const all = assets === 1 ? "your one asset" : `your ${countText(assets, "asset")}`;
-  const where = lookedAt < assets ? `the ${countText(lookedAt, "asset")} looked at, of ${all}` : all;
-  return summary("good", "Unambiguous", `All readings select the same hulls on ${where}.`);
+/** A program that fits: how sure its edits are; readings: what is known of those. */
+function summarizeFamily(readings: string | null, { assessment, assessing }: Sureness): Summary {
+  if (assessment?.assets.length) return summary(moodOf(assessment), familyText(assessment), readings);
+  const wait = assessing ? "How sure its edits are is being worked out…" : "How sure its edits are is not known.";
+  return summary("plain", "A program fits all your demonstrations", wait);
 }
 
-function summarizeFound(outcome: OutcomeView): Summary {
+function sameText(lookedAt: number, assets: number): string {
+  const all = assets === 1 ? "your one asset" : `your ${countText(assets, "asset")}`;
+  const where = lookedAt < assets ? `the ${countText(lookedAt, "asset")} looked at, of ${all}` : all;
+  return `All readings select the same hulls on ${where}.`;
+}
+
+function differText(outcome: OutcomeView): string | null {
   const open = outcome.readings.filter((reading) => reading.belief >= BELIEVABLE && reading.differs_on.length > 0);
-  if (!open.length) return summary("good", "A program fits all your demonstrations", null);
+  if (!open.length) return null;
   const rules = [...new Set(open.map((reading) => reading.rule))].sort((a, b) => a - b);
   const assets = [...new Set(open.flatMap((reading) => reading.differs_on))].sort();
   const who = `Rule${rules.length > 1 ? "s" : ""} ${listText(rules.map(String))}`;
-  return summary("good", "Almost unambiguous", `${who} may select other hulls on ${listText(assets.map(shortName), 3)}.`);
+  return `${who} may select other hulls on ${listText(assets.map(shortName), 3)}.`;
 }
 
 const summary = (mood: Summary["mood"], title: string, more: string | null): Summary => ({ mood, title, more });

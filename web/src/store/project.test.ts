@@ -16,6 +16,8 @@ const hello: Hello = {
   outcome: null,
   learning: false,
   reach: [],
+  assessment: null,
+  assessing: false,
   jobs: [],
   tour: false,
   engines: [],

@@ -1,7 +1,7 @@
 // What the server says of the project, kept as it comes; knows neither DOM nor three.js.
 import { create } from "zustand";
 import { page } from "../server/http";
-import type { Card, EngineView, Event, HistoryView, Job, OutcomeView, ProgramView, ProjectView, Reach, LabelUpdate } from "../wire";
+import type { AssessmentView, Card, ConfidenceView, EngineView, Event, HistoryView, Job, OutcomeView, ProgramView, ProjectView, Reach, LabelUpdate } from "../wire";
 
 export interface ProjectState {
   connected: boolean;
@@ -20,6 +20,11 @@ export interface ProjectState {
   learning: boolean;
   /** What the present program does on each asset. */
   reach: Readonly<Record<string, Reach>>;
+  /** How sure the edits are; null as soon as something changed, until that is known again. */
+  assessment: AssessmentView | null;
+  assessing: boolean;
+  /** How sure each edit was when that was known last, by which the family stays in order meanwhile. */
+  confidence: Readonly<Record<string, ConfidenceView>>;
   jobs: readonly Job[];
   tour: boolean;
   /** Engines whose limits can be checked. */
@@ -71,6 +76,9 @@ export const emptyProject: ProjectState = {
   outcome: null,
   learning: false,
   reach: {},
+  assessment: null,
+  assessing: false,
+  confidence: {},
   jobs: [],
   tour: false,
   engines: [],
@@ -99,6 +107,9 @@ export function applyEvent(state: ProjectState, event: Event): ProjectState {
         outcome: event.outcome,
         learning: event.learning,
         reach: byAsset(event.reach),
+        assessment: event.assessment,
+        assessing: event.assessing,
+        confidence: byAsset(event.assessment?.assets ?? []),
         jobs: event.jobs,
         tour: event.tour,
         engines: event.engines,
@@ -131,9 +142,13 @@ export function applyEvent(state: ProjectState, event: Event): ProjectState {
     case "outcome":
       return event.learning
         ? { ...state, learning: true }
-        : { ...state, learning: false, outcome: event.outcome, reach: event.outcome?.program ? state.reach : {} };
+        : { ...state, learning: false, outcome: event.outcome, reach: event.outcome?.program ? state.reach : {}, confidence: event.outcome ? state.confidence : {} };
     case "reach":
       return { ...state, reach: { ...state.reach, ...byAsset(event.reach) } };
+    case "assessment": {
+      const confidence = event.assessment ? byAsset(event.assessment.assets) : state.confidence;
+      return { ...state, assessment: event.assessment, assessing: event.assessing, confidence };
+    }
     case "program":
       return { ...state, program: event.program };
     case "job":

@@ -1,7 +1,7 @@
 // The results of the family: what to look at, in which order, and numbers about one; knows neither DOM nor three.js.
 import { create } from "zustand";
 import { api } from "../server/api";
-import type { Card, EditHeader, HullView } from "../wire";
+import type { Card, ConfidenceView, EditHeader, HullView } from "../wire";
 
 export type Group = "failed" | "flagged" | "stale" | "informative" | "open" | "accepted" | "none";
 
@@ -41,9 +41,10 @@ export function nextInQueue(queue: readonly string[], order: readonly string[], 
   return queue.find((name) => (places.get(name) ?? -1) > here) ?? queue[0] ?? null;
 }
 
-/** Assets whose output is up to date, legal as far as is known, and not flagged by anyone or anything. */
-export function listAcceptable(cards: readonly Card[]): readonly string[] {
-  return cards.filter((card) => groupOf(card) === "open").map((card) => card.asset);
+/** Assets whose output is up to date, not flagged by anyone or anything, legal as far as is known, and not held. */
+export function listAcceptable(cards: readonly Card[], confidence: Readonly<Record<string, ConfidenceView>> = {}): readonly string[] {
+  const isOpen = (card: Card) => groupOf(card) === "open" && confidence[card.asset]?.state !== "held";
+  return cards.filter(isOpen).map((card) => card.asset);
 }
 
 /** Assets whose output is missing or older than what it is made of. */

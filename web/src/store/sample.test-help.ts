@@ -1,5 +1,5 @@
-// A card for tests, which say only what matters to them.
-import type { Card } from "../wire";
+// A card, and how sure edits are, for tests, which say only what matters to them.
+import type { AssessmentView, Card, ConfidenceView, ReviewQuestionView } from "../wire";
 
 export const sampleCard = (change: Partial<Card> = {}): Card => ({
   asset: "a",
@@ -23,5 +23,36 @@ export const sampleCard = (change: Partial<Card> = {}): Card => ({
   edited_picture: null,
   check: null,
   faults: null,
+  ...change,
+});
+
+export const sampleRow = (change: Partial<ConfidenceView> = {}): ConfidenceView => ({
+  asset: "a",
+  probability: 0.99,
+  doubts: [],
+  state: "signed",
+  told: false,
+  ...change,
+});
+
+/** A family of assets a0, a1, ..., of which the first ones are held. */
+export function sampleAssessment(count: number, held: number, change: Partial<AssessmentView> = {}): AssessmentView {
+  const assets = Array.from({ length: count }, (_, k) =>
+    sampleRow(k < held ? { asset: `a${k}`, probability: 0.5, state: "held" } : { asset: `a${k}` }),
+  );
+  return { number: 1, bar: 0.95, signed_off: count - held, held, aside: 0, assets, question: null, ...change };
+}
+
+export const sampleQuestion = (change: Partial<ReviewQuestionView> = {}): ReviewQuestionView => ({
+  id: "group-1",
+  kind: "group",
+  text: "",
+  seconds: 4,
+  gain: 1,
+  asset: "a0",
+  rule: null,
+  hulls: [],
+  was: null,
+  choices: [],
   ...change,
 });

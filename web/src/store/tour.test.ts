@@ -53,7 +53,7 @@ test("doing what a mark asks for goes on by itself", () => {
   useWorkspace.setState({ stage: "review" });
   expect(title()).toBe("Apply to all tables");
   useProject.setState({ cards: { a: { ...card, output: "edited" } } });
-  expect(title()).toBe("That is all");
+  expect(title()).toBe("Look before you export");
   stop();
 });
 

@@ -1,5 +1,6 @@
 // The guided tour of the demo: its marks, and how far one is; knows no DOM.
 import { create } from "zustand";
+import { sureText } from "./assessment";
 import { type WorkspaceState, useWorkspace } from "./workspace";
 import { type ProjectState, useProject } from "./project";
 import { useScenes } from "./scenes";
@@ -8,7 +9,7 @@ interface TourStop {
   /** The part of the window that it points at: its `data-tour`. */
   at: "family" | "view" | "steps" | "panel" | "stages" | "hulls";
   title: string;
-  text: string;
+  text: string | ((project: ProjectState) => string);
   /** Whether the person has done it; without, Next goes on. */
   done?: (project: ProjectState, workspace: WorkspaceState) => boolean;
 }
@@ -24,6 +25,14 @@ const onlyHas = (workspace: WorkspaceState, label: string) => {
   const labels = selectedLabels(workspace);
   return labels.size === 1 && labels.has(label);
 };
+
+/** How the tables came out, with nothing said of what is not known. */
+function tablesText({ assessment }: ProjectState): string {
+  if (!assessment?.assets.length) return "MeshForge still works out how sure it is of each table.";
+  if (!assessment.held) return `${sureText(assessment)}.`;
+  const rest = assessment.held === 1 ? "the other one may be wrong" : `the other ${assessment.held} may be wrong`;
+  return `${sureText(assessment)}; ${rest}. Look at these first, and answer what 3 Learn asks about them.`;
+}
 
 export const TOUR_STOPS: readonly TourStop[] = [
   {
@@ -87,9 +96,9 @@ export const TOUR_STOPS: readonly TourStop[] = [
   },
   {
     at: "panel",
-    title: "That is all",
-    text:
-      "Compare before and after. Accept what is right; flag or correct what is wrong; then export. " +
+    title: "Look before you export",
+    text: (project) =>
+      `${tablesText(project)} Compare before and after. Accept what is right; flag or correct what is wrong; then export. ` +
       "Press ? for all keys. You can undo everything.",
   },
 ];

@@ -149,7 +149,7 @@ describe("the queue of unsure hulls", () => {
 
   it("passes over what was labelled though the cards do not tell it yet, and says when all are sure", async () => {
     for (const key of ["N", "1", "Enter", "2"]) await press(key);
-    expect(sent.map((edit) => "hulls" in edit && [edit.asset, ...edit.hulls])).toEqual([["a", "x"], ["b", "x"], ["b", "z"]]);
+    expect(sent.map((edit) => edit.kind === "label" && [edit.asset, ...edit.hulls])).toEqual([["a", "x"], ["b", "x"], ["b", "z"]]);
     expect(inHand()).toEqual(["b", "z"]);
     expect(toasts()).toEqual(["No unsure label is left."]);
   });

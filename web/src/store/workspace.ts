@@ -52,7 +52,7 @@ export interface ViewSettings {
 export interface Filters {
   search: string;
   only: readonly FilterName[];
-  sort: "name" | "hulls" | "unlabelled" | "unsure" | "changed" | "findings";
+  sort: "name" | "hulls" | "unlabelled" | "unsure" | "changed" | "findings" | "probability";
 }
 export type FilterName =
   | "unlabelled"
@@ -63,7 +63,8 @@ export type FilterName =
   | "flagged"
   | "failed"
   | "stale"
-  | "findings";
+  | "findings"
+  | "held";
 
 interface CheckSettings {
   /** Whether results are measured as they are looked at. */

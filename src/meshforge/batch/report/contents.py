@@ -59,7 +59,7 @@ class ReportAsset:
     where nothing was to be changed.
     trace: of every rule; error: the whole message of a failed asset; demonstrated: whether a person edited it.
     notes: what else there is to say, as what the format had to write in another form; checked: what was measured of it
-    after, where that was asked for.
+    after, where that was asked for; alarms: why the result stands out, a sentence each.
     """
 
     name: str
@@ -71,6 +71,7 @@ class ReportAsset:
     demonstrated: bool = False
     notes: tuple[str, ...] = ()
     checked: Examination | EarlierExamination | None = None
+    alarms: tuple[str, ...] = ()
 
     @property
     def counts(self) -> tuple[int, int] | None:
@@ -95,7 +96,7 @@ class ReportAsset:
     @property
     def kinds(self) -> list[str]:
         """The words by which the page can be filtered."""
-        marks = (("demonstrated", self.demonstrated), ("doubtful", bool(self.findings)))
+        marks = (("demonstrated", self.demonstrated), ("doubtful", bool(self.findings or self.alarms)))
         return [self.status, *(word for word, holds in marks if holds)]
 
     @property

@@ -165,7 +165,7 @@ def _kinds(assets: Sequence[contents.ReportAsset]) -> list[str]:
     kinds: list[str] = [status for status in STATUSES if any(asset.status == status for asset in assets)]
     if any(asset.demonstrated for asset in assets):
         kinds.append("demonstrated")
-    if any(asset.findings and asset.status not in get_args(contents.CheckStatus) for asset in assets):
+    if any((asset.findings or asset.alarms) and asset.status not in get_args(contents.CheckStatus) for asset in assets):
         kinds.append("doubtful")
     return kinds
 

@@ -10,6 +10,7 @@ from meshforge.studio.edits import assets, program
 
 AnyEdit = Annotated[
     assets.LabelHulls
+    | assets.LabelGroup
     | assets.LabelFromFiles
     | assets.LabelFromNames
     | assets.SetVocabulary
@@ -21,6 +22,7 @@ AnyEdit = Annotated[
     | program.AnswerQuestion
     | program.SettleRepair
     | program.TakeBack
+    | program.PutOff
     | program.WriteProgram
     | assets.CutHull
     | assets.Unprepare

@@ -10,6 +10,7 @@ from meshforge.common import join_names, pluralize
 from meshforge.project import Project
 from meshforge.store import parse_action_text
 from meshforge.studio.edits.base import PROGRAM_FILES, Edit, JobEdit
+from meshforge.studio.wire import Wire
 
 
 class LabelHulls(Edit):
@@ -27,6 +28,38 @@ class LabelHulls(Edit):
     def describe(self, project: Project) -> str:
         hulls = f"{pluralize(len(self.hulls), 'hull')} of {self.asset}"
         return f"{hulls} labelled {self.label}" if self.label else f"label of {hulls} taken away"
+
+
+class HullOfAsset(Wire):
+    """A hull of an asset, both by name."""
+
+    asset: str
+    hull: str
+
+
+class LabelGroup(Edit):
+    """Give hulls of several assets one label."""
+
+    kind: Literal["label-group"] = "label-group"
+    touches = ()
+    hulls: tuple[HullOfAsset, ...]
+    label: str
+
+    def apply(self, project: Project) -> None:
+        for asset in self._assets:
+            project.set_labels(asset, {one.hull: self.label for one in self.hulls if one.asset == asset})
+
+    def list_paths(self, project: Project) -> tuple[Path, ...]:
+        return tuple(project.layout.labels(asset) for asset in self._assets)
+
+    def describe(self, project: Project) -> str:
+        count = len(self._assets)
+        where = self._assets[0] if count == 1 else pluralize(count, "asset")
+        return f"{pluralize(len(self.hulls), 'hull')} of {where} labelled {self.label}"
+
+    @property
+    def _assets(self) -> tuple[str, ...]:
+        return tuple(dict.fromkeys(one.asset for one in self.hulls))
 
 
 class LabelFromFiles(Edit):

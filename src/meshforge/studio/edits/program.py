@@ -163,6 +163,20 @@ class TakeBack(Edit):
         return f"{self.id} taken back"
 
 
+class PutOff(Edit):
+    """Ask a question of the review no more, as long as what it is about stays."""
+
+    kind: Literal["put-off"] = "put-off"
+    touches = ("signoff.json",)
+    id: str
+
+    def apply(self, project: Project) -> None:
+        project.put_off(self.id)
+
+    def describe(self, project: Project) -> str:
+        return "question put off"
+
+
 class WriteProgram(Edit):
     """Make a text the project's program. version: of the program that was changed."""
 

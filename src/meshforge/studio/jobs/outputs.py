@@ -45,6 +45,7 @@ def start_apply(session: Session, request: ApplyJob) -> Job:
             counts[batch.status_of(outcome)] += 1
             progress.add_line(_apply_line(outcome))
             session.note_output(outcome.asset)
+        session.learning.assess()  # what was accepted counts again where it came out the same
         text = ", ".join(f"{number} {word}" for word, number in counts.items())
         return f"{pluralize(len(assets), 'asset')}: {text or 'none'}."
 

@@ -12,10 +12,13 @@ from meshforge.batch import RECORD_FILE, source_files
 from meshforge.common import FileStates, MeshForgeError, file_states
 from meshforge.language import Program, parse_extractor
 from meshforge.project import Project, select_assets
+from meshforge.studio.learning.assessment import assess_project
 from meshforge.studio.learning.queue import CancelToken
 from meshforge.studio.learning.results import ProgramWithTemplates, RuleSelector, build_outcome_view, measure_reach
 from meshforge.studio.wire.program import CoverageView, OutcomeView, Reach
+from meshforge.studio.wire.signoff import AssessmentView
 from meshforge.symbolic import SymbolicMesh
+from meshforge.synthesis import LearningOutcome
 
 RENEW_AFTER = 64
 """Learning runs after which memory is given back: each that has a new rule leaves about 25 kB an asset (measured on
@@ -32,6 +35,19 @@ def _rule_selector(folder: Path) -> RuleSelector:
     return RuleSelector()
 
 
+@dataclass(slots=True)
+class _Lesson:
+    """What the last learning run of a project came to."""
+
+    number: int = 0
+    outcome: LearningOutcome | None = None
+
+
+@cache
+def _last_lesson(folder: Path) -> _Lesson:
+    return _Lesson()
+
+
 def learn(folder: Path, token: CancelToken, number: int, take: bool) -> OutcomeView:
     """Learn a program from a project as it is now. take: replace the accepted one even if a person wrote it."""
     started, stop = perf_counter(), token.stop
@@ -46,7 +62,21 @@ def learn(folder: Path, token: CancelToken, number: int, take: bool) -> OutcomeV
         return OutcomeView(number=number, status="timeout", seconds=perf_counter() - started)
     except MeshForgeError as error:
         return OutcomeView(number=number, status="error", error=error.message, seconds=perf_counter() - started)
+    lesson = _last_lesson(folder)
+    lesson.number, lesson.outcome = number, outcome
     return build_outcome_view(number, outcome, len(meshes), perf_counter() - started)
+
+
+def assess(folder: Path, token: CancelToken, number: int) -> AssessmentView | None:
+    """How sure the edits are that a learning run came to, None where that was interrupted, or was not the last one."""
+    lesson, project = _last_lesson(folder), Project.open(folder)
+    if lesson.number != number or lesson.outcome is None:
+        return None
+    try:
+        meshes = dict(_family_cache(folder).read_meshes(project, select_assets(project), token.stop))
+    except ReadInterrupted:
+        return None
+    return assess_project(project, meshes, lesson.outcome, number, token.stop)
 
 
 def compute_reach(folder: Path, token: CancelToken, program: str) -> tuple[Reach, ...] | None:

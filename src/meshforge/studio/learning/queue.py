@@ -17,7 +17,7 @@ from typing import Any, Literal, get_args
 from meshforge.common import MeshForgeError, describe_error
 from meshforge.studio.workers import Workers, wait_for
 
-CallKind = Literal["learn", "reach", "generalise"]
+CallKind = Literal["learn", "reach", "generalise", "assess"]
 CALL_KINDS: tuple[CallKind, ...] = get_args(CallKind)
 
 _COUNT = struct.Struct("<q")

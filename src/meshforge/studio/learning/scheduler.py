@@ -11,9 +11,10 @@ from typing import Any
 
 from meshforge.common import MeshForgeError, describe_error
 from meshforge.studio.learning import process
-from meshforge.studio.learning.queue import CallKind, CancelFlag, LatestOnlyQueue
+from meshforge.studio.learning.queue import CallKind, CancelFlag, LatestOnlyQueue, Superseded
 from meshforge.studio.pages import PageState
 from meshforge.studio.wire.program import CoverageView, OutcomeView, Reach
+from meshforge.studio.wire.signoff import AssessmentView
 from meshforge.studio.workers import Workers
 
 RESTART_DELAY = 0.03
@@ -23,7 +24,7 @@ STOP_TIMEOUT = 30.0
 
 
 class LearningScheduler:
-    """Starts learning runs and takes their outcomes; of several that were started, only the last one counts.
+    """Starts learning runs, takes their outcomes and has the edits judged; of several runs only the last one counts.
 
     can_learn: whether anything is demonstrated; on_outcome: called when a run is over, before pages see that and its
     reach is measured, so that a page that sees the end of the run sees its program, too.
@@ -51,6 +52,7 @@ class LearningScheduler:
             self.measure_reach()
             return
         self._pages.set_outcome(self._pages.outcome, learning=True)
+        self._pages.set_assessment(None, assessing=True)
         with self._lock:
             if number == self._number:
                 self._timer = Timer(RESTART_DELAY, self._begin, [number])
@@ -91,6 +93,17 @@ class LearningScheduler:
             return
         self._learner.reach(text).add_done_callback(partial(self._show_reach, self._number))
 
+    def assess(self) -> None:
+        """Judge anew how sure the edits are, under the program as it is after the last learning run."""
+        outcome, number = self._pages.outcome, self._number
+        if not outcome or outcome.number != number or outcome.status in ("timeout", "error"):
+            self._show_assessment(number, None)
+            return
+        with self._lock:
+            if number == self._number:
+                self._pages.set_assessment(self._pages.assessment, assessing=True)
+        self._learner.assess(number).add_done_callback(partial(self._take_assessment, number))
+
     def generalise(self, extractor: str, rule: int) -> Future[CoverageView]:
         """What an extractor selects on all assets."""
         return self._learner.generalise(extractor, rule, self._pages.program.text or None)
@@ -107,6 +120,7 @@ class LearningScheduler:
                 self._timer.cancel()
             number = self._number
         self._learner.interrupt()
+        self._pages.set_assessment(None, assessing=False)
         return number
 
     def _begin(self, number: int) -> None:
@@ -135,6 +149,21 @@ class LearningScheduler:
                 if number == self._number:
                     self._pages.set_outcome(outcome, learning=False)
         self.measure_reach()
+        self.assess()
+
+    def _take_assessment(self, number: int, future: Future[AssessmentView]) -> None:
+        try:
+            found = future.result()
+        except Superseded:
+            return
+        except (MeshForgeError, CancelledError):  # nothing is known, and the page says so
+            found = None
+        self._show_assessment(number, found)
+
+    def _show_assessment(self, number: int, found: AssessmentView | None) -> None:
+        with self._lock:  # so that no change makes it old meanwhile
+            if number == self._number:
+                self._pages.set_assessment(found, assessing=False)
 
     def _show_reach(self, number: int, future: Future[tuple[Reach, ...]]) -> None:
         try:
@@ -183,9 +212,13 @@ class Learner:
         self._cancel_flag.cancel("generalise")
         return self._put("generalise", process.generalise, extractor, rule, program)
 
+    def assess(self, number: int) -> Future[AssessmentView]:
+        """How sure the edits are after the learning run of that number."""
+        return self._put("assess", process.assess, number)
+
     def interrupt(self) -> None:
-        """End the learning run and the reach that are under way, soon."""
-        self._cancel_flag.cancel("learn", "reach")
+        """End the learning run, and what is worked out about the one before, soon."""
+        self._cancel_flag.cancel("learn", "reach", "assess")
 
     def close(self) -> None:
         """Stop the process."""

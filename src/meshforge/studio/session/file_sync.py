@@ -32,7 +32,7 @@ _LEARNING_FILES = frozenset(("answers.json", "review.json", PROGRAM_FILE))
 POLL_SECONDS = 1.5
 """Seconds between two polls."""
 _WATCH_FOLDERS = ("labels", "demonstrations", "corrections", "prepared", "templates", f"edited/{STATE}/stamps")
-_WATCH_FILES = (SETTINGS, "answers.json", PROGRAM_FILE, "review.json", LEARNED_FILE)
+_WATCH_FILES = (SETTINGS, "answers.json", PROGRAM_FILE, "review.json", "signoff.json", LEARNED_FILE)
 
 FileStamps = dict[str, tuple[int, int]]
 """Modification time [ns] and size of each file, by its path from the project's folder."""
@@ -68,6 +68,8 @@ class FileSync:
             self._queue.add(self._update_reviews())
         if is_other and not changes.learning:
             self._learning.measure_reach()
+        if changes.questions and not changes.learning:
+            self._learning.assess()
 
     def show_program(self) -> bool:
         """Show the accepted program; whether it is another one, so that outputs may be stale."""
@@ -122,7 +124,8 @@ def _view_program(project: Project, before: ProgramView) -> ProgramView:
 class FileChanges:
     """assets: ids of which something changed; shapes: those of them whose hulls may be others.
 
-    settings, program, reviews: whether these changed; learning: whether what is learned from did.
+    settings, program, reviews: whether these changed; questions: whether some were put off; learning: whether what is
+    learned from did.
     """
 
     assets: frozenset[str] = field(default_factory=frozenset)
@@ -130,6 +133,7 @@ class FileChanges:
     settings: bool = False
     program: bool = False
     reviews: bool = False
+    questions: bool = False
     learning: bool = False
 
 
@@ -148,6 +152,7 @@ def changes_of(project: Project, names: Iterable[str]) -> FileChanges:
         settings=settings,
         program=bool(names & {PROGRAM_FILE, LEARNED_FILE}),
         reviews="review.json" in names,
+        questions="signoff.json" in names,
         learning=settings
         or bool(shapes)
         or any(n.startswith(_LEARNING_FOLDERS) or n in _LEARNING_FILES for n in names),

@@ -11,6 +11,7 @@ from meshforge.studio.wire.asset import EngineView
 from meshforge.studio.wire.family import Card, HistoryView, ProjectView
 from meshforge.studio.wire.jobs import Job, LabelUpdate
 from meshforge.studio.wire.program import OutcomeView, ProgramView, Reach
+from meshforge.studio.wire.signoff import AssessmentView
 
 
 class Problem(Wire):
@@ -37,6 +38,8 @@ class Hello(Wire):
     outcome: OutcomeView | None = None
     learning: bool = False
     reach: tuple[Reach, ...] = ()
+    assessment: AssessmentView | None = None
+    assessing: bool = False
     jobs: tuple[Job, ...] = ()
     tour: bool = False
     engines: tuple[EngineView, ...] = ()
@@ -99,6 +102,15 @@ class ReachChanged(Wire):
     reach: tuple[Reach, ...]
 
 
+class AssessmentChanged(Wire):
+    """How sure the edits are now. assessment: null as soon as labels, answers or demonstrations changed, until that is
+    known again; assessing: whether that is being worked out."""
+
+    kind: Literal["assessment"] = "assessment"
+    assessment: AssessmentView | None
+    assessing: bool
+
+
 class ProgramChanged(Wire):
     """The accepted program as it is now."""
 
@@ -122,6 +134,7 @@ Event = Annotated[
     | AssetsChanged
     | OutcomeChanged
     | ReachChanged
+    | AssessmentChanged
     | ProgramChanged
     | JobChanged,
     Field(discriminator="kind"),

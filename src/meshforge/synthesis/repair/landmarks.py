@@ -29,7 +29,7 @@ from meshforge.synthesis.repair.reasons import list_evidence
 from meshforge.synthesis.search.terms import order_key
 from meshforge.synthesis.task import LearningTask, apply_corrections, correct_demonstrations
 
-MIN_TURN = float(np.radians(8))
+MIN_TURN = float(np.radians(15))
 """A correction that turns the frame by less [rad] does nothing about it."""
 MAX_TRIED = 24
 """So many corrections, and pairs of them, are tried at most, those first that are least improbable."""

@@ -16,6 +16,8 @@ import {
 import { demonstrate, learnNow, orientBy, showNearest, stopLearning, withdraw } from "../../commands/learn";
 import { summarizeOutcome, type Summary } from "../../store/outcome";
 import { countReadable, useProject } from "../../store/project";
+import { useWorkspace } from "../../store/workspace";
+import { Doubts } from "../../family/Sureness";
 import { countText, listText, shortName } from "../../store/words";
 import { Button, IconButton } from "../../ui/Button";
 import { Section } from "../../ui/Section";
@@ -24,6 +26,7 @@ import css from "./learn.module.css";
 import { ProgramSection } from "./Program";
 import { QuestionCard } from "./Question";
 import { Repairs } from "./Repairs";
+import { ReviewCard } from "./ReviewCard";
 import { RuleText } from "./RuleText";
 
 export function LearnPanel() {
@@ -32,14 +35,22 @@ export function LearnPanel() {
     <>
       <LearnHead />
       {outcome?.question && <QuestionCard key={outcome.question.id} question={outcome.question} />}
+      <ReviewCard />
       {outcome && outcome.repairs.length > 0 && <Repairs repairs={outcome.repairs} />}
       {outcome && <NoProgram outcome={outcome} />}
       {outcome?.suggested_orientation && <SuggestedOrientation outcome={outcome} orient={outcome.suggested_orientation} />}
+      <OpenDoubts />
       <ProgramSection />
       {outcome?.hint && <NextDemonstration hint={outcome.hint} />}
       <AnswerList />
     </>
   );
+}
+
+/** Why the edit of the open asset may be wrong. */
+function OpenDoubts() {
+  const asset = useWorkspace((workspace) => workspace.asset);
+  return asset === null ? null : <Doubts asset={asset} />;
 }
 
 /** The button that learns, and how learning stands in words. */
@@ -74,7 +85,9 @@ function LearnState() {
   const outcome = useProject((state) => state.outcome);
   const learning = useProject((state) => state.learning);
   const assets = useProject((state) => countReadable(state.cards));
-  const said = summarizeOutcome(outcome, assets);
+  const assessment = useProject((state) => state.assessment);
+  const assessing = useProject((state) => state.assessing);
+  const said = summarizeOutcome(outcome, assets, { assessment, assessing });
   const Icon = learning ? LoaderCircle : MOOD_ICONS[said.mood];
   return (
     <div className={css.state} data-mood={learning ? "plain" : said.mood} role="status">

@@ -1,6 +1,6 @@
 // The question that is open: which hulls should a rule take? Pictures to choose from; 1, 2 and N are keys.
 import { Crosshair } from "lucide-react";
-import type { KeyboardEvent } from "react";
+import type { KeyboardEvent, ReactNode } from "react";
 import { answer, showQuestion } from "../../commands/learn";
 import { choiceText, differing } from "../../store/readings";
 import { listText, shareText, shortName } from "../../store/words";
@@ -10,12 +10,21 @@ import css from "./learn.module.css";
 import { HullsPicture, type RulePictureView, useRulePicture } from "./RulePicture";
 import { useExtractorHighlight } from "./RuleText";
 
-export function QuestionCard({ question }: { question: QuestionView }) {
+interface QuestionCardProps {
+  question: QuestionView;
+  /** What an answer is worth, where that is not the harm of none. */
+  worth?: string | null;
+  /** What stands beside the buttons. */
+  later?: ReactNode;
+}
+
+export function QuestionCard({ question, worth, later }: QuestionCardProps) {
   const { rule, asset, choices, harm } = question;
+  const why = worth === undefined ? worthText(harm) : worth;
   const picture = useRulePicture(asset, rule);
   return (
-    <section className={css.card} aria-labelledby="question" onKeyDown={(event) => answerByKey(event, question)}>
-      <h3 id="question">
+    <section className={css.card} aria-labelledby={`question ${question.id}`} onKeyDown={(event) => answerByKey(event, question)}>
+      <h3 id={`question ${question.id}`}>
         On <span title={asset}>{shortName(asset)}</span>, which hulls should rule {rule} take?
       </h3>
       <div className={css.choices} data-many={choices.length > 2}>
@@ -35,8 +44,9 @@ export function QuestionCard({ question }: { question: QuestionView }) {
         >
           Show in the view
         </Button>
+        {later}
       </div>
-      <p className={css.dim}>{worthText(harm)}</p>
+      {why && <p className={css.dim}>{why}</p>}
     </section>
   );
 }

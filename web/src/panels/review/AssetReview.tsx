@@ -2,6 +2,7 @@
 import { Check, Flag, RotateCw, SkipForward, Undo2 } from "lucide-react";
 import { useState } from "react";
 import { accept, flag, nextToReview, noteFlag, withdrawReview } from "../../commands/review";
+import { Doubts } from "../../family/Sureness";
 import { applyTo, whyNotApply } from "../../store/jobs";
 import { useProject } from "../../store/project";
 import { staleText } from "../../store/reviews";
@@ -32,6 +33,7 @@ function OneAsset({ asset }: { asset: string }) {
       <VerdictSection asset={asset} />
       {correcting && <Corrections asset={asset} />}
       <Remarks asset={asset} />
+      <Doubts asset={asset} />
       {result.kind === "problem" && !hasError && (
         <Section title="Result">
           <Note mood="bad">

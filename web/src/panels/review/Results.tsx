@@ -39,13 +39,14 @@ export function Results({ onOpen }: { onOpen: () => void }) {
   const cards = useProject((state) => state.cards);
   const order = useProject((state) => state.order);
   const inOrder = useMemo(() => order.flatMap((asset) => cards[asset] ?? []), [order, cards]);
+  const confidence = useProject((state) => state.confidence);
   const sample = useProject((state) => state.outcome?.sample);
   const lines = useMemo(() => linesOf(inOrder, sample ?? []), [inOrder, sample]);
   return (
     <div className={css.results}>
       <div className={css.family}>
         <CheckAll />
-        <AcceptLegal count={listAcceptable(inOrder).length} />
+        <AcceptLegal count={listAcceptable(inOrder, confidence).length} />
       </div>
       <List lines={lines} onOpen={onOpen} />
     </div>
@@ -94,7 +95,7 @@ function AcceptLegal({ count }: { count: number }) {
     <Button
       icon={CheckCheck}
       disabled={progress !== null}
-      tip="Accepts all unreviewed outputs that are up to date, legal and not flagged"
+      tip="Accepts all unreviewed outputs that are up to date, legal, not flagged, and sure enough"
       onClick={run}
     >
       {progress ? `Checking ${progress.done} of ${progress.total}…` : `Accept all legal and unflagged (${count})`}

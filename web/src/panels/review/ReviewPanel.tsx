@@ -1,6 +1,7 @@
 // The review stage: apply the program, look at what came of it, accept, flag, correct, export.
 import { Play } from "lucide-react";
 import { useMemo, useState } from "react";
+import { SureLine } from "../../family/Sureness";
 import { applyTo, useJob, whyNotApply } from "../../store/jobs";
 import { useProject } from "../../store/project";
 import { groupCards, listOutdated } from "../../store/reviews";
@@ -26,6 +27,7 @@ export function ReviewPanel() {
   const [part, setPart] = useState<Part>("asset");
   return (
     <div className={css.panel}>
+      <SureLine />
       <ApplySection />
       <div className={css.parts}>
         <Choice name="What to review" value={part} options={PARTS} onChange={setPart} />

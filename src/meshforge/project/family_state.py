@@ -1,0 +1,96 @@
+"""What a project knows of its family, as a review sees it: meshes, demonstrations, answers, and what a person said of
+results, as far as that counts under the program as it is now.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+
+from meshforge.batch import OutputInputs, Stamp, read_stamp
+from meshforge.common import MeshForgeError
+from meshforge.language import Program, Template
+from meshforge.project.run import number_selections, output_digest
+from meshforge.project.sign_offs import is_written
+from meshforge.signoff import ReviewState
+from meshforge.signoff.question import Selections
+from meshforge.store import Review, Store
+from meshforge.symbolic import SymbolicMesh
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class FamilyStateReader:
+    """Reads it from a store.
+
+    meshes: all assets that can be read, by id; program: the one that is reviewed, None where there is none; by_hand:
+    whether a person wrote it, so that demonstrations say nothing about it; inputs: of the edits that it makes.
+    """
+
+    store: Store
+    meshes: Mapping[str, SymbolicMesh]
+    program: Program | None
+    by_hand: bool
+    inputs: Mapping[str, OutputInputs]
+
+    def read(self) -> ReviewState:
+        """All that is known. Raises MeshForgeError for files of the project that cannot be read."""
+        store, signed = self.store, self.store.sign_offs()
+        demos = {
+            asset: replace(demo, mesh=self.meshes[asset])
+            for asset, demo in store.demonstrations().items()
+            if asset in self.meshes
+        }
+        accepted, flagged = self._sort_verdicts()
+        return ReviewState(
+            self.meshes,
+            self._read_frame(),
+            self._read_templates(),
+            {} if self.by_hand else demos,
+            tuple(line.answer for line in store.answers().answers),
+            {asset: done for asset, done in accepted.items() if asset in self.meshes},
+            {},
+            flagged.union(asset for asset in signed.aside if asset not in demos),
+            frozenset(signed.later),
+        )
+
+    def _read_frame(self) -> Program:
+        settings, limits = self.store.settings, self.store.settings.thresholds
+        seen = {hull.label for mesh in self.meshes.values() for hull in mesh.hulls if hull.label}
+        words = settings.vocabulary or tuple(sorted(seen))
+        orient = self.program.orient if self.program else self.store.orientation
+        return Program(words, orient, (), limits.contact, limits.extremity)
+
+    def _read_templates(self) -> dict[str, Template]:
+        return self.store.templates(self.program.templates if self.program else ())
+
+    def _sort_verdicts(self) -> tuple[dict[str, Selections], frozenset[str]]:
+        """What the rules select on the results that a person accepted, and the assets that they flagged."""
+        accepted, flagged = dict[str, Selections](), set[str]()
+        for asset, review in self.store.reviews().items():
+            stamp = read_stamp(self.store.layout.edited, asset)
+            if review.output != output_digest(stamp) or not self._counts(asset, review, stamp):
+                continue
+            if review.verdict == "flagged":
+                flagged.add(asset)
+            else:
+                accepted[asset] = tuple(frozenset(one.select) for one in review.seen)
+        return accepted, frozenset(flagged)
+
+    def _counts(self, asset: str, review: Review, stamp: Stamp | None) -> bool:
+        """Whether the program does what it did when a person looked: selects the same, or made that very output."""
+        if review.seen:
+            return self._select(asset) == tuple((one.action, one.select) for one in review.seen)
+        now = self.inputs.get(asset)
+        return now is not None and is_written(stamp, now)
+
+    def _select(self, asset: str) -> tuple[tuple[str, tuple[str, ...]], ...] | None:
+        """What the rules do to which hulls of an asset; None where they cannot."""
+        mesh = self.meshes.get(asset)
+        if self.program is None or mesh is None:
+            return None
+        try:
+            trace = self.program.run(mesh, self._read_templates()).trace
+        except MeshForgeError:
+            return None
+        found = number_selections(self.program, {r.rule: r.selected for r in trace})
+        return tuple((one.action, one.select) for one in found)

@@ -1,0 +1,103 @@
+"""Sign-offs of a project's results: made when a result is sure enough, or a person looked at it, and its output is up
+to date; void when anything changes of what they rest on.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from datetime import UTC, datetime
+from typing import Literal
+
+from meshforge.batch import (
+    EXECUTION_DEFAULTS,
+    ExecutionOptions,
+    OutputInputs,
+    Stamp,
+    file_digest,
+    inputs_of,
+    read_stamp,
+    text_digest,
+)
+from meshforge.project import run
+from meshforge.project.learn import digest_learning_inputs
+from meshforge.signoff import Assessment
+from meshforge.store import AssessmentFile, ConfidenceLine, SignOff, Store, find_changes, survey
+
+Clock = Callable[[], datetime]
+
+
+def now_utc() -> datetime:
+    """The present time."""
+    return datetime.now(UTC)
+
+
+def find_inputs(store: Store, execution: ExecutionOptions = EXECUTION_DEFAULTS) -> dict[str, OutputInputs]:
+    """The digests of all that decides the edit of each asset that can be read; none where there is no program."""
+    program = store.program()
+    if program is None:
+        return {}
+    facts = survey(store.found, store.layout, execution=execution)
+    task = run.build_task(store, program)
+    return {
+        job.id: inputs_of(task, job, dict(facts[job.id].files))
+        for job in run.build_jobs(store)
+        if not facts[job.id].error
+    }
+
+
+def digest_lesson(store: Store) -> str:
+    """The digest of all that probabilities rest on beside the assets: what is learned from, and what a person said."""
+    kept = store.layout.review
+    return text_digest(f"{digest_learning_inputs(store)} {file_digest(kept) if kept.exists() else ''}")
+
+
+def keep_assessment(store: Store, found: Assessment, inputs: Mapping[str, OutputInputs]) -> None:
+    """Keep how sure each result is, so that a status need not learn anything."""
+    lines = {
+        name: ConfidenceLine.of(one, inputs[name], name in found.looked_at)
+        for name, one in found.assets.items()
+        if name in inputs
+    }
+    aside = tuple(sorted(found.aside))
+    store.write_assessment(AssessmentFile(bar=found.bar, lesson=digest_lesson(store), aside=aside, assets=lines))
+
+
+def renew_sign_offs(
+    store: Store, *, clock: Clock = now_utc, execution: ExecutionOptions = EXECUTION_DEFAULTS
+) -> dict[str, str]:
+    """Sign off what may be by the last review, as far as that holds; take back what may not, and say why, by asset."""
+    last, inputs = store.assessment(), find_inputs(store, execution)
+    if last is None or not last.holds(digest_lesson(store), inputs):
+        return {}
+    when = clock().astimezone(UTC).isoformat(timespec="seconds")
+    with store.lock():
+        before = store.sign_offs()
+        kept, lost = dict[str, SignOff](), dict[str, str]()
+        for name, line in last.assets.items():
+            old, now = before.assets.get(name), inputs.get(name)
+            changes = find_changes(now, old.rests_on) if old and now else ()
+            good = (line.looked_at or line.probability >= last.bar) and name not in last.aside
+            if good and old and not changes:
+                kept[name] = old
+            elif good and now and is_written(read_stamp(store.layout.edited, name), now):
+                by: Literal["person", "tool"] = "person" if line.looked_at else "tool"
+                kept[name] = SignOff(by=by, when=when, probability=line.probability, rests_on=now)
+            elif old and not good:
+                lost[name] = _describe_loss(old, line, changes, name in last.aside)
+            elif old:
+                kept[name] = old  # void, and named so, until its output is there again
+        store.write_sign_offs(before.model_copy(update={"assets": dict(sorted(kept.items()))}))
+    return lost
+
+
+def _describe_loss(old: SignOff, line: ConfidenceLine, changes: tuple[str, ...], aside: bool) -> str:
+    if aside:
+        return "a person flagged it or set it aside"
+    why = f", {' and '.join(changes)} changed" if changes else ", by what is known of the family now"
+    return f"it was {old.probability:.1%} sure, and is {line.probability:.1%} sure{why}"
+
+
+def is_written(stamp: Stamp | None, now: OutputInputs) -> bool:
+    """Whether an output is what the edit would make."""
+    made = stamp.inputs if stamp and stamp.status in ("edited", "unchanged") else None
+    return made is not None and not find_changes(now, made)

@@ -1,0 +1,57 @@
+"""How each asset stands: whether it is signed off, and how sure its edit is, by what the last review found."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+
+from meshforge.batch import OutputInputs
+from meshforge.project.status import AssetStatus, SignOffState
+from meshforge.store import AssessmentFile, ConfidenceLine, SignOff, SignOffFile, find_changes
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Standings:
+    """What is kept of a review. inputs: of the edits as they are now, of assets that can be read; signed: what is
+    signed off or set aside; last: what the last review found, None where something changed since.
+    """
+
+    inputs: Mapping[str, OutputInputs]
+    signed: SignOffFile
+    last: AssessmentFile | None
+
+    def add_to(self, asset: AssetStatus) -> AssetStatus:
+        """An asset with how it stands."""
+        line = self.last.assets.get(asset.id) if self.last else None
+        sign_off, now = self.signed.assets.get(asset.id), self.inputs.get(asset.id)
+        void = _find_void(sign_off, now)
+        found = line.to_confidence(asset.id) if line else None
+        return replace(
+            asset,
+            sign_off=self._find_state(asset, line, sign_off, void),
+            void=void,
+            probability=found.probability if found else None,
+            doubts=found.doubts if found else (),
+        )
+
+    def _find_state(
+        self, asset: AssetStatus, line: ConfidenceLine | None, sign_off: SignOff | None, void: tuple[str, ...]
+    ) -> SignOffState:
+        flagged = asset.review == "flagged" and not asset.stale
+        told = self.last is not None and asset.id in self.last.aside
+        if flagged or told or (asset.id in self.signed.aside and not asset.demonstrated):
+            return "set aside"
+        if asset.review == "accepted" and not asset.stale:
+            return "signed off"
+        if sign_off:
+            return "void" if void else "signed off"
+        if not line or not self.last:
+            return "unknown"
+        return "sure" if line.looked_at or line.probability >= self.last.bar else "held"
+
+
+def _find_void(sign_off: SignOff | None, now: OutputInputs | None) -> tuple[str, ...]:
+    """What changed of all that a sign-off rests on."""
+    if not sign_off:
+        return ()
+    return find_changes(now, sign_off.rests_on) if now else ("asset",)

@@ -1,0 +1,159 @@
+"""How sure the edits of a project are: what is known of its family, judged, and as the page shows it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import replace
+
+from meshforge.common import MeshForgeError
+from meshforge.label_model import model_family
+from meshforge.language import explain, parse_extractor, show
+from meshforge.project import Project
+from meshforge.signoff import (
+    Assessment,
+    EditMeasures,
+    ReviewChoice,
+    ReviewQuestion,
+    ReviewState,
+    find_alarms,
+    measure_edit,
+    review_family,
+)
+from meshforge.studio.learning.results import ProgramWithTemplates
+from meshforge.studio.wire import signoff as wire
+from meshforge.symbolic import SymbolicMesh
+from meshforge.synthesis import Found, LearningOutcome, memoize
+
+
+def assess_project(
+    project: Project,
+    meshes: Mapping[str, SymbolicMesh],
+    outcome: LearningOutcome | None,
+    number: int,
+    stop: Callable[[], bool] = lambda: False,
+) -> wire.AssessmentView | None:
+    """How sure the edits of a project are under its program, None where that was interrupted.
+
+    meshes: those that were learned from; outcome: what that came to, which does not matter where a person wrote the
+    program; number: of the learning run.
+    """
+    state = read_review_state(project, meshes)
+    accepted = project.program() if project.program_state().by_hand else None
+    judged = (
+        outcome
+        if accepted is None
+        else Found(rules=accepted.rules, readings=(), tried=(), seconds={}, program=accepted)
+    )
+    program = judged.program if judged else None
+    alarms = {} if program is None else raise_alarms(ProgramWithTemplates(program, state.templates), meshes, stop)
+    model = model_family(list(meshes.values()))
+    if stop():
+        return None
+    assessment = review_family(state, judged, model, alarms=alarms)
+    return view_assessment(assessment, state, number, program is not None)
+
+
+def read_review_state(project: Project, meshes: Mapping[str, SymbolicMesh]) -> ReviewState:
+    """All that is known of a project's family. A result that was accepted counts while its output is up to date."""
+    state = project.build_review_state(meshes)
+    some = [*state.accepted, *state.mended]
+    current = {row.id for row in project.status(some).assets if row.is_done} if some else set()
+    return replace(
+        state,
+        accepted={asset: done for asset, done in state.accepted.items() if asset in current},
+        mended={asset: done for asset, done in state.mended.items() if asset in current},
+    )
+
+
+def raise_alarms(
+    plan: ProgramWithTemplates, meshes: Mapping[str, SymbolicMesh], stop: Callable[[], bool]
+) -> dict[str, tuple[str, ...]]:
+    """Sentences on those edits that stand out of their family, by asset; none on those that cannot be made."""
+    found = dict[str, EditMeasures]()
+    for asset, mesh in meshes.items():
+        if stop():
+            return {}
+        try:
+            found[asset] = _measure(plan, mesh)
+        except MeshForgeError:
+            continue
+    return {asset: tuple(alarm.text for alarm in alarms) for asset, alarms in find_alarms(found).items()}
+
+
+def _measure(plan: ProgramWithTemplates, mesh: SymbolicMesh) -> EditMeasures:
+    """The measures of an edit; cached with the mesh."""
+
+    def make() -> EditMeasures:
+        return measure_edit(mesh, plan.program.run(mesh, plan.templates).mesh)
+
+    return memoize(mesh, ("measures", plan.key), EditMeasures, make)
+
+
+def view_assessment(
+    assessment: Assessment, state: ReviewState, number: int, has_program: bool = True
+) -> wire.AssessmentView:
+    """An assessment as the page shows it; without a program no edit has a probability."""
+    question = assessment.question
+    asked = _view_question(question, state) if question else None
+    if not has_program:
+        return wire.AssessmentView(number=number, bar=assessment.bar, question=asked)
+    signed = set(assessment.signed_off)
+    rows = tuple(
+        wire.ConfidenceView(
+            asset=name,
+            probability=round(one.probability, 4),
+            doubts=tuple(wire.DoubtView(**doubt.to_json()) for doubt in one.doubts),
+            state="aside" if name in assessment.aside else "signed" if name in signed else "held",
+            told=name in assessment.looked_at,
+        )
+        for name, one in assessment.assets.items()
+    )
+    counts = {what: sum(row.state == what for row in rows) for what in ("signed", "held", "aside")}
+    return wire.AssessmentView(
+        number=number,
+        bar=assessment.bar,
+        signed_off=counts["signed"],
+        held=counts["held"],
+        aside=counts["aside"],
+        assets=rows,
+        question=asked,
+    )
+
+
+def _view_question(question: ReviewQuestion, state: ReviewState) -> wire.ReviewQuestionView:
+    first = next(iter(question.hulls), None)
+    return wire.ReviewQuestionView(
+        id=question.id,
+        kind=question.kind,
+        text=question.text,
+        seconds=round(question.seconds, 1),
+        gain=round(question.gain, 3),
+        asset=question.asset,
+        rule=question.rule,
+        hulls=tuple(
+            wire.HullRef(asset=asset, hull=hull, place=state.meshes[asset].index[hull])
+            for asset, hull in question.hulls
+        ),
+        was=state.meshes[first.asset].hull_of(first.hull).label if first else None,
+        choices=tuple(map(_view_choice, question.choices)),
+    )
+
+
+def _view_choice(choice: ReviewChoice) -> wire.ReviewChoiceView:
+    return wire.ReviewChoiceView(
+        text=choice.text,
+        label=choice.label,
+        select=choice.select,
+        sentence=_explain_reading(choice),
+        orient=show(choice.orient).removeprefix("orient ") if choice.orient else None,
+    )
+
+
+def _explain_reading(choice: ReviewChoice) -> str:
+    """The extractor of a choice in words, empty where its text is none."""
+    if choice.select is None:
+        return ""
+    try:
+        return explain(parse_extractor(choice.text))
+    except MeshForgeError:
+        return ""

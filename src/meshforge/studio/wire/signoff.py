@@ -1,0 +1,80 @@
+"""How sure the edit of each asset is, why it may be wrong, and the question that is worth most."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+from meshforge.studio.wire import Wire
+
+DoubtKind = Literal["reading", "label", "orientation", "unlike", "alarm"]
+QuestionKind = Literal["group", "repair", "reading", "label", "orientation", "result", "demonstrate"]
+SignoffState = Literal["signed", "held", "aside"]
+
+
+class DoubtView(Wire):
+    """Why an edit may be wrong. hulls: names of those concerned; rule: its number, null where it is about none."""
+
+    kind: DoubtKind
+    text: str
+    hulls: tuple[str, ...] = ()
+    rule: int | None = None
+
+
+class ConfidenceView(Wire):
+    """One asset. probability: that its edit is right; doubts: the weightiest first; state: whether it is signed off,
+    held below the bar, or set aside by a person; told: whether a person demonstrated or accepted it."""
+
+    asset: str
+    probability: float
+    doubts: tuple[DoubtView, ...] = ()
+    state: SignoffState
+    told: bool = False
+
+
+class HullRef(Wire):
+    """A hull of an asset. place: its position among the asset's own hulls."""
+
+    asset: str
+    hull: str
+    place: int
+
+
+class ReviewChoiceView(Wire):
+    """One reply. label: that the hulls then get; select: names of the hulls that the rule then selects; sentence: that
+    reading in words; orient: the directive that the family then gets."""
+
+    text: str
+    label: str | None = None
+    select: tuple[str, ...] | None = None
+    sentence: str = ""
+    orient: str | None = None
+
+
+class ReviewQuestionView(Wire):
+    """A question. seconds: of a person; gain: assets that an answer makes right, as far as can be expected; hulls:
+    those in question; was: the label of the first of them."""
+
+    id: str
+    kind: QuestionKind
+    text: str
+    seconds: float
+    gain: float
+    asset: str
+    rule: int | None = None
+    hulls: tuple[HullRef, ...] = ()
+    was: str | None = None
+    choices: tuple[ReviewChoiceView, ...] = ()
+
+
+class AssessmentView(Wire):
+    """A family as the last learning run left it. number: of that run; bar: the probability from which on an asset is
+    signed off; signed_off, held, aside: how many assets; assets: in the family's order, empty while there is no
+    program; question: null where nothing is left to ask."""
+
+    number: int
+    bar: float
+    signed_off: int = 0
+    held: int = 0
+    aside: int = 0
+    assets: tuple[ConfidenceView, ...] = ()
+    question: ReviewQuestionView | None = None

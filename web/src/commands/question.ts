@@ -1,0 +1,66 @@
+// Replies to the question of the family's assessment, each an edit that undo takes back.
+import { perform } from "../store/edits";
+import { setFilters, setHighlight, setLayout, visit } from "../store/workspace";
+import type { AnyEdit, DoubtView, ReviewQuestionView } from "../wire";
+import { demonstrate } from "./learn";
+import { flag } from "./review";
+
+/** Takes one of a question's choices, counted from 0, or none of them. */
+export async function reply(question: ReviewQuestionView, place: number | null): Promise<void> {
+  setHighlight(null);
+  const edits = editsFor(question, place);
+  for (const edit of edits) if (!(await perform(edit))) return;
+}
+
+/** Asks another question; this one does not come back as long as what it is about stays. */
+export function putOff({ id }: ReviewQuestionView): Promise<boolean> {
+  setHighlight(null);
+  return perform({ kind: "put-off", id });
+}
+
+/** The edits that a reply to a question amounts to; none of the choices puts most questions off. */
+export function editsFor(question: ReviewQuestionView, place: number | null): AnyEdit[] {
+  const { id, kind, rule, asset, hulls, was, choices } = question;
+  const choice = place === null ? undefined : choices[place];
+  const later: AnyEdit = { kind: "put-off", id };
+  switch (kind) {
+    case "reading":
+    case "label": {
+      const refused = choice ? [] : choices.map((one) => one.select ?? []);
+      return [{ kind: "answer", rule: rule ?? 1, asset, select: choice?.select ?? null, refused }];
+    }
+    case "group":
+      return choice?.label ? [{ kind: "label-group", hulls: hulls.map((one) => ({ asset: one.asset, hull: one.hull })), label: choice.label }] : [later];
+    case "repair": {
+      const [first] = hulls;
+      const to = choices[0]?.label;
+      if (!first || !to || !choice) return [later];
+      return [{ kind: "repair", asset: first.asset, hull: first.hull, was, to, accept: choice.label === to }];
+    }
+    case "orientation":
+      return choice?.orient ? [{ kind: "orient", text: choice.orient }, later] : [later];
+    case "result":
+      return choice?.text === "right" ? [{ kind: "review", ids: [asset], verdict: "accepted" }] : [later];
+    case "demonstrate":
+      return [later];
+  }
+}
+
+/** The result of an asset is wrong: it is to be demonstrated. */
+export const sayWrong = (asset: string): void => demonstrate(asset);
+export const setAside = (asset: string): Promise<boolean> => flag(asset, "set aside");
+
+/** Opens what a question is about. */
+export function showAsked({ kind, asset, hulls }: ReviewQuestionView): void {
+  const names = hulls.filter((one) => one.asset === asset).map((one) => one.hull);
+  visit(asset, kind === "result" ? { kind: "result", of: "program" } : { kind: "source" }, names);
+}
+
+/** Opens an asset with the hulls of a doubt selected. */
+export const showDoubt = (asset: string, doubt: DoubtView): void => visit(asset, { kind: "source" }, doubt.hulls);
+
+/** Shows the held assets alone, the least probable first. */
+export function lookAtHeld(): void {
+  setLayout({ family: true });
+  setFilters({ search: "", only: ["held"], sort: "probability" });
+}

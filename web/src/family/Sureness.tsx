@@ -1,0 +1,77 @@
+// How sure the edits of the family are, in one line; and of one asset, why its edit may be wrong.
+import { CircleCheck, CircleQuestionMark, Crosshair, LoaderCircle } from "lucide-react";
+import { lookAtHeld, showDoubt } from "../commands/question";
+import { lookText, moodOf, percentText, sureText } from "../store/assessment";
+import { useProject } from "../store/project";
+import { countText, shortName } from "../store/words";
+import { Button } from "../ui/Button";
+import { Section } from "../ui/Section";
+import type { AssessmentView, DoubtView } from "../wire";
+import css from "./sureness.module.css";
+
+/** `71 of 75 are at least 95% sure; look at these 4`. */
+export function SureLine() {
+  const assessment = useProject((state) => state.assessment);
+  const assessing = useProject((state) => state.assessing);
+  if (assessment?.assets.length) return <Known assessment={assessment} />;
+  if (!assessing) return null;
+  return (
+    <p className={css.line} role="status">
+      <LoaderCircle size={14} aria-hidden className={css.spinning} />
+      <span>… sure: this is being worked out</span>
+    </p>
+  );
+}
+
+function Known({ assessment }: { assessment: AssessmentView }) {
+  const mood = moodOf(assessment);
+  const Icon = mood === "good" ? CircleCheck : CircleQuestionMark;
+  const look = lookText(assessment);
+  return (
+    <p className={css.line} data-mood={mood} role="status">
+      <Icon size={14} aria-hidden />
+      <span>
+        {sureText(assessment)}
+        {assessment.aside > 0 && `; ${assessment.aside.toLocaleString("en-GB")} set aside`}
+        {look && (
+          <>
+            {"; "}
+            <button type="button" className={css.look} onClick={lookAtHeld}>
+              {look}
+            </button>
+          </>
+        )}
+      </span>
+    </p>
+  );
+}
+
+/** How sure the edit of an asset is, and what makes it doubtful. */
+export function Doubts({ asset }: { asset: string }) {
+  const bar = useProject((state) => state.assessment?.bar ?? null);
+  const row = useProject((state) => state.confidence[asset]);
+  if (!row || bar === null || (!row.doubts.length && row.state !== "held")) return null;
+  return (
+    <Section title={`Why ${shortName(asset)} may be wrong`} aside={<span data-state={row.state} className={css.sure}>{percentText(row.probability, bar)} sure</span>}>
+      <ul className={css.doubts}>
+        {row.doubts.map((doubt) => (
+          <DoubtRow key={doubt.text} asset={asset} doubt={doubt} />
+        ))}
+      </ul>
+    </Section>
+  );
+}
+
+function DoubtRow({ asset, doubt }: { asset: string; doubt: DoubtView }) {
+  const { text, hulls } = doubt;
+  return (
+    <li className={css.doubt}>
+      <span>{text}</span>
+      {hulls.length > 0 && (
+        <Button look="quiet" icon={Crosshair} aria-label={`Show ${countText(hulls.length, "hull")}: ${text}`} onClick={() => showDoubt(asset, doubt)}>
+          Show
+        </Button>
+      )}
+    </li>
+  );
+}

@@ -1,0 +1,78 @@
+// How sure edits are in words, and which question is open.
+import { describe, expect, it } from "vitest";
+import { asReadings, doubtsText, familyText, moodOf, openQuestion, percentText, placesOf, probabilityText } from "./assessment";
+import { filterAssets } from "./family";
+import { applyEvent, emptyProject } from "./project";
+import { sampleAssessment, sampleCard, sampleQuestion, sampleRow } from "./sample.test-help";
+
+describe("how sure the family is", () => {
+  it("is told by counts, and good only where nothing is held", () => {
+    expect(familyText(sampleAssessment(75, 4))).toBe("71 of 75 are at least 95% sure; look at these 4");
+    expect(familyText(sampleAssessment(2, 1))).toBe("1 of 2 is at least 95% sure; look at this one");
+    expect(familyText(sampleAssessment(5, 5))).toBe("None of 5 are at least 95% sure; look at these 5");
+    expect(familyText(sampleAssessment(5, 0))).toBe("All 5 are at least 95% sure");
+    expect(familyText(sampleAssessment(5, 0, { signed_off: 3, aside: 2 }))).toBe("3 of 5 are at least 95% sure; 2 are set aside");
+    expect([sampleAssessment(5, 1), sampleAssessment(5, 0)].map(moodOf)).toEqual(["warn", "good"]);
+  });
+
+  it("never rounds up to the bar, nor to certainty", () => {
+    expect([0.9496, 0.95, 0.9999, 0.62, 0.004].map((share) => percentText(share, 0.95))).toEqual(["94%", "95%", "99%", "62%", "<1%"]);
+  });
+
+  it("is no number as soon as something changed", () => {
+    const known = applyEvent(emptyProject, { kind: "assessment", assessment: sampleAssessment(2, 1), assessing: false });
+    const changed = applyEvent(known, { kind: "assessment", assessment: null, assessing: true });
+    expect(probabilityText(known, "a0")).toBe("50%");
+    expect(probabilityText(changed, "a0")).toBe("…");
+    expect(probabilityText(emptyProject, "a0")).toBeNull();
+    expect(doubtsText("a0", changed.confidence["a0"], null)).toBe("a0");
+  });
+
+  it("comes with the doubts, a sentence a line", () => {
+    const doubt = { kind: "alarm", text: "nearly one solid block", hulls: [], rule: null } as const;
+    const row = sampleRow({ probability: 0.03, doubts: [doubt as never] });
+    expect(doubtsText("a", row, 0.95)).toBe("a: 3% sure\n• nearly one solid block");
+  });
+
+  it("orders and filters the family, also while it is worked out anew", () => {
+    const cards = Object.fromEntries(["a", "b", "c", "d"].map((asset) => [asset, sampleCard({ asset })]));
+    const confidence = {
+      a: sampleRow(),
+      b: sampleRow({ asset: "b", probability: 0.2, state: "held" }),
+      c: sampleRow({ asset: "c", probability: 0.1, state: "aside" }),
+    };
+    const shown = (only: readonly "held"[]) =>
+      filterAssets(cards, Object.keys(cards), { search: "", only, sort: "probability" }, emptyProject.project, "", confidence);
+    expect(shown([])).toEqual(["b", "a", "c", "d"]);
+    expect(shown(["held"])).toEqual(["b"]);
+  });
+});
+
+describe("the question of the assessment", () => {
+  const asked = (question: ReturnType<typeof sampleQuestion>, outcome: object | null = null) =>
+    openQuestion({ assessment: sampleAssessment(3, 1, { question }), outcome: outcome as never });
+  const learned = { question: null, repairs: [], hint: null, suggested_orientation: null };
+
+  it("is not asked twice", () => {
+    const reading = sampleQuestion({ kind: "reading", rule: 2, asset: "a1" });
+    expect(asked(reading, { ...learned, question: { rule: 2, asset: "a1" } })).toBeNull();
+    expect(asked(reading, { ...learned, question: { rule: 1, asset: "a1" } })).toBe(reading);
+    const repair = sampleQuestion({ kind: "repair", hulls: [{ asset: "a1", hull: "h", place: 0 }] });
+    expect(asked(repair, { ...learned, repairs: [{ asset: "a1", hull: "h" }] })).toBeNull();
+    expect(asked(repair, learned)).toBe(repair);
+  });
+
+  it("is none while there is no program", () => {
+    const assessment = sampleAssessment(0, 0, { question: sampleQuestion() });
+    expect(openQuestion({ assessment, outcome: null })).toBeNull();
+  });
+
+  it("about readings is one of pictures; hulls are found by asset", () => {
+    const choice = { text: "Is(leg)", label: null, select: ["x"], sentence: "the legs", orient: null };
+    const view = asReadings(sampleQuestion({ kind: "reading", rule: 1, choices: [choice] }));
+    expect(view?.choices[0]).toEqual({ reading: "Is(leg)", extractor: "Is(leg)", sentence: "the legs", select: ["x"] });
+    expect(asReadings(sampleQuestion())).toBeNull();
+    const hulls = [{ asset: "a", hull: "x", place: 3 }, { asset: "b", hull: "y", place: 0 }, { asset: "a", hull: "z", place: 5 }];
+    expect(placesOf({ hulls })).toEqual({ a: [3, 5], b: [0] });
+  });
+});

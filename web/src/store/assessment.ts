@@ -1,0 +1,101 @@
+// How sure the edits of the family are, in words, and which question is open; knows neither DOM nor three.js.
+import type { AssessmentView, ConfidenceView, OutcomeView, QuestionView, ReviewQuestionView } from "../wire";
+import { type ProjectState, useProject } from "./project";
+import { countText } from "./words";
+
+/** A probability as people read it. One below the bar never looks as if it reached it, and none looks certain. */
+export function percentText(probability: number, bar = 1): string {
+  const exact = 100 * probability;
+  const near = Math.round(exact);
+  const below = exact < 100 * bar && near >= 100 * bar;
+  const shown = Math.min(below ? Math.floor(exact) : near, 99);
+  return shown < 1 ? "<1%" : `${shown}%`;
+}
+
+/** `71 of 75 are at least 95% sure`, without what is to be done about the others. */
+export function sureText({ signed_off: sure, assets, bar }: AssessmentView): string {
+  const limit = `at least ${Math.round(100 * bar)}% sure`;
+  const all = assets.length;
+  if (sure === all) return all === 1 ? `Your one asset is ${limit}` : `All ${all.toLocaleString("en-GB")} are ${limit}`;
+  const some = sure === 0 ? "None" : sure.toLocaleString("en-GB");
+  return `${some} of ${all.toLocaleString("en-GB")} ${sure === 1 ? "is" : "are"} ${limit}`;
+}
+
+/** `look at these 4`; null where none is held. */
+export function lookText({ held }: Pick<AssessmentView, "held">): string | null {
+  if (!held) return null;
+  return held === 1 ? "look at this one" : `look at these ${held.toLocaleString("en-GB")}`;
+}
+
+/** How the family stands in one sentence. */
+export function familyText(assessment: AssessmentView): string {
+  const aside = assessment.aside && `${assessment.aside.toLocaleString("en-GB")} ${assessment.aside === 1 ? "is" : "are"} set aside`;
+  return [sureText(assessment), aside, lookText(assessment)].filter(Boolean).join("; ");
+}
+
+/** Good only where nothing is held. */
+export const moodOf = ({ held }: Pick<AssessmentView, "held">): "good" | "warn" => (held ? "warn" : "good");
+
+/** What a card says of an asset: a percentage, `…` while it is not known, null where there is no program. */
+export function probabilityText(state: Sureness, asset: string): string | null {
+  const row = state.confidence[asset];
+  if (state.assessment) return row ? percentText(row.probability, state.assessment.bar) : null;
+  return row || state.assessing ? "…" : null;
+}
+
+type Sureness = Pick<ProjectState, "assessment" | "assessing" | "confidence">;
+
+/** An asset and why its edit may be wrong, a sentence a line. */
+export function doubtsText(asset: string, row: ConfidenceView | undefined, bar: number | null): string {
+  if (!row || bar === null) return asset;
+  const sure = row.told ? "you showed or accepted it" : `${percentText(row.probability, bar)} sure`;
+  return [`${asset}: ${sure}`, ...row.doubts.map((doubt) => `• ${doubt.text}`)].join("\n");
+}
+
+/** The rows of an assessment by asset. */
+export const rowsOf = (assessment: AssessmentView): Readonly<Record<string, ConfidenceView>> =>
+  Object.fromEntries(assessment.assets.map((row) => [row.asset, row]));
+
+/** The question of the assessment; null where there is none, or what learning asks itself would ask the same. */
+export function openQuestion({ assessment, outcome }: Pick<ProjectState, "assessment" | "outcome">): ReviewQuestionView | null {
+  const asked = assessment?.assets.length ? assessment.question : null;
+  return asked && !(outcome && asksSame(asked, outcome)) ? asked : null;
+}
+
+export const useOpenQuestion = (): ReviewQuestionView | null => useProject(openQuestion);
+
+function asksSame(asked: ReviewQuestionView, { question, repairs, hint, suggested_orientation: orient }: OutcomeView): boolean {
+  switch (asked.kind) {
+    case "reading":
+    case "label":
+      return question?.rule === asked.rule && question.asset === asked.asset;
+    case "group":
+    case "repair":
+      return asked.hulls.length === 1 && repairs.some(({ asset, hull }) => asset === asked.hulls[0]?.asset && hull === asked.hulls[0].hull);
+    case "orientation":
+      return orient !== null && asked.choices.some((choice) => choice.orient === orient);
+    case "demonstrate":
+      return hint?.asset === asked.asset;
+    case "result":
+      return false;
+  }
+}
+
+/** A question about readings as learning asks its own, for the same card; null for other questions. */
+export function asReadings({ id, rule, asset, choices }: ReviewQuestionView): QuestionView | null {
+  if (rule === null || !choices.length || choices.some((choice) => choice.select === null)) return null;
+  const rows = choices.map(({ text, sentence, select }) => ({ reading: text, extractor: text, sentence, select: select ?? [] }));
+  return { id, rule, asset, choices: rows, harm: 0, left: 0 };
+}
+
+/** Positions of the hulls in question, by asset. */
+export function placesOf({ hulls }: Pick<ReviewQuestionView, "hulls">): Readonly<Record<string, readonly number[]>> {
+  const out: Record<string, number[]> = {};
+  for (const { asset, place } of hulls) (out[asset] ??= []).push(place);
+  return out;
+}
+
+/** What an answer is worth; null where that is little. */
+export function worthText({ gain }: Pick<ReviewQuestionView, "gain">): string | null {
+  return gain >= 0.75 ? `An answer probably makes ${countText(Math.round(gain), "more result")} right.` : null;
+}
