@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import statistics
 import time
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -26,26 +27,30 @@ _HULLS = 24  # of each mesh that is made
 _DESCRIBED = 50  # meshes that others are made from
 _NOISE = 0.05  # of each number of a row, as a share
 _WRONG, _SILENT = 0.08, 0.1  # shares of hulls with a wrong label, and of those of which nothing is said
+_ANSWERS = 9
 _GIB = 2.0**30
 _NOTES = (
     f"{_MESHES} meshes are those of the benchmark's category *{_KIND}*; of more, each takes {_HULLS} rows of one of "
     f"{_DESCRIBED} described meshes of it, every number {_NOISE:.0%} off or so. {_WRONG:.0%} of the labels are wrong, "
     f"{_SILENT:.0%} of the hulls have none. Describing meshes is not counted.",
-    "The answer is a person's, on a hull of a mesh of which no person said anything. Memory is the peak of the process "
-    "that does it, all libraries and the descriptions included.",
+    f"Each answer is a person's, on a hull of a mesh of which no person said anything; of {_MESHES} meshes *one more* "
+    f"is the median of {_ANSWERS}. Those that are made are not compared as they would lie on another side, and get one "
+    "answer, after which all look-alikes are looked for again, since the mesh that got it is among those looked at. "
+    "Memory is the peak of the process, all libraries and the descriptions included.",
 )
 
 
 @dataclass(frozen=True, slots=True)
 class Cost:
-    """meshes, hulls: of the family; first, again: seconds at first, and after one more answer; cpu: seconds of all
-    processors at first; memory: peak of the process [bytes]."""
+    """meshes, hulls: of the family; start: seconds at first; cpu: those of all processors; first, again: after the
+    first answer, and one more; memory: peak of the process [bytes]."""
 
     meshes: int
     hulls: int
+    start: float
+    cpu: float
     first: float
     again: float
-    cpu: float
     memory: int
 
 
@@ -57,13 +62,21 @@ def measure(tell: Tell, quick: bool) -> Result:
         (cost,) = run_isolated(_measure_real if count == _MESHES else _measure_made, [count], alone)
         if isinstance(cost, WorkerFailure):
             raise MeshForgeError(f"the posterior of {count:,} meshes: {cost.why}")
-        tell(f"{cost.meshes:,} meshes: {cost.first:.2f} s, after one more answer {cost.again:.2f} s")
+        tell(f"{cost.meshes:,} meshes: {cost.start:.2f} s, after one more answer {cost.again:.2f} s")
         found.append(cost)
-    columns = ("meshes", "hulls", "at first [s]", "of processors [s]", "after one more answer [s]", "memory [GiB]")
-    rows = [(one.meshes, one.hulls, one.first, one.cpu, one.again, one.memory / _GIB) for one in found]
+    columns = (
+        "meshes",
+        "hulls",
+        "at first [s]",
+        "of all processors [s]",
+        "a first answer [s]",
+        "one more [s]",
+        "memory [GiB]",
+    )
+    rows = [(one.meshes, one.hulls, one.start, one.cpu, one.first, one.again, one.memory / _GIB) for one in found]
     goals = [Goal(f"{_MESHES} meshes, after one more answer [s]", "at most", 0.2, found[0].again)]
     if not quick:
-        goals.append(Goal(f"{_LARGEST:,} meshes [s]", "at most", 60.0, found[-1].first))
+        goals.append(Goal(f"{_LARGEST:,} meshes [s]", "at most", 60.0, found[-1].start))
         goals.append(Goal(f"{_LARGEST:,} meshes, memory [GiB]", "at most", 1.0, found[-1].memory / _GIB))
     table = Table("The posterior of a family", columns, tuple(rows))
     return Result("posterior", "How long the posterior takes", (table,), tuple(goals), _NOTES)
@@ -73,7 +86,7 @@ def _measure_real(count: int) -> Cost:
     """What so many meshes of the benchmark cost."""
     meshes, rng = [row.mesh for row in samples(_KIND)[:count]], np.random.default_rng(0)
     said = _say([hull.label or "" for mesh in meshes for hull in mesh.hulls], rng)
-    return _measure(FamilyModel(meshes).infer, said, len(meshes))
+    return _measure(FamilyModel(meshes).infer, said, len(meshes), _ANSWERS)
 
 
 def _measure_made(count: int) -> Cost:
@@ -90,7 +103,7 @@ def _measure_made(count: int) -> Cost:
         labels += [names[place] for place in taken]
     table = FamilyTable.of(described)
     del described
-    return _measure(partial(_infer, table), _say(labels, rng), count)
+    return _measure(partial(_infer, table), _say(labels, rng), count, 1)
 
 
 def _say(labels: list[str], rng: np.random.Generator) -> list[Label | None]:
@@ -107,15 +120,23 @@ def _infer(table: FamilyTable, said: list[Label | None]) -> FamilyPosterior:
     return FamilyPosterior.of(table, Observations.of(said))
 
 
-def _measure(infer: Callable[[list[Label | None]], FamilyPosterior], said: list[Label | None], meshes: int) -> Cost:
+def _measure(
+    infer: Callable[[list[Label | None]], FamilyPosterior], said: list[Label | None], meshes: int, answers: int
+) -> Cost:
     began, began_cpu = time.perf_counter(), time.process_time()
-    first = infer(said)
-    took, cpu = time.perf_counter() - began, time.process_time() - began_cpu
-    label = first.labels(meshes // 2)[0]
-    assert label
-    said[first.table.spans[meshes // 2].start] = Label(label.name)
-    began = time.perf_counter()
-    infer(said)
-    again, peaks = time.perf_counter() - began, dict[int, int]()
+    found = infer(said)
+    start, cpu, times, peaks = (
+        time.perf_counter() - began,
+        time.process_time() - began_cpu,
+        list[float](),
+        dict[int, int](),
+    )
+    for mesh in range(answers):
+        label = found.labels(mesh)[0]
+        assert label
+        said[found.table.spans[mesh].start] = Label(label.name)
+        began = time.perf_counter()
+        infer(said)
+        times.append(time.perf_counter() - began)
     look(os.getpid(), peaks)
-    return Cost(meshes, len(said), took, again, cpu, peaks[os.getpid()])
+    return Cost(meshes, len(said), start, cpu, times[0], statistics.median(times), peaks[os.getpid()])

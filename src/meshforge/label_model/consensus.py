@@ -62,7 +62,8 @@ def infer_chances(table: FamilyTable, seen: Observations, weights: Floats | None
     context = FamilyContext(table, seen)
     chances = by_others = context.start()
     for row in consensus_weights() if weights is None else weights:
-        scores = context.collect_evidence(chances) * row
+        scores = context.collect_evidence(chances)
+        scores *= row
         by_others = softmax(scores[:, :, _OF_OTHERS].sum(axis=2))
         chances = context.hold(softmax(scores.sum(axis=2)))
     return chances, by_others

@@ -32,7 +32,8 @@ _GRAIN = 1e-7  # distances that differ by less are equal
 @dataclass(frozen=True, eq=False)
 class Lookalikes:
     """others: (n, meshes, PER_MESH) the nearest hulls of other meshes, mesh by mesh; apart: their distances, infinite
-    where there is none; own: (n, OF_OWN) those of the same mesh; own_apart: their distances.
+    where there is none, of many meshes in single precision; own: (n, OF_OWN) those of the same mesh; own_apart: their
+    distances.
     """
 
     others: Places
@@ -49,7 +50,7 @@ class Lookalikes:
     def _nearest(self, some: slice, usable: Bools, count: int, per_mesh: int) -> tuple[Places, Floats]:
         """The same of some hulls: what is sorted for all at once takes a lot of memory."""
         others = self.others[some]
-        apart = np.where(usable[others], self.apart[some], np.inf)
+        apart = np.where(usable[others], self.apart[some].astype(float, copy=False), np.inf)
         if per_mesh == 1:
             best = apart.argmin(axis=2)[:, :, None]
             hulls = np.take_along_axis(others, best, axis=2)[:, :, 0]
@@ -99,7 +100,7 @@ def find_lookalikes(rows: Floats, metric: Floats, owner: Ints, first: Sequence[i
     chosen = _choose_meshes(meshes, first)
     kept = len(chosen) if len(meshes) <= MOST_MESHES else min(KEPT_MESHES, len(chosen))
     others = np.zeros((len(rows), kept, PER_MESH), dtype=np.int32)
-    apart = np.full((len(rows), kept, PER_MESH), np.inf)
+    apart = np.full((len(rows), kept, PER_MESH), np.inf, float if kept == len(meshes) else np.float32)
     compared = [
         (int(meshes[k]), np.arange(starts[k], ends[k], dtype=np.int32), rows[starts[k] : ends[k]] * metric)
         for k in chosen

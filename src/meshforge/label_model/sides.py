@@ -18,27 +18,29 @@ _MOST_ROWS = 800  # hulls at most, evenly chosen
 
 
 class UprightReference:
-    """The hulls by which it is told how a mesh stands: those whose labels are given, or where none are, all of which
-    anything is said; of the labels that a mesh has itself each is compared with hulls of that label alone.
+    """The hulls by which it is told how a mesh stands: all of which anything is said, not only those whose labels are
+    given, since a few answers of people say little of that. Of the labels that a mesh has itself each is compared with
+    hulls of that label alone.
     """
 
     def __init__(self, table: FamilyTable, seen: Observations) -> None:
         self._table, self._codes = table, seen.codes
-        known = seen.given if seen.given.any() else seen.known
-        self.hulls = pick_evenly(np.flatnonzero(known), _MOST_ROWS)
+        self.hulls = pick_evenly(np.flatnonzero(seen.known), _MOST_ROWS)
 
-    def apart(self, mesh: int, rows: Floats, columns: slice) -> float:
-        """How far hulls of a mesh, described by rows (n, columns), are from those of other meshes, on average."""
+    def apart(self, mesh: int, sides: Sequence[Floats], columns: slice) -> list[float]:
+        """How far hulls of a mesh, described by rows (n, columns) on each of some sides, are from those of other
+        meshes, on average.
+        """
         table, span = self._table, self._table.spans[mesh]
         others = self.hulls[table.owner[self.hulls] != mesh]
         if not len(others):
-            return 0.0
-        metric = table.metric[columns]
-        gaps = cdist(rows * metric, table.rows[others, columns] * metric, "cityblock")
-        own = self._codes[span]
+            return [0.0] * len(sides)
+        metric, own = table.metric[columns], self._codes[span]
+        theirs = table.rows[others, columns] * metric
         same = (own[:, None] == self._codes[others][None]) | (own == NO_LABEL)[:, None]
         same |= ~same.any(axis=1, keepdims=True)
-        return float(np.where(same, gaps, np.inf).min(axis=1).mean())
+        gaps = (cdist(rows * metric, theirs, "cityblock") for rows in sides)
+        return [float(np.where(same, one, np.inf).min(axis=1).mean()) for one in gaps]
 
 
 def find_doubtful_sides(
@@ -52,8 +54,8 @@ def find_doubtful_sides(
     if not len(reference.hulls):
         return
     for mesh, span in table.spans.items():
-        likeness = [reference.apart(mesh, scale(found), SHAPE_COLUMNS) for found in sides(mesh)]
-        seems = reference.apart(mesh, table.rows[span, SHAPE_COLUMNS], SHAPE_COLUMNS)
+        rows = [table.rows[span, SHAPE_COLUMNS], *map(scale, sides(mesh))]
+        seems, *likeness = reference.apart(mesh, rows, SHAPE_COLUMNS)
         order = greatest_first(-np.array(likeness))
         yield mesh, tuple([side for side in order if likeness[side] < seems - EQUAL][:_CLOSE])
 
@@ -68,9 +70,9 @@ def choose_sides(
     reference, every = UprightReference(table, seen), slice(0, table.rows.shape[1])
     found = {}
     for mesh, sides in closer:
-        apart = [reference.apart(mesh, table.scale(side), every) for side in sides]
+        seems, *apart = reference.apart(mesh, [table.rows[table.spans[mesh]], *map(table.scale, sides)], every)
         order = greatest_first(-np.array(apart))
-        if order and apart[order[0]] < _BETTER * reference.apart(mesh, table.rows[table.spans[mesh]], every):
+        if order and apart[order[0]] < _BETTER * seems:
             found[mesh] = order[0]
     return found
 
