@@ -24,7 +24,7 @@ COMMANDS = {
     "demonstrate": "Record the steps of a demonstration",
     "studio": "See, label, demonstrate, learn and review in the browser",
     "synthesize": "Learn the smallest program that does on every demonstrated asset what was shown there",
-    "review": "Sign a family off",
+    "review": "Say how sure each result is, and ask what signs a family off",
     "apply": "Run a program on assets",
     "check": "Check that every hull is convex, closed and solid, and keeps to the limits of an engine",
     "info": "Show hulls, labels, bodies, contacts and near misses of an asset, in the frame it comes in",

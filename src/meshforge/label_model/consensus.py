@@ -42,6 +42,7 @@ _TOGETHER = 10  # look-alikes of distinct meshes whose evidence is multiplied
 _ALIKE, _SOFT = 9.0, 1.5  # the distance at which two hulls are half alike, and how soon it ends
 _ALIKE_NEAREST, _ALIKE_OWN = 10.0, 7.0
 _AT_MOST = 0.97  # to which degree two hulls are alike
+_TWINS = 1.5  # the distance up to which hardly anything tells two hulls of a mesh apart
 _PRIOR_SHARE = 0.3  # of the prior beside look-alikes
 _START = 0.9  # what each label is believed at the start
 _PAIRS = 0.5  # pairs of labels count as having touched so often before any are seen
@@ -123,8 +124,9 @@ class FamilyContext:
         counted = chances * np.where(seen.known, 1.0, _UNSAID)[:, None]
         prior = counted.sum(axis=0) + 0.5
         prior /= prior.sum()
-        nearest = np.log(self._share_nearest(chances, informed, prior))
-        distinct, together = self._share_distinct(chances, informed, prior)
+        heard = self._mix_twins(chances, informed)
+        nearest = np.log(self._share_nearest(heard, informed, prior))
+        distinct, together = self._share_distinct(heard, informed, prior)
         own_mesh = np.log(self._share_own(chances, informed, prior))
         said = np.maximum(seen.codes, 0)
         by_others = softmax(nearest + 0.5 * together)[rows, said]
@@ -140,6 +142,13 @@ class FamilyContext:
     def _find_helpers(self, chances: Floats) -> _Helpers:
         sure = ~self.seen.known & (chances.max(axis=1, initial=0.0) > _CERTAIN)
         return _Helpers(self.seen.known | sure, np.where(self.seen.known, 1.0, _HELP))
+
+    def _mix_twins(self, chances: Floats, informed: _Helpers) -> Floats:
+        """What hulls say to others: those of one mesh that hardly anything tells apart say what they say on average."""
+        twins, apart = self.lookalikes.own, self.lookalikes.own_apart
+        same = np.where(informed.usable[twins], np.exp(-((apart / _TWINS) ** 2)), 0.0)
+        found: Floats = (chances + _sum_votes(same, chances, twins)) / (1 + same.sum(axis=1))[:, None]
+        return found
 
     def _share_nearest(self, chances: Floats, informed: _Helpers, prior: Floats) -> Floats:
         """The shares of the labels among the nearest hulls, the nearer the more."""
