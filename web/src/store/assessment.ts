@@ -68,7 +68,7 @@ function asksSame(asked: ReviewQuestionView, { question, repairs, hint, suggeste
   switch (asked.kind) {
     case "reading":
     case "label":
-      return question?.rule === asked.rule && question.asset === asked.asset;
+      return question !== null; // learning asks about readings itself: one card at a time
     case "group":
     case "repair":
       return asked.hulls.length === 1 && repairs.some(({ asset, hull }) => asset === asked.hulls[0]?.asset && hull === asked.hulls[0].hull);

@@ -23,8 +23,8 @@ export function QuestionCard({ question, worth, later }: QuestionCardProps) {
   const why = worth === undefined ? worthText(harm) : worth;
   const picture = useRulePicture(asset, rule);
   return (
-    <section className={css.card} aria-labelledby={`question ${question.id}`} onKeyDown={(event) => answerByKey(event, question)}>
-      <h3 id={`question ${question.id}`}>
+    <section className={css.card} aria-labelledby={`question-${question.id}`} onKeyDown={(event) => answerByKey(event, question)}>
+      <h3 id={`question-${question.id}`}>
         On <span title={asset}>{shortName(asset)}</span>, which hulls should rule {rule} take?
       </h3>
       <div className={css.choices} data-many={choices.length > 2}>
