@@ -110,7 +110,7 @@ def test_two_tables_by_hand_label_the_rest(folder: Path) -> None:
         told = meshforge("label", KEPT, "--with", "propagate", cwd=folder).out
         shares.append(right(project))
     assert shares[0] >= 0.85
-    assert shares[1] >= 0.93
+    assert shares[1] >= 0.92
 
 
 def test_a_model_that_often_fails_labels_all(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:

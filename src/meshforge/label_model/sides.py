@@ -14,6 +14,7 @@ from meshforge.label_model.ties import EQUAL, greatest_first, pick_evenly
 
 _CLOSE = 2  # of the sides of a mesh that are looked at closely, those under which the hulls themselves are most like
 _BETTER = 0.9  # of the distance as it seems to lie, under which another side must be
+_FEW = 4  # meshes of whose hulls something is said, up to which these stay as they seem to stand
 _MOST_ROWS = 800  # hulls at most, evenly chosen
 
 
@@ -26,6 +27,11 @@ class UprightReference:
     def __init__(self, table: FamilyTable, seen: Observations) -> None:
         self._table, self._codes = table, seen.codes
         self.hulls = pick_evenly(np.flatnonzero(seen.known), _MOST_ROWS)
+        self._speaking = np.unique(table.owner[self.hulls])
+
+    def may_turn(self, mesh: int) -> bool:
+        """Whether it can be told how a mesh stands: of a few that speak of themselves nobody knows which one lies."""
+        return mesh not in self._speaking or len(self._speaking) > _FEW
 
     def apart(self, mesh: int, sides: Sequence[Floats], columns: slice) -> list[float]:
         """How far hulls of a mesh, described by rows (n, columns) on each of some sides, are from those of other
@@ -54,6 +60,9 @@ def find_doubtful_sides(
     if not len(reference.hulls):
         return
     for mesh, span in table.spans.items():
+        if not reference.may_turn(mesh):
+            yield mesh, ()
+            continue
         rows = [table.rows[span, SHAPE_COLUMNS], *map(scale, sides(mesh))]
         seems, *likeness = reference.apart(mesh, rows, SHAPE_COLUMNS)
         order = greatest_first(-np.array(likeness))

@@ -56,7 +56,8 @@ describe("the question of the assessment", () => {
   it("is not asked twice", () => {
     const reading = sampleQuestion({ kind: "reading", rule: 2, asset: "a1" });
     expect(asked(reading, { ...learned, question: { rule: 2, asset: "a1" } })).toBeNull();
-    expect(asked(reading, { ...learned, question: { rule: 1, asset: "a1" } })).toBe(reading);
+    expect(asked(reading, { ...learned, question: { rule: 1, asset: "a2" } })).toBeNull(); // one about readings at a time
+    expect(asked(reading, learned)).toBe(reading);
     const repair = sampleQuestion({ kind: "repair", hulls: [{ asset: "a1", hull: "h", place: 0 }] });
     expect(asked(repair, { ...learned, repairs: [{ asset: "a1", hull: "h" }] })).toBeNull();
     expect(asked(repair, learned)).toBe(repair);
