@@ -42,6 +42,8 @@ def main() -> None:
     if (given.count or given.only) and given.out == DATA:
         parser.error("with --count or --only say --out FOLDER: the frozen data are whole")
     settings = [setting for choice in given.settings for setting in SETS[choice]]
+    if given.out == DATA and set(SEPARATE) <= set(settings):
+        settings = list(SETTINGS)  # what is drawn anew is not what the other meshes are of
     for name in given.categories or CATEGORIES:
         count = given.count or (_CALIBRATING[name] if given.calibration else COUNT)
         stem = stem_of(name, given.calibration)
@@ -68,10 +70,10 @@ def make_asset(
         asset, found = order.draw(kept[0].asset.attempt), {}
     if kept and kept[0].asset.attempt == asset.attempt:
         found |= {row.setting: row.decomposition for row in kept if row.setting not in settings}
-    for setting in SETTINGS:
+    for setting in settings:
         if setting not in found:
             found[setting] = decompose_asset(asset, setting, cache)
-    return asset, {setting: found[setting] for setting in SETTINGS}
+    return asset, found
 
 
 def read_frozen(stem: str) -> dict[str, list[Sample]]:

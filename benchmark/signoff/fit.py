@@ -16,11 +16,13 @@ from benchmark.journal import run_units
 from benchmark.report import Tell
 from benchmark.signoff.calibration import calibrate
 from benchmark.signoff.conditions import open_family
+from benchmark.signoff.judge import Judge
+from benchmark.signoff.opening import open_review
 from benchmark.signoff.queue import ReviewCourse
 from benchmark.signoff.tool import Tool
 from benchmark.study import CONDITIONS, FLAT, TRUE
 from benchmark.study.condition import PROPAGATED, SYSTEMATIC, Condition
-from benchmark.study.desk import Bench
+from benchmark.study.desk import Bench, Desk
 from benchmark.tasks import task, tasks
 from meshforge.common import write_atomically
 from meshforge.geometry import Floats
@@ -33,7 +35,7 @@ LABELS = (FLAT, TRUE, SYSTEMATIC, PROPAGATED[2])
 SEED = 1
 _CAP = 90.0  # seconds of a person, after which a session says nothing new
 _STRAY = 1e-3  # cost of the squares of the weights
-_SIGNS = (0, 1, -1, -1, -1)  # of the weights: what speaks for an edit never speaks against it
+_SIGNS = (0, 1, -1, -1, -1, 1, -1)  # of the weights: what speaks for an edit never speaks against it
 
 
 class _Observer(Tool):
@@ -42,6 +44,12 @@ class _Observer(Tool):
     def __init__(self, bench: Bench, condition: Condition) -> None:
         super().__init__(bench, condition)
         self.trial: FamilyTrial | None = None
+        self.desk: Desk | None = None
+        self._judge = Judge(bench)
+
+    def take_labels(self, desk: Desk) -> Desk:
+        self.desk = super().take_labels(desk)
+        return self.desk
 
     def review(self, state: ReviewState, outcome: LearningOutcome | None) -> Assessment:
         self.trial = None
@@ -51,6 +59,18 @@ class _Observer(Tool):
             self.trial = FamilyTrial.of(state, outcome.program, outcome.readings, posterior, {})
         return super().review(state, outcome)
 
+    def list_rows(self) -> list[list[float]]:
+        """The features of each edit that was judged, and whether it is right, where nobody has looked at it."""
+        if self.trial is None or self.desk is None:
+            return []
+        state, judge, program = self.trial.state, self._judge, self.trial.program
+        looked_at = {*state.demos, *state.accepted, *state.mended}
+        return [
+            [*evidence.features.tolist(), float(judge.is_right(self.desk, program, one.asset))]
+            for one, evidence in zip(self.trial.trials, self.trial.evidence, strict=True)
+            if not one.error and one.asset in judge.possible and one.asset not in looked_at
+        ]
+
 
 class _FitCourse(ReviewCourse):
     """A session of which each judgement is kept: features, and whether the edit is right."""
@@ -59,17 +79,12 @@ class _FitCourse(ReviewCourse):
 
     def _note(self, assessment: Assessment) -> None:
         super()._note(assessment)
-        tool = self.tool
-        assert isinstance(tool, _Observer)
-        if tool.trial is None:
-            return
-        for one, evidence in zip(tool.trial.trials, tool.trial.evidence, strict=True):
-            if not one.error and one.asset in self.judge.possible and one.asset not in assessment.looked_at:
-                self.rows.append([*evidence.features.tolist(), float(self._is_right(one.asset))])
+        assert isinstance(self.tool, _Observer)
+        self.rows += self.tool.list_rows()
 
 
 def observe(name: str, condition: str, folder: str) -> list[list[float]]:
-    """The rows of one session."""
+    """The rows of one session of the queue."""
     one = CONDITIONS[condition]
     bench = open_family(name, one.setting(SEED), folder)
     course = _FitCourse(bench, one, SEED, _Observer(bench, one))
@@ -78,21 +93,33 @@ def observe(name: str, condition: str, folder: str) -> list[list[float]]:
     return course.rows
 
 
+def observe_taught(name: str, condition: str, folder: str) -> list[list[float]]:
+    """The rows of a family that was taught as before there was a queue."""
+    one = CONDITIONS[condition]
+    bench = open_family(name, one.setting(SEED), folder)
+    tool = _Observer(bench, one)
+    open_review(bench, one, SEED, tool)
+    return tool.list_rows()
+
+
 def fit(folder: Path, tell: Tell) -> None:
     """Fit the weights on all tasks, say how good they are on categories left out, and write them where they ship."""
     units = [(one.name, condition.name, str(folder)) for one in tasks() for condition in LABELS]
-    found = run_units("signoff-fit", observe, units, tell)
-    rows = {unit[0]: np.zeros((0, len(_SIGNS) + 1)) for unit in units}
-    for unit, some in zip(units, found, strict=True):
-        rows[unit[0]] = np.concatenate([rows[unit[0]], np.array(some).reshape(-1, len(_SIGNS) + 1)])
-    categories = sorted({task(name).category for name in rows})
-    pairs = list[tuple[float, bool]]()
+    rows = dict[tuple[str, str], npt.NDArray[np.float64]]()
+    for what, work in (("signoff-fit", observe), ("signoff-taught", observe_taught)):
+        for unit, some in zip(units, run_units(what, work, units, tell), strict=True):
+            table = np.array(some).reshape(-1, len(_SIGNS) + 1)
+            rows[what, unit[0]] = np.concatenate([rows.get((what, unit[0]), table[:0]), table])
+    categories = sorted({task(name).category for _, name in rows})
+    pairs: dict[str, list[tuple[float, bool]]] = {what: [] for what, _ in rows}
     for left in categories:
-        weights = fit_weights([some for name, some in rows.items() if task(name).category != left])
-        for some in (some for name, some in rows.items() if task(name).category == left):
-            shares = 1 / (1 + np.exp(-(some[:, :-1] @ weights)))
-            pairs += list(zip(shares.tolist(), (some[:, -1] > 0).tolist(), strict=True))
-    tell(f"category left out: {calibrate(pairs)}")
+        weights = fit_weights([some for (_, name), some in rows.items() if task(name).category != left])
+        for (what, name), some in rows.items():
+            if task(name).category == left:
+                shares = 1 / (1 + np.exp(-(some[:, :-1] @ weights)))
+                pairs[what] += list(zip(shares.tolist(), (some[:, -1] > 0).tolist(), strict=True))
+    for what, some in pairs.items():
+        tell(f"{what}, category left out: {calibrate(some)}")
     weights = fit_weights(list(rows.values()))
     data: dict[str, Any] = {"about": "made by `python -m benchmark.signoff fit FOLDER`"}
     fitted = {name: round(float(one), 3) for name, one in zip(confidence.FEATURES, weights, strict=True)}
@@ -106,7 +133,7 @@ def fit_weights(tables: Sequence[npt.NDArray[np.float64]]) -> Floats:
     parts = [(rows[:, :-1], rows[:, -1], 1 / len(rows)) for rows in tables if len(rows)]
     low = [0.0 if sign > 0 else None for sign in _SIGNS]
     high = [0.0 if sign < 0 else None for sign in _SIGNS]
-    start = np.array([0.0, 1.0, 0.0, 0.0, 0.0])
+    start = np.array([0.0, 1.0, *[0.0] * (len(_SIGNS) - 2)])
     return np.array(minimize(partial(_loss, parts), start, bounds=list(zip(low, high, strict=True)), jac=True).x)
 
 

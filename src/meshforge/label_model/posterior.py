@@ -160,15 +160,20 @@ class FamilyModel:
         self._sides = [one.sides for one in descriptors]
         self._closely = lru_cache(_REMEMBERED)(lambda mesh: cache(MeshDescriber(meshes[mesh]).describe_side))
         self._turned: dict[tuple[tuple[int, int], ...], FamilyTable] = {}
+        self._inferred: dict[tuple[Label | None, ...], FamilyPosterior] = {}
 
     def infer(self, labels: Sequence[Label | None]) -> FamilyPosterior:
         """What labels, one or None for each hull of all meshes, say about all hulls, these included.
 
         The same family in the same order gives the same, bit for bit, on any processor. Meshes may lie anyhow about the
-        upright axis of their files, at any size and place, tilted by up to some 40 degrees, or on their side.
+        upright axis of their files, at any size and place, tilted by up to some 40 degrees, or on their side. What was
+        inferred last is kept.
         """
-        seen = Observations.of(labels)
-        return FamilyPosterior.of(self._set_upright(seen), seen)
+        key = tuple(labels)
+        if key not in self._inferred:
+            seen = Observations.of(labels)
+            self._inferred = {key: FamilyPosterior.of(self._set_upright(seen), seen)}
+        return self._inferred[key]
 
     def propagate(self, labels: Sequence[str | None]) -> FamilyPosterior:
         """The same of labels that a person gave."""

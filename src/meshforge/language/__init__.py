@@ -21,7 +21,7 @@ from meshforge.language.apply import (
     from_canonical_frame,
     to_canonical_frame,
 )
-from meshforge.language.orient import orient_mesh
+from meshforge.language.orient import find_rotation, orient_mesh
 from meshforge.language.parse import parse_action, parse_extractor, parse_orient
 from meshforge.language.print import Comments, Rule, explain, show, show_label
 from meshforge.language.program import HeaderComments, Program, RunResult, rename_in_program
@@ -99,6 +99,7 @@ __all__ = [
     "attach_mask",
     "check_declared",
     "explain",
+    "find_rotation",
     "from_canonical_frame",
     "geo_mask",
     "labels_of",

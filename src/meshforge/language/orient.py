@@ -24,14 +24,19 @@ def orient_mesh(mesh: SymbolicMesh, orient: Orient | None) -> tuple[SymbolicMesh
     None, and a turn by nothing, give the mesh itself. Raises ProgramError naming a landmark that selects nothing,
     or landmarks that give no direction.
     """
-    rotation = geometry.snap_rotation(_find_rotation(mesh, orient)) if orient else np.eye(3)
+    rotation = find_rotation(mesh, orient) if orient else np.eye(3)
     pose = Pose(rotation, np.zeros(3))
     if np.array_equal(rotation, np.eye(3)):
         return mesh, pose
     return mesh.with_hulls(hull.move(pose) for hull in mesh.hulls), pose
 
 
-def _find_rotation(mesh: SymbolicMesh, orient: Orient) -> Floats:
+def find_rotation(mesh: SymbolicMesh, orient: Orient) -> Floats:
+    """The rotation (3, 3) by which `orient_mesh` turns a mesh; raises likewise."""
+    return geometry.snap_rotation(_measure_rotation(mesh, orient))
+
+
+def _measure_rotation(mesh: SymbolicMesh, orient: Orient) -> Floats:
     directions = [_landmark_direction(mesh, pair) for pair in orient.pairs]
     axes = [_axis_vector(pair.axis) for pair in orient.pairs]
     if len(directions) == 2:

@@ -61,6 +61,7 @@ class FamilyTrial:
         agreement = np.ones(len(self.trials))
         for one in self.readings:
             agreement = agreement * one.agreement
+        found = len(self.state.accepted), len(self.state.mended)
         return tuple(
             AssetEvidence(
                 float(agreement[place]),
@@ -68,6 +69,7 @@ class FamilyTrial:
                 float(trial.asset in self.foreign),
                 float(self._unlikeness[place]),
                 float(len(self.alarms.get(trial.asset, ()))),
+                *found,
             )
             for place, trial in enumerate(self.trials)
         )

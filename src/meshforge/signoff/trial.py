@@ -10,7 +10,7 @@ import numpy as np
 
 from meshforge.common import MeshForgeError
 from meshforge.geometry import Floats
-from meshforge.language import EXTREMITY, Extractor, Orient, Program, Template, labels_of, orient_mesh, select_mask
+from meshforge.language import EXTREMITY, Extractor, Orient, Program, Template, find_rotation, labels_of, select_mask
 from meshforge.symbolic import Label, SymbolicMesh
 from meshforge.synthesis import Demonstration, advance, begin_replay
 
@@ -115,7 +115,7 @@ def _turns(mesh: SymbolicMesh, hull: str, to: str, orient: Orient | None, before
 
 def _frame_of(mesh: SymbolicMesh, orient: Orient) -> Floats | None:
     try:
-        return orient_mesh(mesh, orient)[1].rotation
+        return find_rotation(mesh, orient)
     except MeshForgeError:
         return None
 
