@@ -35,7 +35,7 @@ LABELS = (FLAT, TRUE, SYSTEMATIC, PROPAGATED[2])
 SEED = 1
 _CAP = 90.0  # seconds of a person, after which a session says nothing new
 _STRAY = 1e-3  # cost of the squares of the weights
-_SIGNS = (0, 1, -1, -1, -1, 1, -1)  # of the weights: what speaks for an edit never speaks against it
+_SIGNS = (0, 1, -1, -1, -1)  # of the weights: what speaks for an edit never speaks against it
 
 
 class _Observer(Tool):
@@ -133,7 +133,7 @@ def fit_weights(tables: Sequence[npt.NDArray[np.float64]]) -> Floats:
     parts = [(rows[:, :-1], rows[:, -1], 1 / len(rows)) for rows in tables if len(rows)]
     low = [0.0 if sign > 0 else None for sign in _SIGNS]
     high = [0.0 if sign < 0 else None for sign in _SIGNS]
-    start = np.array([0.0, 1.0, *[0.0] * (len(_SIGNS) - 2)])
+    start = np.array([0.0, 1.0, 0.0, 0.0, 0.0])
     return np.array(minimize(partial(_loss, parts), start, bounds=list(zip(low, high, strict=True)), jac=True).x)
 
 

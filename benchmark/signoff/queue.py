@@ -118,11 +118,26 @@ class ReviewCourse:
             self.log.ended = DONE if assessment.is_done else EMPTY
 
     def _learn(self) -> LearningOutcome | None:
-        """Where no program keeps all that was accepted, that is forgotten, as a project does."""
+        """Where no program keeps all that was mended and accepted, that is forgotten, as a project does."""
         found = self.tool.learn(self.desk, self.state)
-        if isinstance(found, NoProgram) and self.state.accepted:
-            found = self.tool.learn(self.desk, replace(self.state, accepted={}))
+        while isinstance(found, NoProgram) and self.state.mended and self._look_at_answers(found.nearest.rule):
+            found = self.tool.learn(self.desk, self.state)
+        forgotten = replace(self.state, mended={}), replace(self.state, mended={}, accepted={})
+        for state in forgotten:
+            if isinstance(found, NoProgram) and state != self.state:
+                found = self.tool.learn(self.desk, state)
         return found
+
+    def _look_at_answers(self, rule: int) -> bool:
+        """Whether an answer about a rule was wrong, and is taken back: what was mended contradicts it."""
+        answers = [one for one in self.state.answers if one.rule == rule and one.select is not None]
+        self.reviewer.ledger.add("look again", GLANCE * len(answers))
+        wrong = self.reviewer.person.takes_back(self.desk, answers, rule)
+        if wrong is None:
+            return False
+        self.reviewer.ledger.add("taken back", CONFIRMATION)
+        self.state = replace(self.state, answers=tuple(one for one in self.state.answers if one is not wrong))
+        return True
 
     def _note(self, assessment: Assessment) -> None:
         right = {name for name in self.bench.samples if self._is_right(name)}

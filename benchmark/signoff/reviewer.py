@@ -34,6 +34,8 @@ class Reviewer:
             return self._name_group(question)
         if question.kind in ("reading", "label") and all(choice.select is not None for choice in question.choices):
             return self._pick(question, desk, program)
+        if question.kind == "selection":
+            return self._check_selection(question)
         if question.kind == "result":
             return self._look(question, desk, program)
         return self._confirm(question)
@@ -57,6 +59,14 @@ class Reviewer:
         right = self.person.picks(desk, where, choices, program) if program else None
         self.ledger.add(question.kind, ANSWER)
         return ReviewReply(question.id, self.person.slips_from(right, len(choices)))
+
+    def _check_selection(self, question: ReviewQuestion) -> ReviewReply:
+        """Whether hulls were left out of a demonstration by mistake: what is nearer to what is wanted."""
+        wanted, rule = self._truth.reference[question.asset], question.rule or 1
+        meant = wanted[rule - 1] if wanted else frozenset[str]()
+        gaps = [len(meant ^ frozenset(choice.select or ())) for choice in question.choices]
+        self.ledger.add(question.kind, CONFIRMATION)
+        return ReviewReply(question.id, self.person.slips_from(gaps.index(min(gaps)), len(gaps)))
 
     def _confirm(self, question: ReviewQuestion) -> ReviewReply:
         """The label of one hull; what is asked besides is declined."""

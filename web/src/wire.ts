@@ -8,6 +8,7 @@ export type AnyEdit =
   | SetVocabulary
   | RenameLabel
   | SetSteps
+  | CorrectSelection
   | MoveRule
   | DeleteRule
   | SetOrientation
@@ -58,6 +59,7 @@ export interface Everything {
   ChoiceView: ChoiceView;
   ConfidenceView: ConfidenceView;
   CorrectByHand: CorrectByHand;
+  CorrectSelection: CorrectSelection;
   CorrectionView: CorrectionView;
   CoverageView: CoverageView;
   CutHull: CutHull;
@@ -253,6 +255,15 @@ export interface StepText {
   action: string;
 }
 /**
+ * Select other hulls in a step that was demonstrated with a slip.
+ */
+export interface CorrectSelection {
+  kind: "correct-selection";
+  asset: string;
+  rule: number;
+  select: string[];
+}
+/**
  * Put a rule at another place, in all demonstrations; rules count from 1.
  */
 export interface MoveRule {
@@ -421,7 +432,7 @@ export interface DoubtView {
  */
 export interface ReviewQuestionView {
   id: string;
-  kind: "group" | "repair" | "reading" | "label" | "orientation" | "result" | "demonstrate";
+  kind: "group" | "repair" | "reading" | "label" | "selection" | "orientation" | "result" | "demonstrate";
   text: string;
   seconds: number;
   gain: number;

@@ -30,6 +30,16 @@ def demonstrate(store: Store, asset: str, steps: Iterable[Step]) -> None:
     store.write_steps(asset, steps)
 
 
+def correct_selection(store: Store, asset: str, rule: int, select: Sequence[str]) -> None:
+    """Select other hulls in a step of a demonstration, after a slip. Raises ProjectError where there is no such step,
+    and as `demonstrate` does."""
+    with store.lock():
+        steps = store.steps(asset)
+        if rule > len(steps) or steps[rule - 1].open:
+            raise ProjectError(f"rule {rule} is not demonstrated here any more", where=asset)
+        demonstrate(store, asset, Demonstration(store.mesh(asset), steps, asset).with_selection(rule, select).steps)
+
+
 def find_unknown_hulls(steps: Iterable[Step], hulls: Container[str]) -> Iterator[tuple[int, str]]:
     """The rules and names of steps that cannot be meant: no such hull, and none that an edit could have made it of."""
     for step in steps:

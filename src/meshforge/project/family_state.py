@@ -48,9 +48,8 @@ class FamilyStateReader:
             {} if self.by_hand else demos,
             tuple(line.answer for line in store.answers().answers),
             {asset: done for asset, done in accepted.items() if asset in self.meshes},
-            {},
-            flagged.union(asset for asset in signed.aside if asset not in demos),
-            frozenset(signed.later),
+            aside=flagged.union(asset for asset in signed.aside if asset not in demos),
+            later=frozenset(signed.later),
         )
 
     def _read_frame(self) -> Program:

@@ -59,6 +59,7 @@ class Project(LabelStore):
     # Demonstrations
 
     demonstrate = demonstrations.demonstrate
+    correct_selection = demonstrations.correct_selection
     move_rule = demonstrations.move_rule
     delete_rule = demonstrations.delete_rule
 

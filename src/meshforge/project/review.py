@@ -42,6 +42,7 @@ from meshforge.signoff import (
 )
 from meshforge.signoff.prices import YES_OR_NO
 from meshforge.signoff.question import ASIDE, RIGHT
+from meshforge.signoff.slips import AS_SHOWN
 from meshforge.store import Store
 from meshforge.symbolic import SymbolicMesh
 from meshforge.synthesis import Ambiguous, Answer, Found, LabelCorrection, LearningOutcome
@@ -162,6 +163,12 @@ def reply_to(store: Store, review: ProjectReview, question: ReviewQuestion, repl
         if choice is not None and choice.orient is not None:
             store.set_orientation(choice.orient)
         put_off(store, question.id)
+    elif question.kind == "selection":
+        assert choice is not None
+        if choice.text == AS_SHOWN:
+            put_off(store, question.id)
+        else:
+            demonstrations.correct_selection(store, question.asset, question.rule or 1, choice.select or ())
     elif question.kind in ("reading", "label"):
         refused = [one.select or () for one in choices] if choice is None else []
         select = None if choice is None else choice.select

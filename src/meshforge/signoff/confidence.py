@@ -13,15 +13,7 @@ import numpy as np
 from meshforge.geometry import Floats
 
 WEIGHTS_FILE = "confidence.json"
-FEATURES = (
-    "always",
-    "readings and labels",
-    "labels not demonstrated",
-    "unlike the rest",
-    "alarms",
-    "results found right",
-    "results found wrong",
-)
+FEATURES = ("always", "readings and labels", "labels not demonstrated", "unlike the rest", "alarms")
 """What the probability depends on."""
 LEAST, MOST = 0.0005, 0.9995
 """Bounds of what readings and labels say."""
@@ -46,8 +38,7 @@ class AssetEvidence:
 
     readings: the probability that each rule means there what it does; labels: that no other labels would change the
     edit; foreign: whether it has labels that no demonstration shows; unlike: how much farther than usual its strangest
-    hull is from all hulls of other assets of which something is said; alarms: how many there are; found_right,
-    found_wrong: how many results of other assets a person has looked at and found to be so.
+    hull is from all hulls of other assets of which something is said; alarms: how many there are.
     """
 
     readings: float
@@ -55,15 +46,11 @@ class AssetEvidence:
     foreign: float = 0.0
     unlike: float = 0.0
     alarms: float = 0.0
-    found_right: int = 0
-    found_wrong: int = 0
 
     @property
     def features(self) -> Floats:
         """The features (len(FEATURES),)."""
-        known = _log_odds(self.readings * self.labels)
-        seen = np.log1p([self.found_right, self.found_wrong])
-        return np.array([1.0, known, self.foreign, self.unlike, self.alarms, *seen])
+        return np.array([1.0, _log_odds(self.readings * self.labels), self.foreign, self.unlike, self.alarms])
 
     @property
     def probability(self) -> float:

@@ -6,7 +6,7 @@ from collections import defaultdict
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from math import prod
+from math import exp, prod
 
 import numpy as np
 
@@ -17,24 +17,30 @@ from meshforge.signoff.assessment import AssetConfidence, Doubt, DoubtKind
 from meshforge.signoff.confidence import NO_EDIT, AssetEvidence
 from meshforge.signoff.question import ReviewState
 from meshforge.signoff.readings import RuleReadings, compare_readings
+from meshforge.signoff.slips import RuleSlip, find_slips
 from meshforge.signoff.trial import RULE_OF_FRAME, Flip, Trial, find_flips, select_by, try_program
 from meshforge.synthesis import Reading
 
 SURE_OF_DEMONSTRATED = 0.999
 _WORTH_TELLING = 0.01  # the probability that an edit is wrong for one reason, from which on it is told
 _MOST_DOUBTS = 6
+_PROGRAM_RIGHT, _RESULT_RIGHT, _RESULT_WRONG = 5.0, 1.3, 1.2
+"""What speaks for a program as such [nats], and how each result that was found right, or wrong, changes that; a wrong
+one says little, as those that are asked about are the most doubtful."""
 _UNLIKE = 1.5  # what is so much farther than usual, as a logarithm, is unlike the rest
 
 
 @dataclass(frozen=True, eq=False)
 class FamilyTrial:
-    """A program on all assets of a family. labels: by which the posterior's columns go; alarms: sentences by asset."""
+    """A program on all assets of a family. slips: what a person probably did not mean to show; alarms: sentences by
+    asset."""
 
     state: ReviewState
     program: Program
     posterior: FamilyPosterior
     trials: tuple[Trial, ...]
     readings: tuple[RuleReadings, ...]
+    slips: tuple[RuleSlip, ...]
     alarms: Mapping[str, Sequence[str]]
 
     @staticmethod
@@ -51,9 +57,8 @@ class FamilyTrial:
             trial = try_program(name, mesh, program, state.templates)
             flips = find_flips(trial, mesh, program, posterior.seen.labels, posterior.chances_of(place))
             trials.append(replace(trial, flips=flips))
-        return FamilyTrial(
-            state, program, posterior, tuple(trials), compare_readings(program, readings, trials), alarms
-        )
+        compared, slips = compare_readings(program, readings, trials), tuple(find_slips(state, program, trials))
+        return FamilyTrial(state, program, posterior, tuple(trials), compared, slips, alarms)
 
     @cached_property
     def evidence(self) -> tuple[AssetEvidence, ...]:
@@ -61,7 +66,9 @@ class FamilyTrial:
         agreement = np.ones(len(self.trials))
         for one in self.readings:
             agreement = agreement * one.agreement
-        found = len(self.state.accepted), len(self.state.mended)
+        agreement = agreement * _trust_in_program(len(self.state.accepted), len(self.state.mended))
+        for found in self.slips:
+            agreement = agreement * (1 - found.slip.share * found.differs)
         return tuple(
             AssetEvidence(
                 float(agreement[place]),
@@ -69,7 +76,6 @@ class FamilyTrial:
                 float(trial.asset in self.foreign),
                 float(self._unlikeness[place]),
                 float(len(self.alarms.get(trial.asset, ()))),
-                *found,
             )
             for place, trial in enumerate(self.trials)
         )
@@ -135,6 +141,9 @@ class FamilyTrial:
             text = f"rule {known.rule} may mean {show(known.extractors[best])}, which {change}"
             hulls = trial.names(known.rule, ours ^ theirs)
             found.append(Doubt("reading", text, hulls, known.rule, float(1 - known.agreement[place])))
+        for slip in (one for one in self.slips if one.differs[place]):
+            text = f"rule {slip.rule} may mean {show(slip.slip.extractor)}, if {slip.slip.asset} was shown with a slip"
+            found.append(Doubt("reading", text, (), slip.rule, slip.slip.share))
         return found
 
     def select(self, known: RuleReadings, reading: int, place: int) -> int:
@@ -168,6 +177,12 @@ class FamilyTrial:
         if evidence.unlike > 0 and share >= _WORTH_TELLING:
             found.append(Doubt("unlike", "unlike the rest: no other asset has such hulls", share=share))
         return found
+
+
+def _trust_in_program(right: int, wrong: int) -> float:
+    """The probability that a program is not wrong nearly everywhere, by the results that a person has looked at."""
+    nats = _PROGRAM_RIGHT + _RESULT_RIGHT * right - _RESULT_WRONG * wrong
+    return 1 / (1 + exp(-nats))
 
 
 def flip_shares(flips: Sequence[Flip]) -> dict[str, float]:

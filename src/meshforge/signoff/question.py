@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass, field
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from hashlib import blake2b
 from typing import Any, Literal, NamedTuple
 
 from meshforge.language import Orient, Program, Template
 from meshforge.symbolic import SymbolicMesh
 from meshforge.synthesis import Answer, Demonstration
 
-QuestionKind = Literal["group", "repair", "reading", "label", "orientation", "result", "demonstrate"]
+QuestionKind = Literal["group", "repair", "reading", "label", "selection", "orientation", "result", "demonstrate"]
 """A group of look-alike hulls and what they are; one hull's label; what a rule means; whether a rule is meant for a
-label that no demonstration shows; an orientation; whether a result is right; an asset to demonstrate."""
+label that no demonstration shows; whether hulls were left out of a demonstration by mistake; an orientation; whether a
+result is right; an asset to demonstrate."""
 
 Selections = tuple[frozenset[str], ...]
 """What each rule selects on an asset, names of hulls."""
@@ -77,6 +79,14 @@ class ReviewQuestion:
         }
 
 
+def identify(draft: ReviewQuestion, bound: Sequence[str] = ()) -> ReviewQuestion:
+    """A question with its id, which all that it is about decides. bound: what else it is about."""
+    words = [draft.kind, draft.asset, str(draft.rule), *(f"{one.asset}#{one.hull}" for one in draft.hulls), *bound]
+    words += [f"{one.text} {one.label} {one.select}" for one in draft.choices]
+    name = blake2b("\n".join(words).encode(), digest_size=6).hexdigest()
+    return replace(draft, id=f"{draft.kind}-{name}")
+
+
 @dataclass(frozen=True, slots=True)
 class ReviewReply:
     """What a person said to a question. choice: the place among its choices, None for none of them; exceptions: hulls
@@ -97,7 +107,8 @@ class ReviewState:
     meshes: by name, with the labels that they have; frame: the program without its rules; templates: by the paths that
     actions name; demos: of some of the meshes, by name; answers: to questions of learning; accepted: what each rule
     selected on results that a person found right, by asset; mended: what it should have selected on results that were
-    wrong; aside: assets that a person flagged or set aside; later: ids of questions that were put off.
+    wrong; failed: what it did select there; aside: assets that a person flagged or set aside; later: ids of questions
+    that were put off.
     """
 
     meshes: Mapping[str, SymbolicMesh]
@@ -107,5 +118,6 @@ class ReviewState:
     answers: tuple[Answer, ...] = ()
     accepted: Mapping[str, Selections] = field(default_factory=dict)
     mended: Mapping[str, Selections] = field(default_factory=dict)
+    failed: Mapping[str, Selections] = field(default_factory=dict)
     aside: frozenset[str] = frozenset()
     later: frozenset[str] = frozenset()

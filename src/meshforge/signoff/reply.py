@@ -9,12 +9,13 @@ import numpy as np
 
 from meshforge.label_model import FamilyPosterior
 from meshforge.signoff.question import ASIDE, RIGHT, ReviewQuestion, ReviewReply, ReviewState, Selections
+from meshforge.signoff.slips import AS_SHOWN, correct_selection
 from meshforge.symbolic import Label, LabelSource
 from meshforge.synthesis import Answer
 
 TEACHES = 0.8
-"""A result that was mended is learned from where all labels of its asset are right with this probability; elsewhere the
-labels may be at fault, and no rule."""
+"""A result that was mended is learned from where the labels of the hulls that were mended are right with this
+probability; elsewhere the labels may be at fault, and no rule."""
 
 
 def apply_reply(
@@ -26,6 +27,10 @@ def apply_reply(
         return replace(state, later=state.later | {question.id})
     if question.kind == "result":
         return _apply_verdict(state, question, reply, done)
+    if question.kind == "selection":
+        if choice is None or choice.select is None or choice.text == AS_SHOWN:
+            return replace(state, later=state.later | {question.id})
+        return correct_selection(state, question, choice.select)
     if question.rule is not None and any(one.select is not None for one in question.choices):
         refused = [one.select for one in question.choices if one.select is not None] if choice is None else []
         answer = Answer(question.rule, question.asset, None if choice is None else choice.select, refused)
@@ -47,7 +52,8 @@ def _apply_verdict(
     if said == RIGHT and done is not None:
         return replace(state, accepted={**state.accepted, question.asset: done})
     if reply.mended is not None:
-        return replace(state, mended={**state.mended, question.asset: reply.mended})
+        failed = {**state.failed, question.asset: done} if done is not None else state.failed
+        return replace(state, mended={**state.mended, question.asset: reply.mended}, failed=failed)
     return state
 
 
@@ -77,8 +83,15 @@ def _number(asset: str, selections: Selections) -> Iterator[Answer]:
 
 
 def _trust(state: ReviewState, posterior: FamilyPosterior, asset: str, place: int) -> float:
-    """The probability that all labels of an asset are right."""
+    """The probability that the labels of the hulls that were mended on an asset are right; of all, if these are not
+    known."""
+    pairs = zip(state.mended[asset], state.failed.get(asset, ()), strict=False)
+    mended = frozenset[str]().union(*(wanted ^ done for wanted, done in pairs))
     columns = {label: column for column, label in enumerate(posterior.seen.labels)}
     rows = zip(state.meshes[asset].hulls, posterior.chances_of(place), strict=True)
-    shares = [float(row[columns[hull.label]]) if hull.label in columns else 0.0 for hull, row in rows]
+    shares = [
+        float(row[columns[hull.label]]) if hull.label in columns else 0.0
+        for hull, row in rows
+        if not mended or hull.name in mended
+    ]
     return float(np.prod(shares))

@@ -4,8 +4,6 @@ person's time (the expected value of information, Howard 1966)."""
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import replace
-from hashlib import blake2b
 from types import MappingProxyType
 
 import numpy as np
@@ -26,8 +24,11 @@ from meshforge.signoff.question import (
     ReviewChoice,
     ReviewQuestion,
     ReviewState,
+    identify,
 )
 from meshforge.signoff.readings import ReadingSplit, split_readings
+from meshforge.signoff.slips import ask_about_nearest, ask_about_slip
+from meshforge.signoff.trial import Trial
 from meshforge.synthesis import (
     Ambiguous,
     Found,
@@ -66,7 +67,8 @@ def review_family(
     assets = {one.asset: trial.confidence_of(place) for place, one in enumerate(trial.trials)}
     found = Assessment(assets, bar, looked_at, state.aside)
     if found.is_done:
-        return found
+        asked = _choose(_ask_last_looks(trial), state)
+        return Assessment(assets, bar, looked_at, state.aside, asked)
     return Assessment(assets, bar, looked_at, state.aside, _choose(_questions(trial, found, outcome.suggested), state))
 
 
@@ -95,7 +97,7 @@ def _question_before(state: ReviewState, outcome: LearningOutcome | None) -> Rev
             words = [wrong.to, *([wrong.was] if wrong.was else [])]
             choices = tuple(ReviewChoice(word, word) for word in words)
             place = HullPlace(wrong.asset, wrong.hull)
-            question = _identify(
+            question = identify(
                 ReviewQuestion(
                     "", "repair", text, YES_OR_NO, everyone * repair.belief, wrong.asset, repair.rule, (place,), choices
                 )
@@ -108,6 +110,9 @@ def _question_before(state: ReviewState, outcome: LearningOutcome | None) -> Rev
             if question.id not in state.later:
                 return question
         asset = outcome.nearest.asset
+        slip = ask_about_nearest(state, outcome.nearest, everyone)
+        if slip and slip.id not in state.later:
+            return slip
         return _ask_demonstration(state, asset, everyone, f"Nothing fits what was shown on {{}}: {outcome.why}.")
     return None
 
@@ -116,7 +121,7 @@ def _ask_orientation(suggested: OrientationSuggestion, state: ReviewState, gain:
     text = f"Are assets to be turned first, by {show(suggested.orient)}? {suggested.why}."
     choices = (ReviewChoice("yes", orient=suggested.orient), ReviewChoice("no"))
     asset = next(iter([*suggested.differs_on, *state.meshes]))
-    return _identify(ReviewQuestion("", "orientation", text, YES_OR_NO, gain, asset, choices=choices))
+    return identify(ReviewQuestion("", "orientation", text, YES_OR_NO, gain, asset, choices=choices))
 
 
 def _questions(
@@ -126,6 +131,7 @@ def _questions(
     open_assets = [place for place, one in enumerate(family.trials) if one.asset in held]
     yield from (_ask_group(family, group) for group in find_groups(family, open_assets))
     yield from _ask_readings(family, found)
+    yield from (ask_about_slip(family.state, slip) for slip in family.slips)
     yield from _ask_results(family, found)
     if suggested:
         yield _ask_orientation(
@@ -147,11 +153,11 @@ def _ask_group(family: FamilyTrial, group: LookalikeGroup) -> ReviewQuestion:
     first = group.hulls[0]
     if len(group.hulls) == 1:
         text = f"{first.hull} of {first.asset} is called {next(iter(counts))}: is it {group.label}?"
-        return _identify(
+        return identify(
             ReviewQuestion("", "group", text, group.seconds, group.gain, first.asset, None, group.hulls, choices)
         )
     text = f"These {len(group.hulls)} hulls look alike; {called}: are all of them {group.label}?"
-    return _identify(
+    return identify(
         ReviewQuestion("", "group", text, group.seconds, group.gain, first.asset, None, group.hulls, choices)
     )
 
@@ -183,7 +189,7 @@ def _ask_reading(family: FamilyTrial, rule: int, split: ReadingSplit) -> ReviewQ
     gain = float(_gains_of(family, [split]).sum()) * family.evidence[split.asset].labels ** _TRUST
     kind: QuestionKind = "label" if trial.asset in family.foreign else "reading"
     text = f"What does rule {rule} mean on {trial.asset}?"
-    return _identify(ReviewQuestion("", kind, text, READING, gain, trial.asset, rule, (), tuple(choices)))
+    return identify(ReviewQuestion("", kind, text, READING, gain, trial.asset, rule, (), tuple(choices)))
 
 
 def _gains_of(family: FamilyTrial, splits: Sequence[ReadingSplit]) -> Floats:
@@ -202,29 +208,39 @@ def _gains_of(family: FamilyTrial, splits: Sequence[ReadingSplit]) -> Floats:
 
 def _ask_results(family: FamilyTrial, found: Assessment) -> Iterator[ReviewQuestion]:
     mend = price_demonstration(family.state.demos.values())
-    choices = (ReviewChoice(RIGHT), ReviewChoice(WRONG), ReviewChoice(ASIDE))
     for name in found.held:
         doubt = 1 - found.assets[name].probability
-        text = f"Is the result of {name} right?"
         place = family.places[name]
         trial, trust = family.trials[place], family.evidence[place].labels ** _TRUST
         splits = [split for rule in family.readings for split in split_readings(rule, [place])]
         others = _gains_of(family, splits)
         others[place] = 0.0
         gain = doubt + float(others.sum()) * trust
-        bound = [f"{bits:x}" for bits in trial.selections]
         seconds = YES_OR_NO + doubt * mend
-        yield _identify(ReviewQuestion("", "result", text, seconds, gain, name, choices=choices), bound)
+        yield _ask_result(family, trial, gain, seconds, f"Is the result of {name} right?")
+
+
+def _ask_last_looks(family: FamilyTrial) -> Iterator[ReviewQuestion]:
+    """One look at a result of each rule that answers have shaped, where nobody has seen any: a person may have slipped
+    in an answer, and many edits rest on it."""
+    state = family.state
+    seen = [*state.accepted.values(), *state.mended.values()]
+    shaped = {one.rule for one in state.answers if one.select is not None}
+    unseen = [rule for rule in sorted(shaped) if not any(len(done) >= rule and done[rule - 1] for done in seen)]
+    known = {*state.demos, *state.accepted, *state.mended, *state.aside}
+    for trial, evidence in zip(family.trials, family.evidence, strict=True):
+        rules = [rule for rule in unseen if rule <= len(trial.selections) and trial.selections[rule - 1]]
+        if rules and trial.asset not in known and not any(one.asset == trial.asset for one in state.answers):
+            gain = len(rules) + 1 - evidence.probability
+            yield _ask_result(family, trial, gain, YES_OR_NO, f"One last look: is the result of {trial.asset} right?")
+
+
+def _ask_result(family: FamilyTrial, trial: Trial, gain: float, seconds: float, text: str) -> ReviewQuestion:
+    choices = (ReviewChoice(RIGHT), ReviewChoice(WRONG), ReviewChoice(ASIDE))
+    draft = ReviewQuestion("", "result", text, seconds, gain, trial.asset, choices=choices)
+    return identify(draft, [f"{bits:x}" for bits in trial.selections])
 
 
 def _ask_demonstration(state: ReviewState, asset: str, gain: float, text: str) -> ReviewQuestion:
     seconds = price_demonstration(state.demos.values())
-    return _identify(ReviewQuestion("", "demonstrate", text.format(asset), seconds, gain, asset))
-
-
-def _identify(draft: ReviewQuestion, bound: Sequence[str] = ()) -> ReviewQuestion:
-    """A question with its id, which all that it is about decides. bound: what else it is about."""
-    words = [draft.kind, draft.asset, str(draft.rule), *(f"{one.asset}#{one.hull}" for one in draft.hulls), *bound]
-    words += [f"{one.text} {one.label} {one.select}" for one in draft.choices]
-    name = blake2b("\n".join(words).encode(), digest_size=6).hexdigest()
-    return replace(draft, id=f"{draft.kind}-{name}")
+    return identify(ReviewQuestion("", "demonstrate", text.format(asset), seconds, gain, asset))

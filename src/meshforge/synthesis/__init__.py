@@ -1,7 +1,7 @@
 """Programs from demonstrations: steps, replay, the search for extractors, and what it comes to."""
 
 from meshforge.synthesis.asset_selection import choose_first_demonstration
-from meshforge.synthesis.demonstration import Demonstration, Step, merge_steps, strip_each
+from meshforge.synthesis.demonstration import Demonstration, Example, Step, merge_steps, strip_each
 from meshforge.synthesis.learn import synthesize
 from meshforge.synthesis.options import LAYERS, Layers, Options
 from meshforge.synthesis.orientation.suggest import OrientationSuggestion
@@ -18,6 +18,7 @@ from meshforge.synthesis.outcome import (
 )
 from meshforge.synthesis.questions import Answer, Choice, Hint, LabelCorrection, Question, Repair
 from meshforge.synthesis.readings.rank import BELIEVABLE
+from meshforge.synthesis.slips import Slip, find_slip
 from meshforge.synthesis.task import advance, begin_replay, memoize
 
 __all__ = [
@@ -27,6 +28,7 @@ __all__ = [
     "Answer",
     "Choice",
     "Demonstration",
+    "Example",
     "Found",
     "Hint",
     "LabelCorrection",
@@ -40,11 +42,13 @@ __all__ = [
     "Question",
     "Reading",
     "Repair",
+    "Slip",
     "Step",
     "TimedOut",
     "advance",
     "begin_replay",
     "choose_first_demonstration",
+    "find_slip",
     "memoize",
     "merge_steps",
     "outcome_to_json",

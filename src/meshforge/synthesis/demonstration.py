@@ -77,6 +77,11 @@ class Demonstration:
         step = self.steps[rule - 1] if rule <= len(self.steps) else None
         return None if step is None or step.open else step
 
+    def with_selection(self, rule: int, select: Iterable[str]) -> Demonstration:
+        """The same with other hulls selected in a step that is there."""
+        steps = [Step(one.rule, select, one.action, one.label) if one.rule == rule else one for one in self.steps]
+        return Demonstration(self.mesh, steps, self.name)
+
 
 def name_demonstrations(demos: Iterable[Demonstration]) -> tuple[tuple[str, Demonstration], ...]:
     """Each demonstration with the name that messages use; one without a name is `demonstration 1`, `2`, ..."""

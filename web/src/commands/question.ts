@@ -37,6 +37,8 @@ export function editsFor(question: ReviewQuestionView, place: number | null): An
       if (!first || !to || !choice) return [later];
       return [{ kind: "repair", asset: first.asset, hull: first.hull, was, to, accept: choice.label === to }];
     }
+    case "selection":
+      return place === 0 && choice?.select ? [{ kind: "correct-selection", asset, rule: rule ?? 1, select: choice.select }] : [later];
     case "orientation":
       return choice?.orient ? [{ kind: "orient", text: choice.orient }, later] : [later];
     case "result":

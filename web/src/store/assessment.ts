@@ -77,13 +77,14 @@ function asksSame(asked: ReviewQuestionView, { question, repairs, hint, suggeste
     case "demonstrate":
       return hint?.asset === asked.asset;
     case "result":
+    case "selection":
       return false;
   }
 }
 
 /** A question about readings as learning asks its own, for the same card; null for other questions. */
-export function asReadings({ id, rule, asset, choices }: ReviewQuestionView): QuestionView | null {
-  if (rule === null || !choices.length || choices.some((choice) => choice.select === null)) return null;
+export function asReadings({ id, kind, rule, asset, choices }: ReviewQuestionView): QuestionView | null {
+  if (kind === "selection" || rule === null || !choices.length || choices.some((choice) => choice.select === null)) return null;
   const rows = choices.map(({ text, sentence, select }) => ({ reading: text, extractor: text, sentence, select: select ?? [] }));
   return { id, rule, asset, choices: rows, harm: 0, left: 0 };
 }

@@ -16,6 +16,7 @@ AnyEdit = Annotated[
     | assets.SetVocabulary
     | assets.RenameLabel
     | program.SetSteps
+    | program.CorrectSelection
     | program.MoveRule
     | program.DeleteRule
     | program.SetOrientation

@@ -57,6 +57,22 @@ class SetSteps(Edit):
         return f"step {changed[0]} of {self.asset} changed" if changed else f"steps of {self.asset}"
 
 
+class CorrectSelection(Edit):
+    """Select other hulls in a step that was demonstrated with a slip."""
+
+    kind: Literal["correct-selection"] = "correct-selection"
+    touches = ("demonstrations/{asset}.json",)
+    asset: str
+    rule: int
+    select: tuple[str, ...]
+
+    def apply(self, project: Project) -> None:
+        project.correct_selection(self.asset, self.rule, self.select)
+
+    def describe(self, project: Project) -> str:
+        return f"step {self.rule} of {self.asset} corrected"
+
+
 def _read_steps(project: Project, asset: str) -> tuple[Step, ...]:
     """The steps on disk; none where their file is damaged, so that it is written anew."""
     try:

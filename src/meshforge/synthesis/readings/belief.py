@@ -67,9 +67,7 @@ def compute_beliefs(
     """
     share, leaves, none = assets / (assets + FEW), dict[Extractor, float](), [0] * len(terms)
     nats = [
-        NODE * term.size
-        + _doubt_nats(term, leaves)
-        + UNTRIED * count_untested(term, shown)
+        count_nats(term, shown, leaves)
         + UNNEEDED * idle
         + share * (IDLE * facts.idle + STRANGE * min(facts.strange, STRANGEST))
         + NEITHER * against
@@ -87,6 +85,12 @@ def choose_reading(terms: Sequence[Term], shares: Sequence[float]) -> int:
     best = max(range(len(terms)), key=lambda k: (shares[k], -k))
     first = max((k for k in range(len(terms)) if terms[k].size == smallest), key=lambda k: (shares[k], -k))
     return best if shares[best] >= LARGER * shares[first] else first
+
+
+def count_nats(term: Term, shown: int, known: dict[Extractor, float] | None = None) -> float:
+    """How little a term is believed for what it says alone [nats]; shown: the groups of demonstrated hulls."""
+    doubt = _doubt_nats(term, {} if known is None else known)
+    return NODE * term.size + doubt + UNTRIED * count_untested(term, shown)
 
 
 def _doubt_nats(term: Term, known: dict[Extractor, float]) -> float:

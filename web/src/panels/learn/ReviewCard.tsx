@@ -119,7 +119,7 @@ function ChoiceReplies({ question }: { question: ReviewQuestionView }) {
   return choices.map((choice, k) => (
     <Button key={choice.text} look={k === 0 ? "primary" : "plain"} onClick={() => void reply(question, k)}>
       {choice.label === null ? (
-        choice.text === "yes" ? "Yes" : choice.text === "no" ? "No" : choice.text
+        choice.text.charAt(0).toUpperCase() + choice.text.slice(1)
       ) : (
         <>
           <LabelSwatch name={choice.label} />

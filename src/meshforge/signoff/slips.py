@@ -1,0 +1,126 @@
+"""Slips in demonstrations: hulls that were probably left out, or selected, by mistake, and the question about them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from meshforge.common import join_names
+from meshforge.geometry import Floats
+from meshforge.language import EXTREMITY, Program, show
+from meshforge.signoff.prices import YES_OR_NO
+from meshforge.signoff.question import HullPlace, ReviewChoice, ReviewQuestion, ReviewState, identify
+from meshforge.signoff.trial import Trial, select_by
+from meshforge.symbolic import mask_of
+from meshforge.synthesis import Example, Nearest, Options, Slip, find_slip
+
+BY_MISTAKE, AS_SHOWN = "yes, by mistake", "no, as shown"
+"""The choices."""
+_LEAST_SHARE = 0.3  # from which on a slip is asked about
+_FITS_BARELY = 0.5  # the probability of a slip where no program fits what was shown
+_MOST_HULLS = 2  # that may then be wrong
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class RuleSlip:
+    """A slip in what a rule was shown to do. differs: whether the rule would do something else on each asset."""
+
+    rule: int
+    slip: Slip
+    differs: Floats
+
+
+def find_slips(state: ReviewState, program: Program, trials: Sequence[Trial]) -> Iterator[RuleSlip]:
+    """The likely slips under a program that does what was shown, of each rule at most one; those that a person denied
+    are not among them."""
+    delta = EXTREMITY if program.extremity is None else program.extremity
+    by_name = {trial.asset: trial for trial in trials}
+    for number, rule in enumerate(program.rules, 1):
+        examples = list(_list_examples(state, by_name, number))
+        slip = find_slip(rule.extractor, examples, program.labels, Options()) if examples else None
+        if slip is None or slip.asset not in state.demos or slip.share < _LEAST_SHARE:
+            continue
+        if _is_used_later(state, slip.asset, number, slip.missing):
+            continue
+        selected = [select_by(trial, number, slip.extractor, delta) for trial in trials]
+        if any(_is_refused(state, number, trial, mask) for trial, mask in zip(trials, selected, strict=True)):
+            continue
+        ours = [trial.selections[number - 1] if number <= len(trial.selections) else None for trial in trials]
+        differs = np.array([float(one != other) for one, other in zip(ours, selected, strict=True)])
+        found = RuleSlip(number, slip, differs)
+        if ask_about_slip(state, found).id not in state.later:
+            yield found
+
+
+def _list_examples(state: ReviewState, trials: Mapping[str, Trial], rule: int) -> Iterator[Example]:
+    """What is known to be meant by a rule, as it meets the meshes: demonstrations, and results that were accepted."""
+    steps = {name: demo.step(rule) for name, demo in state.demos.items()}
+    said = {name: step.select for name, step in steps.items() if step and step.select is not None}
+    done = {name: some[rule - 1] for name, some in state.accepted.items() if rule <= len(some)}
+    answers = {one.asset: one.select for one in state.answers if one.rule == rule and one.select is not None}
+    for name, select in {**answers, **done, **said}.items():
+        trial = trials.get(name)
+        if trial is None or rule > len(trial.meshes):
+            continue
+        mesh = trial.meshes[rule - 1]
+        if select <= mesh.index.keys():
+            yield Example(name, mesh, mask_of(mesh.index[hull] for hull in select))
+
+
+def _is_used_later(state: ReviewState, asset: str, rule: int, hulls: Sequence[str]) -> bool:
+    """Whether a later step of a demonstration selects one of some hulls, so that it was left out on purpose."""
+    return any(not step.select.isdisjoint(hulls) for step in state.demos[asset].steps[rule:] if step.select)
+
+
+def _is_refused(state: ReviewState, rule: int, trial: Trial, mask: int | None) -> bool:
+    """Whether a person said of just that selection that it is not meant."""
+    refused = [some for one in state.answers if (one.rule, one.asset) == (rule, trial.asset) for some in one.refused]
+    return bool(refused) and mask is not None and frozenset(trial.names(rule, mask)) in refused
+
+
+def ask_about_slip(state: ReviewState, found: RuleSlip) -> ReviewQuestion:
+    """The question whether it is one."""
+    slip, rule = found.slip, found.rule
+    text = f"With {_describe(slip.missing, slip.extra)} rule {rule} would just be {show(slip.extractor)}"
+    return _ask(state, (slip.asset, rule), slip.missing, slip.extra, text, slip.share * float(found.differs.sum()))
+
+
+def ask_about_nearest(state: ReviewState, nearest: Nearest, everyone: float) -> ReviewQuestion | None:
+    """The question where nothing fits what was shown, and an extractor nearly does."""
+    if nearest.asset not in state.demos or len(nearest.extra) + len(nearest.missing) > _MOST_HULLS:
+        return None
+    if state.demos[nearest.asset].step(nearest.rule) is None:
+        return None
+    if _is_used_later(state, nearest.asset, nearest.rule, nearest.extra):
+        return None
+    text = f"With {_describe(nearest.extra, nearest.missing)} rule {nearest.rule} could be {show(nearest.extractor)}"
+    place = nearest.asset, nearest.rule
+    return _ask(state, place, nearest.extra, nearest.missing, text, _FITS_BARELY * everyone)
+
+
+def _describe(missing: Sequence[str], extra: Sequence[str]) -> str:
+    parts = [join_names(missing)] if missing else []
+    return " and ".join([*parts, f"without {join_names(extra)}"] if extra else parts)
+
+
+def _ask(
+    state: ReviewState, place: tuple[str, int], missing: Sequence[str], extra: Sequence[str], why: str, gain: float
+) -> ReviewQuestion:
+    asset, rule = place
+    step = state.demos[asset].step(rule)
+    shown = frozenset() if step is None or step.select is None else step.select
+    corrected = tuple(sorted((shown | {*missing}) - {*extra}))
+    done = "left out" if missing and not extra else "selected" if extra and not missing else "left out or selected"
+    one = len(missing) + len(extra) == 1
+    text = f"{why}: {'was it' if one else 'were they'} {done} on {asset} by mistake?"
+    hulls = tuple(HullPlace(asset, name) for name in [*missing, *extra] if name in state.meshes[asset].index)
+    choices = (ReviewChoice(BY_MISTAKE, select=corrected), ReviewChoice(AS_SHOWN, select=tuple(sorted(shown))))
+    return identify(ReviewQuestion("", "selection", text, YES_OR_NO, gain, asset, rule, hulls, choices))
+
+
+def correct_selection(state: ReviewState, question: ReviewQuestion, select: Sequence[str]) -> ReviewState:
+    """What is known when a person says what they meant to select on a demonstrated asset."""
+    demo = state.demos[question.asset]
+    return replace(state, demos={**state.demos, question.asset: demo.with_selection(question.rule or 1, select)})

@@ -1,0 +1,69 @@
+"""Hulls that a person probably left out of a demonstration, or selected, by mistake: a much simpler extractor would
+select all the others (minimum description length, Rissanen 1978: the size of a rule against the number of its errors).
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from meshforge.language import Extractor
+from meshforge.synthesis.demonstration import Example
+from meshforge.synthesis.options import Options, TimeBudget
+from meshforge.synthesis.readings.belief import count_nats
+from meshforge.synthesis.search.bank import Bank
+from meshforge.synthesis.search.smallest import ErrorCounter, Search, compare_nearest
+from meshforge.synthesis.search.terms import Term
+
+MOST_HULLS = 2
+"""Hulls that may be wrong in one selection."""
+SLIP = 3.5
+"""What each such hull costs [nats]: a person misses about one hull in thirty."""
+_LEAST_NODES, _MOST_NODES = 4, 3  # of an extractor that may come from a slip, and of one that would be simpler
+
+
+@dataclass(frozen=True, slots=True)
+class Slip:
+    """What a person may have meant on one asset, and did not select.
+
+    asset: how messages call it; missing, extra: names of the hulls left out, and selected, by mistake; extractor: the
+    simpler one; share: how probable it is.
+    """
+
+    asset: str
+    missing: tuple[str, ...]
+    extra: tuple[str, ...]
+    extractor: Extractor
+    share: float
+
+
+def find_slip(
+    extractor: Extractor, examples: Sequence[Example], vocabulary: Sequence[str], options: Options
+) -> Slip | None:
+    """The likeliest slip in what was selected on some meshes, None where the extractor is simple enough.
+
+    extractor: one that selects just that.
+    """
+    search = Search(examples, vocabulary, TimeBudget(math.inf), options)
+    field, shown = search.field, (1 << search.width) - 1
+    learned = field.term(extractor)
+    if learned.size < _LEAST_NODES:
+        return None
+    bank = Bank([Term(one.bits & shown, one.key, one.form) for one in field.terms], search.width, search.budget)
+    errors = ErrorCounter(field, search.selections, search.width)
+    levels = range(1, _MOST_NODES + 1)
+    found = [
+        (count_nats(term, shown) + SLIP * wrong, term)
+        for size in levels
+        for term in bank.level(size).terms
+        if 0 < (wrong := errors.count(term.bits)) <= MOST_HULLS
+    ]
+    if not found:
+        return None
+    nats, best = min(found, key=lambda row: (row[0], row[1].key))
+    differs = compare_nearest(best.extractor, field, examples)
+    if len(differs.extra) + len(differs.missing) < errors.count(best.bits):
+        return None  # it is wrong on several meshes
+    share = 1 / (1 + math.exp(nats - count_nats(learned, shown)))
+    return Slip(differs.asset, differs.extra, differs.missing, best.extractor, share)
