@@ -14,6 +14,7 @@ from meshforge.language import Program
 from meshforge.project import Project, ProjectReview
 from meshforge.signoff import HullPlace, ReviewChoice, ReviewQuestion, ReviewReply
 from meshforge.signoff.question import ASIDE, RIGHT, WRONG
+from meshforge.signoff.slips import AS_SHOWN, BY_MISTAKE
 from meshforge.symbolic import Label
 from tests.unit.project.tables import FIRST, LEGS, SECOND, THIRD, applied, demonstrated, fresh, labelled, learned
 
@@ -207,3 +208,28 @@ def test_what_cannot_be_read_is_held_until_it_is_set_aside(tmp_path: Path) -> No
     assert sign_off_of(project, THIRD) == "set aside"
     project.set_verdict(THIRD, None)
     assert review(project).assessment.held == (THIRD,)
+
+
+def selection_of(asset: str) -> ReviewQuestion:
+    """The question whether the first rule was shown on an asset with a slip."""
+    choices = (ReviewChoice(BY_MISTAKE, select=("crumb", "left_low")), ReviewChoice(AS_SHOWN, select=("crumb",)))
+    return ReviewQuestion("s", "selection", "?", 2.65, 0.5, asset, 1, (), choices)
+
+
+def test_a_slip_that_is_admitted_corrects_the_demonstration_and_what_was_meant_stays(tmp_path: Path) -> None:
+    project = demonstrated(tmp_path)
+    found = review(project)
+    project.reply(found, selection_of(FIRST), ReviewReply("s", 1))
+    assert project.steps(FIRST)[0].select == frozenset({"crumb"})
+    assert "s" in project.sign_offs().later
+    project.reply(found, selection_of(FIRST), ReviewReply("s", 0))
+    assert project.steps(FIRST)[0].select == frozenset({"crumb", "left_low"})
+    assert project.steps(SECOND)[0].select == frozenset({"crumb"})
+
+
+def test_a_slip_in_a_step_that_is_gone_is_an_error_and_changes_nothing(tmp_path: Path) -> None:
+    project = demonstrated(tmp_path)
+    found = review(project)
+    with pytest.raises(ProjectError, match="rule 1 is not demonstrated here any more"):
+        project.reply(found, selection_of(THIRD), ReviewReply("s", 0))
+    assert project.steps(THIRD) == ()

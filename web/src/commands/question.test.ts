@@ -30,6 +30,13 @@ describe("a reply", () => {
     expect(editsFor(question, null)).toEqual([{ ...answer, select: null, refused: [["x"], []] }]);
   });
 
+  it("corrects a demonstration with a slip, or leaves it", () => {
+    const choices = [choice("yes, by mistake", { select: ["x", "y"] }), choice("no, as shown", { select: ["x"] })];
+    const slip = sampleQuestion({ kind: "selection", rule: 2, hulls: hulls.slice(0, 1), choices });
+    expect(editsFor(slip, 0)).toEqual([{ kind: "correct-selection", asset: "a0", rule: 2, select: ["x", "y"] }]);
+    expect(editsFor(slip, 1)).toEqual([{ kind: "put-off", id: "group-1" }]);
+  });
+
   it("accepts a result, takes an orientation", () => {
     const result = sampleQuestion({ kind: "result", choices: [choice("right"), choice("wrong")] });
     expect(editsFor(result, 0)).toEqual([{ kind: "review", ids: ["a0"], verdict: "accepted" }]);

@@ -1,0 +1,104 @@
+"""Slips in demonstrations: asked about where a simpler rule would select all the others, and then corrected or not."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from meshforge.label_model import model_family
+from meshforge.language import Delete
+from meshforge.signoff import Assessment, ReviewQuestion, ReviewReply, ReviewState, apply_reply
+from meshforge.signoff.reply import list_answers
+from meshforge.signoff.slips import AS_SHOWN, BY_MISTAKE
+from meshforge.symbolic import SymbolicMesh
+from meshforge.synthesis import Answer, Demonstration, Step
+from tests.unit.signoff.test_review import FRAME, legs_of, review, shown, tables
+
+FORGOTTEN = "leg2_low"
+
+
+def show_without(*forgotten: str) -> tuple[dict[str, SymbolicMesh], ReviewState]:
+    """Tables, of one of which all legs are deleted but for some hulls."""
+    meshes = tables()
+    demo = Demonstration(meshes["t0"], [Step(1, legs_of("t0").difference(forgotten), Delete())], "t0")
+    return meshes, ReviewState(meshes, FRAME, demos={"t0": demo})
+
+
+def ask_about_slip(state: ReviewState) -> ReviewQuestion | None:
+    """The question about a slip, whatever else is asked first."""
+    for _ in range(12):
+        question = review(state).question
+        if question is None or question.kind == "selection":
+            return question
+        state = apply_reply(state, question, ReviewReply(question.id, later=True))
+    return None
+
+
+def probability(found: Assessment, asset: str) -> float:
+    return found.assets[asset].probability
+
+
+def test_a_hull_that_was_forgotten_is_asked_about() -> None:
+    _, state = show_without(FORGOTTEN)
+    question = ask_about_slip(state)
+    assert question is not None
+    assert (question.asset, question.rule) == ("t0", 1)
+    assert f"With {FORGOTTEN} rule 1" in question.text
+    assert "was it left out on t0 by mistake?" in question.text
+    assert [choice.text for choice in question.choices] == [BY_MISTAKE, AS_SHOWN]
+    assert set(question.choices[0].select or ()) == legs_of("t0")
+
+
+def test_a_slip_that_is_admitted_is_corrected() -> None:
+    meshes, state = show_without(FORGOTTEN)
+    question = ask_about_slip(state)
+    assert question is not None
+    after = apply_reply(state, question, ReviewReply(question.id, 0))
+    step = after.demos["t0"].step(1)
+    assert step is not None
+    assert step.select == legs_of("t0")
+    whole = review(ReviewState(meshes, FRAME, demos=shown(meshes, "t0")))
+    assert review(after).assets == whole.assets
+
+
+def test_what_was_meant_as_shown_is_not_asked_about_again() -> None:
+    _, state = show_without(FORGOTTEN)
+    question = ask_about_slip(state)
+    assert question is not None
+    after = apply_reply(state, question, ReviewReply(question.id, 1))
+    assert after.demos == state.demos
+    assert question.id in after.later
+    assert ask_about_slip(after) is None
+
+
+def test_a_simple_demonstration_has_no_slip() -> None:
+    _, state = show_without()
+    assert ask_about_slip(state) is None
+
+
+def test_results_that_are_all_wrong_hold_the_rest() -> None:
+    _, state = show_without()
+    before, wrong = review(state), {f"t{k}": (frozenset[str](),) for k in range(1, 5)}
+    after = review(replace(state, mended=wrong, failed={name: (legs_of(name),) for name in wrong}))
+    assert probability(after, "t5") < probability(before, "t5")
+
+
+def test_a_mend_is_learned_from_where_the_labels_of_its_hulls_are_sure() -> None:
+    meshes, state = show_without()
+    done = legs_of("t5")
+    mended = replace(state, mended={"t5": (done - {FORGOTTEN},)}, failed={"t5": (done,)})
+    said = [hull.annotation for mesh in meshes.values() for hull in mesh.hulls]
+    posterior = model_family(list(meshes.values())).infer(said)
+    assert [one.asset for one in list_answers(mended, posterior)] == ["t5"]
+
+
+def test_before_the_end_one_result_is_looked_at_of_a_rule_that_answers_shaped() -> None:
+    meshes, state = show_without()
+    answered = replace(state, answers=(Answer(1, "t1", legs_of("t1")),))
+    question = review(answered, bar=0.0).question
+    assert question is not None
+    assert question.kind == "result"
+    assert question.asset not in ("t0", "t1")
+    assert question.text.startswith("One last look")
+    seen = replace(answered, accepted={"t2": (legs_of("t2"),)})
+    assert review(seen, bar=0.0).question is None
+    assert review(ReviewState(meshes, FRAME, demos=shown(meshes, "t0")), bar=0.0).question is None
