@@ -20,7 +20,7 @@ from meshforge.common import MeshForgeError
 from meshforge.language import Program
 from meshforge.signoff import Assessment, ReviewQuestion, ReviewState
 from meshforge.signoff.question import RIGHT, WRONG
-from meshforge.synthesis import Answer, LearningOutcome, NoProgram
+from meshforge.synthesis import Answer, LearningOutcome, NeedsRepair, NoProgram
 
 CAP = 600.0
 """Seconds of a person after which a session is broken off."""
@@ -118,13 +118,15 @@ class ReviewCourse:
             self.log.ended = DONE if assessment.is_done else EMPTY
 
     def _learn(self) -> LearningOutcome | None:
-        """Where no program keeps all that was mended and accepted, that is forgotten, as a project does."""
+        """Where no program keeps all that was mended and accepted, that is forgotten, as a project does; likewise what
+        was mended, where only other labels would explain it."""
         found = self.tool.learn(self.desk, self.state)
         while isinstance(found, NoProgram) and self.state.mended and self._look_at_answers(found.nearest.rule):
             found = self.tool.learn(self.desk, self.state)
         forgotten = replace(self.state, mended={}), replace(self.state, mended={}, accepted={})
-        for state in forgotten:
-            if isinstance(found, NoProgram) and state != self.state:
+        failures = (NoProgram, NeedsRepair), (NoProgram,)
+        for state, kinds in zip(forgotten, failures, strict=True):
+            if isinstance(found, kinds) and state != self.state:
                 found = self.tool.learn(self.desk, state)
         return found
 
