@@ -20,6 +20,7 @@ from meshforge.batch.jobs import (
 )
 from meshforge.batch.lock import hold_lock
 from meshforge.batch.outcome import (
+    MOST_SHOWN,
     AssetOutcome,
     Failed,
     Held,
@@ -63,12 +64,14 @@ from meshforge.batch.provenance import (
 )
 from meshforge.batch.report.contents import (
     READ_TIMEOUT,
+    AssetStanding,
     EarlierExamination,
     LabelStatus,
     MeshReader,
     ReportAsset,
     ReportStatus,
     RunFigures,
+    StandingWord,
     TopItems,
     read_again,
     read_job,
@@ -92,6 +95,7 @@ __all__ = [
     "EXECUTION_DEFAULTS",
     "IN_PROCESS",
     "MOST_PICTURED",
+    "MOST_SHOWN",
     "OWN_FOLDERS",
     "READ_TIMEOUT",
     "RECORD_FILE",
@@ -104,6 +108,7 @@ __all__ = [
     "AssetJob",
     "AssetOutcome",
     "AssetSet",
+    "AssetStanding",
     "CheckJournal",
     "CheckOutcome",
     "CheckTask",
@@ -127,6 +132,7 @@ __all__ = [
     "RunSummary",
     "Skipped",
     "Stamp",
+    "StandingWord",
     "TopItems",
     "WorkerFailure",
     "apply",

@@ -154,11 +154,7 @@ class RunSummary:
     failed: list[Failed] = field(default_factory=list)
     ran: list[Edited | Unchanged | Skipped] = field(default_factory=list)
     measures: dict[str, EditMeasures] = field(default_factory=dict)
-    held: list[Held] = field(default_factory=list)
-
-    def hold(self, held: Sequence[Held]) -> None:
-        """Note what was held back."""
-        self.held = list(held)
+    held: Sequence[Held] = ()
 
     def add(self, outcome: AssetOutcome) -> None:
         """Count one more."""

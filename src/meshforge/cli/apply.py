@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from time import perf_counter
 from typing import TYPE_CHECKING, Annotated, Literal
 
@@ -16,14 +18,21 @@ from meshforge.batch import apply as run_program
 from meshforge.checks import ENGINES, CheckOptions
 from meshforge.cli import options
 from meshforge.cli.console import progress
-from meshforge.cli.report import NOTHING_WRITTEN, compare_outcomes, describe_failure, write_report_page
-from meshforge.cli.review_text import format_share
+from meshforge.cli.report import (
+    NOTHING_WRITTEN,
+    add_standings,
+    compare_outcomes,
+    describe_failure,
+    word_of,
+    write_report_page,
+)
+from meshforge.cli.review_text import format_share, format_status
 from meshforge.cli.terminal import print_json, remark
 from meshforge.common import UsageError, pluralize
 from meshforge.language import Program, Template
 
 if TYPE_CHECKING:
-    from meshforge.project import Project
+    from meshforge.project import AssetStatus, Project
     from meshforge.signoff import Assessment
 
 
@@ -99,7 +108,7 @@ def apply(given: ApplyArguments) -> None:
             print_json(batch.to_json_line(outcome, alarms.get(outcome.asset, ())), compact=True)
     if not given.dry_run:
         work.finish()
-    summary.hold(work.held)
+    summary.held = work.held
     for held in work.held:
         print_json(held.to_json(), compact=True) if given.json else typer.echo(f"{'held':10} {held.asset}: {held.why}")
     if not given.json:
@@ -107,7 +116,7 @@ def apply(given: ApplyArguments) -> None:
         if alarms:
             typer.echo(batch.describe_alarms(alarms))
     if given.report:
-        _write_report(given.report, work, summary, perf_counter() - started, measures, alarms)
+        _write_report(given.report, work, summary, perf_counter() - started, measures)
     raise typer.Exit(int(summary.counts["failed"] > 0 or bool(work.held)))
 
 
@@ -124,7 +133,7 @@ def _parse_measures(names: Sequence[str]) -> CheckOptions:
 @dataclass(frozen=True, slots=True)
 class _ApplyWork:
     """What is to be run on what. readers: of assets before the run, by id; demonstrated: those that somebody edited;
-    held: those that are held back; finish: called when all is written."""
+    held: those that are held back; finish: called when all is written; project: None with a bare program."""
 
     program: Program
     jobs: Sequence[batch.AssetJob]
@@ -134,6 +143,7 @@ class _ApplyWork:
     demonstrated: Collection[str] = ()
     held: Sequence[batch.Held] = ()
     finish: Callable[[], object] = tuple
+    project: Project | None = None
 
 
 def _work_of_project(given: ApplyArguments) -> _ApplyWork:
@@ -151,7 +161,7 @@ def _work_of_project(given: ApplyArguments) -> _ApplyWork:
     program, jobs, templates = project.work(frozenset(project.assets()) - names if names else None)
     demonstrated = frozenset(project.layout.ids_with("demonstrations"))
     finish = project.renew_sign_offs if out.absolute() == project.layout.edited else tuple
-    return _ApplyWork(program, jobs, out, templates, project.readers, demonstrated, held, finish)
+    return _ApplyWork(program, jobs, out, templates, project.readers, demonstrated, held, finish, project)
 
 
 def _hold_back(project: Project, out: Path, bar: float) -> tuple[batch.Held, ...]:
@@ -204,17 +214,40 @@ def _describe_outcome(outcome: batch.AssetOutcome) -> str:
 
 
 def _write_report(
-    path: Path,
-    work: _ApplyWork,
-    summary: batch.RunSummary,
-    seconds: float,
-    measures: CheckOptions | None,
-    alarms: Mapping[str, tuple[str, ...]],
+    path: Path, work: _ApplyWork, summary: batch.RunSummary, seconds: float, measures: CheckOptions | None
 ) -> None:
-    readers = work.readers(outcome.asset for outcome in summary.outcomes_to_show)
-    write_report_page(
-        path,
-        batch.ReportHeader(work.out.resolve().name, seconds=seconds, figures=batch.RunFigures.of_run(summary)),
-        list(compare_outcomes(summary.outcomes_to_show, work.program, readers, work.demonstrated, measures, alarms)),
-        work.program,
-    )
+    """Draw what a run made; of a project what is held comes first, and what was held back is shown as it would be."""
+    title, figures, text, found = work.out.resolve().name, batch.RunFigures.of_run(summary), None, None
+    if work.project:
+        found = work.project.status()
+        title, text, standings = found.name, format_status(found), Counter(map(word_of, found.assets))
+        figures = replace(figures, first="those that failed or are held", standings=standings)
+    back = [held.asset for held in work.held]
+    with TemporaryDirectory() as folder:
+        held = work.project.apply(back[: batch.MOST_SHOWN], out=Path(folder)) if work.project and back else ()
+        outcomes = _choose_outcomes(work.out, summary, tuple(held), found.open_assets if found else ())
+        readers, alarms = work.readers(outcome.asset for outcome in outcomes), summary.find_alarms()
+        assets = list(compare_outcomes(outcomes, work.program, readers, work.demonstrated, measures, alarms))
+    if found:
+        assets = add_standings(assets, found, back)
+    header = batch.ReportHeader(title, seconds=seconds, figures=figures, standing=text)
+    write_report_page(path, header, assets, work.program)
+
+
+def _choose_outcomes(
+    out: Path, summary: batch.RunSummary, held: Sequence[batch.AssetOutcome], doubted: Sequence[AssetStatus]
+) -> list[batch.AssetOutcome]:
+    """Those that a report shows; of too many failed ones, then those in doubt or with alarms, then the first others.
+
+    held: what would have become of those that were held back; alarms are looked for among these, too.
+    """
+    known = {outcome.asset: outcome for outcome in (*held, *summary.outcomes_to_show)}
+    summary.measures |= {one.asset: one.measures for one in held if not isinstance(one, batch.Failed) and one.measures}
+    odd = [*(asset.id for asset in doubted), *summary.find_alarms()]
+    for name in odd[: batch.MOST_SHOWN]:
+        stamp = None if name in known else batch.read_stamp(out, name)
+        if stamp and stamp.is_whole(out):
+            known[name] = stamp.to_skipped(out)
+    order = dict.fromkeys([*(failed.asset for failed in summary.failed), *odd, *known])
+    chosen = set([name for name in order if name in known][: batch.MOST_SHOWN])
+    return [outcome for name, outcome in known.items() if name in chosen]

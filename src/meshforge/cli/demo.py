@@ -15,7 +15,8 @@ from meshforge.batch import ExecutionOptions, ReportAsset, ReportHeader, ReportO
 from meshforge.checks import check
 from meshforge.cli.console import progress
 from meshforge.cli.options import Browser, Port, Workers
-from meshforge.cli.report import compare_outcomes
+from meshforge.cli.report import add_standings, compare_outcomes
+from meshforge.cli.review_text import format_status
 from meshforge.cli.terminal import remark
 from meshforge.common import UsageError
 from meshforge.project import Project
@@ -73,13 +74,16 @@ def _run_all(out: Path, workers: int | None) -> None:
     with progress(len(project.assets()), "editing") as advance:
         outcomes = list(project.apply(execution=ExecutionOptions(workers, progress=advance)))
     seconds = perf_counter() - started
-    assets = list(compare_outcomes(outcomes, program, project.readers(o.asset for o in outcomes), shown))
+    project.review()
+    found = project.status()
+    pairs = compare_outcomes(outcomes, program, project.readers(o.asset for o in outcomes), shown)
+    assets = add_standings(pairs, found)
     with progress(len(assets), "drawing") as advance:
         report = out / "report.html"
         about = "Pictures show every table upright, as the program sees it; the files keep the frame they came in."
-        header = ReportHeader("Tables", about, seconds)
+        header = ReportHeader("Tables", about, seconds, standing=format_status(found))
         write_report(report, header, assets, program=program, options=ReportOptions(progress=advance))
-    _print_result(assets, seconds, project, report)
+    _print_result(assets, seconds, project, report, format_status(found))
     raise typer.Exit(int(any(asset.status == "failed" for asset in assets)))
 
 
@@ -91,7 +95,7 @@ def _open_in_browser(out: Path, port: int, browser: bool) -> None:
     open_studio(StudioOptions(open_tables(out).folder, tour=True), port=port, browser=browser)
 
 
-def _print_result(assets: Sequence[ReportAsset], seconds: float, project: Project, report: Path) -> None:
+def _print_result(assets: Sequence[ReportAsset], seconds: float, project: Project, report: Path, sure: str) -> None:
     edited = [asset for asset in assets if asset.after and asset.counts]
     before, after = (sum(asset.counts[k] for asset in edited if asset.counts) for k in (0, 1))
     wrong = sum(any(f.severity == "error" for f in check(asset.after)) for asset in edited if asset.after)
@@ -99,9 +103,10 @@ def _print_result(assets: Sequence[ReportAsset], seconds: float, project: Projec
     typer.echo(f"It ran on all {len(assets)} in {seconds:.1f} s: {before} hulls became {after}, {legal}.")
     if len(edited) < len(assets):
         typer.echo(f"{len(assets) - len(edited)} failed; the report says why.")
+    typer.echo(sure.replace("\n", "\n  "))
     typer.echo(f"Edited tables, each in the file format it came in: {_relative_path(project.folder / 'edited')}")
     typer.echo(f"Before, after, and what each rule did: {_relative_path(report)}")
-    typer.echo(f"Look around: meshforge status {_relative_path(project.folder)}")
+    typer.echo(f"How sure each result is, and questions about it: meshforge review {_relative_path(project.folder)}")
 
 
 def _relative_path(path: Path) -> Path:

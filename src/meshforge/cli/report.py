@@ -9,17 +9,22 @@ from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from meshforge import batch
 from meshforge.checks import CheckOptions, Examination, Finding, Severity, examine_mesh
 from meshforge.cli.console import progress
+from meshforge.cli.review_text import format_standing
 from meshforge.cli.terminal import remark
 from meshforge.formats import load
 from meshforge.language import Program, RuleTrace, to_canonical_frame
 from meshforge.symbolic import SymbolicMesh
 
+if TYPE_CHECKING:
+    from meshforge.project import AssetStatus, Status
+
 NOTHING_WRITTEN = " (nothing was written)"
+_HELD_BACK = "Nothing was written: this is what the program would make of it."
 
 
 def write_report_page(
@@ -69,6 +74,31 @@ def compare_outcomes(
         trace = tuple(RuleTrace(line.rule, line.selected, line.made, line.note) for line in outcome.rules)
         told = (alarms or {}).get(name, ())
         yield batch.ReportAsset(name, was, now, trace, batch.status_of(outcome), None, is_shown, notes, checked, told)
+
+
+def add_standings(
+    assets: Iterable[batch.ReportAsset], found: Status, held_back: Collection[str] = ()
+) -> list[batch.ReportAsset]:
+    """The assets of a project with how sure each result is; alarms of the run take the place of those of a review."""
+    known = {asset.id: asset for asset in found.assets}
+    return [_add_standing(asset, known[asset.name], asset.name in held_back) for asset in assets]
+
+
+def _add_standing(shown: batch.ReportAsset, asset: AssetStatus, is_held_back: bool) -> batch.ReportAsset:
+    alarms = tuple(doubt.text for doubt in asset.doubts if doubt.kind == "alarm")
+    doubts = tuple(doubt.text for doubt in asset.doubts if doubt.kind != "alarm")
+    standing = batch.AssetStanding(word_of(asset), format_standing(asset), asset.probability, doubts)
+    if shown.error:
+        return replace(shown, standing=standing)
+    if is_held_back:
+        shown = replace(shown, status="held back", notes=(_HELD_BACK, *shown.notes))
+    return replace(shown, standing=standing, alarms=shown.alarms or alarms)
+
+
+def word_of(asset: AssetStatus) -> batch.StandingWord:
+    """How an asset of a project stands, in a word."""
+    state = asset.sign_off
+    return "held" if state == "held" or state == "void" or state == "unknown" else state
 
 
 def _split_checks(found: Examination | batch.WorkerFailure) -> tuple[Examination | None, tuple[str, ...]]:

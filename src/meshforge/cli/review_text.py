@@ -1,4 +1,4 @@
-"""What `review`, `status` and `apply` say of how sure results are."""
+"""What `review`, `status`, `apply` and reports say of how sure results are."""
 
 from __future__ import annotations
 
@@ -6,10 +6,13 @@ import json
 import shlex
 from collections.abc import Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from meshforge.common import join_names, pluralize
-from meshforge.project import ProjectReview
 from meshforge.signoff import AssetConfidence, ReviewQuestion
+
+if TYPE_CHECKING:
+    from meshforge.project import AssetStatus, ProjectReview, Status
 
 MOST_HELD = 12
 """Held assets that are named."""
@@ -38,6 +41,36 @@ def format_review(found: ProjectReview, folder: Path, held: int = MOST_HELD) -> 
             "Nothing is left to ask: show the edit on one of these (meshforge demonstrate), or mend its result."
         )
     return "\n".join(lines)
+
+
+def format_status(found: Status) -> str:
+    """How far a project is signed off by its last review, and what is not, the least sure first."""
+    waits = found.count(lambda asset: asset.sign_off == "sure")
+    done = waits + found.count(lambda asset: asset.sign_off == "signed off")
+    aside = found.count(lambda asset: asset.sign_off == "set aside")
+    lines = [format_counts(done, len(found.assets), len(found.open_assets), aside, found.bar)]
+    if waits:
+        lines.append(f"  {waits} of them will be signed off when their outputs are up to date (meshforge apply)")
+    for asset in found.open_assets[:MOST_HELD]:
+        if asset.probability is None or asset.void:
+            lines.append(f"  {asset.id}: {format_standing(asset)}")
+        else:
+            lines.append(f"  {format_asset(AssetConfidence(asset.id, asset.probability, asset.doubts))}")
+    more = len(found.open_assets) - MOST_HELD
+    return "\n".join([*lines, *([f"  and {more} more"] if more > 0 else [])])
+
+
+def format_standing(asset: AssetStatus) -> str:
+    """How one asset stands: how sure its result is, and whether it is signed off, and by whom."""
+    if asset.sign_off == "void":
+        return f"void, {join_names(asset.void)} changed since it was signed off"
+    if asset.sign_off == "unknown":
+        return "not looked at as it is now (meshforge review)"
+    share = "" if asset.probability is None else f"{format_share(asset.probability)} sure, "
+    if asset.sign_off == "sure":
+        return f"{share}signed off when its output is up to date (meshforge apply)"
+    who = {"tool": " by MeshForge", "person": " by a person", None: ""}[asset.signed_by]
+    return f"{share}{asset.sign_off}{who}"
 
 
 def format_asset(one: AssetConfidence) -> str:

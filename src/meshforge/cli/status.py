@@ -9,11 +9,10 @@ import typer
 
 from meshforge.cli.console import print_table, progress
 from meshforge.cli.options import Json
-from meshforge.cli.review_text import MOST_HELD, format_asset, format_counts
+from meshforge.cli.review_text import format_status
 from meshforge.cli.terminal import print_json
-from meshforge.common import join_names, pluralize
+from meshforge.common import pluralize
 from meshforge.project import AssetStatus, Project, Status
-from meshforge.signoff import AssetConfidence
 
 
 def status(
@@ -50,27 +49,8 @@ def _print_status(found: Status) -> None:
     for asset in found.lost:
         typer.echo(f"kept for an asset that is not there: {asset}")
     if found.rules is not None:
-        typer.echo(f"\n{_describe_sign_off(found)}")
+        typer.echo(f"\n{format_status(found)}")
     typer.echo(f"\nNext: {found.next.say}" + (f"\n  {found.next.command}" if found.next.command else ""))
-
-
-def _describe_sign_off(found: Status) -> str:
-    """How far the family is signed off, and what is not."""
-    waits = found.count(lambda asset: asset.sign_off == "sure")
-    done = waits + found.count(lambda asset: asset.sign_off == "signed off")
-    aside = found.count(lambda asset: asset.sign_off == "set aside")
-    lines = [format_counts(done, len(found.assets), len(found.open_assets), aside, found.bar)]
-    if waits:
-        lines.append(f"  {waits} of them will be signed off when their outputs are up to date (meshforge apply)")
-    for asset in found.open_assets[:MOST_HELD]:
-        if asset.void:
-            lines.append(f"  {asset.id}: void, {join_names(asset.void)} changed since it was signed off")
-        elif asset.probability is None:
-            lines.append(f"  {asset.id}: not looked at as it is now (meshforge review)")
-        else:
-            lines.append(f"  {format_asset(AssetConfidence(asset.id, asset.probability, asset.doubts))}")
-    more = len(found.open_assets) - MOST_HELD
-    return "\n".join([*lines, *([f"  and {more} more"] if more > 0 else [])])
 
 
 def _to_row(asset: AssetStatus) -> tuple[object, ...]:

@@ -26,9 +26,12 @@ class Standings:
         sign_off, now = self.signed.assets.get(asset.id), self.inputs.get(asset.id)
         void = _find_void(sign_off, now)
         found = line.to_confidence(asset.id) if line else None
+        state, accepted = self._find_state(asset, line, sign_off, void), asset.review == "accepted" and not asset.stale
+        by = "person" if accepted or not sign_off else sign_off.by
         return replace(
             asset,
-            sign_off=self._find_state(asset, line, sign_off, void),
+            sign_off=state,
+            signed_by=by if state == "signed off" else None,
             void=void,
             probability=found.probability if found else None,
             doubts=found.doubts if found else (),

@@ -33,8 +33,8 @@ class AssetStatus:
     names, labels: of the hulls, in the asset's order; geometry: the digest of names and shapes of all hulls, empty
     where it cannot be read. after, after_labels, output_digest: hulls of the output, the label of each where that is
     known, and its files; corrections: edits by hand, a number.
-    sign_off: whether it is signed off; void: what changed since it was; probability, doubts: of its edit, as of the
-    last review where nothing changed since, else None.
+    sign_off: whether it is signed off; signed_by: by whom; void: what changed since it was; probability, doubts: of its
+    edit, as of the last review where nothing changed since, else None.
     """
 
     id: str
@@ -58,6 +58,7 @@ class AssetStatus:
     corrections: int = 0
     review_note: str | None = None
     sign_off: SignOffState = "unknown"
+    signed_by: Literal["tool", "person"] | None = None
     void: tuple[str, ...] = ()
     probability: float | None = None
     doubts: tuple[Doubt, ...] = ()
@@ -138,6 +139,7 @@ def _asset_json(asset: AssetStatus) -> dict[str, Any]:
         "flags": list(asset.flags),
         "review": asset.review,
         "sign_off": asset.sign_off,
+        "signed_by": asset.signed_by,
         "void": list(asset.void),
         "probability": None if asset.probability is None else round(asset.probability, 4),
         "doubts": [doubt.to_json() for doubt in asset.doubts],

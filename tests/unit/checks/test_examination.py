@@ -115,7 +115,7 @@ def test_the_report_shows_what_was_found_failures_first(tmp_path: Path) -> None:
     page = (tmp_path / "report.html").read_text("utf-8")
     places = [page.index(f'data-name="{name}"') for name in ("gone", "filled", "unmeasured", "fine")]
     assert places == sorted(places)
-    assert "checks: 0 errors, 2 warnings" in page and "checks: all is well" in page
+    assert "checks: 0 errors, 2 warnings" in page and "checks: no findings" in page
     assert "free and reachable in the visual mesh, closed by h0" in page
     assert page.count("<figure>") == 2 + 3  # two heat maps each, and what is closed
     assert 'data-kind="edited doubtful"' in page

@@ -317,6 +317,7 @@ def test_the_status_is_plain_data_for_scripts(tmp_path: Path) -> None:
         "flags": [],
         "review": None,
         "sign_off": "unknown",
+        "signed_by": None,
         "void": [],
         "probability": None,
         "doubts": [],

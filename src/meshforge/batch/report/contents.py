@@ -5,7 +5,7 @@ from __future__ import annotations
 import base64
 from collections import Counter, defaultdict
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from itertools import chain
 from typing import TYPE_CHECKING, Generic, Literal, TypeVar
 
@@ -23,8 +23,8 @@ if TYPE_CHECKING:
     from PIL.Image import Image
 
 
-EditStatus = Literal["edited", "unchanged", "written", "skipped", "failed"]
-"""What a program or a conversion made of an asset."""
+EditStatus = Literal["edited", "unchanged", "written", "skipped", "held back", "failed"]
+"""What a program or a conversion made of an asset; held back: nothing, since its edit is not sure enough."""
 CheckStatus = Literal["clean", "warnings", "errors", "failed"]
 """What checks found of one; failed: it could not be checked, or not be written."""
 LabelStatus = Literal["labelled", "doubtful", "problems"]
@@ -41,6 +41,21 @@ MeshReader = Callable[[], SymbolicMesh]
 """Reads an asset, in this process or another."""
 READ_TIMEOUT = 300.0
 """Seconds for one asset."""
+
+StandingWord = Literal["held", "sure", "signed off", "set aside"]
+"""How an asset of a project stands; sure: to be signed off once its output is up to date; held: anything less."""
+
+
+@dataclass(frozen=True, slots=True)
+class AssetStanding:
+    """How sure the edit of an asset of a project is. text: the same in words; probability: that it is right, None where
+    it is not known; doubts: why it may be wrong, a sentence each.
+    """
+
+    word: StandingWord
+    text: str
+    probability: float | None = None
+    doubts: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -59,7 +74,7 @@ class ReportAsset:
     where nothing was to be changed.
     trace: of every rule; error: the whole message of a failed asset; demonstrated: whether a person edited it.
     notes: what else there is to say, as what the format had to write in another form; checked: what was measured of it
-    after, where that was asked for; alarms: why the result stands out, a sentence each.
+    after, where asked for; alarms: why the result stands out, a sentence each; standing: None without a project.
     """
 
     name: str
@@ -72,6 +87,7 @@ class ReportAsset:
     notes: tuple[str, ...] = ()
     checked: Examination | EarlierExamination | None = None
     alarms: tuple[str, ...] = ()
+    standing: AssetStanding | None = None
 
     @property
     def counts(self) -> tuple[int, int] | None:
@@ -94,28 +110,35 @@ class ReportAsset:
         return self.status in BROKEN or self.has_errors
 
     @property
+    def is_held(self) -> bool:
+        """Whether it is to be looked at first: it is held, or broken."""
+        return self.is_broken or bool(self.standing and self.standing.word == "held")
+
+    @property
+    def rank(self) -> tuple[bool, bool, float]:
+        """Its place in an order of assets that have standings: what is held, then alarms, the least sure first."""
+        known = self.standing.probability if self.standing else None
+        return not self.is_held, not self.alarms, -1.0 if known is None else known
+
+    @property
     def kinds(self) -> list[str]:
         """The words by which the page can be filtered."""
         marks = (("demonstrated", self.demonstrated), ("doubtful", bool(self.findings or self.alarms)))
-        return [self.status, *(word for word, holds in marks if holds)]
-
-    @property
-    def hulls_to_blame(self) -> frozenset[str]:
-        """The hulls that findings name: those of errors, where there are any."""
-        errors = [finding for finding in self.findings if finding.severity == "error"]
-        return frozenset(hull for finding in errors or self.findings for hull in finding.hulls)
+        words = [self.status, *([self.standing.word] if self.standing else [])]
+        return [*words, *(word for word, holds in marks if holds)]
 
 
 @dataclass(frozen=True, slots=True)
 class RunFigures:
     """counts: of assets by what became of them; more: figures by name, each with a remark that is small.
 
-    first: which of very many assets are shown first, in words.
+    first: which of very many assets are shown first, in words; standings: of a project, how many assets stand how.
     """
 
     counts: Mapping[ReportStatus, int]
     more: Mapping[str, tuple[str, str | None]]
     first: str = "those that failed"
+    standings: Mapping[StandingWord, int] = field(default_factory=dict)
 
     @property
     def total(self) -> int:
@@ -126,6 +149,7 @@ class RunFigures:
     def of_run(summary: RunSummary, words: Mapping[ReportStatus, ReportStatus] | None = None) -> RunFigures:
         """Those of a program's run, or of a conversion; words: other ones for what became of assets."""
         counts: dict[ReportStatus, int] = {(words or {}).get(word, word): n for word, n in summary.counts.items()}
+        counts |= {"held back": len(summary.held)} if summary.held else {}
         return RunFigures(counts, _hull_figures(summary.before, summary.after))
 
     @staticmethod
@@ -134,7 +158,8 @@ class RunFigures:
         shown = list(assets)
         known = [asset.counts for asset in shown if asset.counts]
         before, after = (sum(counts[k] for counts in known) for k in (0, 1))
-        return RunFigures(Counter(asset.status for asset in shown), _hull_figures(before, after))
+        standings = Counter(asset.standing.word for asset in shown if asset.standing)
+        return RunFigures(Counter(asset.status for asset in shown), _hull_figures(before, after), standings=standings)
 
 
 def _hull_figures(before: int, after: int) -> dict[str, tuple[str, str | None]]:
@@ -257,8 +282,9 @@ def draw_asset(asset: ReportAsset, options: PictureOptions) -> AssetPictures | N
 
 
 def _find_hulls_to_blame(asset: ReportAsset, mesh: SymbolicMesh) -> frozenset[str] | None:
-    """The hulls that findings name, None where they name none that is there, or all: then none would stand out."""
-    named = asset.hulls_to_blame & mesh.index.keys()
+    """The hulls that findings name, of errors where there are any; None for none or all: then none would stand out."""
+    errors = [finding for finding in asset.findings if finding.severity == "error"]
+    named = frozenset(hull for finding in errors or asset.findings for hull in finding.hulls) & mesh.index.keys()
     return named if 0 < len(named) < len(mesh.hulls) else None
 
 

@@ -24,6 +24,7 @@ STATUSES: tuple[contents.ReportStatus, ...] = (
     "unchanged",
     "written",
     "skipped",
+    "held back",
     "labelled",
     "clean",
     "doubtful",
@@ -54,13 +55,14 @@ class ReportHeader:
     """What stands at the top of a report.
 
     about: a line below the title; seconds: that the run took; figures: of the whole run, of which the assets shown may
-    be some; without them, they are those of the assets shown.
+    be some; without them, they are those of the assets shown. standing: how sure the results are, in lines.
     """
 
     title: str
     about: str | None = None
     seconds: float | None = None
     figures: contents.RunFigures | None = None
+    standing: str | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -91,16 +93,19 @@ def write_report(
 ) -> None:
     """Write the report of a batch: figures, the program if one ran, and every asset, with what each rule did.
 
-    Where assets were checked, those that failed come first, then those with findings. The page refers to no other file.
+    Of a project, assets that are held or failed come first, the least sure before others. Elsewhere those that failed
+    come first, then those with findings, where assets were checked. The page refers to no other file.
     """
-    if any(asset.checked for asset in assets):
+    if any(asset.standing for asset in assets):
+        assets = sorted(assets, key=lambda asset: asset.rank)
+    elif any(asset.checked for asset in assets):
         assets = sorted(assets, key=lambda asset: (not asset.is_broken, not asset.findings))
     meshes = [mesh for asset in assets for mesh in (asset.before, asset.after) if mesh]
     known = tuple(options.vocabulary) or (program.labels if program else ())
     labels = (*known, *sorted({hull.label for mesh in meshes for hull in mesh.hulls if hull.label} - set(known)))
     labelled = bool(options.vocabulary) or any(hull.label for mesh in meshes for hull in mesh.hulls)
     colors, pictures = label_colors(labels), contents.PictureOptions(labels, labelled, options.changes)
-    order = sorted(range(len(assets)), key=lambda k: not (assets[k].demonstrated or assets[k].is_broken))
+    order = sorted(range(len(assets)), key=lambda k: not (assets[k].demonstrated or assets[k].is_held))
     chosen = frozenset(order[: options.pictured])
     cards: list[tuple[contents.ReportAsset, contents.AssetPictures | None]] = []
     for k, asset in enumerate(assets):
@@ -114,6 +119,7 @@ def write_report(
         header=header,
         figures=figures,
         counts=[(status, figures.counts[status]) for status in STATUSES if figures.counts.get(status)],
+        standings=[(word, n) for word in get_args(contents.StandingWord) if (n := figures.standings.get(word))],
         selection=_describe_selection(len(assets), figures),
         has_program=program is not None,
         header_lines=list(_header_lines(program)) if program else [],
@@ -151,18 +157,19 @@ def _describe_selection(shown: int, figures: contents.RunFigures) -> str | None:
     if shown >= figures.total:
         return None
     some = f"{shown:,} of {figures.total:,} assets are shown"
-    odd = any(n and word in contents.REMARKABLE for word, n in figures.counts.items())
+    odd = any(n and word in contents.REMARKABLE for word, n in figures.counts.items()) or figures.standings.get("held")
     return f"{some}, {figures.first} first." if odd else f"{some}."
 
 
 def _describe_findings(found: Sequence[Finding]) -> str:
     errors = sum(finding.severity == "error" for finding in found)
-    return f"{pluralize(errors, 'error')}, {pluralize(len(found) - errors, 'warning')}" if found else "all is well"
+    return f"{pluralize(errors, 'error')}, {pluralize(len(found) - errors, 'warning')}" if found else "no findings"
 
 
 def _kinds(assets: Sequence[contents.ReportAsset]) -> list[str]:
     """The kinds of assets that there are, in the order of their buttons."""
-    kinds: list[str] = [status for status in STATUSES if any(asset.status == status for asset in assets)]
+    present = {word for asset in assets for word in (asset.status, asset.standing and asset.standing.word)}
+    kinds: list[str] = [word for word in (*STATUSES, *get_args(contents.StandingWord)) if word in present]
     if any(asset.demonstrated for asset in assets):
         kinds.append("demonstrated")
     if any((asset.findings or asset.alarms) and asset.status not in get_args(contents.CheckStatus) for asset in assets):
