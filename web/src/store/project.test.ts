@@ -1,6 +1,6 @@
 import { describe, expect, it } from "vitest";
 import type { Card, Hello } from "../wire";
-import { emptyProject, applyEvent } from "./project";
+import { emptyProject, applyEvent, receive, useProject } from "./project";
 import { sampleCard } from "./sample.test-help";
 
 const card = (asset: string, more: Partial<Card> = {}) => sampleCard({ asset, picture: "p", ...more });
@@ -48,6 +48,14 @@ describe("what the server says", () => {
     expect(after.revisions["a"]).toBe((begun.revisions["a"] ?? 0) + 1);
     expect(after.shapeRevisions["a"]).toBe(begun.shapeRevisions["a"]);
     expect(applyEvent(after, { kind: "assets", assets: ["a"], shapes: true }).shapeRevisions["a"]).toBe(2);
+  });
+
+  it("is passed over where it is of a kind that only a newer server knows", () => {
+    expect(applyEvent(begun, { kind: "weather", rain: true } as never)).toBe(begun);
+    receive(hello);
+    const before = useProject.getState();
+    receive({ kind: "weather", rain: true } as never);
+    expect(useProject.getState()).toBe(before);
   });
 
   it("takes everything for changed after a new connection", () => {

@@ -90,7 +90,7 @@ export const emptyProject: ProjectState = {
 
 export const useProject = create<ProjectState>()(() => emptyProject);
 
-/** The state after an event. */
+/** The state after an event; the same after one of a kind that this page does not know. */
 export function applyEvent(state: ProjectState, event: Event): ProjectState {
   switch (event.kind) {
     case "hello":
@@ -153,6 +153,8 @@ export function applyEvent(state: ProjectState, event: Event): ProjectState {
       return { ...state, program: event.program };
     case "job":
       return { ...state, jobs: [...state.jobs.filter((job) => job.id !== event.job.id), event.job].slice(-20) };
+    default: // of a newer server than this page was made for
+      return state;
   }
 }
 
