@@ -9,18 +9,18 @@ import numpy as np
 
 from meshforge.common import join_names
 from meshforge.geometry import Floats
-from meshforge.language import EXTREMITY, Program, show
+from meshforge.language import Program, show
 from meshforge.signoff.prices import YES_OR_NO
 from meshforge.signoff.question import HullPlace, ReviewChoice, ReviewQuestion, ReviewState, identify
 from meshforge.signoff.trial import Trial, select_by
 from meshforge.symbolic import mask_of
 from meshforge.synthesis import Example, Nearest, Options, Slip, find_slip
+from meshforge.synthesis.slips import MOST_HULLS
 
 BY_MISTAKE, AS_SHOWN = "yes, by mistake", "no, as shown"
 """The choices."""
 _LEAST_SHARE = 0.3  # from which on a slip is asked about
 _FITS_BARELY = 0.5  # the probability of a slip where no program fits what was shown
-_MOST_HULLS = 2  # that may then be wrong
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -35,16 +35,16 @@ class RuleSlip:
 def find_slips(state: ReviewState, program: Program, trials: Sequence[Trial]) -> Iterator[RuleSlip]:
     """The likely slips under a program that does what was shown, of each rule at most one; those that a person denied
     are not among them."""
-    delta = EXTREMITY if program.extremity is None else program.extremity
+    options = Options(extremity=program.extremity)
     by_name = {trial.asset: trial for trial in trials}
     for number, rule in enumerate(program.rules, 1):
         examples = list(_list_examples(state, by_name, number))
-        slip = find_slip(rule.extractor, examples, program.labels, Options()) if examples else None
+        slip = find_slip(rule.extractor, examples, program.labels, options) if examples else None
         if slip is None or slip.asset not in state.demos or slip.share < _LEAST_SHARE:
             continue
         if _is_used_later(state, slip.asset, number, slip.missing):
             continue
-        selected = [select_by(trial, number, slip.extractor, delta) for trial in trials]
+        selected = [select_by(trial, number, slip.extractor, options.geo_extremity) for trial in trials]
         if any(_is_refused(state, number, trial, mask) for trial, mask in zip(trials, selected, strict=True)):
             continue
         ours = [trial.selections[number - 1] if number <= len(trial.selections) else None for trial in trials]
@@ -83,26 +83,27 @@ def _is_refused(state: ReviewState, rule: int, trial: Trial, mask: int | None) -
 def ask_about_slip(state: ReviewState, found: RuleSlip) -> ReviewQuestion:
     """The question whether it is one."""
     slip, rule = found.slip, found.rule
-    text = f"With {_describe(slip.missing, slip.extra)} rule {rule} would just be {show(slip.extractor)}"
+    text = f"{_describe(slip.missing, slip.extra)} rule {rule} would just be {show(slip.extractor)}"
     return _ask(state, (slip.asset, rule), slip.missing, slip.extra, text, slip.share * float(found.differs.sum()))
 
 
 def ask_about_nearest(state: ReviewState, nearest: Nearest, everyone: float) -> ReviewQuestion | None:
     """The question where nothing fits what was shown, and an extractor nearly does."""
-    if nearest.asset not in state.demos or len(nearest.extra) + len(nearest.missing) > _MOST_HULLS:
+    if nearest.asset not in state.demos or len(nearest.extra) + len(nearest.missing) > MOST_HULLS:
         return None
     if state.demos[nearest.asset].step(nearest.rule) is None:
         return None
     if _is_used_later(state, nearest.asset, nearest.rule, nearest.extra):
         return None
-    text = f"With {_describe(nearest.extra, nearest.missing)} rule {nearest.rule} could be {show(nearest.extractor)}"
+    text = f"{_describe(nearest.extra, nearest.missing)} rule {nearest.rule} could be {show(nearest.extractor)}"
     place = nearest.asset, nearest.rule
     return _ask(state, place, nearest.extra, nearest.missing, text, _FITS_BARELY * everyone)
 
 
 def _describe(missing: Sequence[str], extra: Sequence[str]) -> str:
-    parts = [join_names(missing)] if missing else []
-    return " and ".join([*parts, f"without {join_names(extra)}"] if extra else parts)
+    if not missing:
+        return f"Without {join_names(extra)}"
+    return f"With {join_names(missing)}" + (f" and without {join_names(extra)}" if extra else "")
 
 
 def _ask(

@@ -8,7 +8,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from meshforge.language import Extractor
+from meshforge.language import Extractor, size_of
 from meshforge.synthesis.demonstration import Example
 from meshforge.synthesis.options import Options, TimeBudget
 from meshforge.synthesis.readings.belief import count_nats
@@ -43,13 +43,12 @@ def find_slip(
 ) -> Slip | None:
     """The likeliest slip in what was selected on some meshes, None where the extractor is simple enough.
 
-    extractor: one that selects just that.
+    extractor: one that selects just that; options: with the extremity under which it does.
     """
+    if size_of(extractor) < _LEAST_NODES:
+        return None
     search = Search(examples, vocabulary, TimeBudget(math.inf), options)
     field, shown = search.field, (1 << search.width) - 1
-    learned = field.term(extractor)
-    if learned.size < _LEAST_NODES:
-        return None
     bank = Bank([Term(one.bits & shown, one.key, one.form) for one in field.terms], search.width, search.budget)
     errors = ErrorCounter(field, search.selections, search.width)
     levels = range(1, _MOST_NODES + 1)
@@ -65,5 +64,5 @@ def find_slip(
     differs = compare_nearest(best.extractor, field, examples)
     if len(differs.extra) + len(differs.missing) < errors.count(best.bits):
         return None  # it is wrong on several meshes
-    share = 1 / (1 + math.exp(nats - count_nats(learned, shown)))
+    share = 1 / (1 + math.exp(nats - count_nats(field.term(extractor), shown)))
     return Slip(differs.asset, differs.extra, differs.missing, best.extractor, share)

@@ -4,13 +4,15 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+import pytest
+
 from meshforge.label_model import model_family
-from meshforge.language import Delete
+from meshforge.language import Delete, Is
 from meshforge.signoff import Assessment, ReviewQuestion, ReviewReply, ReviewState, apply_reply
 from meshforge.signoff.reply import list_answers
-from meshforge.signoff.slips import AS_SHOWN, BY_MISTAKE
+from meshforge.signoff.slips import AS_SHOWN, BY_MISTAKE, ask_about_nearest
 from meshforge.symbolic import SymbolicMesh
-from meshforge.synthesis import Answer, Demonstration, Step
+from meshforge.synthesis import Answer, Demonstration, Nearest, Step
 from tests.unit.signoff.test_review import FRAME, legs_of, review, shown, tables
 
 FORGOTTEN = "leg2_low"
@@ -48,6 +50,15 @@ def test_a_hull_that_was_forgotten_is_asked_about() -> None:
     assert set(question.choices[0].select or ()) == legs_of("t0")
 
 
+def test_a_hull_that_is_too_much_is_asked_about_in_words_of_its_own() -> None:
+    _, state = show_without()
+    nearest = Nearest(1, Is("leg"), "t0", (), (FORGOTTEN,))
+    question = ask_about_nearest(state, nearest, 6.0)
+    assert question is not None
+    assert question.text == f"Without {FORGOTTEN} rule 1 could be Is(leg): was it selected on t0 by mistake?"
+    assert set(question.choices[0].select or ()) == legs_of("t0") - {FORGOTTEN}
+
+
 def test_a_slip_that_is_admitted_is_corrected() -> None:
     meshes, state = show_without(FORGOTTEN)
     question = ask_about_slip(state)
@@ -60,6 +71,7 @@ def test_a_slip_that_is_admitted_is_corrected() -> None:
     assert review(after).assets == whole.assets
 
 
+@pytest.mark.slow
 def test_what_was_meant_as_shown_is_not_asked_about_again() -> None:
     _, state = show_without(FORGOTTEN)
     question = ask_about_slip(state)
