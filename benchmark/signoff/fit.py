@@ -50,17 +50,13 @@ class _Observer(Tool):
         self.desk: Desk | None = None
         self._judge = Judge(bench)
 
-    def take_labels(self, desk: Desk) -> Desk:
-        self.desk = super().take_labels(desk)
-        return self.desk
-
-    def review(self, state: ReviewState, outcome: LearningOutcome | None) -> Assessment:
-        self.trial = None
+    def review(self, desk: Desk, state: ReviewState, outcome: LearningOutcome | None) -> Assessment:
+        self.trial, self.desk = None, desk
         if isinstance(outcome, Found | Ambiguous):
             said = [hull.annotation for mesh in state.meshes.values() for hull in mesh.hulls]
             posterior = self._family.infer(said)
-            self.trial = FamilyTrial.of(state, outcome.program, outcome.readings, posterior, {})
-        return super().review(state, outcome)
+            self.trial = FamilyTrial.of(state, outcome.program, outcome.readings, posterior, self.find_alarms(desk, outcome))
+        return super().review(desk, state, outcome)
 
     def list_rows(self) -> list[list[float]]:
         """The features of each edit that was judged, and whether it is right, where nobody has looked at it."""

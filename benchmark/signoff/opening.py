@@ -43,7 +43,7 @@ def open_review(bench: Bench, condition: Condition, seed: int, tool: Tool | None
     outcome = None if isinstance(course.outcome, MeshForgeError) else course.outcome
     demos = {name: course.person.shows(desk, name, rules) for name, rules in course.given.items()}
     state = tool.begin(desk, demos, course.answers, course.accepted)
-    assessment, program = tool.review(state, outcome), program_of(outcome)
+    assessment, program = tool.review(desk, state, outcome), program_of(outcome)
     right = {name for name in bench.samples if judge.is_right(desk, program, name)}
     rest = [name for name in bench.samples if name in judge.possible and name not in course.log.shown]
     pairs = tuple((round(assessment.assets[name].probability, 4), name in right) for name in rest if program)

@@ -104,7 +104,7 @@ class ReviewCourse:
         except MeshForgeError as error:
             self._recover(error, cap)
             return
-        assessment = self.tool.review(self.state, outcome)
+        assessment = self.tool.review(self.desk, self.state, outcome)
         self.program = program_of(outcome)
         self._note(assessment)
         if self.reviewer.ledger.total >= cap:

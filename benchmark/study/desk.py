@@ -13,6 +13,7 @@ from benchmark.study.labels import mislabel, noisy
 from benchmark.tasks import EditResult, Task, task
 from meshforge.label_model import FamilyModel
 from meshforge.language import EXTREMITY, Extractor, Program, select_mask
+from meshforge.signoff import EditMeasures, measure_edit
 from meshforge.symbolic import Label, SymbolicMesh
 from meshforge.synthesis import (
     Answer,
@@ -41,6 +42,7 @@ class Bench:
         self.samples: dict[str, Sample] = {sample.name: sample for sample in samples}
         assert all(sample.mesh.contacts is not None for sample in self.samples.values())
         self._judged: dict[tuple[str, str | None, bytes], str | None] = {}
+        self._measured: dict[tuple[str, bytes], EditMeasures] = {}
 
     @cached_property
     def pure(self) -> frozenset[str]:
@@ -79,6 +81,15 @@ class Bench:
         if key not in self._judged:
             self._judged[key] = self.task.failure(self.samples[name], edited)
         return self._judged[key]
+
+    def measure(self, name: str, edited: EditResult) -> EditMeasures | None:
+        """What an edit of a mesh did, None where it fails; the same edit is measured once."""
+        if edited.mesh is None:
+            return None
+        key = (name, _fingerprint(edited))
+        if key not in self._measured:
+            self._measured[key] = measure_edit(self.samples[name].mesh, edited.mesh)
+        return self._measured[key]
 
 
 @dataclass(eq=False)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from meshforge import geometry
@@ -31,13 +33,14 @@ def orient_mesh(mesh: SymbolicMesh, orient: Orient | None) -> tuple[SymbolicMesh
     return mesh.with_hulls(hull.move(pose) for hull in mesh.hulls), pose
 
 
-def find_rotation(mesh: SymbolicMesh, orient: Orient) -> Floats:
-    """The rotation (3, 3) by which `orient_mesh` turns a mesh; raises likewise."""
-    return geometry.snap_rotation(_measure_rotation(mesh, orient))
+def find_rotation(mesh: SymbolicMesh, orient: Orient, labels: Sequence[str | None] | None = None) -> Floats:
+    """The rotation (3, 3) by which `orient_mesh` turns a mesh; raises likewise. labels: of the hulls, instead of those
+    that they have."""
+    return geometry.snap_rotation(_measure_rotation(mesh, orient, labels))
 
 
-def _measure_rotation(mesh: SymbolicMesh, orient: Orient) -> Floats:
-    directions = [_landmark_direction(mesh, pair) for pair in orient.pairs]
+def _measure_rotation(mesh: SymbolicMesh, orient: Orient, labels: Sequence[str | None] | None) -> Floats:
+    directions = [_landmark_direction(mesh, pair, labels) for pair in orient.pairs]
     axes = [_axis_vector(pair.axis) for pair in orient.pairs]
     if len(directions) == 2:
         frame = _frame_of(directions[0], _perpendicular_part(directions, orient))
@@ -72,9 +75,9 @@ def _perpendicular_part(directions: list[Floats], orient: Orient) -> Floats:
     return part / norm
 
 
-def _landmark_direction(mesh: SymbolicMesh, pair: LandmarkPair) -> Floats:
+def _landmark_direction(mesh: SymbolicMesh, pair: LandmarkPair, labels: Sequence[str | None] | None) -> Floats:
     """The unit vector from the start of a pair to its end."""
-    (start, from_names), (end, to_names) = _landmark_centre(mesh, pair.start), _landmark_centre(mesh, pair.end)
+    (start, from_names), (end, to_names) = (_landmark_centre(mesh, base, labels) for base in (pair.start, pair.end))
     norm = float(np.linalg.norm(end - start))
     if norm <= SLACK * mesh.diagonal:
         raise ProgramError(
@@ -85,9 +88,11 @@ def _landmark_direction(mesh: SymbolicMesh, pair: LandmarkPair) -> Floats:
     return (end - start) / norm
 
 
-def _landmark_centre(mesh: SymbolicMesh, base: BaseExtractor) -> tuple[Floats, str]:
+def _landmark_centre(
+    mesh: SymbolicMesh, base: BaseExtractor, labels: Sequence[str | None] | None
+) -> tuple[Floats, str]:
     """The volume-weighted centroid (3,) of a selection, and the names of its hulls."""
-    hulls = [mesh.hulls[index] for index in sorted(bits_of(select_mask(base, mesh)))]
+    hulls = [mesh.hulls[index] for index in sorted(bits_of(select_mask(base, mesh, labels=labels)))]
     if not hulls:
         problem = f"orient: the landmark {show(base)} selects nothing"
         raise ProgramError(problem, remedy="Label the hulls that it should select, or orient by another landmark.")

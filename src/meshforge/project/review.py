@@ -42,7 +42,7 @@ from meshforge.signoff import (
 )
 from meshforge.signoff.prices import YES_OR_NO
 from meshforge.signoff.question import ASIDE, RIGHT
-from meshforge.signoff.slips import AS_SHOWN
+from meshforge.signoff.slips import ON_PURPOSE
 from meshforge.store import Store
 from meshforge.symbolic import SymbolicMesh
 from meshforge.synthesis import Ambiguous, Answer, Found, LabelCorrection, LearningOutcome
@@ -165,7 +165,7 @@ def reply_to(store: Store, review: ProjectReview, question: ReviewQuestion, repl
         put_off(store, question.id)
     elif question.kind == "selection":
         assert choice is not None
-        if choice.text == AS_SHOWN:
+        if choice.text == ON_PURPOSE:
             put_off(store, question.id)
         else:
             demonstrations.correct_selection(store, question.asset, question.rule or 1, choice.select or ())

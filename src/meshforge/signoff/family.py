@@ -142,7 +142,7 @@ class FamilyTrial:
             hulls = trial.names(known.rule, ours ^ theirs)
             found.append(Doubt("reading", text, hulls, known.rule, float(1 - known.agreement[place])))
         for slip in (one for one in self.slips if one.differs[place]):
-            text = f"rule {slip.rule} may mean {show(slip.slip.extractor)}, if {slip.slip.asset} was shown with a slip"
+            text = f"rule {slip.rule} may mean {show(slip.slip.extractor)}, if there was a slip on {slip.slip.asset}"
             found.append(Doubt("reading", text, (), slip.rule, slip.slip.share))
         return found
 

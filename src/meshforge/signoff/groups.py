@@ -110,3 +110,15 @@ def labels_of_group(family: FamilyTrial, group: LookalikeGroup) -> Mapping[str, 
     for asset, hull in group.hulls:
         counts[family.state.meshes[asset].hull_of(hull).label or "nothing"] += 1
     return dict(sorted(counts.items(), key=lambda one: (-one[1], one[0])))
+
+
+def find_other_label(family: FamilyTrial, group: LookalikeGroup) -> str | None:
+    """What the hulls most probably are if not what they are asked about; None where no other label is known."""
+    posterior, places = family.posterior, family.places
+    rows = [
+        posterior.table.spans[places[asset]].start + family.state.meshes[asset].index[hull]
+        for asset, hull in group.hulls
+    ]
+    shares = posterior.chances[rows].sum(axis=0)
+    others = [place for place, label in enumerate(posterior.seen.labels) if label != group.label]
+    return posterior.seen.labels[max(others, key=lambda place: (shares[place], -place))] if others else None

@@ -9,7 +9,7 @@ import numpy as np
 
 from meshforge.label_model import FamilyPosterior
 from meshforge.signoff.question import ASIDE, RIGHT, ReviewQuestion, ReviewReply, ReviewState, Selections
-from meshforge.signoff.slips import AS_SHOWN, correct_selection
+from meshforge.signoff.slips import ON_PURPOSE, correct_selection
 from meshforge.symbolic import Label, LabelSource
 from meshforge.synthesis import Answer
 
@@ -28,7 +28,7 @@ def apply_reply(
     if question.kind == "result":
         return _apply_verdict(state, question, reply, done)
     if question.kind == "selection":
-        if choice is None or choice.select is None or choice.text == AS_SHOWN:
+        if choice is None or choice.select is None or choice.text == ON_PURPOSE:
             return replace(state, later=state.later | {question.id})
         return correct_selection(state, question, choice.select)
     if question.rule is not None and any(one.select is not None for one in question.choices):

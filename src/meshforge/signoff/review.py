@@ -13,7 +13,7 @@ from meshforge.label_model import FamilyModel
 from meshforge.language import show
 from meshforge.signoff.assessment import BAR, Assessment, AssetConfidence, Doubt
 from meshforge.signoff.family import FamilyTrial
-from meshforge.signoff.groups import LookalikeGroup, find_groups, labels_of_group
+from meshforge.signoff.groups import LookalikeGroup, find_groups, find_other_label, labels_of_group
 from meshforge.signoff.prices import READING, YES_OR_NO, price_demonstration
 from meshforge.signoff.question import (
     ASIDE,
@@ -67,8 +67,9 @@ def review_family(
     assets = {one.asset: trial.confidence_of(place) for place, one in enumerate(trial.trials)}
     found = Assessment(assets, bar, looked_at, state.aside)
     if found.is_done:
-        asked = _choose(_ask_last_looks(trial), state)
-        return Assessment(assets, bar, looked_at, state.aside, asked)
+        looks = list(_ask_last_looks(trial))
+        put_off = any(one.id in state.later for one in looks)  # who puts one off wants no other
+        return Assessment(assets, bar, looked_at, state.aside, None if put_off else _choose(iter(looks), state))
     return Assessment(assets, bar, looked_at, state.aside, _choose(_questions(trial, found, outcome.suggested), state))
 
 
@@ -149,6 +150,8 @@ def _ask_group(family: FamilyTrial, group: LookalikeGroup) -> ReviewQuestion:
     counts = labels_of_group(family, group)
     called = ", ".join(f"{count} {'is' if count == 1 else 'are'} called {name}" for name, count in counts.items())
     labels = list(dict.fromkeys([group.label, *(name for name in counts if name != "nothing")]))
+    if len(labels) == 1 and (other := find_other_label(family, group)):
+        labels.append(other)
     choices = tuple(ReviewChoice(label, label) for label in labels)
     first = group.hulls[0]
     if len(group.hulls) == 1:
@@ -221,17 +224,21 @@ def _ask_results(family: FamilyTrial, found: Assessment) -> Iterator[ReviewQuest
 
 
 def _ask_last_looks(family: FamilyTrial) -> Iterator[ReviewQuestion]:
-    """One look at a result of each rule that answers have shaped, where nobody has seen any: a person may have slipped
-    in an answer, and many edits rest on it."""
+    """A person may have slipped in an answer, and many edits rest on it: one look at a result of each rule that answers
+    have shaped, where nobody has seen any; and at those that an answer about labels which no demonstration shows is
+    about, as others tell little of them."""
     state = family.state
     seen = [*state.accepted.values(), *state.mended.values()]
-    shaped = {one.rule for one in state.answers if one.select is not None}
-    unseen = [rule for rule in sorted(shaped) if not any(len(done) >= rule and done[rule - 1] for done in seen)]
+    answers = [one for one in state.answers if one.select is not None]
+    unseen = {one.rule for one in answers if not any(len(done) >= one.rule and done[one.rule - 1] for done in seen)}
     known = {*state.demos, *state.accepted, *state.mended, *state.aside}
     for trial, evidence in zip(family.trials, family.evidence, strict=True):
-        rules = [rule for rule in unseen if rule <= len(trial.selections) and trial.selections[rule - 1]]
-        if rules and trial.asset not in known and not any(one.asset == trial.asset for one in state.answers):
-            gain = len(rules) + 1 - evidence.probability
+        told = {one.rule for one in answers if one.asset == trial.asset}
+        if trial.asset in known or (told and trial.asset not in family.foreign):
+            continue
+        looked = told | {rule for rule in unseen if rule <= len(trial.selections) and trial.selections[rule - 1]}
+        if looked:
+            gain = len(looked) + 1 - evidence.probability
             yield _ask_result(family, trial, gain, YES_OR_NO, f"One last look: is the result of {trial.asset} right?")
 
 

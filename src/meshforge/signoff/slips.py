@@ -1,4 +1,5 @@
-"""Slips in demonstrations: hulls that were probably left out, or selected, by mistake, and the question about them."""
+"""Slips in demonstrations and answers: hulls that were probably left out, or selected, by mistake, and the question
+about them."""
 
 from __future__ import annotations
 
@@ -14,10 +15,10 @@ from meshforge.signoff.prices import YES_OR_NO
 from meshforge.signoff.question import HullPlace, ReviewChoice, ReviewQuestion, ReviewState, identify
 from meshforge.signoff.trial import Trial, select_by
 from meshforge.symbolic import mask_of
-from meshforge.synthesis import Example, Nearest, Options, Slip, find_slip
+from meshforge.synthesis import Answer, Example, Nearest, Options, Slip, find_slip
 from meshforge.synthesis.slips import MOST_HULLS
 
-BY_MISTAKE, AS_SHOWN = "yes, by mistake", "no, as shown"
+BY_MISTAKE, ON_PURPOSE = "yes, by mistake", "no, on purpose"
 """The choices."""
 _LEAST_SHARE = 0.3  # from which on a slip is asked about
 _FITS_BARELY = 0.5  # the probability of a slip where no program fits what was shown
@@ -25,7 +26,7 @@ _FITS_BARELY = 0.5  # the probability of a slip where no program fits what was s
 
 @dataclass(frozen=True, eq=False, slots=True)
 class RuleSlip:
-    """A slip in what a rule was shown to do. differs: whether the rule would do something else on each asset."""
+    """A slip in what was shown of a rule, or said. differs: whether the rule would do something else on each asset."""
 
     rule: int
     slip: Slip
@@ -39,8 +40,11 @@ def find_slips(state: ReviewState, program: Program, trials: Sequence[Trial]) ->
     by_name = {trial.asset: trial for trial in trials}
     for number, rule in enumerate(program.rules, 1):
         examples = list(_list_examples(state, by_name, number))
-        slip = find_slip(rule.extractor, examples, program.labels, options) if examples else None
-        if slip is None or slip.asset not in state.demos or slip.share < _LEAST_SHARE:
+        if not examples:
+            continue
+        answered = {name for name in _read_answers(state, number) if not _is_seen(state, name)}
+        slip = find_slip(rule.extractor, examples, program.labels, options, answered)
+        if slip is None or slip.asset not in {*state.demos, *answered} or slip.share < _LEAST_SHARE:
             continue
         if _is_used_later(state, slip.asset, number, slip.missing):
             continue
@@ -59,8 +63,7 @@ def _list_examples(state: ReviewState, trials: Mapping[str, Trial], rule: int) -
     steps = {name: demo.step(rule) for name, demo in state.demos.items()}
     said = {name: step.select for name, step in steps.items() if step and step.select is not None}
     done = {name: some[rule - 1] for name, some in state.accepted.items() if rule <= len(some)}
-    answers = {one.asset: one.select for one in state.answers if one.rule == rule and one.select is not None}
-    for name, select in {**answers, **done, **said}.items():
+    for name, select in {**_read_answers(state, rule), **done, **said}.items():
         trial = trials.get(name)
         if trial is None or rule > len(trial.meshes):
             continue
@@ -69,9 +72,20 @@ def _list_examples(state: ReviewState, trials: Mapping[str, Trial], rule: int) -
             yield Example(name, mesh, mask_of(mesh.index[hull] for hull in select))
 
 
+def _read_answers(state: ReviewState, rule: int) -> dict[str, frozenset[str]]:
+    """What answers say that a rule selects, by asset; the last word counts."""
+    return {one.asset: one.select for one in state.answers if one.rule == rule and one.select is not None}
+
+
+def _is_seen(state: ReviewState, asset: str) -> bool:
+    """Whether a person has shown, or seen, what is meant on an asset."""
+    return asset in state.demos or asset in state.accepted
+
+
 def _is_used_later(state: ReviewState, asset: str, rule: int, hulls: Sequence[str]) -> bool:
     """Whether a later step of a demonstration selects one of some hulls, so that it was left out on purpose."""
-    return any(not step.select.isdisjoint(hulls) for step in state.demos[asset].steps[rule:] if step.select)
+    steps = state.demos[asset].steps[rule:] if asset in state.demos else ()
+    return any(not step.select.isdisjoint(hulls) for step in steps if step.select)
 
 
 def _is_refused(state: ReviewState, rule: int, trial: Trial, mask: int | None) -> bool:
@@ -88,10 +102,12 @@ def ask_about_slip(state: ReviewState, found: RuleSlip) -> ReviewQuestion:
 
 
 def ask_about_nearest(state: ReviewState, nearest: Nearest, everyone: float) -> ReviewQuestion | None:
-    """The question where nothing fits what was shown, and an extractor nearly does."""
-    if nearest.asset not in state.demos or len(nearest.extra) + len(nearest.missing) > MOST_HULLS:
+    """The question where nothing fits what was shown and said, and an extractor nearly does."""
+    if len(nearest.extra) + len(nearest.missing) > MOST_HULLS:
         return None
-    if state.demos[nearest.asset].step(nearest.rule) is None:
+    if nearest.asset not in state.demos and nearest.asset not in _read_answers(state, nearest.rule):
+        return None
+    if nearest.asset in state.demos and state.demos[nearest.asset].step(nearest.rule) is None:
         return None
     if _is_used_later(state, nearest.asset, nearest.rule, nearest.extra):
         return None
@@ -110,18 +126,29 @@ def _ask(
     state: ReviewState, place: tuple[str, int], missing: Sequence[str], extra: Sequence[str], why: str, gain: float
 ) -> ReviewQuestion:
     asset, rule = place
-    step = state.demos[asset].step(rule)
-    shown = frozenset() if step is None or step.select is None else step.select
+    shown = _read_selection(state, asset, rule)
     corrected = tuple(sorted((shown | {*missing}) - {*extra}))
     done = "left out" if missing and not extra else "selected" if extra and not missing else "left out or selected"
     one = len(missing) + len(extra) == 1
     text = f"{why}: {'was it' if one else 'were they'} {done} on {asset} by mistake?"
     hulls = tuple(HullPlace(asset, name) for name in [*missing, *extra] if name in state.meshes[asset].index)
-    choices = (ReviewChoice(BY_MISTAKE, select=corrected), ReviewChoice(AS_SHOWN, select=tuple(sorted(shown))))
+    choices = (ReviewChoice(BY_MISTAKE, select=corrected), ReviewChoice(ON_PURPOSE, select=tuple(sorted(shown))))
     return identify(ReviewQuestion("", "selection", text, YES_OR_NO, gain, asset, rule, hulls, choices))
 
 
+def _read_selection(state: ReviewState, asset: str, rule: int) -> frozenset[str]:
+    """What was shown of a rule on an asset, or said."""
+    if asset not in state.demos:
+        return _read_answers(state, rule)[asset]
+    step = state.demos[asset].step(rule)
+    return frozenset() if step is None or step.select is None else step.select
+
+
 def correct_selection(state: ReviewState, question: ReviewQuestion, select: Sequence[str]) -> ReviewState:
-    """What is known when a person says what they meant to select on a demonstrated asset."""
+    """What is known when a person says what they meant to select on an asset, as they show it or by an answer."""
+    rule = question.rule or 1
+    if question.asset not in state.demos:
+        others = (one for one in state.answers if (one.rule, one.asset) != (rule, question.asset))
+        return replace(state, answers=(*others, Answer(rule, question.asset, select)))
     demo = state.demos[question.asset]
-    return replace(state, demos={**state.demos, question.asset: demo.with_selection(question.rule or 1, select)})
+    return replace(state, demos={**state.demos, question.asset: demo.with_selection(rule, select)})

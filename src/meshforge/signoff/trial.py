@@ -11,8 +11,8 @@ import numpy as np
 from meshforge.common import MeshForgeError
 from meshforge.geometry import Floats
 from meshforge.language import EXTREMITY, Extractor, Orient, Program, Template, find_rotation, labels_of, select_mask
-from meshforge.symbolic import Label, SymbolicMesh
-from meshforge.synthesis import Demonstration, advance, begin_replay
+from meshforge.symbolic import SymbolicMesh
+from meshforge.synthesis import Demonstration, advance, begin_replay, memoize
 
 LEAST_CHANCE = 0.003
 """A label that a hull has with a lower probability is not reckoned with."""
@@ -88,7 +88,7 @@ def find_flips(
             to = labels[place]
             if to == hull.label or not {to, hull.label} & every:
                 continue
-            turned = {to, hull.label} & landmarks and _turns(mesh, hull.name, to, program.orient, before)
+            turned = bool({to, hull.label} & landmarks) and _turns(mesh, row, to, program.orient, before)
             rules = [RULE_OF_FRAME] if turned else []
             for number, (rule, met, names) in enumerate(zip(program.rules, trial.meshes, seen, strict=False), 1):
                 at = met.index.get(hull.name)
@@ -102,20 +102,25 @@ def find_flips(
     return tuple(found)
 
 
-def _turns(mesh: SymbolicMesh, hull: str, to: str, orient: Orient | None, before: Floats | None) -> bool:
+def _turns(mesh: SymbolicMesh, row: int, to: str, orient: Orient | None, before: Floats | None) -> bool:
     """Whether the asset is turned otherwise, or cannot be, with another label of a hull; before: its frame now."""
     if orient is None:
         return False
-    after = _frame_of(mesh.with_labels({hull: Label(to)}), orient)
-    if before is None or after is None:
-        return before is not after
-    cosine = (float(np.trace(before.T @ after)) - 1) / 2
-    return bool(cosine < _SAME_FRAME)
+
+    def compare() -> bool:
+        labels = [to if place == row else hull.label for place, hull in enumerate(mesh.hulls)]
+        after = _frame_of(mesh, orient, labels)
+        if before is None or after is None:
+            return before is not after
+        cosine = (float(np.trace(before.T @ after)) - 1) / 2
+        return bool(cosine < _SAME_FRAME)
+
+    return memoize(mesh, ("turns", orient, row, to), bool, compare)
 
 
-def _frame_of(mesh: SymbolicMesh, orient: Orient) -> Floats | None:
+def _frame_of(mesh: SymbolicMesh, orient: Orient, labels: Sequence[str | None] | None = None) -> Floats | None:
     try:
-        return find_rotation(mesh, orient)
+        return find_rotation(mesh, orient, labels)
     except MeshForgeError:
         return None
 

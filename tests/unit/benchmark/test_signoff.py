@@ -22,6 +22,7 @@ from benchmark.signoff.tool import Tool, program_of
 from benchmark.study import FLAT, TRUE, Bench
 from benchmark.study.condition import PROPAGATED
 from benchmark.study.keystrokes import APPROVAL, GLANCE, STROKE, price_group
+from benchmark.study.desk import Desk
 from benchmark.tasks import task
 from meshforge.signoff import (
     Assessment,
@@ -41,7 +42,7 @@ GROUP = 3
 class FakeTool(Tool):
     """Asks for a demonstration, about one group of hulls, then about each result in turn."""
 
-    def review(self, state: ReviewState, outcome: LearningOutcome | None) -> Assessment:
+    def review(self, desk: Desk, state: ReviewState, outcome: LearningOutcome | None) -> Assessment:
         open_ones = [n for n in state.meshes if n not in {*state.accepted, *state.aside, *state.demos}]
         sure = {name: AssetConfidence(name, 0.5 if name in open_ones else 0.99) for name in state.meshes}
         looked_at = frozenset(state.accepted)

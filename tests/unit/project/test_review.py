@@ -14,7 +14,7 @@ from meshforge.language import Program
 from meshforge.project import Project, ProjectReview
 from meshforge.signoff import HullPlace, ReviewChoice, ReviewQuestion, ReviewReply
 from meshforge.signoff.question import ASIDE, RIGHT, WRONG
-from meshforge.signoff.slips import AS_SHOWN, BY_MISTAKE
+from meshforge.signoff.slips import ON_PURPOSE, BY_MISTAKE
 from meshforge.symbolic import Label
 from tests.unit.project.tables import FIRST, LEGS, SECOND, THIRD, applied, demonstrated, fresh, labelled, learned
 
@@ -212,7 +212,7 @@ def test_what_cannot_be_read_is_held_until_it_is_set_aside(tmp_path: Path) -> No
 
 def selection_of(asset: str) -> ReviewQuestion:
     """The question whether the first rule was shown on an asset with a slip."""
-    choices = (ReviewChoice(BY_MISTAKE, select=("crumb", "left_low")), ReviewChoice(AS_SHOWN, select=("crumb",)))
+    choices = (ReviewChoice(BY_MISTAKE, select=("crumb", "left_low")), ReviewChoice(ON_PURPOSE, select=("crumb",)))
     return ReviewQuestion("s", "selection", "?", 2.65, 0.5, asset, 1, (), choices)
 
 

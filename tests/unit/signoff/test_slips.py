@@ -10,7 +10,7 @@ from meshforge.label_model import model_family
 from meshforge.language import Delete, Is
 from meshforge.signoff import Assessment, ReviewQuestion, ReviewReply, ReviewState, apply_reply
 from meshforge.signoff.reply import list_answers
-from meshforge.signoff.slips import AS_SHOWN, BY_MISTAKE, ask_about_nearest
+from meshforge.signoff.slips import ON_PURPOSE, BY_MISTAKE, ask_about_nearest
 from meshforge.symbolic import SymbolicMesh
 from meshforge.synthesis import Answer, Demonstration, Nearest, Step
 from tests.unit.signoff.test_review import FRAME, legs_of, review, shown, tables
@@ -46,7 +46,7 @@ def test_a_hull_that_was_forgotten_is_asked_about() -> None:
     assert (question.asset, question.rule) == ("t0", 1)
     assert f"With {FORGOTTEN} rule 1" in question.text
     assert "was it left out on t0 by mistake?" in question.text
-    assert [choice.text for choice in question.choices] == [BY_MISTAKE, AS_SHOWN]
+    assert [choice.text for choice in question.choices] == [BY_MISTAKE, ON_PURPOSE]
     assert set(question.choices[0].select or ()) == legs_of("t0")
 
 
@@ -105,12 +105,61 @@ def test_a_mend_is_learned_from_where_the_labels_of_its_hulls_are_sure() -> None
 
 def test_before_the_end_one_result_is_looked_at_of_a_rule_that_answers_shaped() -> None:
     meshes, state = show_without()
-    answered = replace(state, answers=(Answer(1, "t1", legs_of("t1")),))
+    answered = replace(state, answers=(Answer(1, "t3", legs_of("t3")),))
     question = review(answered, bar=0.0).question
     assert question is not None
     assert question.kind == "result"
-    assert question.asset not in ("t0", "t1")
+    assert question.asset not in ("t0", "t3")
     assert question.text.startswith("One last look")
     seen = replace(answered, accepted={"t2": (legs_of("t2"),)})
     assert review(seen, bar=0.0).question is None
     assert review(ReviewState(meshes, FRAME, demos=shown(meshes, "t0")), bar=0.0).question is None
+
+
+def test_before_the_end_a_result_is_looked_at_where_an_answer_was_about_a_label_that_nobody_showed() -> None:
+    _, state = show_without()
+    answered = replace(state, answers=(Answer(1, "t1", legs_of("t1")),), accepted={"t2": (legs_of("t2"),)})
+    question = review(answered, bar=0.0).question
+    assert question is not None
+    assert question.asset == "t1"
+    assert question.text.startswith("One last look")
+
+
+def test_who_puts_one_last_look_off_is_asked_for_no_other() -> None:
+    _, state = show_without()
+    answered = replace(state, answers=(Answer(1, "t3", legs_of("t3")),))
+    question = review(answered, bar=0.0).question
+    assert question is not None
+    assert review(apply_reply(answered, question, ReviewReply(question.id, later=True)), bar=0.0).question is None
+
+
+def answer_wrongly() -> ReviewState:
+    """A person shows that all legs are deleted, then says of another table that two hulls more are."""
+    _, state = show_without()
+    return replace(state, answers=(Answer(1, "t1", legs_of("t1") | {"drawer0_bottom", "handle0"}),))
+
+
+def test_an_answer_that_alone_makes_a_rule_complicated_is_asked_about() -> None:
+    question = ask_about_slip(answer_wrongly())
+    assert question is not None
+    assert (question.asset, question.rule) == ("t1", 1)
+    assert "rule 1 would just be Is(leg): were they selected on t1 by mistake?" in question.text
+
+
+def test_an_answer_that_was_a_slip_is_replaced() -> None:
+    state = answer_wrongly()
+    question = ask_about_slip(state)
+    assert question is not None
+    after = apply_reply(state, question, ReviewReply(question.id, 0))
+    assert after.answers == (Answer(1, "t1", legs_of("t1")),)
+    assert after.demos == state.demos
+
+
+@pytest.mark.slow
+def test_an_answer_that_was_meant_so_is_kept() -> None:
+    state = answer_wrongly()
+    question = ask_about_slip(state)
+    assert question is not None
+    after = apply_reply(state, question, ReviewReply(question.id, 1))
+    assert after.answers == state.answers
+    assert ask_about_slip(after) is None

@@ -31,7 +31,7 @@ describe("a reply", () => {
   });
 
   it("corrects a demonstration with a slip, or leaves it", () => {
-    const choices = [choice("yes, by mistake", { select: ["x", "y"] }), choice("no, as shown", { select: ["x"] })];
+    const choices = [choice("yes, by mistake", { select: ["x", "y"] }), choice("no, on purpose", { select: ["x"] })];
     const slip = sampleQuestion({ kind: "selection", rule: 2, hulls: hulls.slice(0, 1), choices });
     expect(editsFor(slip, 0)).toEqual([{ kind: "correct-selection", asset: "a0", rule: 2, select: ["x", "y"] }]);
     expect(editsFor(slip, 1)).toEqual([{ kind: "put-off", id: "group-1" }]);
