@@ -55,7 +55,9 @@ class _Observer(Tool):
         if isinstance(outcome, Found | Ambiguous):
             said = [hull.annotation for mesh in state.meshes.values() for hull in mesh.hulls]
             posterior = self._family.infer(said)
-            self.trial = FamilyTrial.of(state, outcome.program, outcome.readings, posterior, self.find_alarms(desk, outcome))
+            self.trial = FamilyTrial.of(
+                state, outcome.program, outcome.readings, posterior, self.find_alarms(desk, outcome)
+            )
         return super().review(desk, state, outcome)
 
     def list_rows(self) -> list[list[float]]:

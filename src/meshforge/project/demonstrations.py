@@ -31,11 +31,15 @@ def demonstrate(store: Store, asset: str, steps: Iterable[Step]) -> None:
 
 
 def correct_selection(store: Store, asset: str, rule: int, select: Sequence[str]) -> None:
-    """Select other hulls in a step of a demonstration, or by another answer on an asset that is not demonstrated, after
-    a slip. Raises ProjectError where there is no such step, and as `demonstrate` and `add_answer` do."""
+    """Select other hulls in a step of a demonstration after a slip; on an asset that is not demonstrated by an answer,
+    and what was accepted there counts no more. Raises ProjectError where there is no such step, and as `demonstrate`
+    and `add_answer` do."""
     with store.lock():
         if asset not in store.demonstration_ids():
             add_answer(store, Answer(rule, asset, select))
+            known = store.reviews().get(asset)
+            if known and known.verdict == "accepted":
+                store.write_reviews({asset: None})
             return
         steps = store.steps(asset)
         if rule > len(steps) or steps[rule - 1].open:

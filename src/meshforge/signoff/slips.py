@@ -1,5 +1,5 @@
-"""Slips in demonstrations and answers: hulls that were probably left out, or selected, by mistake, and the question
-about them."""
+"""Slips in demonstrations, answers and verdicts: hulls that were probably left out, or selected, by mistake, and the
+question about them."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from meshforge.signoff.question import HullPlace, ReviewChoice, ReviewQuestion, 
 from meshforge.signoff.trial import Trial, select_by
 from meshforge.symbolic import mask_of
 from meshforge.synthesis import Answer, Example, Nearest, Options, Slip, find_slip
-from meshforge.synthesis.slips import MOST_HULLS
+from meshforge.synthesis.slips import MOST_SLIPS
 
 BY_MISTAKE, ON_PURPOSE = "yes, by mistake", "no, on purpose"
 """The choices."""
@@ -42,9 +42,9 @@ def find_slips(state: ReviewState, program: Program, trials: Sequence[Trial]) ->
         examples = list(_list_examples(state, by_name, number))
         if not examples:
             continue
-        answered = {name for name in _read_answers(state, number) if not _is_seen(state, name)}
-        slip = find_slip(rule.extractor, examples, program.labels, options, answered)
-        if slip is None or slip.asset not in {*state.demos, *answered} or slip.share < _LEAST_SHARE:
+        said = {one.asset for one in state.answers if one.rule == number}.union(state.accepted) - state.demos.keys()
+        slip = find_slip(rule.extractor, examples, program.labels, options, said)
+        if slip is None or slip.asset not in {*state.demos, *said} or slip.share < _LEAST_SHARE:
             continue
         if _is_used_later(state, slip.asset, number, slip.missing):
             continue
@@ -59,27 +59,27 @@ def find_slips(state: ReviewState, program: Program, trials: Sequence[Trial]) ->
 
 
 def _list_examples(state: ReviewState, trials: Mapping[str, Trial], rule: int) -> Iterator[Example]:
-    """What is known to be meant by a rule, as it meets the meshes: demonstrations, and results that were accepted."""
-    steps = {name: demo.step(rule) for name, demo in state.demos.items()}
-    said = {name: step.select for name, step in steps.items() if step and step.select is not None}
-    done = {name: some[rule - 1] for name, some in state.accepted.items() if rule <= len(some)}
-    for name, select in {**_read_answers(state, rule), **done, **said}.items():
-        trial = trials.get(name)
-        if trial is None or rule > len(trial.meshes):
+    """What is known to be meant by a rule, as it meets the meshes; what was shown first."""
+    for name in dict.fromkeys([*state.demos, *(one.asset for one in state.answers), *state.accepted, *state.mended]):
+        select, trial = _read_selection(state, name, rule), trials.get(name)
+        if select is None or trial is None or rule > len(trial.meshes):
             continue
         mesh = trial.meshes[rule - 1]
         if select <= mesh.index.keys():
             yield Example(name, mesh, mask_of(mesh.index[hull] for hull in select))
 
 
-def _read_answers(state: ReviewState, rule: int) -> dict[str, frozenset[str]]:
-    """What answers say that a rule selects, by asset; the last word counts."""
-    return {one.asset: one.select for one in state.answers if one.rule == rule and one.select is not None}
-
-
-def _is_seen(state: ReviewState, asset: str) -> bool:
-    """Whether a person has shown, or seen, what is meant on an asset."""
-    return asset in state.demos or asset in state.accepted
+def _read_selection(state: ReviewState, asset: str, rule: int) -> frozenset[str] | None:
+    """What a rule was shown or said to select on an asset, None where nothing was; what was shown counts first, then
+    results that were seen, then the last answer."""
+    if asset in state.demos:
+        step = state.demos[asset].step(rule)
+        return None if step is None else step.select
+    for known in (state.mended, state.accepted):
+        if asset in known and rule <= len(known[asset]):
+            return known[asset][rule - 1]
+    answers = (one.select for one in reversed(state.answers) if (one.rule, one.asset) == (rule, asset))
+    return next((select for select in answers if select is not None), None)
 
 
 def _is_used_later(state: ReviewState, asset: str, rule: int, hulls: Sequence[str]) -> bool:
@@ -103,11 +103,9 @@ def ask_about_slip(state: ReviewState, found: RuleSlip) -> ReviewQuestion:
 
 def ask_about_nearest(state: ReviewState, nearest: Nearest, everyone: float) -> ReviewQuestion | None:
     """The question where nothing fits what was shown and said, and an extractor nearly does."""
-    if len(nearest.extra) + len(nearest.missing) > MOST_HULLS:
+    if len(nearest.extra) + len(nearest.missing) > MOST_SLIPS:
         return None
-    if nearest.asset not in state.demos and nearest.asset not in _read_answers(state, nearest.rule):
-        return None
-    if nearest.asset in state.demos and state.demos[nearest.asset].step(nearest.rule) is None:
+    if nearest.asset in state.mended or _read_selection(state, nearest.asset, nearest.rule) is None:
         return None
     if _is_used_later(state, nearest.asset, nearest.rule, nearest.extra):
         return None
@@ -126,7 +124,7 @@ def _ask(
     state: ReviewState, place: tuple[str, int], missing: Sequence[str], extra: Sequence[str], why: str, gain: float
 ) -> ReviewQuestion:
     asset, rule = place
-    shown = _read_selection(state, asset, rule)
+    shown = _read_selection(state, asset, rule) or frozenset()
     corrected = tuple(sorted((shown | {*missing}) - {*extra}))
     done = "left out" if missing and not extra else "selected" if extra and not missing else "left out or selected"
     one = len(missing) + len(extra) == 1
@@ -136,19 +134,12 @@ def _ask(
     return identify(ReviewQuestion("", "selection", text, YES_OR_NO, gain, asset, rule, hulls, choices))
 
 
-def _read_selection(state: ReviewState, asset: str, rule: int) -> frozenset[str]:
-    """What was shown of a rule on an asset, or said."""
-    if asset not in state.demos:
-        return _read_answers(state, rule)[asset]
-    step = state.demos[asset].step(rule)
-    return frozenset() if step is None or step.select is None else step.select
-
-
 def correct_selection(state: ReviewState, question: ReviewQuestion, select: Sequence[str]) -> ReviewState:
-    """What is known when a person says what they meant to select on an asset, as they show it or by an answer."""
-    rule = question.rule or 1
-    if question.asset not in state.demos:
-        others = (one for one in state.answers if (one.rule, one.asset) != (rule, question.asset))
-        return replace(state, answers=(*others, Answer(rule, question.asset, select)))
-    demo = state.demos[question.asset]
-    return replace(state, demos={**state.demos, question.asset: demo.with_selection(rule, select)})
+    """What is known when a person says what they meant to select on an asset: as they show it there, or by an answer,
+    which takes the place of another one, and of a verdict."""
+    rule, asset = question.rule or 1, question.asset
+    if asset in state.demos:
+        return replace(state, demos={**state.demos, asset: state.demos[asset].with_selection(rule, select)})
+    others = (one for one in state.answers if (one.rule, one.asset) != (rule, asset))
+    accepted = {name: done for name, done in state.accepted.items() if name != asset}
+    return replace(state, answers=(*others, Answer(rule, asset, select)), accepted=accepted)

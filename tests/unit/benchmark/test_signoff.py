@@ -21,8 +21,8 @@ from benchmark.signoff.tables import CURVES, list_tables
 from benchmark.signoff.tool import Tool, program_of
 from benchmark.study import FLAT, TRUE, Bench
 from benchmark.study.condition import PROPAGATED
-from benchmark.study.keystrokes import APPROVAL, GLANCE, STROKE, price_group
 from benchmark.study.desk import Desk
+from benchmark.study.keystrokes import APPROVAL, GLANCE, STROKE, price_group
 from benchmark.tasks import task
 from meshforge.signoff import (
     Assessment,

@@ -14,7 +14,7 @@ from meshforge.language import Program
 from meshforge.project import Project, ProjectReview
 from meshforge.signoff import HullPlace, ReviewChoice, ReviewQuestion, ReviewReply
 from meshforge.signoff.question import ASIDE, RIGHT, WRONG
-from meshforge.signoff.slips import ON_PURPOSE, BY_MISTAKE
+from meshforge.signoff.slips import BY_MISTAKE, ON_PURPOSE
 from meshforge.symbolic import Label
 from tests.unit.project.tables import FIRST, LEGS, SECOND, THIRD, applied, demonstrated, fresh, labelled, learned
 

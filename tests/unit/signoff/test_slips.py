@@ -10,7 +10,7 @@ from meshforge.label_model import model_family
 from meshforge.language import Delete, Is
 from meshforge.signoff import Assessment, ReviewQuestion, ReviewReply, ReviewState, apply_reply
 from meshforge.signoff.reply import list_answers
-from meshforge.signoff.slips import ON_PURPOSE, BY_MISTAKE, ask_about_nearest
+from meshforge.signoff.slips import BY_MISTAKE, ON_PURPOSE, ask_about_nearest
 from meshforge.symbolic import SymbolicMesh
 from meshforge.synthesis import Answer, Demonstration, Nearest, Step
 from tests.unit.signoff.test_review import FRAME, legs_of, review, shown, tables

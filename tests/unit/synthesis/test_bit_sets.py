@@ -62,7 +62,7 @@ def test_errors_are_counted_by_hulls(batch: list[SymbolicMesh], shown: int, chos
     field = ObservationTable(batch, LABELS)
     selections = [shown >> 8 * k & ((1 << len(mesh.hulls)) - 1) for k, mesh in enumerate(batch)]
     wrong = sum((field.on(chosen, k) ^ selection).bit_count() for k, selection in enumerate(selections))
-    assert ErrorCounter(field, selections, field.width).count(chosen & ((1 << field.width) - 1)) == wrong
+    assert ErrorCounter(selections, field.groups, field.width).count(chosen & ((1 << field.width) - 1)) == wrong
 
 
 def test_groups_of_the_first_meshes_come_first() -> None:

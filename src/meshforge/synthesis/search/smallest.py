@@ -152,7 +152,7 @@ class Search:
         terms = [Term(t.bits & ((1 << self.width) - 1), t.key, t.form) for t in self.field.terms]
         bank = Bank(terms, self.width, budget)
         levels = [bank.level(k) for k in range(1, size + 1)]
-        errors = ErrorCounter(self.field, self.selections, self.width)
+        errors = ErrorCounter(self.selections, self.field.groups, self.width)
         made = (term for level in levels for term in level.terms)
         term = min(made, key=lambda term: (errors.count(term.bits), term.key), default=None)
         return compare_nearest(term.extractor, self.field, self.examples) if term else None
@@ -184,9 +184,9 @@ class ErrorCounter:
     The weights of all groups are kept as planes of binary digits, so that a count takes a few operations on bit sets.
     """
 
-    def __init__(self, field: ObservationTable, selections: Sequence[int], width: int) -> None:
+    def __init__(self, selections: Sequence[int], groups_of: Sequence[Sequence[int]], width: int) -> None:
         shown, others = [0] * width, [0] * width
-        for mask, groups in zip(selections, field.groups, strict=False):
+        for mask, groups in zip(selections, groups_of, strict=False):
             for hull, group in enumerate(groups):
                 (shown if mask >> hull & 1 else others)[group] += 1
         self._missed, self._extra = _to_planes(shown), _to_planes(others)
@@ -198,15 +198,20 @@ class ErrorCounter:
 
 
 def compare_nearest(extractor: Extractor, field: ObservationTable, examples: Sequence[Example]) -> NearestExtractor:
-    """Where and how an extractor's selection differs from what was shown."""
+    """Where and how an extractor's selection differs from what was shown, on the mesh where it differs most."""
     found = field.bits(extractor)
-    on = [field.on(found, k) for k in range(len(examples))]
-    extra = [mask & ~example.selection for mask, example in zip(on, examples, strict=True)]
-    missing = [example.selection & ~mask for mask, example in zip(on, examples, strict=True)]
-    worst = max(range(len(examples)), key=lambda k: (extra[k].bit_count() + missing[k].bit_count(), -k))
-    example = examples[worst]
+    wrong = [(field.on(found, k) ^ one.selection).bit_count() for k, one in enumerate(examples)]
+    return compare_selection(extractor, field, examples, wrong.index(max(wrong)))
+
+
+def compare_selection(
+    extractor: Extractor, field: ObservationTable, examples: Sequence[Example], place: int
+) -> NearestExtractor:
+    """How an extractor's selection differs from what was shown on one mesh."""
+    example, found = examples[place], field.on(field.bits(extractor), place)
+    extra, missing = found & ~example.selection, example.selection & ~found
     names_of = example.mesh.names_of
-    return NearestExtractor(extractor, example.name, names_of(extra[worst]), names_of(missing[worst]))
+    return NearestExtractor(extractor, example.name, names_of(extra), names_of(missing))
 
 
 def describe_conflict(field: ObservationTable, selections: Sequence[int], examples: Sequence[Example]) -> str | None:
