@@ -13,10 +13,8 @@ from meshforge.batch import (
     IN_PROCESS,
     ExecutionOptions,
     Failed,
-    OutputInputs,
     apply,
     program_digest,
-    read_stamp,
     text_digest,
 )
 from meshforge.common import MeshForgeError, ProjectError
@@ -26,8 +24,9 @@ from meshforge.labels.family_comparison import ignore_stage
 from meshforge.labels.label_by_consensus import label_by_consensus
 from meshforge.labels.merge import ignore_report, set_labels
 from meshforge.project import demonstrations, learn, run
+from meshforge.project.alarms import find_result_alarms
 from meshforge.project.family_state import FamilyStateReader
-from meshforge.project.sign_offs import Clock, find_inputs, is_written, keep_assessment, now_utc, renew_sign_offs
+from meshforge.project.sign_offs import Clock, find_inputs, keep_assessment, now_utc, renew_sign_offs
 from meshforge.signoff import (
     BAR,
     Assessment,
@@ -37,7 +36,6 @@ from meshforge.signoff import (
     ReviewQuestion,
     ReviewReply,
     ReviewState,
-    find_alarms,
     review_family,
 )
 from meshforge.signoff.prices import YES_OR_NO
@@ -78,21 +76,12 @@ def review_project(
     inputs = find_inputs(store, execution)
     program = outcome.program if outcome else None
     state = FamilyStateReader(store, meshes, program, by_hand, inputs).read()
-    found = review_family(state, outcome, model_family(list(meshes.values())), bar, _find_alarms(store, inputs))
+    alarms = find_result_alarms(store, program, meshes, inputs) if program else {}
+    found = review_family(state, outcome, model_family(list(meshes.values())), bar, alarms)
     found = _add_unreadable(store, found, state, lost)
     keep_assessment(store, found, inputs)
     taken_back = renew_sign_offs(store, clock=clock, execution=execution)
     return ProjectReview(found, outcome, state, lost, taken_back)
-
-
-def _find_alarms(store: Store, inputs: Mapping[str, OutputInputs]) -> dict[str, list[str]]:
-    """What stands out among the results that are up to date, a sentence each, by asset."""
-    measures = {}
-    for asset, now in inputs.items():
-        stamp = read_stamp(store.layout.edited, asset)
-        if stamp and stamp.measures and is_written(stamp, now):
-            measures[asset] = stamp.measures
-    return {asset: [alarm.text for alarm in alarms] for asset, alarms in find_alarms(measures).items()}
 
 
 def build_review_state(store: Store, meshes: Mapping[str, SymbolicMesh]) -> ReviewState:

@@ -9,6 +9,7 @@ import pytest
 
 from meshforge.project import Project
 from tests.unit.cli.in_process import Run, runner
+from tests.unit.project.racks import BLOCK, PLAIN, shown_racks
 from tests.unit.project.tables import SECOND, THIRD, applied
 
 
@@ -135,3 +136,18 @@ def test_what_was_put_off_is_asked_again_on_request(run: Run) -> None:
     assert told.code == 1
     assert (told.json["question"] or {}).get("id") != question["id"]
     assert run("review", "tables", "--sure", "1", "--json", "--again").json["question"]["id"] == question["id"]
+
+
+@pytest.mark.slow
+def test_a_result_that_would_be_a_block_is_held_though_nothing_was_written_before(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    project = shown_racks(tmp_path)
+    run = runner(monkeypatch, capsys)
+    assert f"{BLOCK} (89%): nearly one solid block" in run("review", "racks").out
+    told = run("apply", "racks", "--sure", "0.95", "--workers", "1")
+    assert told.code == 1
+    assert f"held       {BLOCK}: 89% sure; nearly one solid block" in told.out
+    assert not (project.layout.edited / BLOCK).exists()
+    assert set(project.sign_offs().assets) == set(PLAIN)

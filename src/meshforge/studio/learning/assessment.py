@@ -8,21 +8,17 @@ from dataclasses import replace
 from meshforge.common import MeshForgeError
 from meshforge.label_model import model_family
 from meshforge.language import explain, parse_extractor, show
-from meshforge.project import Project
+from meshforge.project import Project, find_inputs, find_result_alarms
 from meshforge.signoff import (
     Assessment,
-    EditMeasures,
     ReviewChoice,
     ReviewQuestion,
     ReviewState,
-    find_alarms,
-    measure_edit,
     review_family,
 )
-from meshforge.studio.learning.results import ProgramWithTemplates
 from meshforge.studio.wire import signoff as wire
 from meshforge.symbolic import SymbolicMesh
-from meshforge.synthesis import Found, LearningOutcome, memoize
+from meshforge.synthesis import Found, LearningOutcome
 
 
 def assess_project(
@@ -45,7 +41,8 @@ def assess_project(
         else Found(rules=accepted.rules, readings=(), tried=(), seconds={}, program=accepted)
     )
     program = judged.program if judged else None
-    alarms = {} if program is None else raise_alarms(ProgramWithTemplates(program, state.templates), meshes, stop)
+    inputs = find_inputs(project)
+    alarms = find_result_alarms(project, program, meshes, inputs, stop) if program else {}
     model = model_family(list(meshes.values()))
     if stop():
         return None
@@ -63,30 +60,6 @@ def read_review_state(project: Project, meshes: Mapping[str, SymbolicMesh]) -> R
         accepted={asset: done for asset, done in state.accepted.items() if asset in current},
         mended={asset: done for asset, done in state.mended.items() if asset in current},
     )
-
-
-def raise_alarms(
-    plan: ProgramWithTemplates, meshes: Mapping[str, SymbolicMesh], stop: Callable[[], bool]
-) -> dict[str, tuple[str, ...]]:
-    """Sentences on those edits that stand out of their family, by asset; none on those that cannot be made."""
-    found = dict[str, EditMeasures]()
-    for asset, mesh in meshes.items():
-        if stop():
-            return {}
-        try:
-            found[asset] = _measure(plan, mesh)
-        except MeshForgeError:
-            continue
-    return {asset: tuple(alarm.text for alarm in alarms) for asset, alarms in find_alarms(found).items()}
-
-
-def _measure(plan: ProgramWithTemplates, mesh: SymbolicMesh) -> EditMeasures:
-    """The measures of an edit; cached with the mesh."""
-
-    def make() -> EditMeasures:
-        return measure_edit(mesh, plan.program.run(mesh, plan.templates).mesh)
-
-    return memoize(mesh, ("measures", plan.key), EditMeasures, make)
 
 
 def view_assessment(
