@@ -4,8 +4,9 @@ to date; void when anything changes of what they rest on.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from datetime import UTC, datetime
+from types import MappingProxyType
 from typing import Literal
 
 from meshforge.batch import (
@@ -62,21 +63,35 @@ def keep_assessment(store: Store, found: Assessment, inputs: Mapping[str, Output
     store.write_assessment(AssessmentFile(bar=found.bar, lesson=digest_lesson(store), aside=aside, assets=lines))
 
 
+_NO_ALARMS: Mapping[str, Sequence[str]] = MappingProxyType({})
+
+
 def renew_sign_offs(
-    store: Store, *, clock: Clock = now_utc, execution: ExecutionOptions = EXECUTION_DEFAULTS
+    store: Store,
+    alarms: Mapping[str, Sequence[str]] = _NO_ALARMS,
+    *,
+    clock: Clock = now_utc,
+    execution: ExecutionOptions = EXECUTION_DEFAULTS,
 ) -> dict[str, str]:
-    """Sign off what may be by the last review, as far as that holds; take back what may not, and say why, by asset."""
+    """Sign off what may be by the last review, as far as that holds; take back what may not, and say why, by asset.
+
+    alarms: sentences on outputs that stand out of those just written, by asset: the tool signs off none that has more
+    of them than the review knew.
+    """
     last, inputs = store.assessment(), find_inputs(store, execution)
     if last is None or not last.holds(digest_lesson(store), inputs):
         return {}
     when = clock().astimezone(UTC).isoformat(timespec="seconds")
     with store.lock():
+        if alarms:
+            last = last.with_alarms(alarms)
+            store.write_assessment(last)
         before = store.sign_offs()
         kept, lost = dict[str, SignOff](), dict[str, str]()
         for name, line in last.assets.items():
             old, now = before.assets.get(name), inputs.get(name)
             changes = find_changes(now, old.rests_on) if old and now else ()
-            good = (line.looked_at or line.probability >= last.bar) and name not in last.aside
+            good = line.passes(last.bar) and name not in last.aside
             if good and old and not changes:
                 kept[name] = old
             elif good and now and is_written(read_stamp(store.layout.edited, name), now):
@@ -93,6 +108,8 @@ def renew_sign_offs(
 def _describe_loss(old: SignOff, line: ConfidenceLine, changes: tuple[str, ...], aside: bool) -> str:
     if aside:
         return "a person flagged it or set it aside"
+    if line.stands_out:
+        return f"its output stands out: {line.doubts[0].text}"
     why = f", {' and '.join(changes)} changed" if changes else ", by what is known of the family now"
     return f"it was {old.probability:.1%} sure, and is {line.probability:.1%} sure{why}"
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Mapping, Sequence
 from typing import Annotated, Literal
 
 from pydantic import Field
@@ -54,12 +54,25 @@ class DoubtLine(JsonFile):
 
 class ConfidenceLine(JsonFile):
     """How an asset stood when the family was looked at last; rests_on: as of `SignOff`; looked_at: whether a person
-    showed its edit, or accepted it."""
+    showed its edit, or accepted it; stands_out: whether its output has alarms that the probability does not know."""
 
     probability: Probability
     doubts: tuple[DoubtLine, ...] = ()
     rests_on: OutputInputs
     looked_at: bool = False
+    stands_out: bool = False
+
+    def passes(self, bar: float) -> bool:
+        """Whether it may be signed off."""
+        return self.looked_at or (self.probability >= bar and not self.stands_out)
+
+    def with_alarms(self, alarms: Sequence[str]) -> ConfidenceLine:
+        """The same where these alarms are not more than those it knows, else that it stands out, and by what."""
+        if len(alarms) <= sum(doubt.kind == "alarm" for doubt in self.doubts):
+            return self
+        others = tuple(doubt for doubt in self.doubts if doubt.kind != "alarm")
+        doubts = tuple(DoubtLine(kind="alarm", text=text) for text in alarms)
+        return self.model_copy(update={"doubts": (*doubts, *others), "stands_out": True})
 
     @staticmethod
     def of(found: AssetConfidence, rests_on: OutputInputs, looked_at: bool) -> ConfidenceLine:
@@ -83,6 +96,11 @@ class AssessmentFile(JsonFile):
     lesson: str
     aside: tuple[str, ...] = ()
     assets: dict[str, ConfidenceLine] = Field(default_factory=dict)
+
+    def with_alarms(self, alarms: Mapping[str, Sequence[str]]) -> AssessmentFile:
+        """The same, and what stands out among outputs that were written since; alarms: sentences by asset."""
+        lines = {name: line.with_alarms(alarms.get(name, ())) for name, line in self.assets.items()}
+        return self.model_copy(update={"assets": lines})
 
     def holds(self, lesson: str, inputs: Mapping[str, OutputInputs]) -> bool:
         """Whether nothing changed since; inputs: of the edits of all assets that can be read, or of some."""

@@ -233,3 +233,17 @@ def test_a_slip_in_a_step_that_is_gone_is_an_error_and_changes_nothing(tmp_path:
     with pytest.raises(ProjectError, match="rule 1 is not demonstrated here any more"):
         project.reply(found, selection_of(THIRD), ReviewReply("s", 0))
     assert project.steps(THIRD) == ()
+
+
+def test_an_output_that_stands_out_though_the_review_did_not_know_is_signed_off_by_no_tool(tmp_path: Path) -> None:
+    project = applied(tmp_path)
+    review(project)
+    odd = dict.fromkeys((SECOND, THIRD), ("volume +300%, the family +0%",))
+    lost = project.renew_sign_offs(odd, clock=lambda: NOON)
+    assert lost == {THIRD: "its output stands out: volume +300%, the family +0%"}
+    assert {asset: one.by for asset, one in project.sign_offs().assets.items()} == {FIRST: "person", SECOND: "person"}
+    assert project.renew_sign_offs(clock=lambda: NOON) == {} and THIRD not in project.sign_offs().assets
+    status = next(one for one in project.status().assets if one.id == THIRD)
+    assert (status.sign_off, [doubt.kind for doubt in status.doubts]) == ("held", ["alarm"])
+    review(project)
+    assert sign_off_of(project, THIRD) == "signed off"
