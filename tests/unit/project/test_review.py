@@ -10,12 +10,13 @@ import pytest
 
 from meshforge.batch import IN_PROCESS
 from meshforge.common import ProjectError
-from meshforge.language import Program
+from meshforge.language import Delete, Program
 from meshforge.project import Project, ProjectReview
 from meshforge.signoff import HullPlace, ReviewChoice, ReviewQuestion, ReviewReply
 from meshforge.signoff.question import ASIDE, RIGHT, WRONG
 from meshforge.signoff.slips import AS_SHOWN, BY_MISTAKE
 from meshforge.symbolic import Label
+from meshforge.synthesis import Step
 from tests.unit.project.tables import FIRST, LEGS, SECOND, THIRD, applied, demonstrated, fresh, labelled, learned
 
 NOON = datetime(2026, 11, 25, 12, tzinfo=UTC)
@@ -247,3 +248,16 @@ def test_an_output_that_stands_out_though_the_review_did_not_know_is_signed_off_
     assert (status.sign_off, [doubt.kind for doubt in status.doubts]) == ("held", ["alarm"])
     review(project)
     assert sign_off_of(project, THIRD) == "signed off"
+
+
+def test_while_nothing_fits_what_was_shown_is_signed_off_no_longer_and_what_was_accepted_is(tmp_path: Path) -> None:
+    project = applied(tmp_path)
+    project.set_verdict(THIRD, "accepted")
+    assert review(project).assessment.looked_at == {FIRST, SECOND, THIRD}
+    for asset, hull in ((FIRST, "top"), (SECOND, "crumb")):
+        project.demonstrate(asset, [Step(1, {hull}, Delete())])
+    found = review(project)
+    assert found.outcome is not None and found.outcome.program is None
+    assert found.assessment.looked_at == {THIRD}
+    assert found.taken_back.keys() == {FIRST, SECOND}
+    assert project.sign_offs().assets.keys() == {THIRD}
