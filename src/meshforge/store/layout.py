@@ -60,7 +60,12 @@ class Layout:
 
     @property
     def learned(self) -> Path:
-        """What the program was learned from."""
+        """What the program was learned from; it belongs beside the program, in git too."""
+        return self.folder / "learned.json"
+
+    @property
+    def learned_before(self) -> Path:
+        """Where that was kept before: read while there is no other, removed when it is written."""
         return self.folder / STATE / "learned.json"
 
     @property

@@ -203,12 +203,14 @@ class Store:
 
     def program_record(self) -> program_files.ProgramRecord | None:
         """What the program was learned from; None where none was learned."""
-        return read_json(self.layout.learned, program_files.ProgramRecord)
+        kept = read_json(self.layout.learned, program_files.ProgramRecord)
+        return kept or read_json(self.layout.learned_before, program_files.ProgramRecord)
 
     def write_program_record(self, record: program_files.ProgramRecord) -> None:
         """Write what the program was learned from."""
         with self.lock():
             write_json(self.layout.learned, record)
+            self.layout.learned_before.unlink(missing_ok=True)
 
     def templates(self, names: Iterable[str]) -> dict[str, Template]:
         """Hull templates by the names that programs write. Raises ProgramError where one is not there or not convex."""

@@ -22,7 +22,7 @@ ONE = frozenset({FIRST})
         ("answers.json", FileChanges(learning=True)),
         ("review.json", FileChanges(reviews=True, learning=True)),
         ("program.mf", FileChanges(program=True, learning=True)),
-        (".meshforge/learned.json", FileChanges(program=True)),
+        ("learned.json", FileChanges(program=True)),
         ("labels/gone.obj.json", FileChanges(learning=True)),
         ("notes.txt", FileChanges()),
     ],
