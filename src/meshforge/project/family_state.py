@@ -49,7 +49,7 @@ class FamilyStateReader:
             tuple(line.answer for line in store.answers().answers),
             {asset: done for asset, done in accepted.items() if asset in self.meshes},
             aside=flagged.union(asset for asset in signed.aside if asset not in demos),
-            later=frozenset(signed.later),
+            later=frozenset(store.put_off_ids()),
         )
 
     def _read_frame(self) -> Program:

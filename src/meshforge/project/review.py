@@ -13,6 +13,7 @@ from meshforge.batch import (
     IN_PROCESS,
     ExecutionOptions,
     Failed,
+    OutputInputs,
     apply,
     program_digest,
     text_digest,
@@ -26,7 +27,7 @@ from meshforge.labels.merge import ignore_report, set_labels
 from meshforge.project import demonstrations, learn, run
 from meshforge.project.alarms import find_result_alarms
 from meshforge.project.family_state import FamilyStateReader
-from meshforge.project.sign_offs import Clock, find_inputs, keep_assessment, now_utc, renew_sign_offs
+from meshforge.project.sign_offs import AssessmentBasis, Clock, keep_assessment, now_utc, renew_sign_offs
 from meshforge.signoff import (
     BAR,
     Assessment,
@@ -68,27 +69,33 @@ def review_project(
     What is found is kept, and assets at or above the bar whose output is up to date are signed off; so are those that a
     person showed or accepted. Raises ProjectError where there is no asset that can be read.
     """
+    before = AssessmentBasis.take(store, execution)
     meshes, lost = _read_meshes(store)
     if not meshes:
         raise ProjectError("there is no asset that can be read", where=str(store.folder))
     recall_descriptors(store, meshes, execution)
     outcome, by_hand = _learn(store, meshes)
-    inputs = find_inputs(store, execution)
     program = outcome.program if outcome else None
-    state = FamilyStateReader(store, meshes, program, by_hand, inputs).read()
-    alarms = find_result_alarms(store, program, meshes, inputs) if program else {}
+    basis = before.under(store, program or store.program())
+    state = FamilyStateReader(store, meshes, program, by_hand, basis.inputs).read()
+    alarms = find_result_alarms(store, program, meshes, basis.inputs) if program else {}
     found = review_family(state, outcome, model_family(list(meshes.values())), bar, alarms)
     found = _add_unreadable(store, found, state, lost)
-    keep_assessment(store, found, inputs)
+    keep_assessment(store, found, basis, execution)
     taken_back = renew_sign_offs(store, clock=clock, execution=execution)
     return ProjectReview(found, outcome, state, lost, taken_back)
 
 
-def build_review_state(store: Store, meshes: Mapping[str, SymbolicMesh]) -> ReviewState:
-    """All that is known of a family under the project's program; meshes: of all or some of its assets, by id."""
+def build_review_state(
+    store: Store, meshes: Mapping[str, SymbolicMesh], inputs: Mapping[str, OutputInputs]
+) -> ReviewState:
+    """All that is known of a family under the project's program.
+
+    meshes: of all or some of its assets, by id; inputs: the digests of their edits.
+    """
     program = store.program()
     by_hand = program is not None and learn.program_state_of(store, program).by_hand
-    return FamilyStateReader(store, meshes, program, by_hand, find_inputs(store, EXECUTION_DEFAULTS)).read()
+    return FamilyStateReader(store, meshes, program, by_hand, inputs).read()
 
 
 def _read_meshes(store: Store) -> tuple[dict[str, SymbolicMesh], dict[str, str]]:
@@ -144,18 +151,18 @@ def reply_to(store: Store, review: ProjectReview, question: ReviewQuestion, repl
         raise ProjectError(f"question {question.id} has {len(choices)} choices", remedy="Count them from 0.")
     choice = None if reply.choice is None else choices[reply.choice]
     if reply.later or (choice is None and question.kind not in ("reading", "label") and not reply.exceptions):
-        put_off(store, question.id)
+        store.put_off(question.id)
     elif question.kind == "result":
         assert choice is not None
         _judge(store, question.asset, choice.text)
     elif question.kind == "orientation":
         if choice is not None and choice.orient is not None:
             store.set_orientation(choice.orient)
-        put_off(store, question.id)
+        store.put_off(question.id)
     elif question.kind == "selection":
         assert choice is not None
         if choice.text == AS_SHOWN:
-            put_off(store, question.id)
+            store.put_off(question.id)
         else:
             demonstrations.correct_selection(store, question.asset, question.rule or 1, choice.select or ())
     elif question.kind in ("reading", "label"):
@@ -186,14 +193,6 @@ def _make_output(store: Store, asset: str) -> None:
     for outcome in apply(program, jobs, store.layout.edited, templates=templates, execution=IN_PROCESS):
         if isinstance(outcome, Failed):
             raise ProjectError(f"{asset} cannot be edited: {outcome.error}", where=str(store.folder))
-
-
-def put_off(store: Store, question: str) -> None:
-    """Ask a question of some id no more."""
-    with store.lock():
-        kept = store.sign_offs()
-        if question not in kept.later:
-            store.write_sign_offs(kept.model_copy(update={"later": (*kept.later, question)}))
 
 
 def _write_labels(store: Store, state: ReviewState, question: ReviewQuestion, reply: ReviewReply) -> None:

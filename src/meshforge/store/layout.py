@@ -78,6 +78,11 @@ class Layout:
         return self.folder / "signoff.json"
 
     @property
+    def later(self) -> Path:
+        """Which questions of a review were put off."""
+        return self.folder / "later.json"
+
+    @property
     def assessment(self) -> Path:
         """How probable each edit was when the family was looked at last."""
         return self.folder / STATE / "assessment.json"

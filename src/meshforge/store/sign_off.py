@@ -26,12 +26,11 @@ class SignOff(JsonFile):
 
 
 class SignOffFile(JsonFile):
-    """signoff.json: sign-offs by asset, assets that a person set aside though they have no output that could be
-    flagged, and the ids of questions that were put off."""
+    """signoff.json: sign-offs by asset, and assets that a person set aside though they have no output that could be
+    flagged."""
 
     assets: dict[str, SignOff] = Field(default_factory=dict)
     aside: tuple[str, ...] = ()
-    later: tuple[str, ...] = ()
 
     def with_aside(self, asset: str) -> SignOffFile:
         """The same, and an asset set aside."""
@@ -40,6 +39,12 @@ class SignOffFile(JsonFile):
     def without_aside(self, assets: Collection[str]) -> SignOffFile:
         """The same, and some assets not set aside any more."""
         return self.model_copy(update={"aside": tuple(name for name in self.aside if name not in assets)})
+
+
+class LaterFile(JsonFile):
+    """later.json: the ids of questions that were put off; apart from sign-offs, so that it can be undone by itself."""
+
+    questions: tuple[str, ...] = ()
 
 
 class DoubtLine(JsonFile):

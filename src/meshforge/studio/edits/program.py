@@ -10,6 +10,7 @@ from meshforge.language import Program
 from meshforge.project import Project
 from meshforge.store import action_text, parse_action_text
 from meshforge.studio.edits.base import (
+    LATER_FILE,
     LEARNED_BEFORE,
     LEARNED_FILE,
     PROGRAM_FILE,
@@ -191,7 +192,7 @@ class PutOff(Edit):
     """Ask a question of the review no more, as long as what it is about stays."""
 
     kind: Literal["put-off"] = "put-off"
-    touches = ("signoff.json",)
+    touches = (LATER_FILE,)
     id: str
 
     def apply(self, project: Project) -> None:
