@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import shutil
 from collections import Counter
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -19,8 +20,8 @@ MISTAKEN = {"table_02.obj": {"convex_08": "misc"}, "table_14.obj": {"convex_22":
 MEANT = Program.read(TABLES / "tables.mf")
 
 
-def create_project(folder: Path) -> Project:
-    """A project of some tables, labelled as a model would, and demonstrated on two of them."""
+def create_project(folder: Path, shown: Sequence[str] = SHOWN) -> Project:
+    """A project of some tables, labelled as a model would, and demonstrated on two of them, or on others."""
     (folder / "assets").mkdir()
     for name in (*SHOWN, *OTHERS):
         shutil.copyfile(TABLES / name, folder / "assets" / name)
@@ -30,7 +31,9 @@ def create_project(folder: Path) -> Project:
     for name in (*SHOWN, *OTHERS):
         labels: dict[str, str | None] = {hull.name: hull.label for hull in load(TABLES / name).hulls}
         project.set_labels(name, labels | MISTAKEN.get(name, {}), source="vlm", confidence=0.8)
-    shutil.copytree(TABLES / "demonstrations", project.folder / "demonstrations")
+    (project.folder / "demonstrations").mkdir()
+    for name in shown:
+        shutil.copyfile(TABLES / "demonstrations" / f"{name}.json", project.folder / "demonstrations" / f"{name}.json")
     shutil.copytree(TABLES / "templates", project.folder / "templates")
     return project
 
