@@ -1,6 +1,6 @@
 """What is done with a project folder: demonstrate, learn, ask, review, apply, and how far everything is."""
 
-from meshforge.project.alarms import find_result_alarms
+from meshforge.project.alarms import describe_odd_results, measure_results
 from meshforge.project.learn import (
     FamilyMeshes,
     ProgramState,
@@ -24,11 +24,12 @@ __all__ = [
     "Project",
     "ProjectReview",
     "Status",
+    "describe_odd_results",
     "digest_lesson",
     "find_inputs",
-    "find_result_alarms",
     "keep_assessment",
     "make_correction",
+    "measure_results",
     "output_digest",
     "run_with_corrections",
     "sees_whole_family",

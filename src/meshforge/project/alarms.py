@@ -18,56 +18,66 @@ from meshforge.language import Program
 from meshforge.project import run
 from meshforge.project.sign_offs import is_written
 from meshforge.signoff import EditMeasures, find_alarms, measure_edit
-from meshforge.store import Store
+from meshforge.store import ConfidenceLine, Store
 from meshforge.symbolic import SymbolicMesh
 from meshforge.synthesis import memoize
 
 
-def find_result_alarms(
+def measure_results(
     store: Store,
     program: Program,
     meshes: Mapping[str, SymbolicMesh],
     inputs: Mapping[str, OutputInputs],
     stop: Callable[[], bool] = lambda: False,
-) -> dict[str, tuple[str, ...]]:
-    """Sentences on those results of a program that stand out of their family, by asset; none once `stop` says so.
+) -> dict[str, EditMeasures]:
+    """The measures of the results of a program, by asset; of some only once `stop` says so.
 
-    meshes: of the family, by id; inputs: of the edits as they are now. An output that is up to date is not made again,
-    and an asset on which the program cannot run has no result.
+    meshes: of the family, by id; inputs: of the edits as they are now. What is known of an output, or of the last
+    review, is not measured again while it is up to date; an asset on which the program cannot run has no result.
     """
     plan = _Plan.of(store, program)
     found = dict[str, EditMeasures]()
     for asset, mesh in meshes.items():
         if stop():
-            return {}
+            break
         try:
-            found[asset] = plan.read_measures(asset, inputs.get(asset)) or plan.measure(asset, mesh)
+            found[asset] = plan.recall(asset, inputs.get(asset)) or plan.measure(asset, mesh)
         except MeshForgeError:
             continue
-    return {asset: tuple(alarm.text for alarm in alarms) for asset, alarms in find_alarms(found).items()}
+    return found
+
+
+def describe_odd_results(measures: Mapping[str, EditMeasures]) -> dict[str, tuple[str, ...]]:
+    """Sentences on those results that stand out of their family, by asset."""
+    return {asset: tuple(alarm.text for alarm in alarms) for asset, alarms in find_alarms(measures).items()}
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class _Plan:
-    """What `apply` would do to each asset. digest: of the program; key: two with the same do the same."""
+    """What `apply` would do to each asset. last: what the last review found, by asset; digest: of the program; key: two
+    with the same do the same."""
 
     store: Store
     task: ApplyTask
+    last: Mapping[str, ConfidenceLine]
     digest: str
     key: str
 
     @staticmethod
     def of(store: Store, program: Program) -> _Plan:
-        task = run.build_task(store, program)
+        task, last = run.build_task(store, program), store.assessment()
         digest = program_digest(program)
-        return _Plan(store, task, digest, f"{digest} {template_digests(task.templates)}")
+        key = f"{digest} {template_digests(task.templates)}"
+        return _Plan(store, task, last.assets if last else {}, digest, key)
 
-    def read_measures(self, asset: str, now: OutputInputs | None) -> EditMeasures | None:
-        """The measures of an output, None where it is not there as this program would make it now."""
+    def recall(self, asset: str, now: OutputInputs | None) -> EditMeasures | None:
+        """The measures of an output or of the last review, None where neither is as this program would make it now."""
         if now is None or now.program != self.digest:
             return None
-        stamp = read_stamp(self.store.layout.edited, asset)
-        return stamp.measures if stamp and is_written(stamp, now) else None
+        stamp, line = read_stamp(self.store.layout.edited, asset), self.last.get(asset)
+        if stamp and stamp.measures and is_written(stamp, now):
+            return stamp.measures
+        return line.measures if line and line.rests_on == now else None
 
     def measure(self, asset: str, mesh: SymbolicMesh) -> EditMeasures:
         """The measures of an edit with what was done by hand after it; cached with the mesh."""

@@ -25,7 +25,7 @@ from meshforge.labels.family_comparison import ignore_stage
 from meshforge.labels.label_by_consensus import label_by_consensus
 from meshforge.labels.merge import ignore_report, set_labels
 from meshforge.project import demonstrations, learn, run
-from meshforge.project.alarms import find_result_alarms
+from meshforge.project.alarms import describe_odd_results, measure_results
 from meshforge.project.family_state import FamilyStateReader
 from meshforge.project.sign_offs import AssessmentBasis, Clock, keep_assessment, now_utc, renew_sign_offs
 from meshforge.signoff import (
@@ -78,10 +78,11 @@ def review_project(
     program = outcome.program if outcome else None
     basis = before.under(store, program or store.program())
     state = FamilyStateReader(store, meshes, program, by_hand, basis.inputs).read()
-    alarms = find_result_alarms(store, program, meshes, basis.inputs) if program else {}
+    measures = measure_results(store, program, meshes, basis.inputs) if program else {}
+    alarms = describe_odd_results(measures)
     found = review_family(state, outcome, model_family(list(meshes.values())), bar, alarms)
     found = _add_unreadable(store, found, state, lost)
-    keep_assessment(store, found, basis, execution)
+    keep_assessment(store, found, basis, measures, execution)
     taken_back = renew_sign_offs(store, clock=clock, execution=execution)
     return ProjectReview(found, outcome, state, lost, taken_back)
 

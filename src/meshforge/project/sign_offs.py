@@ -26,7 +26,7 @@ from meshforge.batch import (
 from meshforge.language import Program
 from meshforge.project import run
 from meshforge.project.learn import digest_learning_inputs
-from meshforge.signoff import Assessment
+from meshforge.signoff import Assessment, EditMeasures
 from meshforge.store import AssessmentFile, ConfidenceLine, SignOff, Store, find_changes, survey
 
 Clock = Callable[[], datetime]
@@ -84,14 +84,21 @@ class AssessmentBasis:
 
 
 def keep_assessment(
-    store: Store, found: Assessment, basis: AssessmentBasis, execution: ExecutionOptions = EXECUTION_DEFAULTS
+    store: Store,
+    found: Assessment,
+    basis: AssessmentBasis,
+    measures: Mapping[str, EditMeasures],
+    execution: ExecutionOptions = EXECUTION_DEFAULTS,
 ) -> bool:
     """Keep how sure each result is, so that a status need not learn anything; nothing where something changed since
-    the basis was taken. Says whether it was kept."""
+    the basis was taken. Says whether it was kept.
+
+    measures: of edits, by asset, so that the next review need not make them again.
+    """
     if basis != AssessmentBasis(digest_lesson(store), find_inputs(store, execution)):
         return False
     lines = {
-        name: ConfidenceLine.of(one, basis.inputs[name], name in found.looked_at)
+        name: ConfidenceLine.of(one, basis.inputs[name], name in found.looked_at, measures.get(name))
         for name, one in found.assets.items()
         if name in basis.inputs
     }

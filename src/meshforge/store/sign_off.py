@@ -8,7 +8,7 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from meshforge.batch import OutputInputs
-from meshforge.signoff import AssetConfidence, Doubt, DoubtKind
+from meshforge.signoff import AssetConfidence, Doubt, DoubtKind, EditMeasures
 from meshforge.store.layout import JsonFile
 
 Probability = Annotated[float, Field(ge=0, le=1)]
@@ -59,13 +59,15 @@ class DoubtLine(JsonFile):
 
 class ConfidenceLine(JsonFile):
     """How an asset stood when the family was looked at last; rests_on: as of `SignOff`; looked_at: whether a person
-    showed its edit, or accepted it; stands_out: whether its output has alarms that the probability does not know."""
+    showed its edit, or accepted it; stands_out: whether its output has alarms that the probability does not know;
+    measures: of its edit, None where it has none."""
 
     probability: Probability
     doubts: tuple[DoubtLine, ...] = ()
     rests_on: OutputInputs
     looked_at: bool = False
     stands_out: bool = False
+    measures: EditMeasures | None = None
 
     def passes(self, bar: float) -> bool:
         """Whether it may be signed off."""
@@ -80,12 +82,16 @@ class ConfidenceLine(JsonFile):
         return self.model_copy(update={"doubts": (*doubts, *others), "stands_out": True})
 
     @staticmethod
-    def of(found: AssetConfidence, rests_on: OutputInputs, looked_at: bool) -> ConfidenceLine:
+    def of(
+        found: AssetConfidence, rests_on: OutputInputs, looked_at: bool, measures: EditMeasures | None = None
+    ) -> ConfidenceLine:
         doubts = tuple(
             DoubtLine(kind=one.kind, text=one.text, hulls=one.hulls, rule=one.rule, share=one.share)
             for one in found.doubts
         )
-        return ConfidenceLine(probability=found.probability, doubts=doubts, rests_on=rests_on, looked_at=looked_at)
+        return ConfidenceLine(
+            probability=found.probability, doubts=doubts, rests_on=rests_on, looked_at=looked_at, measures=measures
+        )
 
     def to_confidence(self, asset: str) -> AssetConfidence:
         doubts = tuple(Doubt(one.kind, one.text, one.hulls, one.rule, one.share) for one in self.doubts)

@@ -162,7 +162,7 @@ def test_a_result_that_stands_out_in_a_run_alone_is_not_signed_off_by_it(
     racks: Run, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     with monkeypatch.context() as earlier:
-        earlier.setattr("meshforge.project.review.find_result_alarms", lambda *_: {})  # as a version before did
+        earlier.setattr("meshforge.project.review.measure_results", lambda *_: {})  # as a version before did
         assert racks("review", "racks").code == 0
     assert f"1 result stands out: {BLOCK}" in racks("apply", "racks", "--workers", "1").out
     assert set(Project.open("racks").sign_offs().assets) == set(PLAIN)

@@ -8,7 +8,7 @@ import pytest
 
 from meshforge.batch import IN_PROCESS
 from meshforge.language import Delete, Program
-from meshforge.project import Project, find_inputs, find_result_alarms
+from meshforge.project import Project, describe_odd_results, find_inputs, measure_results
 from meshforge.signoff import EditMeasures, measure_edit
 from meshforge.symbolic import SymbolicMesh
 from tests.unit.project.racks import BLOCK, PLAIN, shown_racks
@@ -26,9 +26,8 @@ def racks(tmp_path: Path) -> Project:
 def find_all(project: Project, meshes: dict[str, SymbolicMesh] | None = None) -> dict[str, tuple[str, ...]]:
     program = project.program()
     assert program
-    return find_result_alarms(
-        project, program, meshes or dict(project.meshes_by_id()), find_inputs(project, IN_PROCESS)
-    )
+    meshes = meshes or dict(project.meshes_by_id())
+    return describe_odd_results(measure_results(project, program, meshes, find_inputs(project, IN_PROCESS)))
 
 
 def test_a_solid_block_stands_out_before_it_is_written_as_it_does_after(racks: Project) -> None:
@@ -55,9 +54,9 @@ def test_an_asset_on_which_the_program_cannot_run_has_no_result(racks: Project) 
     assert find_all(racks) == {}
 
 
-def test_what_is_written_is_read_from_its_stamp_and_the_rest_is_measured_once(
-    racks: Project, monkeypatch: pytest.MonkeyPatch
-) -> None:
+@pytest.fixture
+def measured(monkeypatch: pytest.MonkeyPatch) -> list[int]:
+    """How many hulls each result has that was measured, filled as that goes on."""
     measured = list[int]()
 
     def count(before: SymbolicMesh, after: SymbolicMesh) -> EditMeasures:
@@ -65,6 +64,12 @@ def test_what_is_written_is_read_from_its_stamp_and_the_rest_is_measured_once(
         return measure_edit(before, after)
 
     monkeypatch.setattr("meshforge.project.alarms.measure_edit", count)
+    return measured
+
+
+def test_what_is_written_is_read_from_its_stamp_and_the_rest_is_measured_once(
+    racks: Project, measured: list[int]
+) -> None:
     list(racks.apply([PLAIN[0], BLOCK], execution=IN_PROCESS))
     meshes = dict(racks.meshes_by_id())
     found = find_all(racks, meshes)
@@ -76,3 +81,13 @@ def test_a_review_before_anything_is_written_holds_the_block(racks: Project) -> 
     found = racks.review(execution=IN_PROCESS).assessment
     assert found.held == (BLOCK,)
     assert found.assets[BLOCK].doubts[0].kind == "alarm"
+
+
+def test_a_second_review_measures_what_changed_since_the_first(racks: Project, measured: list[int]) -> None:
+    before = racks.review(execution=IN_PROCESS).assessment
+    assert len(measured) == 6
+    assert racks.review(execution=IN_PROCESS).assessment.assets[BLOCK] == before.assets[BLOCK]
+    assert len(measured) == 6
+    racks.set_labels(PLAIN[4], {"rail": "rail"})
+    racks.review(execution=IN_PROCESS)
+    assert len(measured) == 7

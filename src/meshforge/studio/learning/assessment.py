@@ -12,13 +12,15 @@ from meshforge.language import Program, explain, parse_extractor, show
 from meshforge.project import (
     AssessmentBasis,
     Project,
-    find_result_alarms,
+    describe_odd_results,
     keep_assessment,
+    measure_results,
     sees_whole_family,
 )
 from meshforge.signoff import (
     BAR,
     Assessment,
+    EditMeasures,
     ReviewChoice,
     ReviewQuestion,
     ReviewState,
@@ -32,19 +34,20 @@ from meshforge.synthesis import Found, LearningOutcome
 @dataclass(frozen=True, eq=False, slots=True)
 class ProjectAssessment:
     """How sure the edits of a project are. program: the one that makes them, None where there is none; basis: what all
-    that was computed from."""
+    that was computed from; measures: of the edits, by asset."""
 
     found: Assessment
     state: ReviewState
     program: Program | None
     basis: AssessmentBasis
+    measures: Mapping[str, EditMeasures]
 
     def keep(self, project: Project) -> None:
         """Keep it as a review does, and renew sign-offs; nothing where something changed meanwhile, where there is no
         program, or where the studio looks at some assets only. Sign-offs of a person stay."""
         if self.program is None or not sees_whole_family(project):
             return
-        if keep_assessment(project, self.found, self.basis.under(project, self.program)):
+        if keep_assessment(project, self.found, self.basis.under(project, self.program), self.measures):
             project.renew_sign_offs(keep_persons=True)
 
 
@@ -69,13 +72,13 @@ def assess_project(
     program = judged.program if judged else None
     inputs = basis.under(project, program or project.program()).inputs
     state = read_review_state(project, meshes, inputs)
-    alarms = find_result_alarms(project, program, meshes, inputs, stop) if program else {}
+    measures = measure_results(project, program, meshes, inputs, stop) if program else {}
     model = model_family(list(meshes.values()))
     if stop():
         return None
     last = project.assessment()
-    found = review_family(state, judged, model, last.bar if last else BAR, alarms)
-    return ProjectAssessment(found, state, program, basis)
+    found = review_family(state, judged, model, last.bar if last else BAR, describe_odd_results(measures))
+    return ProjectAssessment(found, state, program, basis, measures)
 
 
 def read_review_state(
