@@ -74,8 +74,9 @@ class ConfidenceLine(JsonFile):
         return self.looked_at or (self.probability >= bar and not self.stands_out)
 
     def with_alarms(self, alarms: Sequence[str]) -> ConfidenceLine:
-        """The same where these alarms are not more than those it knows, else that it stands out, and by what."""
-        if len(alarms) <= sum(doubt.kind == "alarm" for doubt in self.doubts):
+        """The same where these alarms are not more than those it knows, or a person looked at it; else that it stands
+        out, and by what."""
+        if self.looked_at or len(alarms) <= sum(doubt.kind == "alarm" for doubt in self.doubts):
             return self
         others = tuple(doubt for doubt in self.doubts if doubt.kind != "alarm")
         doubts = tuple(DoubtLine(kind="alarm", text=text) for text in alarms)

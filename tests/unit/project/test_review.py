@@ -261,3 +261,16 @@ def test_while_nothing_fits_what_was_shown_is_signed_off_no_longer_and_what_was_
     assert found.assessment.looked_at == {THIRD}
     assert found.taken_back.keys() == {FIRST, SECOND}
     assert project.sign_offs().assets.keys() == {THIRD}
+
+
+@pytest.mark.slow
+def test_a_sign_off_of_what_cannot_be_read_now_is_void_and_stays(tmp_path: Path) -> None:
+    project = applied(tmp_path)
+    review(project)
+    text = project.path(THIRD).read_text()
+    project.path(THIRD).write_text("no mesh at all")
+    assert review(project).assessment.held == (THIRD,)
+    assert THIRD in project.sign_offs().assets and sign_off_of(project, THIRD) == "void"
+    project.path(THIRD).write_text(text)
+    review(project)
+    assert sign_off_of(project, THIRD) == "signed off"

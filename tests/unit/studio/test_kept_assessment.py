@@ -82,6 +82,19 @@ def test_what_changed_while_it_was_assessed_is_not_kept(
     assert files_of(project) == [None, None]
 
 
+def test_where_it_cannot_be_kept_it_is_shown_all_the_same(
+    tmp_path: Path, flag: CancelFlag, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def fill_up(*_: object) -> bool:
+        raise OSError(28, "No space left on device")
+
+    project = applied(tmp_path)
+    learn(project, flag)
+    monkeypatch.setattr("meshforge.studio.learning.assessment.keep_assessment", fill_up)
+    assess(project, flag)
+    assert files_of(project) == [None, None]
+
+
 def test_what_changed_since_it_was_learned_is_not_kept(tmp_path: Path, flag: CancelFlag) -> None:
     project = applied(tmp_path)
     learn(project, flag)

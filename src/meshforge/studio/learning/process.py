@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
+from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from functools import cache
 from pathlib import Path
@@ -92,7 +93,8 @@ def assess(folder: Path, token: CancelToken, number: int) -> AssessmentView | No
     if made is None:
         return None
     if lesson.holds(meshes, basis.lesson):
-        made.keep(project)
+        with suppress(MeshForgeError, OSError):  # pages show it all the same
+            made.keep(project)
     return view_assessment(made.found, made.state, number, made.program is not None)
 
 
