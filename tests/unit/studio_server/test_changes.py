@@ -23,6 +23,8 @@ ONE = frozenset({FIRST})
         ("review.json", FileChanges(reviews=True, learning=True)),
         ("program.mf", FileChanges(program=True, learning=True)),
         ("learned.json", FileChanges(program=True)),
+        ("later.json", FileChanges(questions=True)),
+        ("signoff.json", FileChanges()),
         ("labels/gone.obj.json", FileChanges(learning=True)),
         ("notes.txt", FileChanges()),
     ],
