@@ -78,7 +78,7 @@ class Studio:
                 if holds(hello):
                     return hello
                 assert time.monotonic() < until, "the studio does not come to that"
-                page.until(lambda event: event["kind"] in ("cards", "outcome", "project", "reach"))
+                page.until(lambda event: event["kind"] in ("cards", "outcome", "project", "reach", "assessment"))
 
 
 @dataclass

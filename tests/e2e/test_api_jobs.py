@@ -9,6 +9,7 @@ from typing import Any
 import pytest
 
 from meshforge.formats import load
+from meshforge.project import Project
 from tests.e2e.studio import Studio, ok, opened
 from tests.mesh_files import ROOM
 from tests.studio_project import demo_project
@@ -103,6 +104,22 @@ def test_a_job_that_is_cancelled_stops_and_leaves_whole_outputs(studio: Studio) 
     studio.cards(lambda cards: names == {asset for asset, card in cards.items() if card["output"] == "edited"})
     assert all(load(home(studio) / "edited" / name).hulls for name in names)
     assert run(studio, kind="apply")["state"] == "done"
+
+
+def test_what_is_sure_is_signed_off_once_it_is_written_and_an_undo_of_a_question_put_off_keeps_that(
+    studio: Studio,
+) -> None:
+    studio.until(lambda hello: hello["assessment"] is not None and not hello["assessing"])
+    project = Project.open(home(studio))
+    waits = [one.id for one in project.status().assets if one.sign_off == "sure"]
+    assert waits and not project.sign_offs().assets
+    studio.edit("put-off", id="group-1")
+    assert run(studio, kind="apply")["state"] == "done"
+    assert set(waits) <= set(project.sign_offs().assets)
+    ok(studio.post("/api/undo"))
+    assert project.put_off_ids() == () and set(waits) <= set(project.sign_offs().assets)
+    studio.until(lambda hello: hello["assessment"] is not None and not hello["assessing"])
+    assert {one.sign_off for one in project.status().assets if one.id in waits} == {"signed off"}
 
 
 def test_what_was_decomposed_is_undone_with_one_step(studio: Studio, tmp_path: Path) -> None:

@@ -1,35 +1,60 @@
-"""The bundled tables from new to signed off, by replies from a file alone."""
+"""The bundled tables from a new project to signed off, by replies from files as a script gives them."""
 
 from __future__ import annotations
 
 import json
+from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import pytest
 
 from meshforge.cli.demo import create_tables
-from tests.unit.cli.in_process import runner
+from meshforge.formats import load
+from meshforge.samples import TABLES
+from tests.loop.mistaken_tables import MEANT, OTHERS, SHOWN, create_project, reply_to
+from tests.unit.cli.in_process import Run, runner
 
 MOST_REPLIES = 30
 
 
+@pytest.fixture
+def run(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], tmp_path: Path) -> Run:
+    monkeypatch.chdir(tmp_path)
+    return runner(monkeypatch, capsys)
+
+
+def sign_off(run: Run, folder: str, reply: Callable[[dict[str, Any]], dict[str, Any]]) -> int:
+    """Reply until nothing is asked any more, and apply what is sure; how many assets are signed off then."""
+    assert run("status", folder, "--signed-off").code == 1
+    asked, done = list[str](), run("review", folder, "--json")
+    while question := done.json["question"]:
+        asked.append(f"{question['kind']} {question['asset']}")
+        assert len(asked) <= MOST_REPLIES, asked
+        assert all(Path(picture).exists() for picture in question["pictures"])
+        Path("said.json").write_text(json.dumps([{"id": question["id"], **reply(question)}]))
+        done = run("review", folder, "--json", "--answers", "said.json")
+    assert done.code == 0 and done.json["held"] == [], done.json
+    assert run("status", folder, "--signed-off").code == 1  # sure, but not written yet
+    assert run("apply", folder, "--sure", "0.95", "--workers", "1").code == 0
+    status = run("status", folder, "--json", "--signed-off")
+    assert status.code == 0
+    return int(status.json["signed_off"])
+
+
 @pytest.mark.slow
-def test_the_tables_are_signed_off_by_replies_from_a_file(
-    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], tmp_path: Path
-) -> None:
-    meshforge = runner(monkeypatch, capsys)
-    project = create_tables(tmp_path / "demo")
-    folder, said = str(project.folder), tmp_path / "said.json"
-    found = meshforge("review", folder, "--json")
-    for _ in range(MOST_REPLIES):
-        question = found.json["question"]
-        if question is None:
-            break
-        said.write_text(json.dumps([{"id": question["id"], "choice": 0}]))
-        found = meshforge("review", folder, "--json", "--answers", str(said))
-    assert found.code == 0 and found.json["held"] == []
-    assert meshforge("status", folder, "--signed-off").code == 1  # sure, but not written yet
-    assert meshforge("apply", folder, "--sure", "0.95").code == 0
-    status = meshforge("status", folder, "--json", "--signed-off")
-    assert status.code == 0 and status.json["signed_off"] == 14
-    assert meshforge("info", "table_01.obj", "--project", folder, "--json").json["probability"] >= 0.95
+def test_tables_with_right_labels_are_signed_off_by_the_first_choice_of_each_question(run: Run) -> None:
+    folder = str(create_tables(Path("demo")).folder)
+    assert sign_off(run, folder, lambda question: {"choice": 0}) == 14
+    assert run("info", "table_01.obj", "--project", folder, "--json").json["probability"] >= 0.95
+
+
+@pytest.mark.slow
+def test_tables_with_wrong_labels_are_signed_off_by_right_replies_and_come_out_right(tmp_path: Path, run: Run) -> None:
+    project = create_project(tmp_path)
+    assert sign_off(run, "tables", lambda question: reply_to(question, project)) == len(SHOWN) + len(OTHERS)
+    assert project.program() == MEANT
+    templates = project.templates(MEANT.templates)
+    for name in OTHERS:
+        right = MEANT.run(load(TABLES / name), templates).mesh
+        assert len(load(project.folder / "edited" / name).hulls) == len(right.hulls), name

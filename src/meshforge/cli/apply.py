@@ -107,7 +107,8 @@ def apply(given: ApplyArguments) -> None:
         for outcome in done:
             print_json(batch.to_json_line(outcome, alarms.get(outcome.asset, ())), compact=True)
     if not given.dry_run:
-        work.finish()
+        for asset, why in work.finish(alarms).items():
+            remark(f"{asset} is no longer signed off: {why}")
     summary.held = work.held
     for held in work.held:
         print_json(held.to_json(), compact=True) if given.json else typer.echo(f"{'held':10} {held.asset}: {held.why}")
@@ -130,10 +131,19 @@ def _parse_measures(names: Sequence[str]) -> CheckOptions:
     return CheckOptions(next(iter(engines), None), "fit" in names, "clearance" in names, "physics" in names)
 
 
+Alarms = Mapping[str, Sequence[str]]
+"""Sentences about results that stand out, by asset."""
+
+
+def _sign_nothing_off(alarms: Alarms) -> Mapping[str, str]:
+    return {}
+
+
 @dataclass(frozen=True, slots=True)
 class _ApplyWork:
     """What is to be run on what. readers: of assets before the run, by id; demonstrated: those that somebody edited;
-    held: those that are held back; finish: called when all is written; project: None with a bare program."""
+    held: those that are held back; finish: called with all alarms when all is written, says what is no longer signed
+    off, and why, by asset; project: None with a bare program."""
 
     program: Program
     jobs: Sequence[batch.AssetJob]
@@ -142,7 +152,7 @@ class _ApplyWork:
     readers: Callable[[Iterable[str]], Sequence[batch.MeshReader]]
     demonstrated: Collection[str] = ()
     held: Sequence[batch.Held] = ()
-    finish: Callable[[], object] = tuple
+    finish: Callable[[Alarms], Mapping[str, str]] = _sign_nothing_off
     project: Project | None = None
 
 
@@ -160,7 +170,7 @@ def _work_of_project(given: ApplyArguments) -> _ApplyWork:
     names = {one.asset for one in held}
     program, jobs, templates = project.work(frozenset(project.assets()) - names if names else None)
     demonstrated = frozenset(project.layout.ids_with("demonstrations"))
-    finish = project.renew_sign_offs if out.absolute() == project.layout.edited else tuple
+    finish = project.renew_sign_offs if out.absolute() == project.layout.edited else _sign_nothing_off
     return _ApplyWork(program, jobs, out, templates, project.readers, demonstrated, held, finish, project)
 
 

@@ -51,8 +51,7 @@ def review(given: ReviewArguments) -> None:
     project = Project.open(given.project)
     replies = read_replies(given.answers) if given.answers else []
     if given.again:
-        with project.lock():
-            project.write_sign_offs(project.sign_offs().model_copy(update={"later": ()}))
+        project.ask_again()
     found = _look(project, given.sure)
     waiting = {reply.question: reply for reply in replies}
     while (question := found.assessment.question) and question.id in waiting:
@@ -98,7 +97,7 @@ def _print_review(project: Project, found: ProjectReview, word: str, *, asked: b
     if question and not asked:
         typer.echo(f"\n{format_question(question, draw_question(project, found, question))}")
         remark(f"\n{format_reply_help(question, word)}")
-    if question is None and found.assessment.held and project.sign_offs().later:
+    if question is None and found.assessment.held and project.put_off_ids():
         remark(f"Some questions were put off: meshforge review {word} --again asks them.")
     if found.assessment.is_done and project.program() and not _is_written(project):
         remark(f"Next: meshforge apply {word}")

@@ -44,12 +44,12 @@ class FamilyStateReader:
         return ReviewState(
             self.meshes,
             self._read_frame(),
-            self._read_templates(),
+            self._read_templates(self.program),
             {} if self.by_hand else demos,
             tuple(line.answer for line in store.answers().answers),
             {asset: done for asset, done in accepted.items() if asset in self.meshes},
             aside=flagged.union(asset for asset in signed.aside if asset not in demos),
-            later=frozenset(signed.later),
+            later=frozenset(store.put_off_ids()),
         )
 
     def _read_frame(self) -> Program:
@@ -59,15 +59,17 @@ class FamilyStateReader:
         orient = self.program.orient if self.program else self.store.orientation
         return Program(words, orient, (), limits.contact, limits.extremity)
 
-    def _read_templates(self) -> dict[str, Template]:
-        return self.store.templates(self.program.templates if self.program else ())
+    def _read_templates(self, program: Program | None) -> dict[str, Template]:
+        return self.store.templates(program.templates if program else ())
 
     def _sort_verdicts(self) -> tuple[dict[str, Selections], frozenset[str]]:
-        """What the rules select on the results that a person accepted, and the assets that they flagged."""
+        """What the rules select on the results that a person accepted, and the assets that they flagged. Where nothing
+        fits what was shown by now, the last program is still the one whose results a person looked at."""
+        program = self.program or self.store.program()
         accepted, flagged = dict[str, Selections](), set[str]()
         for asset, review in self.store.reviews().items():
             stamp = read_stamp(self.store.layout.edited, asset)
-            if review.output != output_digest(stamp) or not self._counts(asset, review, stamp):
+            if review.output != output_digest(stamp) or not self._counts(asset, review, stamp, program):
                 continue
             if review.verdict == "flagged":
                 flagged.add(asset)
@@ -75,21 +77,21 @@ class FamilyStateReader:
                 accepted[asset] = tuple(frozenset(one.select) for one in review.seen)
         return accepted, frozenset(flagged)
 
-    def _counts(self, asset: str, review: Review, stamp: Stamp | None) -> bool:
+    def _counts(self, asset: str, review: Review, stamp: Stamp | None, program: Program | None) -> bool:
         """Whether the program does what it did when a person looked: selects the same, or made that very output."""
         if review.seen:
-            return self._select(asset) == tuple((one.action, one.select) for one in review.seen)
+            return self._select(asset, program) == tuple((one.action, one.select) for one in review.seen)
         now = self.inputs.get(asset)
         return now is not None and is_written(stamp, now)
 
-    def _select(self, asset: str) -> tuple[tuple[str, tuple[str, ...]], ...] | None:
-        """What the rules do to which hulls of an asset; None where they cannot."""
+    def _select(self, asset: str, program: Program | None) -> tuple[tuple[str, tuple[str, ...]], ...] | None:
+        """What the rules of a program do to which hulls of an asset; None where they cannot."""
         mesh = self.meshes.get(asset)
-        if self.program is None or mesh is None:
+        if program is None or mesh is None:
             return None
         try:
-            trace = self.program.run(mesh, self._read_templates()).trace
+            trace = program.run(mesh, self._read_templates(program)).trace
         except MeshForgeError:
             return None
-        found = number_selections(self.program, {r.rule: r.selected for r in trace})
+        found = number_selections(program, {r.rule: r.selected for r in trace})
         return tuple((one.action, one.select) for one in found)

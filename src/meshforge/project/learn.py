@@ -56,6 +56,11 @@ def select_assets(store: Store) -> tuple[str, ...]:
     return tuple(asset for asset in every if asset in known)
 
 
+def sees_whole_family(store: Store) -> bool:
+    """Whether learning looks at all assets."""
+    return len(select_assets(store)) == len(store.assets())
+
+
 def suggest_first_demonstration(store: Store, assets: Sequence[str]) -> str | None:
     """The id of the asset that tells most when it is demonstrated, None where there is nothing to choose by.
 

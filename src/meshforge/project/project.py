@@ -10,7 +10,7 @@ from meshforge import batch
 from meshforge.labels import LabelStore
 from meshforge.language import Orient
 from meshforge.project import demonstrations, learn, overview, prepare, rename, run, sign_offs
-from meshforge.project.review import build_review_state, put_off, reply_to, review_project
+from meshforge.project.review import build_review_state, reply_to, review_project
 from meshforge.store import add_assets, create_folder, find_assets
 
 
@@ -102,7 +102,6 @@ class Project(LabelStore):
     set_verdict = run.review_assets
     review = review_project
     build_review_state = build_review_state
-    put_off = put_off
     reply = reply_to
     renew_sign_offs = sign_offs.renew_sign_offs
     status = overview.compute_status

@@ -16,7 +16,6 @@ from meshforge.batch import (
     OutputInputs,
     apply,
     program_digest,
-    read_stamp,
     text_digest,
 )
 from meshforge.common import MeshForgeError, ProjectError
@@ -26,8 +25,9 @@ from meshforge.labels.family_comparison import ignore_stage
 from meshforge.labels.label_by_consensus import label_by_consensus
 from meshforge.labels.merge import ignore_report, set_labels
 from meshforge.project import demonstrations, learn, run
+from meshforge.project.alarms import describe_odd_results, measure_results
 from meshforge.project.family_state import FamilyStateReader
-from meshforge.project.sign_offs import Clock, find_inputs, is_written, keep_assessment, now_utc, renew_sign_offs
+from meshforge.project.sign_offs import AssessmentBasis, Clock, keep_assessment, now_utc, renew_sign_offs
 from meshforge.signoff import (
     BAR,
     Assessment,
@@ -37,7 +37,6 @@ from meshforge.signoff import (
     ReviewQuestion,
     ReviewReply,
     ReviewState,
-    find_alarms,
     review_family,
 )
 from meshforge.signoff.prices import YES_OR_NO
@@ -70,36 +69,34 @@ def review_project(
     What is found is kept, and assets at or above the bar whose output is up to date are signed off; so are those that a
     person showed or accepted. Raises ProjectError where there is no asset that can be read.
     """
+    before = AssessmentBasis.take(store, execution)
     meshes, lost = _read_meshes(store)
     if not meshes:
         raise ProjectError("there is no asset that can be read", where=str(store.folder))
     recall_descriptors(store, meshes, execution)
     outcome, by_hand = _learn(store, meshes)
-    inputs = find_inputs(store, execution)
     program = outcome.program if outcome else None
-    state = FamilyStateReader(store, meshes, program, by_hand, inputs).read()
-    found = review_family(state, outcome, model_family(list(meshes.values())), bar, _find_alarms(store, inputs))
+    basis = before.under(store, program or store.program())
+    state = FamilyStateReader(store, meshes, program, by_hand, basis.inputs).read()
+    measures = measure_results(store, program, meshes, basis.inputs) if program else {}
+    alarms = describe_odd_results(measures)
+    found = review_family(state, outcome, model_family(list(meshes.values())), bar, alarms)
     found = _add_unreadable(store, found, state, lost)
-    keep_assessment(store, found, inputs)
+    keep_assessment(store, found, basis, measures, execution)
     taken_back = renew_sign_offs(store, clock=clock, execution=execution)
     return ProjectReview(found, outcome, state, lost, taken_back)
 
 
-def _find_alarms(store: Store, inputs: Mapping[str, OutputInputs]) -> dict[str, list[str]]:
-    """What stands out among the results that are up to date, a sentence each, by asset."""
-    measures = {}
-    for asset, now in inputs.items():
-        stamp = read_stamp(store.layout.edited, asset)
-        if stamp and stamp.measures and is_written(stamp, now):
-            measures[asset] = stamp.measures
-    return {asset: [alarm.text for alarm in alarms] for asset, alarms in find_alarms(measures).items()}
+def build_review_state(
+    store: Store, meshes: Mapping[str, SymbolicMesh], inputs: Mapping[str, OutputInputs]
+) -> ReviewState:
+    """All that is known of a family under the project's program.
 
-
-def build_review_state(store: Store, meshes: Mapping[str, SymbolicMesh]) -> ReviewState:
-    """All that is known of a family under the project's program; meshes: of all or some of its assets, by id."""
+    meshes: of all or some of its assets, by id; inputs: the digests of their edits.
+    """
     program = store.program()
     by_hand = program is not None and learn.program_state_of(store, program).by_hand
-    return FamilyStateReader(store, meshes, program, by_hand, find_inputs(store, EXECUTION_DEFAULTS)).read()
+    return FamilyStateReader(store, meshes, program, by_hand, inputs).read()
 
 
 def _read_meshes(store: Store) -> tuple[dict[str, SymbolicMesh], dict[str, str]]:
@@ -155,18 +152,18 @@ def reply_to(store: Store, review: ProjectReview, question: ReviewQuestion, repl
         raise ProjectError(f"question {question.id} has {len(choices)} choices", remedy="Count them from 0.")
     choice = None if reply.choice is None else choices[reply.choice]
     if reply.later or (choice is None and question.kind not in ("reading", "label") and not reply.exceptions):
-        put_off(store, question.id)
+        store.put_off(question.id)
     elif question.kind == "result":
         assert choice is not None
         _judge(store, question.asset, choice.text)
     elif question.kind == "orientation":
         if choice is not None and choice.orient is not None:
             store.set_orientation(choice.orient)
-        put_off(store, question.id)
+        store.put_off(question.id)
     elif question.kind == "selection":
         assert choice is not None
         if choice.text == ON_PURPOSE:
-            put_off(store, question.id)
+            store.put_off(question.id)
         else:
             demonstrations.correct_selection(store, question.asset, question.rule or 1, choice.select or ())
     elif question.kind in ("reading", "label"):
@@ -197,14 +194,6 @@ def _make_output(store: Store, asset: str) -> None:
     for outcome in apply(program, jobs, store.layout.edited, templates=templates, execution=IN_PROCESS):
         if isinstance(outcome, Failed):
             raise ProjectError(f"{asset} cannot be edited: {outcome.error}", where=str(store.folder))
-
-
-def put_off(store: Store, question: str) -> None:
-    """Ask a question of some id no more."""
-    with store.lock():
-        kept = store.sign_offs()
-        if question not in kept.later:
-            store.write_sign_offs(kept.model_copy(update={"later": (*kept.later, question)}))
 
 
 def _write_labels(store: Store, state: ReviewState, question: ReviewQuestion, reply: ReviewReply) -> None:

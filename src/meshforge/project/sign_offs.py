@@ -4,23 +4,29 @@ to date; void when anything changes of what they rest on.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
 from datetime import UTC, datetime
+from types import MappingProxyType
 from typing import Literal
 
 from meshforge.batch import (
     EXECUTION_DEFAULTS,
+    ApplyTask,
     ExecutionOptions,
     OutputInputs,
     Stamp,
     file_digest,
     inputs_of,
+    program_digest,
     read_stamp,
+    template_digests,
     text_digest,
 )
+from meshforge.language import Program
 from meshforge.project import run
 from meshforge.project.learn import digest_learning_inputs
-from meshforge.signoff import Assessment
+from meshforge.signoff import Assessment, EditMeasures
 from meshforge.store import AssessmentFile, ConfidenceLine, SignOff, Store, find_changes, survey
 
 Clock = Callable[[], datetime]
@@ -34,10 +40,11 @@ def now_utc() -> datetime:
 def find_inputs(store: Store, execution: ExecutionOptions = EXECUTION_DEFAULTS) -> dict[str, OutputInputs]:
     """The digests of all that decides the edit of each asset that can be read; none where there is no program."""
     program = store.program()
-    if program is None:
-        return {}
+    return _digest_edits(store, run.build_task(store, program), execution) if program else {}
+
+
+def _digest_edits(store: Store, task: ApplyTask, execution: ExecutionOptions) -> dict[str, OutputInputs]:
     facts = survey(store.found, store.layout, execution=execution)
-    task = run.build_task(store, program)
     return {
         job.id: inputs_of(task, job, dict(facts[job.id].files))
         for job in run.build_jobs(store)
@@ -51,41 +58,96 @@ def digest_lesson(store: Store) -> str:
     return text_digest(f"{digest_learning_inputs(store)} {file_digest(kept) if kept.exists() else ''}")
 
 
-def keep_assessment(store: Store, found: Assessment, inputs: Mapping[str, OutputInputs]) -> None:
-    """Keep how sure each result is, so that a status need not learn anything."""
+@dataclass(frozen=True)
+class AssessmentBasis:
+    """What an assessment is computed from, as digests, taken before any of it is read. lesson: of what is learned from
+    and what a person said; inputs: of the edit of each asset that can be read.
+    """
+
+    lesson: str
+    inputs: Mapping[str, OutputInputs]
+
+    @staticmethod
+    def take(store: Store, execution: ExecutionOptions = EXECUTION_DEFAULTS) -> AssessmentBasis:
+        """The digests as they are, of edits by an empty program: which it will be is often learned since."""
+        nothing = ApplyTask(Program(), {}, store.layout.edited)
+        return AssessmentBasis(digest_lesson(store), _digest_edits(store, nothing, execution))
+
+    def under(self, store: Store, program: Program | None) -> AssessmentBasis:
+        """The same of edits by a program; without one there are none."""
+        if program is None:
+            return AssessmentBasis(self.lesson, {})
+        task = run.build_task(store, program)
+        of_program = {"program": program_digest(program), "templates": template_digests(task.templates)}
+        edits = {asset: now.model_copy(update=of_program) for asset, now in self.inputs.items()}
+        return AssessmentBasis(self.lesson, edits)
+
+
+def keep_assessment(
+    store: Store,
+    found: Assessment,
+    basis: AssessmentBasis,
+    measures: Mapping[str, EditMeasures],
+    execution: ExecutionOptions = EXECUTION_DEFAULTS,
+) -> bool:
+    """Keep how sure each result is, so that a status need not learn anything; nothing where something changed since
+    the basis was taken. Says whether it was kept.
+
+    measures: of edits, by asset, so that the next review need not make them again.
+    """
+    if basis != AssessmentBasis(digest_lesson(store), find_inputs(store, execution)):
+        return False
     lines = {
-        name: ConfidenceLine.of(one, inputs[name], name in found.looked_at)
+        name: ConfidenceLine.of(one, basis.inputs[name], name in found.looked_at, measures.get(name))
         for name, one in found.assets.items()
-        if name in inputs
+        if name in basis.inputs
     }
     aside = tuple(sorted(found.aside))
-    store.write_assessment(AssessmentFile(bar=found.bar, lesson=digest_lesson(store), aside=aside, assets=lines))
+    store.write_assessment(AssessmentFile(bar=found.bar, lesson=basis.lesson, aside=aside, assets=lines))
+    return True
+
+
+_NO_ALARMS: Mapping[str, Sequence[str]] = MappingProxyType({})
 
 
 def renew_sign_offs(
-    store: Store, *, clock: Clock = now_utc, execution: ExecutionOptions = EXECUTION_DEFAULTS
+    store: Store,
+    alarms: Mapping[str, Sequence[str]] = _NO_ALARMS,
+    *,
+    keep_persons: bool = False,
+    clock: Clock = now_utc,
+    execution: ExecutionOptions = EXECUTION_DEFAULTS,
 ) -> dict[str, str]:
-    """Sign off what may be by the last review, as far as that holds; take back what may not, and say why, by asset."""
+    """Sign off what may be by the last review, as far as that holds; take back what may not, and say why, by asset.
+
+    alarms: sentences on outputs that stand out of those just written, by asset: the tool signs off none that has more
+    of them than the review knew. keep_persons: those of a person are not taken back.
+    """
     last, inputs = store.assessment(), find_inputs(store, execution)
     if last is None or not last.holds(digest_lesson(store), inputs):
         return {}
     when = clock().astimezone(UTC).isoformat(timespec="seconds")
     with store.lock():
+        if alarms:
+            last = last.with_alarms(alarms)
+            store.write_assessment(last)
         before = store.sign_offs()
         kept, lost = dict[str, SignOff](), dict[str, str]()
-        for name, line in last.assets.items():
-            old, now = before.assets.get(name), inputs.get(name)
-            changes = find_changes(now, old.rests_on) if old and now else ()
-            good = (line.looked_at or line.probability >= last.bar) and name not in last.aside
-            if good and old and not changes:
-                kept[name] = old
-            elif good and now and is_written(read_stamp(store.layout.edited, name), now):
+        for name in [*last.assets, *(before.assets.keys() & store.found.ids.keys() - last.assets.keys())]:
+            old, now, line = before.assets.get(name), inputs.get(name), last.assets.get(name)
+            if line is None or now is None:  # it cannot be read now, so that its sign-off is void
+                kept |= {name: old} if old else {}
+                continue
+            changes = find_changes(now, old.rests_on) if old else ()
+            good = line.passes(last.bar) and name not in last.aside
+            is_new = good and (old is None or bool(changes))
+            if is_new and is_written(read_stamp(store.layout.edited, name), now):
                 by: Literal["person", "tool"] = "person" if line.looked_at else "tool"
                 kept[name] = SignOff(by=by, when=when, probability=line.probability, rests_on=now)
-            elif old and not good:
-                lost[name] = _describe_loss(old, line, changes, name in last.aside)
+            elif old and (good or (keep_persons and old.by == "person")):
+                kept[name] = old  # where something changed void, and named so, until its output is there again
             elif old:
-                kept[name] = old  # void, and named so, until its output is there again
+                lost[name] = _describe_loss(old, line, changes, name in last.aside)
         store.write_sign_offs(before.model_copy(update={"assets": dict(sorted(kept.items()))}))
     return lost
 
@@ -93,6 +155,8 @@ def renew_sign_offs(
 def _describe_loss(old: SignOff, line: ConfidenceLine, changes: tuple[str, ...], aside: bool) -> str:
     if aside:
         return "a person flagged it or set it aside"
+    if line.stands_out:
+        return f"its output stands out: {line.doubts[0].text}"
     why = f", {' and '.join(changes)} changed" if changes else ", by what is known of the family now"
     return f"it was {old.probability:.1%} sure, and is {line.probability:.1%} sure{why}"
 

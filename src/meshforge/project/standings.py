@@ -50,7 +50,7 @@ class Standings:
             return "void" if void else "signed off"
         if not line or not self.last:
             return "unknown"
-        return "sure" if line.looked_at or line.probability >= self.last.bar else "held"
+        return "sure" if line.passes(self.last.bar) else "held"
 
 
 def _find_void(sign_off: SignOff | None, now: OutputInputs | None) -> tuple[str, ...]:

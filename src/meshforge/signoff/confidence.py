@@ -21,6 +21,8 @@ BY_HAND = {"unlike the rest": -1.0, "alarms": -1.5}
 """Weights that are chosen, not fitted: calibration families hardly have such assets."""
 NO_EDIT = 0.01
 """The probability of an edit that cannot be made."""
+STANDS_OUT = 0.49
+"""The most that the probability is of an edit that stands out: below any bar, so that a person looks at it first."""
 
 
 @cache
@@ -55,7 +57,8 @@ class AssetEvidence:
     @property
     def probability(self) -> float:
         """That the edit is right."""
-        return float(1 / (1 + np.exp(-(self.features @ confidence_weights()))))
+        found = float(1 / (1 + np.exp(-(self.features @ confidence_weights()))))
+        return min(found, STANDS_OUT) if self.alarms else found
 
     def with_labels(self, labels: float) -> AssetEvidence:
         """The same, had its labels been told."""

@@ -58,10 +58,11 @@ def review_family(
     outcome: what was learned from all that the state holds, None before anything was shown; family: its meshes, in
     their order; alarms: sentences on results that stand out, by asset.
     """
-    looked_at = frozenset([*state.demos, *state.accepted, *state.mended])
-    if not isinstance(outcome, Found | Ambiguous):
+    seen = frozenset([*state.accepted, *state.mended])
+    if not isinstance(outcome, Found | Ambiguous):  # what was demonstrated is not what any program does
         unknown = {name: AssetConfidence(name, 0.0, (_doubt_of(outcome),)) for name in state.meshes}
-        return Assessment(unknown, bar, looked_at, state.aside, _question_before(state, outcome))
+        return Assessment(unknown, bar, seen, state.aside, _question_before(state, outcome))
+    looked_at = seen | frozenset(state.demos)
     posterior = family.infer([hull.annotation for mesh in state.meshes.values() for hull in mesh.hulls])
     trial = FamilyTrial.of(state, outcome.program, outcome.readings, posterior, alarms)
     assets = {one.asset: trial.confidence_of(place) for place, one in enumerate(trial.trials)}

@@ -60,7 +60,12 @@ class Layout:
 
     @property
     def learned(self) -> Path:
-        """What the program was learned from."""
+        """What the program was learned from; it belongs beside the program, in git too."""
+        return self.folder / "learned.json"
+
+    @property
+    def learned_before(self) -> Path:
+        """Where that was kept before: read while there is no other, removed when it is written."""
         return self.folder / STATE / "learned.json"
 
     @property
@@ -71,6 +76,11 @@ class Layout:
     def sign_off(self) -> Path:
         """Which assets are signed off."""
         return self.folder / "signoff.json"
+
+    @property
+    def later(self) -> Path:
+        """Which questions of a review were put off."""
+        return self.folder / "later.json"
 
     @property
     def assessment(self) -> Path:

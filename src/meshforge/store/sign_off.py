@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Mapping, Sequence
 from typing import Annotated, Literal
 
 from pydantic import Field
 
 from meshforge.batch import OutputInputs
-from meshforge.signoff import AssetConfidence, Doubt, DoubtKind
+from meshforge.signoff import AssetConfidence, Doubt, DoubtKind, EditMeasures
 from meshforge.store.layout import JsonFile
 
 Probability = Annotated[float, Field(ge=0, le=1)]
@@ -26,12 +26,11 @@ class SignOff(JsonFile):
 
 
 class SignOffFile(JsonFile):
-    """signoff.json: sign-offs by asset, assets that a person set aside though they have no output that could be
-    flagged, and the ids of questions that were put off."""
+    """signoff.json: sign-offs by asset, and assets that a person set aside though they have no output that could be
+    flagged."""
 
     assets: dict[str, SignOff] = Field(default_factory=dict)
     aside: tuple[str, ...] = ()
-    later: tuple[str, ...] = ()
 
     def with_aside(self, asset: str) -> SignOffFile:
         """The same, and an asset set aside."""
@@ -40,6 +39,12 @@ class SignOffFile(JsonFile):
     def without_aside(self, assets: Collection[str]) -> SignOffFile:
         """The same, and some assets not set aside any more."""
         return self.model_copy(update={"aside": tuple(name for name in self.aside if name not in assets)})
+
+
+class LaterFile(JsonFile):
+    """later.json: the ids of questions that were put off; apart from sign-offs, so that it can be undone by itself."""
+
+    questions: tuple[str, ...] = ()
 
 
 class DoubtLine(JsonFile):
@@ -54,20 +59,40 @@ class DoubtLine(JsonFile):
 
 class ConfidenceLine(JsonFile):
     """How an asset stood when the family was looked at last; rests_on: as of `SignOff`; looked_at: whether a person
-    showed its edit, or accepted it."""
+    showed its edit, or accepted it; stands_out: whether its output has alarms that the probability does not know;
+    measures: of its edit, None where it has none."""
 
     probability: Probability
     doubts: tuple[DoubtLine, ...] = ()
     rests_on: OutputInputs
     looked_at: bool = False
+    stands_out: bool = False
+    measures: EditMeasures | None = None
+
+    def passes(self, bar: float) -> bool:
+        """Whether it may be signed off."""
+        return self.looked_at or (self.probability >= bar and not self.stands_out)
+
+    def with_alarms(self, alarms: Sequence[str]) -> ConfidenceLine:
+        """The same where these alarms are not more than those it knows, or a person looked at it; else that it stands
+        out, and by what."""
+        if self.looked_at or len(alarms) <= sum(doubt.kind == "alarm" for doubt in self.doubts):
+            return self
+        others = tuple(doubt for doubt in self.doubts if doubt.kind != "alarm")
+        doubts = tuple(DoubtLine(kind="alarm", text=text) for text in alarms)
+        return self.model_copy(update={"doubts": (*doubts, *others), "stands_out": True})
 
     @staticmethod
-    def of(found: AssetConfidence, rests_on: OutputInputs, looked_at: bool) -> ConfidenceLine:
+    def of(
+        found: AssetConfidence, rests_on: OutputInputs, looked_at: bool, measures: EditMeasures | None = None
+    ) -> ConfidenceLine:
         doubts = tuple(
             DoubtLine(kind=one.kind, text=one.text, hulls=one.hulls, rule=one.rule, share=one.share)
             for one in found.doubts
         )
-        return ConfidenceLine(probability=found.probability, doubts=doubts, rests_on=rests_on, looked_at=looked_at)
+        return ConfidenceLine(
+            probability=found.probability, doubts=doubts, rests_on=rests_on, looked_at=looked_at, measures=measures
+        )
 
     def to_confidence(self, asset: str) -> AssetConfidence:
         doubts = tuple(Doubt(one.kind, one.text, one.hulls, one.rule, one.share) for one in self.doubts)
@@ -83,6 +108,11 @@ class AssessmentFile(JsonFile):
     lesson: str
     aside: tuple[str, ...] = ()
     assets: dict[str, ConfidenceLine] = Field(default_factory=dict)
+
+    def with_alarms(self, alarms: Mapping[str, Sequence[str]]) -> AssessmentFile:
+        """The same, and what stands out among outputs that were written since; alarms: sentences by asset."""
+        lines = {name: line.with_alarms(alarms.get(name, ())) for name, line in self.assets.items()}
+        return self.model_copy(update={"assets": lines})
 
     def holds(self, lesson: str, inputs: Mapping[str, OutputInputs]) -> bool:
         """Whether nothing changed since; inputs: of the edits of all assets that can be read, or of some."""

@@ -16,7 +16,7 @@ from meshforge.store import settings as settings_file
 from meshforge.store.feedback import AnswersFile, Review, ReviewFile
 from meshforge.store.layout import Layout, read_json, write_json
 from meshforge.store.meshes import AssetFiles, read_labels_file
-from meshforge.store.sign_off import AssessmentFile, SignOffFile
+from meshforge.store.sign_off import AssessmentFile, LaterFile, SignOffFile
 from meshforge.symbolic import Label, LabelFile, SymbolicMesh, format_labels, match_labels, transfer_labels
 from meshforge.synthesis import Demonstration, Step
 
@@ -203,12 +203,14 @@ class Store:
 
     def program_record(self) -> program_files.ProgramRecord | None:
         """What the program was learned from; None where none was learned."""
-        return read_json(self.layout.learned, program_files.ProgramRecord)
+        kept = read_json(self.layout.learned, program_files.ProgramRecord)
+        return kept or read_json(self.layout.learned_before, program_files.ProgramRecord)
 
     def write_program_record(self, record: program_files.ProgramRecord) -> None:
         """Write what the program was learned from."""
         with self.lock():
             write_json(self.layout.learned, record)
+            self.layout.learned_before.unlink(missing_ok=True)
 
     def templates(self, names: Iterable[str]) -> dict[str, Template]:
         """Hull templates by the names that programs write. Raises ProgramError where one is not there or not convex."""
@@ -238,13 +240,29 @@ class Store:
             self.layout.answers.unlink(missing_ok=True)
 
     def sign_offs(self) -> SignOffFile:
-        """Which assets are signed off, and which questions were put off."""
+        """Which assets are signed off or set aside."""
         return read_json(self.layout.sign_off, SignOffFile) or SignOffFile()
 
     def write_sign_offs(self, signed: SignOffFile) -> None:
         """Write the sign-offs, under the lock that the caller holds."""
         if signed != self.sign_offs():
             write_json(self.layout.sign_off, signed)
+
+    def put_off_ids(self) -> tuple[str, ...]:
+        """The ids of questions of a review that were put off."""
+        return (read_json(self.layout.later, LaterFile) or LaterFile()).questions
+
+    def put_off(self, question: str) -> None:
+        """Ask a question of a review no more, as long as what it is about stays."""
+        with self.lock():
+            kept = read_json(self.layout.later, LaterFile) or LaterFile()
+            if question not in kept.questions:
+                write_json(self.layout.later, kept.model_copy(update={"questions": (*kept.questions, question)}))
+
+    def ask_again(self) -> None:
+        """Ask all questions that were put off."""
+        with self.lock():
+            self.layout.later.unlink(missing_ok=True)
 
     def assessment(self) -> AssessmentFile | None:
         """How the family stood when it was looked at last; None where that is not kept, or damaged."""

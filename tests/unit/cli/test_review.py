@@ -9,6 +9,7 @@ import pytest
 
 from meshforge.project import Project
 from tests.unit.cli.in_process import Run, runner
+from tests.unit.project.racks import BLOCK, PLAIN, shown_racks
 from tests.unit.project.tables import SECOND, THIRD, applied
 
 
@@ -135,3 +136,42 @@ def test_what_was_put_off_is_asked_again_on_request(run: Run) -> None:
     assert told.code == 1
     assert (told.json["question"] or {}).get("id") != question["id"]
     assert run("review", "tables", "--sure", "1", "--json", "--again").json["question"]["id"] == question["id"]
+
+
+@pytest.fixture
+def racks(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], tmp_path: Path) -> Run:
+    """Runs the command line beside a project of which one result becomes a solid block; nothing is written yet."""
+    monkeypatch.chdir(tmp_path)
+    shown_racks(tmp_path)
+    return runner(monkeypatch, capsys)
+
+
+@pytest.mark.slow
+def test_a_result_that_would_be_a_block_is_held_though_nothing_was_written_before(racks: Run) -> None:
+    assert f"{BLOCK} (89%): nearly one solid block" in racks("review", "racks").out
+    told = racks("apply", "racks", "--sure", "0.95", "--workers", "1")
+    assert told.code == 1
+    assert f"held       {BLOCK}: 89% sure; nearly one solid block" in told.out
+    project = Project.open("racks")
+    assert not (project.layout.edited / BLOCK).exists()
+    assert set(project.sign_offs().assets) == set(PLAIN)
+
+
+@pytest.mark.slow
+def test_a_result_that_stands_out_in_a_run_alone_is_not_signed_off_by_it(
+    racks: Run, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    with monkeypatch.context() as earlier:
+        earlier.setattr("meshforge.project.review.measure_results", lambda *_: {})  # as a version before did
+        assert racks("review", "racks").code == 0
+    assert f"1 result stands out: {BLOCK}" in racks("apply", "racks", "--workers", "1").out
+    assert set(Project.open("racks").sign_offs().assets) == set(PLAIN)
+    told = racks("status", "racks", "--signed-off")
+    assert told.code == 1 and f"{BLOCK} (99%): nearly one solid block" in told.out
+
+
+@pytest.mark.slow
+def test_a_result_that_stands_out_as_the_review_knew_is_signed_off_below_a_low_bar(racks: Run) -> None:
+    assert racks("review", "racks", "--sure", "0.8").code == 0
+    assert f"1 result stands out: {BLOCK}" in racks("apply", "racks", "--workers", "1").out
+    assert BLOCK in Project.open("racks").sign_offs().assets

@@ -10,12 +10,13 @@ import pytest
 
 from meshforge.batch import IN_PROCESS
 from meshforge.common import ProjectError
-from meshforge.language import Program
+from meshforge.language import Delete, Program
 from meshforge.project import Project, ProjectReview
 from meshforge.signoff import HullPlace, ReviewChoice, ReviewQuestion, ReviewReply
 from meshforge.signoff.question import ASIDE, RIGHT, WRONG
 from meshforge.signoff.slips import BY_MISTAKE, ON_PURPOSE
 from meshforge.symbolic import Label
+from meshforge.synthesis import Step
 from tests.unit.project.tables import FIRST, LEGS, SECOND, THIRD, applied, demonstrated, fresh, labelled, learned
 
 NOON = datetime(2026, 11, 25, 12, tzinfo=UTC)
@@ -125,7 +126,7 @@ def test_a_question_that_is_put_off_stays_so(tmp_path: Path) -> None:
     project = learned(tmp_path)
     found = review(project)
     project.reply(found, result_of(THIRD), ReviewReply("r", later=True))
-    assert project.sign_offs().later == ("r",)
+    assert project.put_off_ids() == ("r",)
     assert review(project).state.later == {"r"}
 
 
@@ -221,7 +222,7 @@ def test_a_slip_that_is_admitted_corrects_the_demonstration_and_what_was_meant_s
     found = review(project)
     project.reply(found, selection_of(FIRST), ReviewReply("s", 1))
     assert project.steps(FIRST)[0].select == frozenset({"crumb"})
-    assert "s" in project.sign_offs().later
+    assert "s" in project.put_off_ids()
     project.reply(found, selection_of(FIRST), ReviewReply("s", 0))
     assert project.steps(FIRST)[0].select == frozenset({"crumb", "left_low"})
     assert project.steps(SECOND)[0].select == frozenset({"crumb"})
@@ -233,3 +234,43 @@ def test_a_slip_in_a_step_that_is_gone_is_an_error_and_changes_nothing(tmp_path:
     with pytest.raises(ProjectError, match="rule 1 is not demonstrated here any more"):
         project.reply(found, selection_of(THIRD), ReviewReply("s", 0))
     assert project.steps(THIRD) == ()
+
+
+def test_an_output_that_stands_out_though_the_review_did_not_know_is_signed_off_by_no_tool(tmp_path: Path) -> None:
+    project = applied(tmp_path)
+    review(project)
+    odd = dict.fromkeys((SECOND, THIRD), ("volume +300%, the family +0%",))
+    lost = project.renew_sign_offs(odd, clock=lambda: NOON)
+    assert lost == {THIRD: "its output stands out: volume +300%, the family +0%"}
+    assert {asset: one.by for asset, one in project.sign_offs().assets.items()} == {FIRST: "person", SECOND: "person"}
+    assert project.renew_sign_offs(clock=lambda: NOON) == {} and THIRD not in project.sign_offs().assets
+    status = next(one for one in project.status().assets if one.id == THIRD)
+    assert (status.sign_off, [doubt.kind for doubt in status.doubts]) == ("held", ["alarm"])
+    review(project)
+    assert sign_off_of(project, THIRD) == "signed off"
+
+
+def test_while_nothing_fits_what_was_shown_is_signed_off_no_longer_and_what_was_accepted_is(tmp_path: Path) -> None:
+    project = applied(tmp_path)
+    project.set_verdict(THIRD, "accepted")
+    assert review(project).assessment.looked_at == {FIRST, SECOND, THIRD}
+    for asset, hull in ((FIRST, "top"), (SECOND, "crumb")):
+        project.demonstrate(asset, [Step(1, {hull}, Delete())])
+    found = review(project)
+    assert found.outcome is not None and found.outcome.program is None
+    assert found.assessment.looked_at == {THIRD}
+    assert found.taken_back.keys() == {FIRST, SECOND}
+    assert project.sign_offs().assets.keys() == {THIRD}
+
+
+@pytest.mark.slow
+def test_a_sign_off_of_what_cannot_be_read_now_is_void_and_stays(tmp_path: Path) -> None:
+    project = applied(tmp_path)
+    review(project)
+    text = project.path(THIRD).read_text()
+    project.path(THIRD).write_text("no mesh at all")
+    assert review(project).assessment.held == (THIRD,)
+    assert THIRD in project.sign_offs().assets and sign_off_of(project, THIRD) == "void"
+    project.path(THIRD).write_text(text)
+    review(project)
+    assert sign_off_of(project, THIRD) == "signed off"

@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 import json
+import shutil
 from dataclasses import replace
 from pathlib import Path
 
@@ -275,8 +276,30 @@ def test_a_program_stands_by_what_it_was_learned_from(tmp_path: Path) -> None:
         assert project.program_state() == ProgramState(by_hand=True)
     project.synthesize()
     assert project.program_state() == ProgramState()
-    (project.folder / ".meshforge/learned.json").unlink()
+    (project.folder / "learned.json").unlink()
     assert project.program_state() == ProgramState(by_hand=True)
+
+
+def test_in_a_clone_elsewhere_a_learned_program_is_a_learned_one_and_its_record_the_same(tmp_path: Path) -> None:
+    project = learned(tmp_path / "here")
+    record = (project.folder / "learned.json").read_bytes()
+    shutil.copytree(tmp_path / "here", tmp_path / "there/deep", ignore=shutil.ignore_patterns(".meshforge"))
+    clone = Project.open(tmp_path / "there/deep/tables")
+    assert clone.program_state() == ProgramState()
+    clone.synthesize()
+    assert (clone.folder / "learned.json").read_bytes() == record
+
+
+def test_what_a_program_was_learned_from_is_read_where_it_was_kept_before_and_moved_by_the_next_write(
+    tmp_path: Path,
+) -> None:
+    project = learned(tmp_path)
+    here, before = project.folder / "learned.json", project.folder / ".meshforge/learned.json"
+    here.rename(before)
+    assert project.program_state() == ProgramState()
+    project.synthesize()
+    assert here.exists() and not before.exists()
+    assert project.program_state() == ProgramState()
 
 
 def test_only_some_assets_are_edited_where_that_is_asked(tmp_path: Path) -> None:

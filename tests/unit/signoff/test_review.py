@@ -91,11 +91,22 @@ def test_a_wrong_label_that_changes_nothing_is_no_doubt() -> None:
 
 
 def test_a_demonstrated_and_an_accepted_asset_are_signed_off_by_a_person() -> None:
-    meshes = tables(leg2_low="panel")
+    meshes = tables()
     done = (legs_of("t5"),)
     found = review(ReviewState(meshes, FRAME, demos=shown(meshes, "t0"), accepted={"t5": done}))
     assert {"t0", "t5"} <= found.looked_at
     assert {"t0", "t5"} <= set(found.signed_off)
+
+
+def test_a_demonstrated_asset_is_not_signed_off_while_no_program_fits_and_an_accepted_one_is() -> None:
+    meshes = tables()
+    hulls = sorted(legs_of("t0"))
+    odd = {"t0": Demonstration(meshes["t0"], [Step(1, frozenset(hulls[:1]), Delete())], "t0")}
+    opposite = {"t3": Demonstration(meshes["t3"], [Step(1, frozenset(hulls[1:2]), Delete())], "t3")}
+    found = review(ReviewState(meshes, FRAME, demos=odd | opposite, accepted={"t5": (legs_of("t5"),)}))
+    assert found.question is not None and found.question.kind in ("demonstrate", "selection")
+    assert found.looked_at == {"t5"} and found.signed_off == ("t5",)
+    assert {"t0", "t3"} <= set(found.held)
 
 
 def test_an_asset_set_aside_is_neither_signed_off_nor_held() -> None:

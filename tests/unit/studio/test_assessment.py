@@ -73,9 +73,9 @@ def test_a_group_gets_its_label_in_one_edit(project: Project) -> None:
 def test_a_question_that_is_put_off_is_judged_anew_without_learning(project: Project) -> None:
     edit = PutOff(id="group-1")
     edit.apply(project)
-    assert project.sign_offs().later == ("group-1",)
+    assert project.put_off_ids() == ("group-1",)
     paths = edit.list_paths(project)
-    assert paths == (project.layout.sign_off,)
+    assert paths == (project.layout.later,)
     changes = changes_of(project, [str(path.relative_to(project.folder)) for path in paths])
     assert changes.questions
     assert not changes.learning

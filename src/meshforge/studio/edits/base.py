@@ -10,8 +10,11 @@ from meshforge.batch import STATE, file_digest
 from meshforge.project import Project
 from meshforge.studio.wire import Wire
 
-PROGRAM_FILE, PREVIOUS_FILE, LEARNED_FILE = "program.mf", "program.previous.mf", f"{STATE}/learned.json"
-PROGRAM_FILES = (PROGRAM_FILE, PREVIOUS_FILE, LEARNED_FILE)
+PROGRAM_FILE, PREVIOUS_FILE = "program.mf", "program.previous.mf"
+LATER_FILE = "later.json"
+LEARNED_FILE, LEARNED_BEFORE = "learned.json", f"{STATE}/learned.json"
+"""What the program was learned from, and where that was kept before (`Layout.learned_before`)."""
+PROGRAM_FILES = (PROGRAM_FILE, PREVIOUS_FILE, LEARNED_FILE, LEARNED_BEFORE)
 """The files that accepting a program writes, from the project's folder."""
 
 

@@ -9,7 +9,16 @@ from meshforge.common import MeshForgeError, pluralize
 from meshforge.language import Program
 from meshforge.project import Project
 from meshforge.store import action_text, parse_action_text
-from meshforge.studio.edits.base import LEARNED_FILE, PROGRAM_FILE, PROGRAM_FILES, Edit, program_version, steps_version
+from meshforge.studio.edits.base import (
+    LATER_FILE,
+    LEARNED_BEFORE,
+    LEARNED_FILE,
+    PROGRAM_FILE,
+    PROGRAM_FILES,
+    Edit,
+    program_version,
+    steps_version,
+)
 from meshforge.studio.errors import ConflictError
 from meshforge.studio.wire import Wire
 from meshforge.synthesis import Answer, LabelCorrection, Step
@@ -183,7 +192,7 @@ class PutOff(Edit):
     """Ask a question of the review no more, as long as what it is about stays."""
 
     kind: Literal["put-off"] = "put-off"
-    touches = ("signoff.json",)
+    touches = (LATER_FILE,)
     id: str
 
     def apply(self, project: Project) -> None:
@@ -220,7 +229,7 @@ class TakeLearned(Edit):
     touches = PROGRAM_FILES
 
     def apply(self, project: Project) -> None:
-        for name in (PROGRAM_FILE, LEARNED_FILE):
+        for name in (PROGRAM_FILE, LEARNED_FILE, LEARNED_BEFORE):
             (project.folder / name).unlink(missing_ok=True)
 
     def describe(self, project: Project) -> str:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 import shutil
-from collections import Counter
 from collections.abc import Iterable
 from pathlib import Path
 
@@ -18,6 +17,7 @@ from meshforge.common import (
     replace_atomically,
     write_atomically,
 )
+from meshforge.project import sees_whole_family
 from meshforge.studio.session.job_runner import JobProgress
 from meshforge.studio.session.session import Session
 from meshforge.studio.wire.asset import Fault
@@ -37,16 +37,18 @@ def start_apply(session: Session, request: ApplyJob) -> Job:
         raise ProjectError("there is no program yet", remedy="Demonstrate what is to be done on an asset or two.")
 
     def work(progress: JobProgress) -> str:
-        counts: Counter[str] = Counter()
+        summary = batch.RunSummary()
         outcomes = project.apply(
             assets, execution=batch.ExecutionOptions(stop=progress.is_stopped, progress=progress.advance)
         )
         for outcome in outcomes:
-            counts[batch.status_of(outcome)] += 1
+            summary.add(outcome)
             progress.add_line(_apply_line(outcome))
             session.note_output(outcome.asset)
+        if sees_whole_family(project):  # else the studio knows too little: `review` signs off
+            project.renew_sign_offs(summary.find_alarms(), keep_persons=True)
         session.learning.assess()  # what was accepted counts again where it came out the same
-        text = ", ".join(f"{number} {word}" for word, number in counts.items())
+        text = ", ".join(f"{number} {word}" for word, number in summary.counts.items())
         return f"{pluralize(len(assets), 'asset')}: {text or 'none'}."
 
     title = f"Applying the program to {pluralize(len(assets), 'asset')}"

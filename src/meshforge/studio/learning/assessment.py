@@ -1,43 +1,68 @@
-"""How sure the edits of a project are: what is known of its family, judged, and as the page shows it."""
+"""How sure the edits of a project are: what is known of its family, judged, kept, and as the page shows it."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
+from meshforge.batch import OutputInputs
 from meshforge.common import MeshForgeError
 from meshforge.label_model import model_family
-from meshforge.language import explain, parse_extractor, show
-from meshforge.project import Project
+from meshforge.language import Program, explain, parse_extractor, show
+from meshforge.project import (
+    AssessmentBasis,
+    Project,
+    describe_odd_results,
+    keep_assessment,
+    measure_results,
+    sees_whole_family,
+)
 from meshforge.signoff import (
+    BAR,
     Assessment,
     EditMeasures,
     ReviewChoice,
     ReviewQuestion,
     ReviewState,
-    find_alarms,
-    measure_edit,
     review_family,
 )
-from meshforge.studio.learning.results import ProgramWithTemplates
 from meshforge.studio.wire import signoff as wire
 from meshforge.symbolic import SymbolicMesh
-from meshforge.synthesis import Found, LearningOutcome, memoize
+from meshforge.synthesis import Found, LearningOutcome
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class ProjectAssessment:
+    """How sure the edits of a project are. program: the one that makes them, None where there is none; basis: what all
+    that was computed from; measures: of the edits, by asset."""
+
+    found: Assessment
+    state: ReviewState
+    program: Program | None
+    basis: AssessmentBasis
+    measures: Mapping[str, EditMeasures]
+
+    def keep(self, project: Project) -> None:
+        """Keep it as a review does, and renew sign-offs; nothing where something changed meanwhile, where there is no
+        program, or where the studio looks at some assets only. Sign-offs of a person stay."""
+        if self.program is None or not sees_whole_family(project):
+            return
+        if keep_assessment(project, self.found, self.basis.under(project, self.program), self.measures):
+            project.renew_sign_offs(keep_persons=True)
 
 
 def assess_project(
     project: Project,
     meshes: Mapping[str, SymbolicMesh],
     outcome: LearningOutcome | None,
-    number: int,
+    basis: AssessmentBasis,
     stop: Callable[[], bool] = lambda: False,
-) -> wire.AssessmentView | None:
+) -> ProjectAssessment | None:
     """How sure the edits of a project are under its program, None where that was interrupted.
 
     meshes: those that were learned from; outcome: what that came to, which does not matter where a person wrote the
-    program; number: of the learning run.
+    program; basis: taken before the meshes were read.
     """
-    state = read_review_state(project, meshes)
     accepted = project.program() if project.program_state().by_hand else None
     judged = (
         outcome
@@ -45,17 +70,22 @@ def assess_project(
         else Found(rules=accepted.rules, readings=(), tried=(), seconds={}, program=accepted)
     )
     program = judged.program if judged else None
-    alarms = {} if program is None else raise_alarms(ProgramWithTemplates(program, state.templates), meshes, stop)
+    inputs = basis.under(project, program or project.program()).inputs
+    state = read_review_state(project, meshes, inputs)
+    measures = measure_results(project, program, meshes, inputs, stop) if program else {}
     model = model_family(list(meshes.values()))
     if stop():
         return None
-    assessment = review_family(state, judged, model, alarms=alarms)
-    return view_assessment(assessment, state, number, program is not None)
+    last = project.assessment()
+    found = review_family(state, judged, model, last.bar if last else BAR, describe_odd_results(measures))
+    return ProjectAssessment(found, state, program, basis, measures)
 
 
-def read_review_state(project: Project, meshes: Mapping[str, SymbolicMesh]) -> ReviewState:
+def read_review_state(
+    project: Project, meshes: Mapping[str, SymbolicMesh], inputs: Mapping[str, OutputInputs]
+) -> ReviewState:
     """All that is known of a project's family. A result that was accepted counts while its output is up to date."""
-    state = project.build_review_state(meshes)
+    state = project.build_review_state(meshes, inputs)
     some = [*state.accepted, *state.mended]
     current = {row.id for row in project.status(some).assets if row.is_done} if some else set()
     return replace(
@@ -63,30 +93,6 @@ def read_review_state(project: Project, meshes: Mapping[str, SymbolicMesh]) -> R
         accepted={asset: done for asset, done in state.accepted.items() if asset in current},
         mended={asset: done for asset, done in state.mended.items() if asset in current},
     )
-
-
-def raise_alarms(
-    plan: ProgramWithTemplates, meshes: Mapping[str, SymbolicMesh], stop: Callable[[], bool]
-) -> dict[str, tuple[str, ...]]:
-    """Sentences on those edits that stand out of their family, by asset; none on those that cannot be made."""
-    found = dict[str, EditMeasures]()
-    for asset, mesh in meshes.items():
-        if stop():
-            return {}
-        try:
-            found[asset] = _measure(plan, mesh)
-        except MeshForgeError:
-            continue
-    return {asset: tuple(alarm.text for alarm in alarms) for asset, alarms in find_alarms(found).items()}
-
-
-def _measure(plan: ProgramWithTemplates, mesh: SymbolicMesh) -> EditMeasures:
-    """The measures of an edit; cached with the mesh."""
-
-    def make() -> EditMeasures:
-        return measure_edit(mesh, plan.program.run(mesh, plan.templates).mesh)
-
-    return memoize(mesh, ("measures", plan.key), EditMeasures, make)
 
 
 def view_assessment(

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from contextlib import suppress
+from dataclasses import dataclass, field, replace
 from functools import cache
 from pathlib import Path
 from time import perf_counter
@@ -11,8 +12,8 @@ from time import perf_counter
 from meshforge.batch import RECORD_FILE, source_files
 from meshforge.common import FileStates, MeshForgeError, file_states
 from meshforge.language import Program, parse_extractor
-from meshforge.project import Project, select_assets
-from meshforge.studio.learning.assessment import assess_project
+from meshforge.project import AssessmentBasis, Project, digest_lesson, select_assets
+from meshforge.studio.learning.assessment import assess_project, view_assessment
 from meshforge.studio.learning.queue import CancelToken
 from meshforge.studio.learning.results import ProgramWithTemplates, RuleSelector, build_outcome_view, measure_reach
 from meshforge.studio.wire.program import CoverageView, OutcomeView, Reach
@@ -37,10 +38,17 @@ def _rule_selector(folder: Path) -> RuleSelector:
 
 @dataclass(slots=True)
 class _Lesson:
-    """What the last learning run of a project came to."""
+    """What the last learning run of a project came to. meshes: what it learned from, by asset; digest: of all else."""
 
     number: int = 0
     outcome: LearningOutcome | None = None
+    meshes: Mapping[str, SymbolicMesh] = field(default_factory=dict)
+    digest: str = ""
+
+    def holds(self, meshes: Mapping[str, SymbolicMesh], digest: str) -> bool:
+        """Whether nothing changed since."""
+        same = meshes.keys() == self.meshes.keys() and all(meshes[name] is mesh for name, mesh in self.meshes.items())
+        return same and digest == self.digest
 
 
 @cache
@@ -55,6 +63,7 @@ def learn(folder: Path, token: CancelToken, number: int, take: bool) -> OutcomeV
         project = Project.open(folder)
         family = _family_cache(folder)
         family.count_run()
+        digest = digest_lesson(project)
         meshes = dict(family.read_meshes(project, select_assets(project), stop))
         accept = take or not project.program_state().by_hand
         outcome = project.synthesize(accept=accept, meshes=meshes, stop=stop)
@@ -63,20 +72,30 @@ def learn(folder: Path, token: CancelToken, number: int, take: bool) -> OutcomeV
     except MeshForgeError as error:
         return OutcomeView(number=number, status="error", error=error.message, seconds=perf_counter() - started)
     lesson = _last_lesson(folder)
-    lesson.number, lesson.outcome = number, outcome
+    lesson.number, lesson.outcome, lesson.meshes, lesson.digest = number, outcome, meshes, digest
     return build_outcome_view(number, outcome, len(meshes), perf_counter() - started)
 
 
 def assess(folder: Path, token: CancelToken, number: int) -> AssessmentView | None:
-    """How sure the edits are that a learning run came to, None where that was interrupted, or was not the last one."""
+    """How sure the edits are that a learning run came to, None where that was interrupted, or was not the last one.
+
+    It is kept, as a review is, where nothing changed since that run.
+    """
     lesson, project = _last_lesson(folder), Project.open(folder)
     if lesson.number != number or lesson.outcome is None:
         return None
+    basis = AssessmentBasis.take(project)
     try:
         meshes = dict(_family_cache(folder).read_meshes(project, select_assets(project), token.stop))
     except ReadInterrupted:
         return None
-    return assess_project(project, meshes, lesson.outcome, number, token.stop)
+    made = assess_project(project, meshes, lesson.outcome, basis, token.stop)
+    if made is None:
+        return None
+    if lesson.holds(meshes, basis.lesson):
+        with suppress(MeshForgeError, OSError):  # pages show it all the same
+            made.keep(project)
+    return view_assessment(made.found, made.state, number, made.program is not None)
 
 
 def compute_reach(folder: Path, token: CancelToken, program: str) -> tuple[Reach, ...] | None:

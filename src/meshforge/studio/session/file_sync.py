@@ -13,7 +13,7 @@ from meshforge.batch import SETTINGS, STATE, source_files
 from meshforge.common import MeshForgeError, relative_name
 from meshforge.project import Project
 from meshforge.store import Review
-from meshforge.studio.edits.base import LEARNED_FILE, PROGRAM_FILE
+from meshforge.studio.edits.base import LATER_FILE, LEARNED_FILE, PROGRAM_FILE
 from meshforge.studio.learning.scheduler import LearningScheduler
 from meshforge.studio.pages import PageState
 from meshforge.studio.queries.programs import read_program_view
@@ -29,10 +29,12 @@ _ASSET_FOLDERS = ("labels/", "demonstrations/", "corrections/", _STAMPS)
 _LEARNING_FOLDERS = ("labels/", "demonstrations/", "prepared/", "templates/")
 _LEARNING_FILES = frozenset(("answers.json", "review.json", PROGRAM_FILE))
 
+SIGN_OFF_FILE = "signoff.json"
+
 POLL_SECONDS = 1.5
 """Seconds between two polls."""
 _WATCH_FOLDERS = ("labels", "demonstrations", "corrections", "prepared", "templates", f"edited/{STATE}/stamps")
-_WATCH_FILES = (SETTINGS, "answers.json", PROGRAM_FILE, "review.json", "signoff.json", LEARNED_FILE)
+_WATCH_FILES = (SETTINGS, "answers.json", PROGRAM_FILE, "review.json", LATER_FILE, SIGN_OFF_FILE, LEARNED_FILE)
 
 FileStamps = dict[str, tuple[int, int]]
 """Modification time [ns] and size of each file, by its path from the project's folder."""
@@ -51,6 +53,7 @@ class FileSync:
         self._pages, self._learning, self._queue = pages, learning, queue
         self._stamps = read_stamps(project)
         self._reviews = project.reviews()
+        self._aside = _read_aside(project)
 
     def update(self, names: Iterable[str]) -> None:
         """Refresh what depends on files that changed; names: paths from the project's folder."""
@@ -68,7 +71,8 @@ class FileSync:
             self._queue.add(self._update_reviews())
         if is_other and not changes.learning:
             self._learning.measure_reach()
-        if changes.questions and not changes.learning:
+        is_asked_otherwise = self._update_aside() if SIGN_OFF_FILE in names else False
+        if (changes.questions or is_asked_otherwise) and not changes.learning:
             self._learning.assess()
 
     def show_program(self) -> bool:
@@ -112,6 +116,19 @@ class FileSync:
         self._reviews = now = self.project.reviews()
         return [asset for asset in before | now if before.get(asset) != now.get(asset)]
 
+    def _update_aside(self) -> bool:
+        """Whether other assets are set aside than before; sign-offs themselves, which an assessment renews, change
+        nothing that it is made of."""
+        before, self._aside = self._aside, _read_aside(self.project)
+        return before != self._aside
+
+
+def _read_aside(project: Project) -> tuple[str, ...]:
+    try:
+        return project.sign_offs().aside
+    except MeshForgeError:  # the assessment says so
+        return ()
+
 
 def _view_program(project: Project, before: ProgramView) -> ProgramView:
     try:
@@ -152,7 +169,7 @@ def changes_of(project: Project, names: Iterable[str]) -> FileChanges:
         settings=settings,
         program=bool(names & {PROGRAM_FILE, LEARNED_FILE}),
         reviews="review.json" in names,
-        questions="signoff.json" in names,
+        questions=LATER_FILE in names,
         learning=settings
         or bool(shapes)
         or any(n.startswith(_LEARNING_FOLDERS) or n in _LEARNING_FILES for n in names),

@@ -14,7 +14,7 @@ from meshforge.batch import STATE, stamp_path
 from meshforge.common import UsageError, relative_name
 from meshforge.labels import OfferCache
 from meshforge.project import Project
-from meshforge.studio.edits.base import LEARNED_FILE, PREVIOUS_FILE, PROGRAM_FILE, Edit
+from meshforge.studio.edits.base import LEARNED_BEFORE, LEARNED_FILE, PREVIOUS_FILE, PROGRAM_FILE, Edit
 from meshforge.studio.edits.program import TakeLearned
 from meshforge.studio.errors import NotHereError
 from meshforge.studio.history import History
@@ -204,5 +204,5 @@ class Session:
 
 def _list_learned_files(project: Project) -> frozenset[str]:
     """The files that learning writes: undo puts them back whatever they hold by then, but for a program by hand."""
-    always = {LEARNED_FILE, PREVIOUS_FILE}
+    always = {LEARNED_FILE, LEARNED_BEFORE, PREVIOUS_FILE}
     return frozenset(always if project.program_state().by_hand else {*always, PROGRAM_FILE})

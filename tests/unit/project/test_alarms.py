@@ -1,0 +1,93 @@
+"""Results that stand out before they are written: made in memory, they are measured as `apply` would measure them."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from meshforge.batch import IN_PROCESS
+from meshforge.language import Delete, Program
+from meshforge.project import Project, describe_odd_results, find_inputs, measure_results
+from meshforge.signoff import EditMeasures, measure_edit
+from meshforge.symbolic import SymbolicMesh
+from tests.unit.project.racks import BLOCK, PLAIN, shown_racks
+
+TURNED = "labels top, leg, rail\norient +Z: Is(leg) -> Is(top)\n\nIs(leg) => Each(Merge)\n"
+
+
+@pytest.fixture
+def racks(tmp_path: Path) -> Project:
+    project = shown_racks(tmp_path)
+    project.synthesize()
+    return project
+
+
+def find_all(project: Project, meshes: dict[str, SymbolicMesh] | None = None) -> dict[str, tuple[str, ...]]:
+    program = project.program()
+    assert program
+    meshes = meshes or dict(project.meshes_by_id())
+    return describe_odd_results(measure_results(project, program, meshes, find_inputs(project, IN_PROCESS)))
+
+
+def test_a_solid_block_stands_out_before_it_is_written_as_it_does_after(racks: Project) -> None:
+    found = find_all(racks)
+    assert found.keys() == {BLOCK}
+    assert found[BLOCK][0] == "nearly one solid block: 100% of the free space is filled"
+    list(racks.apply(execution=IN_PROCESS))
+    assert find_all(racks) == found
+
+
+def test_an_edit_by_hand_counts_before_it_is_written_as_it_does_after(racks: Project) -> None:
+    made = racks.program().run(racks.mesh(BLOCK), {}).mesh  # type: ignore[union-attr]
+    racks.correct(BLOCK, [hull.name for hull in made.hulls], Delete())
+    found = find_all(racks)
+    assert found[BLOCK][0] == "no hull is left"
+    list(racks.apply(execution=IN_PROCESS))
+    assert find_all(racks) == found
+
+
+def test_an_asset_on_which_the_program_cannot_run_has_no_result(racks: Project) -> None:
+    racks.accept(Program.parse(TURNED))
+    assert find_all(racks).keys() == {BLOCK}
+    racks.set_labels(BLOCK, {"top": "rail"})  # now it cannot be turned
+    assert find_all(racks) == {}
+
+
+@pytest.fixture
+def measured(monkeypatch: pytest.MonkeyPatch) -> list[int]:
+    """How many hulls each result has that was measured, filled as that goes on."""
+    measured = list[int]()
+
+    def count(before: SymbolicMesh, after: SymbolicMesh) -> EditMeasures:
+        measured.append(len(after.hulls))
+        return measure_edit(before, after)
+
+    monkeypatch.setattr("meshforge.project.alarms.measure_edit", count)
+    return measured
+
+
+def test_what_is_written_is_read_from_its_stamp_and_the_rest_is_measured_once(
+    racks: Project, measured: list[int]
+) -> None:
+    list(racks.apply([PLAIN[0], BLOCK], execution=IN_PROCESS))
+    meshes = dict(racks.meshes_by_id())
+    found = find_all(racks, meshes)
+    assert len(measured) == len(meshes) - 2
+    assert find_all(racks, meshes) == found and len(measured) == len(meshes) - 2
+
+
+def test_a_review_before_anything_is_written_holds_the_block(racks: Project) -> None:
+    found = racks.review(execution=IN_PROCESS).assessment
+    assert found.held == (BLOCK,)
+    assert found.assets[BLOCK].doubts[0].kind == "alarm"
+
+
+def test_a_second_review_measures_what_changed_since_the_first(racks: Project, measured: list[int]) -> None:
+    before = racks.review(execution=IN_PROCESS).assessment
+    assert len(measured) == 6
+    assert racks.review(execution=IN_PROCESS).assessment.assets[BLOCK] == before.assets[BLOCK]
+    assert len(measured) == 6
+    racks.set_labels(PLAIN[4], {"rail": "rail"})
+    racks.review(execution=IN_PROCESS)
+    assert len(measured) == 7

@@ -1,0 +1,174 @@
+"""The studio keeps what its learning process found as a review does, and signs off by it; never what is out of date."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+from types import SimpleNamespace
+from typing import Any, cast
+
+import pytest
+
+from meshforge.batch import IN_PROCESS
+from meshforge.language import Delete
+from meshforge.project import Project
+from meshforge.signoff import Assessment, review_family
+from meshforge.studio.learning import process
+from meshforge.studio.learning.queue import CancelFlag
+from meshforge.studio.session.file_sync import FileSync
+from meshforge.synthesis import Step
+from tests.unit.project.tables import FIRST, SECOND, STEPS, THIRD, applied, learned
+
+
+@pytest.fixture
+def flag() -> Iterator[CancelFlag]:
+    made = CancelFlag()
+    yield made
+    made.close()
+
+
+def learn(project: Project, flag: CancelFlag, number: int = 1) -> None:
+    assert process.learn(project.folder, flag.make_token("learn"), number, False).error is None
+
+
+def assess(project: Project, flag: CancelFlag, number: int = 1) -> None:
+    assert process.assess(project.folder, flag.make_token("assess"), number) is not None
+
+
+def signers_of(project: Project) -> dict[str, str]:
+    return {asset: one.by for asset, one in project.sign_offs().assets.items()}
+
+
+def files_of(project: Project) -> list[bytes | None]:
+    paths = (project.layout.assessment, project.layout.sign_off)
+    return [path.read_bytes() if path.exists() else None for path in paths]
+
+
+def test_what_was_assessed_is_known_to_the_status_and_signs_off_what_is_written(
+    tmp_path: Path, flag: CancelFlag
+) -> None:
+    project = applied(tmp_path)
+    learn(project, flag)
+    assess(project, flag)
+    assert signers_of(project) == {FIRST: "person", SECOND: "person", THIRD: "tool"}
+    assert project.status().is_signed_off
+    before = files_of(project)
+    assess(project, flag)
+    assert files_of(project) == before
+    project.review(execution=IN_PROCESS)
+    assert files_of(project) == before
+
+
+def test_what_is_not_written_is_sure_and_not_signed_off(tmp_path: Path, flag: CancelFlag) -> None:
+    project = learned(tmp_path)
+    learn(project, flag)
+    assess(project, flag)
+    assert [one.sign_off for one in project.status().assets] == ["sure", "sure", "sure"]
+
+
+def test_what_changed_while_it_was_assessed_is_not_kept(
+    tmp_path: Path, flag: CancelFlag, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    project = applied(tmp_path)
+    learn(project, flag)
+
+    def change_a_label(*given: Any) -> Assessment:
+        project.set_labels(THIRD, {"crumb": "leg"})
+        return review_family(*given)
+
+    with monkeypatch.context() as meanwhile:
+        meanwhile.setattr("meshforge.studio.learning.assessment.review_family", change_a_label)
+        assess(project, flag)
+    assert files_of(project) == [None, None]
+
+
+def test_where_it_cannot_be_kept_it_is_shown_all_the_same(
+    tmp_path: Path, flag: CancelFlag, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def fill_up(*_: object) -> bool:
+        raise OSError(28, "No space left on device")
+
+    project = applied(tmp_path)
+    learn(project, flag)
+    monkeypatch.setattr("meshforge.studio.learning.assessment.keep_assessment", fill_up)
+    assess(project, flag)
+    assert files_of(project) == [None, None]
+
+
+def test_what_changed_since_it_was_learned_is_not_kept(tmp_path: Path, flag: CancelFlag) -> None:
+    project = applied(tmp_path)
+    learn(project, flag)
+    project.set_labels(THIRD, {"crumb": "leg"})
+    assess(project, flag)
+    assert files_of(project) == [None, None]
+    learn(project, flag, 2)
+    assess(project, flag, 2)
+    assert None not in files_of(project)
+
+
+def test_where_it_looks_at_some_assets_only_what_a_review_found_stays(
+    tmp_path: Path, flag: CancelFlag, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    project = applied(tmp_path)
+    project.review(0.9, execution=IN_PROCESS)
+    before = files_of(project)
+    monkeypatch.setattr("meshforge.project.learn.MOST_ASSETS", 2)
+    learn(project, flag)
+    assess(project, flag)
+    assert files_of(project) == before
+
+
+def test_while_nothing_fits_sign_offs_stay_as_they_are(tmp_path: Path, flag: CancelFlag) -> None:
+    project = applied(tmp_path)
+    project.review(execution=IN_PROCESS)
+    before = files_of(project)
+    for asset, hull in ((FIRST, "top"), (SECOND, "crumb")):
+        project.demonstrate(asset, [Step(1, {hull}, Delete())])
+    learn(project, flag)
+    assess(project, flag)
+    assert files_of(project) == before
+
+
+def test_a_persons_sign_off_stays_until_a_review_and_the_bar_is_that_of_the_review(
+    tmp_path: Path, flag: CancelFlag
+) -> None:
+    project = applied(tmp_path)
+    project.set_verdict(THIRD, "accepted")
+    project.review(0.9999, execution=IN_PROCESS)
+    assert signers_of(project)[THIRD] == "person"
+    project.set_verdict(THIRD, None)
+    learn(project, flag)
+    assess(project, flag)
+    kept = project.assessment()
+    assert kept and kept.bar == 0.9999 and not kept.assets[THIRD].passes(kept.bar)
+    assert signers_of(project)[THIRD] == "person"
+    assert project.review(0.9999, execution=IN_PROCESS).taken_back.keys() == {THIRD}
+
+
+def test_a_persons_sign_off_is_void_and_not_lost_when_the_program_changes(tmp_path: Path, flag: CancelFlag) -> None:
+    project = applied(tmp_path)
+    project.set_verdict(THIRD, "accepted")
+    project.review(0.9999, execution=IN_PROCESS)
+    for asset in (FIRST, SECOND):
+        project.demonstrate(asset, STEPS[:1])
+    learn(project, flag)
+    assess(project, flag)
+    assert signers_of(project)[THIRD] == "person"
+    assert next(one for one in project.status().assets if one.id == THIRD).void == ("program",)
+
+
+def test_new_sign_offs_are_not_assessed_again_and_what_is_set_aside_is(tmp_path: Path) -> None:
+    project = applied(tmp_path)
+    asked = list[str]()
+    learning = SimpleNamespace(assess=lambda: asked.append("assess"))
+    pages = SimpleNamespace(announce_assets=lambda *_: None)
+    queue = SimpleNamespace(add=lambda *_, **__: None)
+    sync = FileSync(cast(Any, project), cast(Any, pages), cast(Any, learning), cast(Any, queue))
+    project.review(execution=IN_PROCESS)
+    sync.update(["signoff.json"])
+    assert asked == []
+    project.write_sign_offs(project.sign_offs().with_aside(THIRD))
+    sync.update(["signoff.json"])
+    assert asked == ["assess"]
+    sync.update(["later.json"])
+    assert asked == ["assess", "assess"]
