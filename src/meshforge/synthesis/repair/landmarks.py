@@ -17,7 +17,7 @@ import numpy as np
 from meshforge.common import MeshForgeError, pluralize
 from meshforge.geometry import Floats
 from meshforge.label_model import LabelBeliefs, LabelOdds, is_human
-from meshforge.language import All, Extractor, Orient, orient_mesh, size_of
+from meshforge.language import All, Extractor, Orient, find_rotation, size_of
 from meshforge.symbolic import Hull, SymbolicMesh
 from meshforge.synthesis.demonstration import name_demonstrations
 from meshforge.synthesis.options import TimeBudget
@@ -27,7 +27,7 @@ from meshforge.synthesis.repair import candidates
 from meshforge.synthesis.repair.candidates import key_cost
 from meshforge.synthesis.repair.reasons import list_evidence
 from meshforge.synthesis.search.terms import order_key
-from meshforge.synthesis.task import LearningTask, apply_corrections, correct_demonstrations
+from meshforge.synthesis.task import LearningTask, correct_demonstrations
 
 MIN_TURN = float(np.radians(15))
 """A correction that turns the frame by less [rad] does nothing about it."""
@@ -145,16 +145,18 @@ class LandmarkCorrectionSearch:
     def _to_change(self, name: str, mesh: SymbolicMesh, hull: Hull, to: str, cost: float) -> FrameChange | None:
         """None where the correction leaves the frame as it is, or leaves no frame."""
         correction = LabelCorrection(name, hull.name, hull.label, to)
-        now, then = self._rotate(mesh), self._rotate(apply_corrections(mesh, name, [correction]))
+        labels = [to if one is hull else one.label for one in mesh.hulls]
+        now, then = self._rotate(mesh), self._rotate(mesh, labels)
         if now is None or then is None:
             return None
         angle = float(np.arccos(np.clip((np.trace(now @ then.T) - 1) / 2, -1, 1)))
         odds = self._labels.odds_of(name, hull)
         return FrameChange(correction, cost, odds, angle) if odds and angle >= MIN_TURN else None
 
-    def _rotate(self, mesh: SymbolicMesh) -> Floats | None:
+    def _rotate(self, mesh: SymbolicMesh, labels: Sequence[str | None] | None = None) -> Floats | None:
+        assert self._task.frame.orient
         try:
-            return orient_mesh(mesh, self._task.frame.orient)[1].rotation
+            return find_rotation(mesh, self._task.frame.orient, labels)
         except MeshForgeError:
             return None
 
