@@ -394,8 +394,9 @@ export interface AssessmentChanged {
 }
 /**
  * A family as the last learning run left it. number: of that run; bar: the probability from which on an asset is
- * signed off; signed_off, held, aside: how many assets; assets: in the family's order, empty while there is no
- * program; question: null where nothing is left to ask.
+ * signed off; signed_off, held, aside: how many assets; unseen: those of the family that nobody looked at, as there
+ * are too many, or they cannot be read; assets: the others in the family's order, empty while there is no program;
+ * question: null where nothing is left to ask.
  */
 export interface AssessmentView {
   number: number;
@@ -403,6 +404,7 @@ export interface AssessmentView {
   signed_off: number;
   held: number;
   aside: number;
+  unseen: number;
   assets: ConfidenceView[];
   question: ReviewQuestionView | null;
 }

@@ -9,7 +9,7 @@ from functools import partial
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from time import perf_counter
-from typing import TYPE_CHECKING, Annotated, Literal
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import typer
 
@@ -104,8 +104,10 @@ def apply(given: ApplyArguments) -> None:
                     typer.echo(_describe_outcome(outcome))
     finally:  # also of a run that cannot go on
         alarms = summary.find_alarms()
+        standings = work.describe_standings() if done else {}
         for outcome in done:
-            print_json(batch.to_json_line(outcome, alarms.get(outcome.asset, ())), compact=True)
+            line = batch.to_json_line(outcome, alarms.get(outcome.asset, ()))
+            print_json(line | standings.get(outcome.asset, {}), compact=True)
     if not given.dry_run:
         for asset, why in work.finish(alarms).items():
             remark(f"{asset} is no longer signed off: {why}")
@@ -154,6 +156,11 @@ class _ApplyWork:
     held: Sequence[batch.Held] = ()
     finish: Callable[[Alarms], Mapping[str, str]] = _sign_nothing_off
     project: Project | None = None
+
+    def describe_standings(self) -> dict[str, dict[str, Any]]:
+        """How sure each edit of a project is, as far as its last review holds, by asset."""
+        rows = self.project.status().assets if self.project else ()
+        return {one.id: one.confidence_to_json() for one in rows}
 
 
 def _work_of_project(given: ApplyArguments) -> _ApplyWork:

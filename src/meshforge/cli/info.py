@@ -38,7 +38,7 @@ def _describe_standing(asset: Path, folder: Path | None) -> dict[str, Any]:
     project = Project.open(folder)
     name = asset_id(asset, project)
     (found,) = (one for one in project.status().assets if one.id == name)
-    return {"probability": found.probability, "doubts": [doubt.to_json() for doubt in found.doubts]}
+    return found.confidence_to_json()
 
 
 def describe_asset(mesh: SymbolicMesh, asset: str, *, geometry: bool = False) -> dict[str, Any]:

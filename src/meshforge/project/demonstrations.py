@@ -35,10 +35,12 @@ def correct_selection(store: Store, asset: str, rule: int, select: Sequence[str]
     and what was accepted there counts no more. Raises ProjectError where there is no such step, and as `demonstrate`
     and `add_answer` do."""
     with store.lock():
-        if asset not in store.demonstration_ids():
+        known = store.reviews().get(asset)
+        is_accepted = known is not None and known.verdict == "accepted"
+        answered = [(line.answer.rule, line.answer.asset) for line in store.answers().answers]
+        if asset not in store.demonstration_ids() and (is_accepted or (rule, asset) in answered):
             add_answer(store, Answer(rule, asset, select))
-            known = store.reviews().get(asset)
-            if known and known.verdict == "accepted":
+            if is_accepted:
                 store.write_reviews({asset: None})
             return
         steps = store.steps(asset)

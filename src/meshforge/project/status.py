@@ -68,6 +68,11 @@ class AssetStatus:
         """Whether its output is there and up to date."""
         return self.output in ("edited", "unchanged") and not self.stale
 
+    def confidence_to_json(self) -> dict[str, Any]:
+        """How sure its edit is, as `status`, `apply` and `info` say it in JSON."""
+        share = None if self.probability is None else round(self.probability, 4)
+        return {"probability": share, "doubts": [doubt.to_json() for doubt in self.doubts]}
+
 
 @dataclass(frozen=True, slots=True)
 class Status:
@@ -141,8 +146,7 @@ def _asset_json(asset: AssetStatus) -> dict[str, Any]:
         "sign_off": asset.sign_off,
         "signed_by": asset.signed_by,
         "void": list(asset.void),
-        "probability": None if asset.probability is None else round(asset.probability, 4),
-        "doubts": [doubt.to_json() for doubt in asset.doubts],
+        **asset.confidence_to_json(),
     }
 
 

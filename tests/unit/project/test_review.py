@@ -16,7 +16,7 @@ from meshforge.signoff import HullPlace, ReviewChoice, ReviewQuestion, ReviewRep
 from meshforge.signoff.question import ASIDE, RIGHT, WRONG
 from meshforge.signoff.slips import BY_MISTAKE, ON_PURPOSE
 from meshforge.symbolic import Label
-from meshforge.synthesis import Step
+from meshforge.synthesis import Answer, Step
 from tests.unit.project.tables import FIRST, LEGS, SECOND, THIRD, applied, demonstrated, fresh, labelled, learned
 
 NOON = datetime(2026, 11, 25, 12, tzinfo=UTC)
@@ -234,6 +234,19 @@ def test_a_slip_in_a_step_that_is_gone_is_an_error_and_changes_nothing(tmp_path:
     with pytest.raises(ProjectError, match="rule 1 is not demonstrated here any more"):
         project.reply(found, selection_of(THIRD), ReviewReply("s", 0))
     assert project.steps(THIRD) == ()
+
+
+def test_a_slip_in_an_answer_is_replaced_and_a_verdict_that_was_one_is_taken_back(tmp_path: Path) -> None:
+    project = applied(tmp_path)
+    found = review(project)
+    project.add_answer(Answer(1, SECOND, ["crumb"]))
+    project.demonstrate(SECOND, ())
+    project.set_verdict(THIRD, "accepted")
+    for asset in (SECOND, THIRD):
+        project.reply(found, selection_of(asset), ReviewReply("s", 0))
+    meant = frozenset({"crumb", "left_low"})
+    assert {line.asset: line.answer.select for line in project.answers().answers} == {SECOND: meant, THIRD: meant}
+    assert THIRD not in project.reviews()
 
 
 def test_an_output_that_stands_out_though_the_review_did_not_know_is_signed_off_by_no_tool(tmp_path: Path) -> None:

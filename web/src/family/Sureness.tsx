@@ -1,7 +1,7 @@
 // How sure the edits of the family are, in one line; and of one asset, why its edit may be wrong.
 import { CircleCheck, CircleQuestionMark, Crosshair, LoaderCircle } from "lucide-react";
 import { lookAtHeld, showDoubt } from "../commands/question";
-import { lookText, moodOf, percentText, sureText } from "../store/assessment";
+import { lookText, moodOf, percentText, sureText, unseenText } from "../store/assessment";
 import { useProject } from "../store/project";
 import { countText, shortName } from "../store/words";
 import { Button } from "../ui/Button";
@@ -27,12 +27,14 @@ function Known({ assessment }: { assessment: AssessmentView }) {
   const mood = moodOf(assessment);
   const Icon = mood === "good" ? CircleCheck : CircleQuestionMark;
   const look = lookText(assessment);
+  const unseen = unseenText(assessment);
   return (
     <p className={css.line} data-mood={mood} role="status">
       <Icon size={14} aria-hidden />
       <span>
         {sureText(assessment)}
         {assessment.aside > 0 && `; ${assessment.aside.toLocaleString("en-GB")} set aside`}
+        {unseen && `; ${unseen}`}
         {look && (
           <>
             {"; "}

@@ -15,6 +15,13 @@ describe("how sure the family is", () => {
     expect([sampleAssessment(5, 1), sampleAssessment(5, 0)].map(moodOf)).toEqual(["warn", "good"]);
   });
 
+  it("is not good where some assets were not looked at", () => {
+    const some = sampleAssessment(400, 0, { unseen: 9600 });
+    expect(familyText(some)).toBe("All 400 looked at are at least 95% sure; 9,600 were not looked at");
+    expect(familyText(sampleAssessment(5, 0, { unseen: 1 }))).toBe("All 5 looked at are at least 95% sure; 1 was not looked at");
+    expect(moodOf(some)).toBe("warn");
+  });
+
   it("never rounds up to the bar, nor to certainty", () => {
     expect([0.9496, 0.95, 0.9999, 0.62, 0.004].map((share) => percentText(share, 0.95))).toEqual(["94%", "95%", "99%", "62%", "<1%"]);
   });

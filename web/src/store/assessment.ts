@@ -13,12 +13,12 @@ export function percentText(probability: number, bar = 1): string {
 }
 
 /** `71 of 75 are at least 95% sure`, without what is to be done about the others. */
-export function sureText({ signed_off: sure, assets, bar }: AssessmentView): string {
+export function sureText({ signed_off: sure, assets, bar, unseen }: AssessmentView): string {
   const limit = `at least ${Math.round(100 * bar)}% sure`;
-  const all = assets.length;
-  if (sure === all) return all === 1 ? `Your one asset is ${limit}` : `All ${all.toLocaleString("en-GB")} are ${limit}`;
+  const all = assets.length.toLocaleString("en-GB") + (unseen ? " looked at" : "");
+  if (sure === assets.length) return sure === 1 && !unseen ? `Your one asset is ${limit}` : `All ${all} are ${limit}`;
   const some = sure === 0 ? "None" : sure.toLocaleString("en-GB");
-  return `${some} of ${all.toLocaleString("en-GB")} ${sure === 1 ? "is" : "are"} ${limit}`;
+  return `${some} of ${all} ${sure === 1 ? "is" : "are"} ${limit}`;
 }
 
 /** `look at these 4`; null where none is held. */
@@ -27,14 +27,19 @@ export function lookText({ held }: Pick<AssessmentView, "held">): string | null 
   return held === 1 ? "look at this one" : `look at these ${held.toLocaleString("en-GB")}`;
 }
 
+/** `9,600 were not looked at`, as there are too many, or they cannot be read; null where there are none. */
+export function unseenText({ unseen }: Pick<AssessmentView, "unseen">): string | null {
+  return unseen ? `${unseen.toLocaleString("en-GB")} ${unseen === 1 ? "was" : "were"} not looked at` : null;
+}
+
 /** How the family stands in one sentence. */
 export function familyText(assessment: AssessmentView): string {
   const aside = assessment.aside && `${assessment.aside.toLocaleString("en-GB")} ${assessment.aside === 1 ? "is" : "are"} set aside`;
-  return [sureText(assessment), aside, lookText(assessment)].filter(Boolean).join("; ");
+  return [sureText(assessment), aside, unseenText(assessment), lookText(assessment)].filter(Boolean).join("; ");
 }
 
-/** Good only where nothing is held. */
-export const moodOf = ({ held }: Pick<AssessmentView, "held">): "good" | "warn" => (held ? "warn" : "good");
+/** Good only where nothing is held, and all were looked at. */
+export const moodOf = ({ held, unseen }: Pick<AssessmentView, "held" | "unseen">): "good" | "warn" => (held || unseen ? "warn" : "good");
 
 /** What a card says of an asset: a percentage, `…` while it is not known, null where there is no program. */
 export function probabilityText(state: Sureness, asset: string): string | null {

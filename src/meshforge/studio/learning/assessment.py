@@ -96,9 +96,10 @@ def read_review_state(
 
 
 def view_assessment(
-    assessment: Assessment, state: ReviewState, number: int, has_program: bool = True
+    assessment: Assessment, state: ReviewState, number: int, has_program: bool = True, unseen: int = 0
 ) -> wire.AssessmentView:
-    """An assessment as the page shows it; without a program no edit has a probability."""
+    """An assessment as the page shows it; without a program no edit has a probability. unseen: assets of the family
+    that are not in it."""
     question = assessment.question
     asked = _view_question(question, state) if question else None
     if not has_program:
@@ -121,6 +122,7 @@ def view_assessment(
         signed_off=counts["signed"],
         held=counts["held"],
         aside=counts["aside"],
+        unseen=unseen,
         assets=rows,
         question=asked,
     )

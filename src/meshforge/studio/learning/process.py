@@ -95,7 +95,8 @@ def assess(folder: Path, token: CancelToken, number: int) -> AssessmentView | No
     if lesson.holds(meshes, basis.lesson):
         with suppress(MeshForgeError, OSError):  # pages show it all the same
             made.keep(project)
-    return view_assessment(made.found, made.state, number, made.program is not None)
+    unseen = len(project.assets()) - len(meshes)
+    return view_assessment(made.found, made.state, number, made.program is not None, unseen)
 
 
 def compute_reach(folder: Path, token: CancelToken, program: str) -> tuple[Reach, ...] | None:

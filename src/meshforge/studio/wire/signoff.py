@@ -68,13 +68,15 @@ class ReviewQuestionView(Wire):
 
 class AssessmentView(Wire):
     """A family as the last learning run left it. number: of that run; bar: the probability from which on an asset is
-    signed off; signed_off, held, aside: how many assets; assets: in the family's order, empty while there is no
-    program; question: null where nothing is left to ask."""
+    signed off; signed_off, held, aside: how many assets; unseen: those of the family that nobody looked at, as there
+    are too many, or they cannot be read; assets: the others in the family's order, empty while there is no program;
+    question: null where nothing is left to ask."""
 
     number: int
     bar: float
     signed_off: int = 0
     held: int = 0
     aside: int = 0
+    unseen: int = 0
     assets: tuple[ConfidenceView, ...] = ()
     question: ReviewQuestionView | None = None
