@@ -88,6 +88,8 @@ def test_apply_writes_what_is_sure_and_names_what_is_held(run: Run) -> None:
     assert {row["asset"]: row["status"] for row in rows}[THIRD] == "held"
     held = next(row for row in rows if row["status"] == "held")
     assert 0 < held["probability"] < 1
+    sure = {one.id: one.probability for one in Project.open("tables").status().assets}
+    assert all(row["probability"] == pytest.approx(sure[row["asset"]], abs=1e-4) for row in rows)
     assert held["out"].endswith("model.obj")
     assert "held" in run("apply", "tables", "--sure", "1").out
     assert run("apply", "tables", "--sure", "0.5").code == 0
