@@ -102,15 +102,14 @@ def apply(given: ApplyArguments) -> None:
                     done.append(outcome)
                 else:
                     typer.echo(_describe_outcome(outcome))
-    finally:  # also of a run that cannot go on
-        alarms = summary.find_alarms()
-        standings = work.describe_standings() if done else {}
-        for outcome in done:
-            line = batch.to_json_line(outcome, alarms.get(outcome.asset, ()))
-            print_json(line | standings.get(outcome.asset, {}), compact=True)
+    except BaseException:  # what a run did that cannot go on is told, too
+        _print_lines(done, summary.find_alarms(), {})
+        raise
+    alarms = summary.find_alarms()
     if not given.dry_run:
         for asset, why in work.finish(alarms).items():
             remark(f"{asset} is no longer signed off: {why}")
+    _print_lines(done, alarms, work.describe_standings() if done else {})
     summary.held = work.held
     for held in work.held:
         print_json(held.to_json(), compact=True) if given.json else typer.echo(f"{'held':10} {held.asset}: {held.why}")
@@ -121,6 +120,15 @@ def apply(given: ApplyArguments) -> None:
     if given.report:
         _write_report(given.report, work, summary, perf_counter() - started, measures)
     raise typer.Exit(int(summary.counts["failed"] > 0 or bool(work.held)))
+
+
+def _print_lines(
+    done: Iterable[batch.AssetOutcome], alarms: Alarms, standings: Mapping[str, Mapping[str, Any]]
+) -> None:
+    """A line of JSON for each asset. standings: how sure each edit is, by asset."""
+    for outcome in done:
+        line = batch.to_json_line(outcome, alarms.get(outcome.asset, ()))
+        print_json({**line, **standings.get(outcome.asset, {})}, compact=True)
 
 
 def _parse_measures(names: Sequence[str]) -> CheckOptions:

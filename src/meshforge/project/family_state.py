@@ -10,6 +10,7 @@ from dataclasses import dataclass, replace
 from meshforge.batch import OutputInputs, Stamp, read_stamp
 from meshforge.common import MeshForgeError
 from meshforge.language import Program, Template
+from meshforge.project.demonstrations import actions_of
 from meshforge.project.run import number_selections, output_digest
 from meshforge.project.sign_offs import is_written
 from meshforge.signoff import ReviewState
@@ -41,12 +42,13 @@ class FamilyStateReader:
             if asset in self.meshes
         }
         accepted, flagged = self._sort_verdicts()
+        actions = actions_of(demo.steps for demo in demos.values())
         return ReviewState(
             self.meshes,
             self._read_frame(),
             self._read_templates(self.program),
             {} if self.by_hand else demos,
-            tuple(line.answer for line in store.answers().answers),
+            tuple(line.answer for line in store.answers().answers if line.fits(actions)),
             {asset: done for asset, done in accepted.items() if asset in self.meshes},
             aside=flagged.union(asset for asset in signed.aside if asset not in demos),
             later=frozenset(store.put_off_ids()),

@@ -13,7 +13,7 @@ from meshforge.common import MeshForgeError, ProgramError, ProjectError, write_a
 from meshforge.language import Program
 from meshforge.project import demonstrations
 from meshforge.project.run import find_accepted_results, pick_evenly
-from meshforge.store import AnswerLine, AnswersFile, ProgramRecord, Settings, Store
+from meshforge.store import AnswersFile, ProgramRecord, Settings, Store
 from meshforge.symbolic import SymbolicMesh
 
 MOST_ASSETS = 400
@@ -263,12 +263,8 @@ def _sort_answers(
         line.id: line for line in [*said.answers, *(demonstrations.check_answer(store, answer) for answer in more)]
     }
     actions = demonstrations.actions_of(demo.steps for demo in demos.values())
-
-    def fits(line: AnswerLine) -> bool:
-        return actions.get(line.rule) == (line.action or actions.get(line.rule, ""))
-
-    fitting = [line.answer for line in lines.values() if fits(line)]
-    return fitting, [line.answer for line in lines.values() if not fits(line)]
+    fitting = [line.answer for line in lines.values() if line.fits(actions)]
+    return fitting, [line.answer for line in lines.values() if not line.fits(actions)]
 
 
 def _answers_of_accepted(

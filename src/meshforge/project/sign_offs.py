@@ -121,7 +121,8 @@ def renew_sign_offs(
     """Sign off what may be by the last review, as far as that holds; take back what may not, and say why, by asset.
 
     alarms: sentences on outputs that stand out of those just written, by asset: the tool signs off none that has more
-    of them than the review knew. keep_persons: those of a person are not taken back.
+    of them than the review knew. keep_persons: those of a person stay where something changed of what they rest on;
+    they are void then, and named so.
     """
     last, inputs = store.assessment(), find_inputs(store, execution)
     if last is None or not last.holds(digest_lesson(store), inputs):
@@ -144,7 +145,7 @@ def renew_sign_offs(
             if is_new and is_written(read_stamp(store.layout.edited, name), now):
                 by: Literal["person", "tool"] = "person" if line.looked_at else "tool"
                 kept[name] = SignOff(by=by, when=when, probability=line.probability, rests_on=now)
-            elif old and (good or (keep_persons and old.by == "person")):
+            elif old and (good or (keep_persons and old.by == "person" and changes)):
                 kept[name] = old  # where something changed void, and named so, until its output is there again
             elif old:
                 lost[name] = _describe_loss(old, line, changes, name in last.aside)

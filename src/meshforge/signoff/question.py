@@ -13,7 +13,7 @@ from meshforge.synthesis import Answer, Demonstration
 
 QuestionKind = Literal["group", "repair", "reading", "label", "selection", "orientation", "result", "demonstrate"]
 """A group of look-alike hulls and what they are; one hull's label; what a rule means; whether a rule is meant for a
-label that no demonstration shows; whether hulls were left out of a demonstration by mistake; an orientation; whether a
+label that no demonstration shows; whether what was shown or said was a slip; an orientation; whether a
 result is right; an asset to demonstrate."""
 
 Selections = tuple[frozenset[str], ...]

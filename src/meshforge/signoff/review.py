@@ -4,6 +4,7 @@ person's time (the expected value of information, Howard 1966)."""
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
 from types import MappingProxyType
 
 import numpy as np
@@ -151,19 +152,17 @@ def _ask_group(family: FamilyTrial, group: LookalikeGroup) -> ReviewQuestion:
     counts = labels_of_group(family, group)
     called = ", ".join(f"{count} {'is' if count == 1 else 'are'} called {name}" for name, count in counts.items())
     labels = list(dict.fromkeys([group.label, *(name for name in counts if name != "nothing")]))
-    if len(labels) == 1 and (other := find_other_label(family, group)):
-        labels.append(other)
     choices = tuple(ReviewChoice(label, label) for label in labels)
     first = group.hulls[0]
     if len(group.hulls) == 1:
         text = f"{first.hull} of {first.asset} is called {next(iter(counts))}: is it {group.label}?"
-        return identify(
-            ReviewQuestion("", "group", text, group.seconds, group.gain, first.asset, None, group.hulls, choices)
-        )
-    text = f"These {len(group.hulls)} hulls look alike; {called}: are all of them {group.label}?"
-    return identify(
+    else:
+        text = f"These {len(group.hulls)} hulls look alike; {called}: are all of them {group.label}?"
+    question = identify(
         ReviewQuestion("", "group", text, group.seconds, group.gain, first.asset, None, group.hulls, choices)
     )
+    other = find_other_label(family, group) if len(labels) == 1 else None  # no part of what the question is about
+    return replace(question, choices=(*choices, ReviewChoice(other, other))) if other else question
 
 
 def _ask_readings(family: FamilyTrial, found: Assessment) -> Iterator[ReviewQuestion]:
@@ -226,8 +225,8 @@ def _ask_results(family: FamilyTrial, found: Assessment) -> Iterator[ReviewQuest
 
 def _ask_last_looks(family: FamilyTrial) -> Iterator[ReviewQuestion]:
     """A person may have slipped in an answer, and many edits rest on it: one look at a result of each rule that answers
-    have shaped, where nobody has seen any; and at those that an answer about labels which no demonstration shows is
-    about, as others tell little of them."""
+    have shaped, where nobody has seen any; and one at each asset that has an answer and labels that no demonstration
+    shows, as the results of others tell little of it."""
     state = family.state
     seen = [*state.accepted.values(), *state.mended.values()]
     answers = [one for one in state.answers if one.select is not None]

@@ -35,14 +35,17 @@ class RuleSlip:
 
 def find_slips(state: ReviewState, program: Program, trials: Sequence[Trial]) -> Iterator[RuleSlip]:
     """The likely slips under a program that does what was shown, of each rule at most one; those that a person denied
-    are not among them."""
+    are not among them, and there are none where nothing was shown, as under a program that a person wrote."""
+    if not state.demos:
+        return
     options = Options(extremity=program.extremity)
     by_name = {trial.asset: trial for trial in trials}
     for number, rule in enumerate(program.rules, 1):
         examples = list(_list_examples(state, by_name, number))
         if not examples:
             continue
-        said = {one.asset for one in state.answers if one.rule == number}.union(state.accepted) - state.demos.keys()
+        said = {one.asset for one in state.answers if one.rule == number}.union(state.accepted)
+        said -= state.demos.keys() | state.mended.keys()
         slip = find_slip(rule.extractor, examples, program.labels, options, said)
         if slip is None or slip.asset not in {*state.demos, *said} or slip.share < _LEAST_SHARE:
             continue
@@ -105,7 +108,9 @@ def ask_about_nearest(state: ReviewState, nearest: Nearest, everyone: float) -> 
     """The question where nothing fits what was shown and said, and an extractor nearly does."""
     if len(nearest.extra) + len(nearest.missing) > MOST_SLIPS:
         return None
-    if nearest.asset in state.mended or _read_selection(state, nearest.asset, nearest.rule) is None:
+    if nearest.asset in state.mended or nearest.asset not in state.meshes:
+        return None
+    if _read_selection(state, nearest.asset, nearest.rule) is None:
         return None
     if _is_used_later(state, nearest.asset, nearest.rule, nearest.extra):
         return None

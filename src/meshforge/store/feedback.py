@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from abc import abstractmethod
+from collections.abc import Mapping
 from typing import Annotated, Any, Literal, Self
 
 from pydantic import ConfigDict, Field, SerializerFunctionWrapHandler, model_serializer, model_validator
@@ -52,6 +53,10 @@ class AnswerLine(_Entry):
     @property
     def answer(self) -> Answer:
         return Answer(self.rule, self.asset, self.select, self.refused)
+
+    def fits(self, actions: Mapping[int, str]) -> bool:
+        """Whether its rule still does what it did; actions: what rules do, by number, in the same text."""
+        return actions.get(self.rule) == (self.action or actions.get(self.rule, ""))
 
 
 class RepairLine(_Entry):

@@ -7,10 +7,11 @@ from dataclasses import replace
 import pytest
 
 from meshforge.label_model import model_family
-from meshforge.language import Delete, Is
+from meshforge.language import Attach, Delete, Geo, Is, Rule, Union
 from meshforge.signoff import Assessment, ReviewQuestion, ReviewReply, ReviewState, apply_reply
 from meshforge.signoff.reply import list_answers
-from meshforge.signoff.slips import BY_MISTAKE, ON_PURPOSE, ask_about_nearest
+from meshforge.signoff.slips import BY_MISTAKE, ON_PURPOSE, ask_about_nearest, find_slips
+from meshforge.signoff.trial import try_program
 from meshforge.symbolic import SymbolicMesh
 from meshforge.synthesis import Answer, Demonstration, Nearest, Step
 from tests.unit.signoff.test_review import FRAME, legs_of, review, shown, tables
@@ -85,6 +86,21 @@ def test_what_was_meant_as_shown_is_not_asked_about_again() -> None:
 def test_a_simple_demonstration_has_no_slip() -> None:
     _, state = show_without()
     assert ask_about_slip(state) is None
+
+
+def test_a_program_that_nobody_demonstrated_has_no_slips() -> None:
+    meshes = tables()
+    parts = Union(Is("leg"), Union(Geo(Is("drawer"), "-Z"), Attach(Is("handle"), Is("drawer"))))
+    program = replace(FRAME, rules=(Rule(parts, Delete()),))
+    trials = [try_program(name, mesh, program, {}) for name, mesh in meshes.items()]
+    seen = {"t1": (frozenset(trials[1].names(1, trials[1].selections[0])),)}
+    assert list(find_slips(ReviewState(meshes, FRAME, accepted=seen), program, trials)) == []
+
+
+def test_a_mended_result_is_no_slip() -> None:
+    state = answer_wrongly()
+    mended = replace(state, mended={"t1": (legs_of("t1") | {"drawer0_bottom", "handle0"},)})
+    assert ask_about_slip(mended) is None
 
 
 def test_results_that_are_all_wrong_hold_the_rest() -> None:

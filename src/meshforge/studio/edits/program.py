@@ -67,10 +67,10 @@ class SetSteps(Edit):
 
 
 class CorrectSelection(Edit):
-    """Select other hulls in a step that was demonstrated with a slip."""
+    """Select other hulls where what was shown, answered or found right of a rule was a slip."""
 
     kind: Literal["correct-selection"] = "correct-selection"
-    touches = ("demonstrations/{asset}.json",)
+    touches = ("demonstrations/{asset}.json", "answers.json", "review.json")
     asset: str
     rule: int
     select: tuple[str, ...]
@@ -79,7 +79,7 @@ class CorrectSelection(Edit):
         project.correct_selection(self.asset, self.rule, self.select)
 
     def describe(self, project: Project) -> str:
-        return f"step {self.rule} of {self.asset} corrected"
+        return f"what rule {self.rule} selects on {self.asset} corrected"
 
 
 def _read_steps(project: Project, asset: str) -> tuple[Step, ...]:
