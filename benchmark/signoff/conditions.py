@@ -21,6 +21,8 @@ ERRS = CONDITIONS[f"{FLAT.name}: errs in 5%"]
 NONE = PROPAGATED[0]
 ASKED = (TRUE, TELLING, FLAT, SYSTEMATIC, PROPAGATED[3], PROPAGATED[2], PROPAGATED[1], NONE, ERRS)
 """All conditions, in the order of the tables."""
+PEOPLE = len(SEPARATE)
+"""Who signs generated families off: one for each decomposition."""
 ON_REAL = TAUGHT
 """Those under which real families are signed off."""
 MAKE = "script/make-benchmark --calibration --count 25 --settings separate --out FOLDER"
@@ -52,7 +54,7 @@ def list_benches(
                 yield seed, bench
         return
     people: Sequence[int] = REPORTED if folder is None else TUNING
-    for seed in condition.seeds(people)[: 1 if few else None]:
+    for seed in condition.seeds(people)[: 1 if few else PEOPLE]:
         yield seed, open_family(name, condition.setting(seed), folder)
 
 
