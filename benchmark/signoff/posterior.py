@@ -77,6 +77,7 @@ def measure(tell: Tell, quick: bool) -> Result:
     goals = [Goal(f"{_MESHES} meshes, after one more answer [s]", "at most", 0.2, found[0].again)]
     if not quick:
         goals.append(Goal(f"{_LARGEST:,} meshes [s]", "at most", 60.0, found[-1].start))
+        goals.append(Goal(f"{_LARGEST:,} meshes, after one more answer [s]", "at most", 1.0, found[-1].again))
         goals.append(Goal(f"{_LARGEST:,} meshes, memory [GiB]", "at most", 1.0, found[-1].memory / _GIB))
     table = Table("The posterior of a family", columns, tuple(rows))
     return Result("posterior", "How long the posterior takes", (table,), tuple(goals), _NOTES)
