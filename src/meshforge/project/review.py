@@ -197,14 +197,18 @@ def _make_output(store: Store, asset: str) -> None:
 
 
 def _write_labels(store: Store, state: ReviewState, question: ReviewQuestion, reply: ReviewReply) -> None:
-    """Labels that a person gave: of a repair as such, so that it can be taken back; of a group as theirs."""
+    """Labels that a person gave: of a repair as such, so that it can be taken back; of a group as theirs. A repair that
+    they did not want is not proposed again."""
     choice = None if reply.choice is None else question.choices[reply.choice]
     given = dict.fromkeys(question.hulls, choice.label) if choice is not None and choice.label else {}
     for place, label in sorted({**given, **reply.exceptions}.items()):
         was = state.meshes[place.asset].hull_of(place.hull).label
         if question.kind == "repair" and label and label != was:
             demonstrations.confirm(store, LabelCorrection(place.asset, place.hull, was, label))
-        elif label:
+            continue
+        if question.kind == "repair" and (proposed := question.choices[0].label):
+            demonstrations.reject(store, LabelCorrection(place.asset, place.hull, was, proposed))
+        if label:
             set_labels(store, place.asset, {place.hull: label}, "user", 1.0)
     if any(hull.source == "consensus" for mesh in state.meshes.values() for hull in mesh.hulls):
         label_by_consensus(store, IN_PROCESS, ignore_stage, ignore_report)

@@ -65,7 +65,8 @@ def _apply_labels(state: ReviewState, question: ReviewQuestion, reply: ReviewRep
     meshes = dict(state.meshes)
     for place, label in {**given, **reply.exceptions}.items():
         meshes[place.asset] = meshes[place.asset].with_labels({place.hull: Label(str(label), 1.0, source)})
-    return replace(state, meshes=meshes)
+    asked = {question.id} if question.kind == "repair" else set[str]()  # who keeps a label is not asked for it again
+    return replace(state, meshes=meshes, later=state.later | asked)
 
 
 def list_answers(state: ReviewState, posterior: FamilyPosterior) -> Iterator[Answer]:

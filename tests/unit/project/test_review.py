@@ -236,6 +236,18 @@ def test_a_slip_in_a_step_that_is_gone_is_an_error_and_changes_nothing(tmp_path:
     assert project.steps(THIRD) == ()
 
 
+def test_a_repair_that_a_person_did_not_want_is_not_proposed_again(tmp_path: Path) -> None:
+    project = demonstrated(tmp_path)
+    found, place = review(project), HullPlace(FIRST, "crumb")
+    was = found.state.meshes[FIRST].hull_of("crumb").label
+    assert was
+    choices = (ReviewChoice("leg", "leg"), ReviewChoice(was, was))
+    question = ReviewQuestion("r", "repair", "?", 2.65, 0.5, FIRST, 1, (place,), choices)
+    project.reply(found, question, ReviewReply("r", 1))
+    assert [(line.hull, line.was, line.to) for line in project.answers().rejected] == [("crumb", was, "leg")]
+    assert project.mesh(FIRST).hull_of("crumb").annotation == Label(was, 1.0, "user")
+
+
 def test_a_slip_in_an_answer_is_replaced_and_a_verdict_that_was_one_is_taken_back(tmp_path: Path) -> None:
     project = applied(tmp_path)
     found = review(project)
