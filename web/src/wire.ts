@@ -255,7 +255,7 @@ export interface StepText {
   action: string;
 }
 /**
- * Select other hulls in a step that was demonstrated with a slip.
+ * Select other hulls where what was shown, answered or found right of a rule was a slip.
  */
 export interface CorrectSelection {
   kind: "correct-selection";
