@@ -10,7 +10,7 @@ from benchmark.journal import run_units
 from benchmark.report import Goal, Result, Tell
 from benchmark.signoff.before import read_before
 from benchmark.signoff.calibration import calibrate
-from benchmark.signoff.conditions import ASKED, ERRS, MAKE, NONE, list_benches, list_tasks
+from benchmark.signoff.conditions import ASKED, ERRS, MAKE, NONE, PEOPLE, list_benches, list_tasks
 from benchmark.signoff.opening import FirstLook, open_review
 from benchmark.signoff.outcomes import (
     Group,
@@ -115,10 +115,11 @@ def _is_sooner(one: Group) -> bool:
 
 
 _NOTES = (
-    "Families of 25 different assets at one decomposition. An asset is *right* if its rules select what the reference "
-    "selects under true labels, and the edited mesh meets the criterion. *Possible*: the reference itself meets it "
-    "there under true labels; shares of right assets are of these, as on the others no edit is right: there, a result "
-    "that is as the reference's is neither right nor wrong. Means over people, then over tasks.",
+    f"Families of 25 different assets at one decomposition; {PEOPLE} people, one for each of the decompositions. An "
+    "asset is *right* if its rules select what the reference selects under true labels, and the edited mesh meets the "
+    "criterion. *Possible*: the reference itself meets it there under true labels; shares of right assets are of "
+    "these, as on the others no edit is right: there, a result that is as the reference's is neither right nor wrong. "
+    "Means over people, then over tasks.",
     "*When done* counts what is right and signed off; what is held or set aside is not right.",
     "*As it was*: the tool before it had a queue, frozen in `benchmark/signoff/before.json` with the command and the "
     "commit that made it. *Then by hand*: that person glances at all results and mends what differs in each wrong one, "
