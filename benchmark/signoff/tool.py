@@ -14,7 +14,7 @@ from meshforge.signoff import (
     ReviewReply,
     ReviewState,
     apply_reply,
-    find_alarms,
+    describe_odd_results,
     list_answers,
     review_family,
 )
@@ -65,14 +65,13 @@ class Tool:
         """How the family stands, and what it asks next."""
         return review_family(state, outcome, self._family, alarms=self.find_alarms(desk, outcome))
 
-    def find_alarms(self, desk: Desk, outcome: LearningOutcome | None) -> dict[str, list[str]]:
+    def find_alarms(self, desk: Desk, outcome: LearningOutcome | None) -> dict[str, tuple[str, ...]]:
         """Sentences on the edits that stand out, by asset."""
         program = program_of(outcome)
         if program is None:
             return {}
         edits = {name: desk.bench.measure(name, desk.edit(program, name)) for name in desk.meshes}
-        found = find_alarms({name: one for name, one in edits.items() if one is not None})
-        return {name: [alarm.text for alarm in alarms] for name, alarms in found.items()}
+        return describe_odd_results({name: one for name, one in edits.items() if one is not None})
 
     def apply(
         self, state: ReviewState, question: ReviewQuestion, reply: ReviewReply, done: Selections | None = None

@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 from typing import Any, Literal, assert_never
 
 from meshforge.common import pluralize
-from meshforge.signoff import EditMeasures, find_alarms
+from meshforge.signoff import EditMeasures, describe_odd_results
 
 StatusWord = Literal["edited", "unchanged", "failed", "skipped"]
 
@@ -177,8 +177,7 @@ class RunSummary:
 
     def find_alarms(self) -> dict[str, tuple[str, ...]]:
         """Sentences about the results that stand out of all so far, the weightiest first, by asset."""
-        found = find_alarms(self.measures)
-        return {asset: tuple(alarm.text for alarm in alarms) for asset, alarms in found.items()}
+        return describe_odd_results(self.measures)
 
     @property
     def outcomes_to_show(self) -> tuple[AssetOutcome, ...]:

@@ -1,6 +1,6 @@
 """What is done with a project folder: demonstrate, learn, ask, review, apply, and how far everything is."""
 
-from meshforge.project.alarms import describe_odd_results, measure_results
+from meshforge.project.alarms import measure_results
 from meshforge.project.learn import (
     FamilyMeshes,
     ProgramState,
@@ -12,7 +12,7 @@ from meshforge.project.prepare import PreparationResult
 from meshforge.project.project import Project
 from meshforge.project.review import ProjectReview
 from meshforge.project.run import make_correction, output_digest, run_with_corrections
-from meshforge.project.sign_offs import AssessmentBasis, digest_lesson, find_inputs, keep_assessment
+from meshforge.project.sign_offs import AssessmentBasis, digest_lesson, keep_assessment
 from meshforge.project.status import AssetStatus, Status
 
 __all__ = [
@@ -24,9 +24,7 @@ __all__ = [
     "Project",
     "ProjectReview",
     "Status",
-    "describe_odd_results",
     "digest_lesson",
-    "find_inputs",
     "keep_assessment",
     "make_correction",
     "measure_results",

@@ -1,4 +1,4 @@
-"""Which results of a family stand out, those that are not written yet, too: these are made in memory and measured."""
+"""Measures of the results of a family, by which some stand out; what is not written yet is made in memory for that."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from meshforge.common import MeshForgeError
 from meshforge.language import Program
 from meshforge.project import run
 from meshforge.project.sign_offs import is_written
-from meshforge.signoff import EditMeasures, find_alarms, measure_edit
+from meshforge.signoff import EditMeasures, measure_edit
 from meshforge.store import ConfidenceLine, Store
 from meshforge.symbolic import SymbolicMesh
 from meshforge.synthesis import memoize
@@ -45,11 +45,6 @@ def measure_results(
         except MeshForgeError:
             continue
     return found
-
-
-def describe_odd_results(measures: Mapping[str, EditMeasures]) -> dict[str, tuple[str, ...]]:
-    """Sentences on those results that stand out of their family, by asset."""
-    return {asset: tuple(alarm.text for alarm in alarms) for asset, alarms in find_alarms(measures).items()}
 
 
 @dataclass(frozen=True, eq=False, slots=True)

@@ -25,7 +25,7 @@ from meshforge.labels.family_comparison import ignore_stage
 from meshforge.labels.label_by_consensus import label_by_consensus
 from meshforge.labels.merge import ignore_report, set_labels
 from meshforge.project import demonstrations, learn, run
-from meshforge.project.alarms import describe_odd_results, measure_results
+from meshforge.project.alarms import measure_results
 from meshforge.project.family_state import FamilyStateReader
 from meshforge.project.sign_offs import AssessmentBasis, Clock, keep_assessment, now_utc, renew_sign_offs
 from meshforge.signoff import (
@@ -37,6 +37,7 @@ from meshforge.signoff import (
     ReviewQuestion,
     ReviewReply,
     ReviewState,
+    describe_odd_results,
     review_family,
 )
 from meshforge.signoff.prices import YES_OR_NO

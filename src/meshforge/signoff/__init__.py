@@ -9,7 +9,7 @@ from __future__ import annotations
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
-from meshforge.signoff.alarms import Alarm, AlarmKind, find_alarms
+from meshforge.signoff.alarms import Alarm, AlarmKind, describe_odd_results, find_alarms
 from meshforge.signoff.measures import EditMeasures, measure_edit
 
 if TYPE_CHECKING:
@@ -41,6 +41,7 @@ __all__ = [
     "ReviewReply",
     "ReviewState",
     "apply_reply",
+    "describe_odd_results",
     "find_alarms",
     "list_answers",
     "measure_edit",

@@ -63,6 +63,11 @@ def find_alarms(measures: Mapping[str, EditMeasures]) -> dict[str, tuple[Alarm, 
     return {name: tuple(sorted(alarms, key=lambda alarm: -alarm.excess)) for name, alarms in found.items() if alarms}
 
 
+def describe_odd_results(measures: Mapping[str, EditMeasures]) -> dict[str, tuple[str, ...]]:
+    """Sentences on those edits of a family that stand out, the farthest out first, by asset."""
+    return {name: tuple(alarm.text for alarm in alarms) for name, alarms in find_alarms(measures).items()}
+
+
 def _find_absolute(one: EditMeasures) -> Iterator[Alarm]:
     if one.hulls_before and not one.hulls_after:
         yield Alarm("deleted", "no hull is left", float("inf"))

@@ -255,9 +255,9 @@ class Store:
     def put_off(self, question: str) -> None:
         """Ask a question of a review no more, as long as what it is about stays."""
         with self.lock():
-            kept = read_json(self.layout.later, LaterFile) or LaterFile()
-            if question not in kept.questions:
-                write_json(self.layout.later, kept.model_copy(update={"questions": (*kept.questions, question)}))
+            known = self.put_off_ids()
+            if question not in known:
+                write_json(self.layout.later, LaterFile(questions=(*known, question)))
 
     def ask_again(self) -> None:
         """Ask all questions that were put off."""

@@ -8,8 +8,9 @@ import pytest
 
 from meshforge.batch import IN_PROCESS
 from meshforge.language import Delete, Program
-from meshforge.project import Project, describe_odd_results, find_inputs, measure_results
-from meshforge.signoff import EditMeasures, measure_edit
+from meshforge.project import Project, measure_results
+from meshforge.project.sign_offs import find_inputs
+from meshforge.signoff import EditMeasures, describe_odd_results, measure_edit
 from meshforge.symbolic import SymbolicMesh
 from tests.unit.project.racks import BLOCK, PLAIN, shown_racks
 

@@ -12,7 +12,6 @@ from meshforge.language import Program, explain, parse_extractor, show
 from meshforge.project import (
     AssessmentBasis,
     Project,
-    describe_odd_results,
     keep_assessment,
     measure_results,
     sees_whole_family,
@@ -24,6 +23,7 @@ from meshforge.signoff import (
     ReviewChoice,
     ReviewQuestion,
     ReviewState,
+    describe_odd_results,
     review_family,
 )
 from meshforge.studio.wire import signoff as wire
@@ -44,7 +44,7 @@ class ProjectAssessment:
 
     def keep(self, project: Project) -> None:
         """Keep it as a review does, and renew sign-offs; nothing where something changed meanwhile, where there is no
-        program, or where the studio looks at some assets only. Sign-offs of a person stay."""
+        program, or where the studio looks at some assets only."""
         if self.program is None or not sees_whole_family(project):
             return
         if keep_assessment(project, self.found, self.basis.under(project, self.program), self.measures):
