@@ -1,6 +1,7 @@
 """Fits the model of labels anew and writes it where it ships: `metric`, the distance of hulls, on all families of the
-calibration set, or `consensus FOLDER`, the weights of evidence, on calibration families of 25 assets, which
-`script/make-benchmark --calibration --count 25 --settings separate --out FOLDER` makes."""
+calibration set, or `consensus FOLDER`, the weights of evidence, on that and on calibration families of 25 assets, which
+`script/make-benchmark --calibration --count 25 --settings separate --out FOLDER` makes; it says first how good such
+weights are on categories that they were not fitted on."""
 
 from __future__ import annotations
 
@@ -10,8 +11,9 @@ from pathlib import Path
 from typing import Any
 
 from benchmark.assets import CATEGORIES, SEPARATE, family
-from benchmark.labels.consensus import draw_families, fit_weights
+from benchmark.labels.consensus import draw_cases, fit_weights, try_on_other_fold
 from benchmark.labels.metric import fit_metric, rows_of
+from benchmark.labels.variety import FOLDS
 from meshforge.common import write_atomically
 from meshforge.label_model import consensus, table
 
@@ -29,7 +31,8 @@ def main() -> None:
         weights = fit_metric([rows_of(family(name, setting, True)) for name in CATEGORIES for setting in SEPARATE])
         _write(table.METRIC_FILE, "metric", [round(float(weight), 4) for weight in weights])
     elif given.folder:
-        rounds = fit_weights(list(draw_families(given.folder, _SEED)))
+        try_on_other_fold(given.folder, _SEED, print)
+        rounds = fit_weights([one for fold in FOLDS for one in draw_cases(given.folder, fold, _SEED)])
         _write(consensus.WEIGHTS_FILE, "consensus FOLDER", [[round(float(one), 3) for one in row] for row in rounds])
     else:
         parser.error("consensus: say in which folder the families are")

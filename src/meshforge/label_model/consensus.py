@@ -21,6 +21,8 @@ WEIGHTS_FILE = "consensus.json"
 EVIDENCE = (
     "what its source says",
     "whether the source errs on this kind here",
+    "what its source says, where look-alikes are far",
+    "whether the source errs on this kind here, where look-alikes are far",
     "its nearest hulls",
     "hulls of other meshes",
     "hulls of other meshes together",
@@ -30,7 +32,7 @@ EVIDENCE = (
 )
 """What the columns of `collect_evidence` are, in words."""
 
-_OF_OTHERS = slice(2, None)
+_OF_OTHERS = slice(4, None)
 
 PERSON = 0.9995
 """How much a person's label is believed."""
@@ -41,6 +43,7 @@ _DISTINCT, _NEAREST = 12, 12  # look-alikes of distinct meshes, and the nearest
 _TOGETHER = 10  # look-alikes of distinct meshes whose evidence is multiplied
 _ALIKE, _SOFT = 9.0, 1.5  # the distance at which two hulls are half alike, and how soon it ends
 _ALIKE_NEAREST, _ALIKE_OWN = 10.0, 7.0
+_FAR, _SOFT_FAR = 6.5, 1.0  # the distance of the nearest look-alike at which it is half far, and how soon
 _AT_MOST = 0.97  # to which degree two hulls are alike
 _TWINS = 1.5  # the distance up to which hardly anything tells two hulls of a mesh apart
 _PRIOR_SHARE = 0.3  # of the prior beside look-alikes
@@ -98,6 +101,9 @@ class FamilyContext:
         links = csr_matrix((np.ones(2 * len(a)), (np.concatenate([a, b]), np.concatenate([b, a]))), shape=(n, n))
         degree = np.maximum(np.bincount(table.touching.ravel(), minlength=n), 1)
         self.links, self.degree = links, degree[:, None]
+        _, apart = self.lookalikes.nearest(np.ones(n, np.bool_), 1, 1)
+        self.far = 1 - _alike(np.where(np.isfinite(apart), apart, 99.0), _FAR, _SOFT_FAR)
+        """How far the nearest hull of another mesh is, 0 to 1 (n, 1)."""
 
     def start(self) -> Floats:
         """What the sources say, each believed alike."""
@@ -136,8 +142,10 @@ class FamilyContext:
             self.free
         ]
         common = np.broadcast_to(np.log(prior), chances.shape)
-        columns = [self._own(reliability, self.free), kinds, nearest, np.log(distinct), together, own_mesh, common]
-        return np.stack([*columns, self._hear_neighbors(chances, informed)], axis=-1)
+        own = self._own(reliability, self.free)
+        of_source = [own, kinds, own * self.far, kinds * self.far]
+        of_others = [nearest, np.log(distinct), together, own_mesh, common, self._hear_neighbors(chances, informed)]
+        return np.stack([*of_source, *of_others], axis=-1)
 
     def _find_helpers(self, chances: Floats) -> _Helpers:
         sure = ~self.seen.known & (chances.max(axis=1, initial=0.0) > _CERTAIN)
@@ -194,9 +202,9 @@ class FamilyContext:
         return heard
 
 
-def _alike(apart: Floats, half: float) -> Floats:
+def _alike(apart: Floats, half: float, soft: float = _SOFT) -> Floats:
     """To which degree hulls are alike, by their distance."""
-    found: Floats = 1 / (1 + np.exp((apart - half) / _SOFT))
+    found: Floats = 1 / (1 + np.exp((apart - half) / soft))
     return found
 
 

@@ -23,7 +23,7 @@ _NEAR = 0.35  # of the median distance of hulls, within which they stand for eac
 _AT_LEAST = 0.1  # what a hull counts whose label is certain; one about which nothing is known counts so much and one
 
 _DIGITS = 3
-_FREE_ODDS = 2.5  # odds of what was said from which on another label must be surer [nats]
+_FREE_ODDS = 1.5  # odds of what was said from which on another label must be surer [nats]
 _ALIKE = 0.6  # probability of each of two labels on hulls called the other, together, from which they look alike
 _BOTH = 0.1  # of the meshes that have the rarer of them, those that may have both
 _REMEMBERED = 2000  # meshes whose other sides are not described again
