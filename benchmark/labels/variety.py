@@ -1,5 +1,5 @@
-"""Families that the posterior over labels is fitted on: of 25 assets of one generator, and small ones whose assets differ
-as those of real families do."""
+"""Families that the posterior over labels is fitted on: 25 assets of one generator, and small ones whose assets differ
+as much as those of real families do."""
 
 from __future__ import annotations
 

@@ -77,10 +77,10 @@ def _near_miss(one: Instance) -> bool:
     return not _right(one, without) and _right(one, inspected)
 
 
-def mend(one: Instance, way: Way) -> InstanceResult:
-    """One way on one instance: from two demonstrations on, as many of the pool as it takes."""
+def mend(one: Instance, way: Way, desk: Desk | None = None) -> InstanceResult:
+    """One way on one instance: from two demonstrations on, as many of the pool as it takes. desk: with other labels."""
     person = Person(one.desk, one.seed, FLAT)
-    desk, log = one.desk, InstanceResult(one.bench.task.name, way, False, 0, 0, 0, 0, 0, 0.0, 0.0)
+    desk, log = desk or one.desk, InstanceResult(one.bench.task.name, way, False, 0, 0, 0, 0, 0, 0.0, 0.0)
     rejected: list[LabelCorrection] = []
     for count in range(_FIRST, MOST + 1):
         shown = one.pool[:count]
