@@ -20,7 +20,7 @@ _FOLDERS = {"meshforge": ROOT / "src", "benchmark": ROOT, "script": ROOT}
 """Where the packages lie whose code results depend on."""
 _PROTOCOL = ("benchmark/criteria/*.py", "benchmark/tasks/*/task.toml", "benchmark/tasks/*/templates/*",
              "benchmark/assets/data/*")  # fmt: skip
-_DATA = ("src/meshforge/**/*.lark", *_PROTOCOL)
+_DATA = ("src/meshforge/**/*.lark", "src/meshforge/*/*.json", *_PROTOCOL)
 _REAL = ("benchmark/real/**/*.toml", "benchmark/real/**/*.obj")
 Unit = tuple[Any, ...]
 """What a unit of work is given: JSON-able."""

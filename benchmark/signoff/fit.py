@@ -61,13 +61,14 @@ class _Observer(Tool):
         return super().review(desk, state, outcome)
 
     def list_rows(self) -> list[list[float]]:
-        """The features of each edit that was judged, and whether it is right, where nobody has looked at it."""
+        """The features of each edit that was judged, how far its program is trusted, and whether it is right, where
+        nobody has looked at it."""
         if self.trial is None or self.desk is None:
             return []
         state, judge, program = self.trial.state, self._judge, self.trial.program
         looked_at = {*state.demos, *state.accepted, *state.mended}
         return [
-            [*evidence.features.tolist(), float(judge.is_right(self.desk, program, one.asset))]
+            [*evidence.features.tolist(), evidence.program, float(judge.is_right(self.desk, program, one.asset))]
             for one, evidence in zip(self.trial.trials, self.trial.evidence, strict=True)
             if not one.error and one.asset in judge.possible and one.asset not in looked_at
         ]
@@ -109,7 +110,7 @@ def fit(folder: Path, tell: Tell) -> None:
     rows = dict[tuple[str, str], npt.NDArray[np.float64]]()
     for what, work in (("signoff-fit", observe), ("signoff-taught", observe_taught)):
         for unit, some in zip(units, run_units(what, work, units, tell), strict=True):
-            table = np.array(some).reshape(-1, len(_SIGNS) + 1)
+            table = np.array(some).reshape(-1, len(_SIGNS) + 2)
             rows[what, unit[0]] = np.concatenate([rows.get((what, unit[0]), table[:0]), table])
     categories = sorted({task(name).category for _, name in rows})
     pairs: dict[str, list[tuple[float, bool]]] = {what: [] for what, _ in rows}
@@ -117,7 +118,7 @@ def fit(folder: Path, tell: Tell) -> None:
         weights = fit_weights([some for (_, name), some in rows.items() if task(name).category != left])
         for (what, name), some in rows.items():
             if task(name).category == left:
-                shares = 1 / (1 + np.exp(-(some[:, :-1] @ weights)))
+                shares = _predict(weights, some)
                 pairs[what] += list(zip(shares.tolist(), (some[:, -1] > 0).tolist(), strict=True))
     for what, some in pairs.items():
         tell(f"{what}, category left out: {calibrate(some)}")
@@ -130,8 +131,8 @@ def fit(folder: Path, tell: Tell) -> None:
 
 
 def fit_weights(tables: Sequence[npt.NDArray[np.float64]]) -> Floats:
-    """Logistic regression on rows of features and whether the edit is right, each task counting alike."""
-    parts = [(rows[:, :-1], rows[:, -1], 1 / len(rows)) for rows in tables if len(rows)]
+    """Logistic regression on rows as of `_Observer.list_rows`, each task counting alike."""
+    parts = [(rows, 1 / len(rows)) for rows in tables if len(rows)]
     low = [0.0 if sign > 0 else None for sign in _SIGNS]
     high = [0.0 if sign < 0 else None for sign in _SIGNS]
     start = np.array([0.0, 1.0, 0.0, 0.0, 0.0])
@@ -140,19 +141,28 @@ def fit_weights(tables: Sequence[npt.NDArray[np.float64]]) -> Floats:
 
 def lower(weights: Floats, rows: Floats) -> Floats:
     """The weights with less speaking for every edit, until hardly any at the bar is wrong: what is signed off by
-    mistake costs more than a question. rows: of all sessions, and whether the edits are right."""
+    mistake costs more than a question. rows: of all sessions."""
     found = weights.copy()
     while True:
-        signed = rows[:, :-1] @ found >= np.log(BAR / (1 - BAR))
+        signed = _predict(found, rows) >= BAR
         if (rows[signed, -1] == 0).sum() <= MOST_WRONG * signed.sum():
             return found
         found[0] -= _STEP
 
 
-def _loss(parts: Sequence[tuple[Floats, Floats, float]], weights: Floats) -> tuple[float, Floats]:
+def _predict(weights: Floats, rows: Floats) -> Floats:
+    """The probability that each edit is right (rows,)."""
+    found: Floats = rows[:, -2] / (1 + np.exp(-(rows[:, :-2] @ weights)))
+    return found
+
+
+def _loss(parts: Sequence[tuple[Floats, float]], weights: Floats) -> tuple[float, Floats]:
     total, slope = _STRAY * float(weights @ weights), 2 * _STRAY * weights
-    for some, right, worth in parts:
-        scores = some @ weights
-        total += worth * float((np.logaddexp(0.0, scores) - right * scores).sum()) / len(parts)
-        slope = slope + worth * some.T @ (1 / (1 + np.exp(-scores)) - right) / len(parts)
+    for rows, worth in parts:
+        features, trust, right = rows[:, :-2], rows[:, -2], rows[:, -1]
+        share = 1 / (1 + np.exp(-(features @ weights)))
+        found = np.clip(trust * share, 1e-9, 1 - 1e-9)
+        total -= worth * float((right * np.log(found) + (1 - right) * np.log(1 - found)).sum()) / len(parts)
+        pull = (found - right) / (found * (1 - found)) * trust * share * (1 - share)
+        slope = slope + worth * features.T @ pull / len(parts)
     return total, slope

@@ -40,7 +40,8 @@ class AssetEvidence:
 
     readings: the probability that each rule means there what it does; labels: that no other labels would change the
     edit; foreign: whether it has labels that no demonstration shows; unlike: how much farther than usual its strangest
-    hull is from all hulls of other assets of which something is said; alarms: how many there are.
+    hull is from all hulls of other assets of which something is said; alarms: how many there are; program: the
+    probability that the program is not wrong nearly everywhere.
     """
 
     readings: float
@@ -48,6 +49,7 @@ class AssetEvidence:
     foreign: float = 0.0
     unlike: float = 0.0
     alarms: float = 0.0
+    program: float = 1.0
 
     @property
     def features(self) -> Floats:
@@ -57,16 +59,16 @@ class AssetEvidence:
     @property
     def probability(self) -> float:
         """That the edit is right."""
-        found = float(1 / (1 + np.exp(-(self.features @ confidence_weights()))))
+        found = self.program * float(1 / (1 + np.exp(-(self.features @ confidence_weights()))))
         return min(found, STANDS_OUT) if self.alarms else found
 
     def with_labels(self, labels: float) -> AssetEvidence:
         """The same, had its labels been told."""
         return replace(self, labels=labels)
 
-    def with_readings(self, readings: float) -> AssetEvidence:
-        """The same, had its rules been told."""
-        return replace(self, readings=readings)
+    def with_readings(self, readings: float, program: float) -> AssetEvidence:
+        """The same, had its rules been told, or results been looked at."""
+        return replace(self, readings=readings, program=program)
 
 
 def _log_odds(share: float) -> float:

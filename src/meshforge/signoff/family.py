@@ -24,9 +24,11 @@ from meshforge.synthesis import Reading
 SURE_OF_DEMONSTRATED = 0.999
 _WORTH_TELLING = 0.01  # the probability that an edit is wrong for one reason, from which on it is told
 _MOST_DOUBTS = 6
-_PROGRAM_RIGHT, _RESULT_RIGHT, _RESULT_WRONG = 5.0, 1.3, 1.2
-"""What speaks for a program as such [nats], and how each result that was found right, or wrong, changes that; a wrong
-one says little, as those that are asked about are the most doubtful."""
+_PROGRAM_RIGHT, _RESULT_RIGHT, _RESULT_WRONG = 2.5, 1.3, 2.2
+"""What speaks for a program as such [nats], and how each result that was found right, or wrong, changes that: no other
+is at the bar before one was looked at, and after a wrong one it takes two that are right."""
+_MOST_MISTRUST = 0.03  # in a program, above which it is told
+_NO_LOOK = "nobody has looked at a result of this program yet"
 _UNLIKE = 1.5  # what is so much farther than usual, as a logarithm, is unlike the rest
 
 
@@ -66,7 +68,6 @@ class FamilyTrial:
         agreement = np.ones(len(self.trials))
         for one in self.readings:
             agreement = agreement * one.agreement
-        agreement = agreement * _trust_in_program(len(self.state.accepted), len(self.state.mended))
         for found in self.slips:
             agreement = agreement * (1 - found.slip.share * found.differs)
         return tuple(
@@ -76,9 +77,18 @@ class FamilyTrial:
                 float(trial.asset in self.foreign),
                 float(self._unlikeness[place]),
                 float(len(self.alarms.get(trial.asset, ()))),
+                self.trust_in_program(),
             )
             for place, trial in enumerate(self.trials)
         )
+
+    def trust_in_program(self, looks: int = 0) -> float:
+        """The probability that the program is not wrong nearly everywhere, by the results that a person has looked at.
+
+        looks: more results that are found right.
+        """
+        right, wrong = len(self.state.accepted) + looks, len(self.state.mended)
+        return 1 / (1 + exp(-(_PROGRAM_RIGHT + _RESULT_RIGHT * right - _RESULT_WRONG * wrong)))
 
     @cached_property
     def places(self) -> Mapping[str, int]:
@@ -116,6 +126,7 @@ class FamilyTrial:
         if trial.error:
             return AssetConfidence(trial.asset, NO_EDIT, (self._doubt_of_error(place),))
         doubts = [*self._reading_doubts(place), *self._label_doubts(place), *self._odd_doubts(place)]
+        doubts += self._program_doubts
         weightiest = sorted(doubts, key=lambda one: -one.share)[:_MOST_DOUBTS]
         return AssetConfidence(trial.asset, evidence.probability, tuple(weightiest))
 
@@ -128,6 +139,15 @@ class FamilyTrial:
             len(trial.meshes) or None,
             1.0,
         )
+
+    @cached_property
+    def _program_doubts(self) -> tuple[Doubt, ...]:
+        """Whether too few results were looked at, or too many of these were wrong."""
+        share = 1 - self.trust_in_program()
+        wrong = len(self.state.mended)
+        every = wrong + len(self.state.accepted)
+        text = f"{wrong} of the {every} results that were looked at were wrong" if wrong else _NO_LOOK
+        return (Doubt("reading", text, share=share),) if share > _MOST_MISTRUST else ()
 
     def _reading_doubts(self, place: int) -> list[Doubt]:
         found, trial = [], self.trials[place]
@@ -177,12 +197,6 @@ class FamilyTrial:
         if evidence.unlike > 0 and share >= _WORTH_TELLING:
             found.append(Doubt("unlike", "unlike the rest: no other asset has such hulls", share=share))
         return found
-
-
-def _trust_in_program(right: int, wrong: int) -> float:
-    """The probability that a program is not wrong nearly everywhere, by the results that a person has looked at."""
-    nats = _PROGRAM_RIGHT + _RESULT_RIGHT * right - _RESULT_WRONG * wrong
-    return 1 / (1 + exp(-nats))
 
 
 def flip_shares(flips: Sequence[Flip]) -> dict[str, float]:

@@ -195,15 +195,16 @@ def _ask_reading(family: FamilyTrial, rule: int, split: ReadingSplit) -> ReviewQ
     return identify(ReviewQuestion("", kind, text, READING, gain, trial.asset, rule, (), tuple(choices)))
 
 
-def _gains_of(family: FamilyTrial, splits: Sequence[ReadingSplit]) -> Floats:
-    """By how much more probable each edit is right (assets,) when some rules are told apart."""
-    shares = np.ones(len(family.trials))
+def _gains_of(family: FamilyTrial, splits: Sequence[ReadingSplit], looks: int = 0) -> Floats:
+    """By how much more probable each edit is right (assets,) when some rules are told apart, and as many results more
+    are found right."""
+    shares, program = np.ones(len(family.trials)), family.trust_in_program(looks)
     for split in splits:
         agreement = family.readings[split.rule - 1].agreement
         shares *= np.minimum(1.0, agreement + split.gains) / np.maximum(agreement, 1e-9)
     return np.array(
         [
-            one.with_readings(min(1.0, one.readings * share)).probability - one.probability
+            one.with_readings(min(1.0, one.readings * share), program).probability - one.probability
             for one, share in zip(family.evidence, shares.tolist(), strict=True)
         ]
     )
@@ -216,7 +217,7 @@ def _ask_results(family: FamilyTrial, found: Assessment) -> Iterator[ReviewQuest
         place = family.places[name]
         trial, trust = family.trials[place], family.evidence[place].labels ** _TRUST
         splits = [split for rule in family.readings for split in split_readings(rule, [place])]
-        others = _gains_of(family, splits)
+        others = _gains_of(family, splits, looks=1)
         others[place] = 0.0
         gain = doubt + float(others.sum()) * trust
         seconds = YES_OR_NO + doubt * mend

@@ -9,7 +9,7 @@ import pytest
 
 from meshforge.project import Project
 from tests.unit.cli.in_process import Run, runner
-from tests.unit.project.racks import BLOCK, PLAIN, shown_racks
+from tests.unit.project.racks import BLOCK, PLAIN, find_right, shown_racks
 from tests.unit.project.tables import SECOND, THIRD, applied
 
 
@@ -150,6 +150,7 @@ def racks(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], t
 
 @pytest.mark.slow
 def test_a_result_that_would_be_a_block_is_held_though_nothing_was_written_before(racks: Run) -> None:
+    find_right(Project.open("racks"), PLAIN[2])
     assert f"{BLOCK} (49%): nearly one solid block" in racks("review", "racks").out
     told = racks("apply", "racks", "--sure", "0.95", "--workers", "1")
     assert told.code == 1
@@ -163,13 +164,14 @@ def test_a_result_that_would_be_a_block_is_held_though_nothing_was_written_befor
 def test_a_result_that_stands_out_in_a_run_alone_is_not_signed_off_by_it(
     racks: Run, monkeypatch: pytest.MonkeyPatch
 ) -> None:
+    find_right(Project.open("racks"), PLAIN[2])
     with monkeypatch.context() as earlier:
         earlier.setattr("meshforge.project.review.measure_results", lambda *_: {})  # as a version before did
         assert racks("review", "racks").code == 0
     assert f"1 result stands out: {BLOCK}" in racks("apply", "racks", "--workers", "1").out
     assert set(Project.open("racks").sign_offs().assets) == set(PLAIN)
     told = racks("status", "racks", "--signed-off")
-    assert told.code == 1 and f"{BLOCK} (99%): nearly one solid block" in told.out
+    assert told.code == 1 and f"{BLOCK} (97%): nearly one solid block" in told.out
 
 
 @pytest.mark.slow

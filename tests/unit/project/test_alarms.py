@@ -12,7 +12,7 @@ from meshforge.project import Project, measure_results
 from meshforge.project.sign_offs import find_inputs
 from meshforge.signoff import EditMeasures, describe_odd_results, measure_edit
 from meshforge.symbolic import SymbolicMesh
-from tests.unit.project.racks import BLOCK, PLAIN, shown_racks
+from tests.unit.project.racks import BLOCK, PLAIN, find_right, shown_racks
 
 TURNED = "labels top, leg, rail\norient +Z: Is(leg) -> Is(top)\n\nIs(leg) => Each(Merge)\n"
 
@@ -79,9 +79,17 @@ def test_what_is_written_is_read_from_its_stamp_and_the_rest_is_measured_once(
 
 
 def test_a_review_before_anything_is_written_holds_the_block(racks: Project) -> None:
+    find_right(racks, PLAIN[2])
     found = racks.review(execution=IN_PROCESS).assessment
     assert found.held == (BLOCK,)
     assert found.assets[BLOCK].doubts[0].kind == "alarm"
+
+
+def test_nothing_but_what_was_shown_is_signed_off_before_anybody_looked_at_a_result(racks: Project) -> None:
+    found = racks.review(execution=IN_PROCESS).assessment
+    assert set(found.held) == {*PLAIN[2:], BLOCK}
+    assert found.assets[PLAIN[2]].doubts[0].text == "nobody has looked at a result of this program yet"
+    assert found.question is not None and found.question.kind == "result"
 
 
 def test_a_second_review_measures_what_changed_since_the_first(racks: Project, measured: list[int]) -> None:

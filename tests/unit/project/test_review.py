@@ -270,7 +270,7 @@ def test_an_output_that_stands_out_though_the_review_did_not_know_is_signed_off_
     assert {asset: one.by for asset, one in project.sign_offs().assets.items()} == {FIRST: "person", SECOND: "person"}
     assert project.renew_sign_offs(clock=lambda: NOON) == {} and THIRD not in project.sign_offs().assets
     status = next(one for one in project.status().assets if one.id == THIRD)
-    assert (status.sign_off, [doubt.kind for doubt in status.doubts]) == ("held", ["alarm"])
+    assert (status.sign_off, [doubt.kind for doubt in status.doubts]) == ("held", ["alarm", "reading"])
     review(project)
     assert sign_off_of(project, THIRD) == "signed off"
 
