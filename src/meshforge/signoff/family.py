@@ -26,7 +26,7 @@ _WORTH_TELLING = 0.01  # the probability that an edit is wrong for one reason, f
 _MOST_DOUBTS = 6
 _PROGRAM_RIGHT, _RESULT_RIGHT, _RESULT_WRONG = 2.5, 1.3, 2.2
 """What speaks for a program as such [nats], and how each result that was found right, or wrong, changes that: no other
-is at the bar before one was looked at, and after a wrong one it takes two that are right."""
+is at the bar before one was looked at, and each wrong one takes about two more that are right."""
 _MOST_MISTRUST = 0.03  # in a program, above which it is told
 _NO_LOOK = "nobody has looked at a result of this program yet"
 _UNLIKE = 1.5  # what is so much farther than usual, as a logarithm, is unlike the rest
