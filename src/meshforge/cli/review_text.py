@@ -23,7 +23,7 @@ def format_counts(signed_off: int, total: int, held: int, aside: int, bar: float
     if not total:
         return "There is no asset."
     are, were = ("is", "was") if signed_off == 1 else ("are", "were")
-    some = f"{signed_off} of {total} {are} at least {bar:.0%} sure, or {were} looked at"
+    some = f"{signed_off} of {total} {are} at least {100 * bar:g}% sure, or {were} looked at"
     aside_text = f"; {aside} set aside" if aside else ""
     if held:
         return f"{some}{aside_text}; look at {'this one' if held == 1 else f'these {held}'}:"
