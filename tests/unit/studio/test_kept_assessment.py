@@ -48,6 +48,7 @@ def test_what_was_assessed_is_known_to_the_status_and_signs_off_what_is_written(
     tmp_path: Path, flag: CancelFlag
 ) -> None:
     project = applied(tmp_path)
+    project.set_verdict(SECOND, "accepted")
     learn(project, flag)
     assess(project, flag)
     assert signers_of(project) == {FIRST: "person", SECOND: "person", THIRD: "tool"}
@@ -61,9 +62,11 @@ def test_what_was_assessed_is_known_to_the_status_and_signs_off_what_is_written(
 
 def test_what_is_not_written_is_sure_and_not_signed_off(tmp_path: Path, flag: CancelFlag) -> None:
     project = learned(tmp_path)
+    list(project.apply([SECOND], execution=IN_PROCESS))
+    project.set_verdict(SECOND, "accepted")
     learn(project, flag)
     assess(project, flag)
-    assert [one.sign_off for one in project.status().assets] == ["sure", "sure", "sure"]
+    assert [one.sign_off for one in project.status().assets] == ["sure", "signed off", "sure"]
 
 
 def test_what_changed_while_it_was_assessed_is_not_kept(
