@@ -20,11 +20,11 @@ def demonstrate(store: Store, asset: str, steps: Iterable[Step]) -> None:
 
     Raises DemonstrationError for steps that are not numbered in order, ProjectError for a hull that cannot be there:
     every name is a hull of the mesh, or, after the first step, one that an edit of such a hull can have made; and for
-    a label that is not in the vocabulary.
+    a label that is not in the vocabulary, if there is one.
     """
     mesh, steps, words = store.mesh(asset), tuple(steps), store.vocabulary
     for rule, label in ((step.rule, step.label) for step in steps):
-        if label and label not in words:
+        if label and words and label not in words:
             problem = f"rule {rule}: the label {label!r} is not in the vocabulary"
             raise ProjectError(problem, where=asset, remedy=suggest_among(label, words))
     for rule, name in find_unknown_hulls(Demonstration(mesh, steps, asset).steps, mesh.index):

@@ -182,3 +182,5 @@ def test_a_label_that_no_asset_has_is_named_with_the_nearest(run: Run, tmp_path:
     said = "rule 1: the label 'tpo' is not in the vocabulary\n  Did you mean 'top'? The vocabulary is top, leg, crumb."
     assert shown == f"error: {FIRST}: {said}\n"
     assert not Path("p/demonstrations").exists()
+    Project.open("p").set_vocabulary(())  # then it is what the steps and the hulls say
+    assert run("demonstrate", "p", FIRST, "top => Merge as tpo").code == 0
