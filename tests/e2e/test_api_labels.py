@@ -14,6 +14,7 @@ from meshforge.project import Project
 from meshforge.symbolic import Label
 from tests.e2e.legs import HULLS, LABELS, four_legged
 from tests.e2e.studio import PATIENCE, Page, Studio, ok, opened
+from tests.loop.command import meshforge
 from tests.studio_project import demo_project
 from tests.unit.batch.families import tree
 
@@ -197,3 +198,14 @@ def test_one_that_is_killed_leaves_labels_whole(tmp_path: Path, seconds: float) 
         if hello["history"]["undo"] == "labels propagated":
             ok(studio.post("/api/undo"))
         assert {name: text for name, text in labels(studio).items() if not name.endswith(".tmp")} == before
+
+
+def test_labels_given_on_the_command_line_are_shown_and_undone_like_those_of_the_page(studio: Studio) -> None:
+    before = labels(studio)
+    with studio.page() as page:
+        meshforge("label", str(folder(studio)), SECOND, f"{HULLS[0]}={LABELS[HULLS[0]]}", cwd=folder(studio))
+        told = page.kind("history")
+        assert told["said"] == f"{SECOND}: 1 hull labelled {LABELS[HULLS[0]]}"
+        assert told["history"]["undo"] == told["said"]
+        ok(studio.post("/api/undo"))
+    assert labels(studio) == before

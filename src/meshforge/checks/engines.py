@@ -8,7 +8,7 @@ from __future__ import annotations
 from types import MappingProxyType
 
 from meshforge.checks.limits import Engine, make_limit
-from meshforge.common import UsageError, nearest_name
+from meshforge.common import UsageError, suggest_among
 
 _COARSER = "PhysX makes a coarser hull of it"
 _COOKED = "PhysX leaves part of the hull out"
@@ -198,7 +198,5 @@ ENGINES = MappingProxyType({engine.name: engine for engine in _ENGINES})
 def find_engine(name: str) -> Engine:
     """The engine of a name. Raises UsageError for one that is not known."""
     if name not in ENGINES:
-        like = nearest_name(name, ENGINES)
-        hint = f"Did you mean {like!r}? " if like else ""
-        raise UsageError(f"there is no engine {name!r}", remedy=f"{hint}Known are: {', '.join(ENGINES)}.")
+        raise UsageError(f"there is no engine {name!r}", remedy=suggest_among(name, ENGINES, "Known are:"))
     return ENGINES[name]

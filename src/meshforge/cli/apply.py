@@ -89,6 +89,8 @@ def apply(given: ApplyArguments) -> None:
     work = _work_of_project(given) if given.program.is_dir() else _work_of_program(given)
     if len(work.jobs) > 1:
         remark(str(batch.plan_run(work.jobs, work.out)))
+    for text in batch.describe_absent_labels(work.program, work.jobs):
+        remark(text)
     summary, started, done = batch.RunSummary(), perf_counter(), list[batch.AssetOutcome]()
     run_options = batch.ApplyOptions(given.mass, given.link, given.dry_run, resume=not given.fresh)
     try:

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from fnmatch import fnmatchcase
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
+from meshforge.cli.hulls import find_hulls
+from meshforge.cli.options import asset_id
 from meshforge.cli.terminal import remark
-from meshforge.common import UsageError, nearest_name
 from meshforge.language import Program, apply_action, to_canonical_frame
 from meshforge.project import Project
 from meshforge.symbolic import SymbolicMesh, mask_of
@@ -19,7 +19,7 @@ from meshforge.synthesis import Step
 
 def demonstrate(
     project: Annotated[Path, typer.Argument(help="A project folder.")],
-    asset: Annotated[str, typer.Argument(help="The id of an asset, as `status` lists it.")],
+    asset: Annotated[str, typer.Argument(help="The id of an asset, as `status` lists it, or its file.")],
     steps: Annotated[
         list[str] | None,
         typer.Argument(help="One for each rule: 'HULLS => ACTION', hulls by name or pattern, with commas between."),
@@ -32,6 +32,7 @@ def demonstrate(
     select, or `open` where it says nothing about that rule. Step by step, what earlier steps made can be named, too.
     """
     opened = Project.open(project)
+    asset = asset_id(asset, opened)
     if clear:
         opened.demonstrate(asset, ())
         remark(f"{asset}: nothing is demonstrated any more")
@@ -68,17 +69,7 @@ def _parse_hulls(text: str, mesh: SymbolicMesh, number: int) -> frozenset[str] |
     text = text.strip()
     if text in ("open", "nothing"):
         return None if text == "open" else frozenset()
-    found: set[str] = set()
-    for pattern in (part.strip() for part in text.split(",")):
-        hits = {pattern} & mesh.index.keys() or {name for name in mesh.index if fnmatchcase(name, pattern)}
-        if not hits:
-            like = nearest_name(pattern, mesh.index)
-            raise UsageError(
-                f"step {number}: no hull is named {pattern!r}",
-                remedy=f"Did you mean {like!r}?" if like else "See the names with: meshforge info ASSET",
-            )
-        found |= hits
-    return frozenset(found)
+    return find_hulls(text, mesh.index, f"step {number}")
 
 
 def _format_selection(step: Step) -> str:

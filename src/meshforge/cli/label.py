@@ -9,6 +9,7 @@ from typing import Annotated, Literal
 import typer
 
 from meshforge.cli import options
+from meshforge.cli.label_by_hand import label_by_hand, refuse_sources
 from meshforge.cli.label_consensus import label_by_consensus, restore_sources
 from meshforge.cli.label_report import LabelPrinter, LabelReport
 from meshforge.cli.label_sources import SourceOptions, label_from_sources, preview
@@ -21,7 +22,20 @@ from meshforge.project import Project
 class LabelArguments:
     """What is typed after `meshforge label`."""
 
+    context: typer.Context
     project: Annotated[Path, typer.Argument(help="A project folder.")]
+    asset: Annotated[
+        str | None,
+        typer.Argument(help="An asset to label by hand: its id, as `status` lists it, its file or a part of its name."),
+    ] = None
+    hulls: Annotated[
+        list[str] | None,
+        typer.Argument(
+            metavar="HULLS=LABEL",
+            help="Labels by hand: hulls by name or pattern, with commas between, and their label; no label takes it "
+            "away, and the last one counts: '*=panel' 'geom9,geom10=handle'.",
+        ),
+    ] = None
     source: Annotated[
         Literal["file", "names", "propagate", "vlm", "consensus", "sources"],
         typer.Option(
@@ -90,10 +104,15 @@ class LabelArguments:
 def label(given: LabelArguments) -> None:
     """Give labels to hulls; what a person labelled is never overwritten by a machine.
 
+    With ASSET and HULLS=LABEL you label by hand (the studio can undo it), else labels come from what --with says.
     Labels are written asset by asset; a run that was stopped or killed goes on where it was: the same command again.
     Exit code 1 when some labels could not be taken, or an asset could not be read (each named); the others are done.
     """
-    source = given.source
+    source, words = given.source, options.split_words(given.vocabulary) if given.vocabulary else None
+    if given.asset is not None:
+        refuse_sources(given.context)
+        label_by_hand(Project.open(given.project), given.asset, given.hulls or (), words, json=given.json)
+        return
     if given.labels and source != "file":
         raise UsageError(f"--labels names labels files, which --with {source} does not read", remedy="Leave one out.")
     if source != "vlm" and given.vlm.first_option:
@@ -102,7 +121,7 @@ def label(given: LabelArguments) -> None:
     sources.refuse_strays()
     if given.report and given.dry_run:
         raise UsageError(options.NOTHING_TO_SHOW, remedy="Leave out --report.")
-    project, words = Project.open(given.project), options.split_words(given.vocabulary) if given.vocabulary else None
+    project = Project.open(given.project)
     execution = given.execution.to_options()
     if given.dry_run and source == "vlm":
         forecast(project, given.vlm, words, execution, json=given.json)

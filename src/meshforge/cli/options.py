@@ -3,17 +3,17 @@ options, the settings of a decomposition engine, the mesh of an asset."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection
+from collections.abc import Callable, Collection, Iterator
 from dataclasses import MISSING, Field, dataclass, fields, is_dataclass
 from enum import StrEnum
 from functools import wraps
 from inspect import Parameter, Signature
-from pathlib import Path
+from pathlib import Path, PurePath
 from typing import TYPE_CHECKING, Annotated, Any, Literal, TypeVar, get_type_hints
 
 import typer
 
-from meshforge.common import UsageError, plain_path
+from meshforge.common import UsageError, join_names, plain_path
 from meshforge.formats import load
 from meshforge.geometry import CoacdSettings, DecomposeSettings, VhacdSettings
 from meshforge.symbolic import SymbolicMesh
@@ -173,11 +173,17 @@ def split_words(text: str) -> list[str]:
 
 def refuse_options(context: typer.Context, names: Collection[str], without: str) -> None:
     """Raise UsageError for a parameter among some that was typed, though it says nothing `without` another option."""
+    for name, option in list_typed(context):
+        if name in names:
+            raise UsageError(f"{option} says nothing without {without}", remedy=f"Give {without} too, or leave it out.")
+
+
+def list_typed(context: typer.Context) -> Iterator[tuple[str, str]]:
+    """The names of the parameters that were typed, each with its option."""
     for parameter in context.command.params:
         source = context.get_parameter_source(parameter.name or "")
-        if parameter.name in names and source is not None and source.name == "COMMANDLINE":
-            option = parameter.opts[0]
-            raise UsageError(f"{option} says nothing without {without}", remedy=f"Give {without} too, or leave it out.")
+        if parameter.name and source is not None and source.name == "COMMANDLINE":
+            yield parameter.name, parameter.opts[0]
 
 
 def _parse_value(text: str, value: str, kind: type) -> Any:
@@ -203,7 +209,28 @@ def open_asset(asset: Path, labels: Path | None, project: Path | None) -> Symbol
     return home.mesh(asset_id(asset, home))
 
 
-def asset_id(asset: Path, project: Project) -> str:
-    """The id of an asset of a project that is given by its file, or by that id."""
-    by_path = {plain_path(path): key for key, path in project.found.ids.items()}
-    return by_path.get(plain_path(asset), asset.as_posix())
+def asset_id(asset: str | Path, project: Project) -> str:
+    """The id of an asset of a project, given by its file, by that id, or by a part of it that no other asset has.
+
+    Raises UsageError, naming them, where several have that part; ProjectError, naming the nearest, where none has.
+    """
+    ids, path = project.found.ids, Path(asset)
+    by_path = {plain_path(file): key for key, file in ids.items()}
+    text, place = path.as_posix(), plain_path(path)
+    if place in by_path or text in ids:
+        return by_path.get(place, text)
+    if path.exists():  # another file is no asset of the project, whatever its name
+        alike = [key for file, key in by_path.items() if file.is_relative_to(place)]
+    else:
+        alike = [key for key in ids if _is_part(text, key)]
+    if len(alike) > 1:
+        remedy = f"Say which: {join_names(alike)}."
+        raise UsageError(f"{text!r} may be any of {len(alike)} assets", where=str(project.folder), remedy=remedy)
+    project.path(alike[0] if alike else text)
+    return alike[0]
+
+
+def _is_part(typed: str, asset: str) -> bool:
+    """Whether what was typed is whole parts of an id, with its suffix or without, or a longer path that ends in it."""
+    forms = (f"/{asset}", f"/{PurePath(asset).with_suffix('').as_posix()}")
+    return any(f"/{typed}/" in f"{form}/" or f"/{typed}".endswith(form) for form in forms)

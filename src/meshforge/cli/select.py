@@ -9,6 +9,7 @@ import typer
 
 from meshforge.cli.options import AssetFile, InProject, Json, LabelsPath, open_asset
 from meshforge.cli.terminal import print_json, remark
+from meshforge.common import suggest_among
 from meshforge.language import labels_of, parse_extractor
 
 
@@ -26,7 +27,7 @@ def select(
     here = sorted({hull.label for hull in mesh.hulls if hull.label})
     for label in labels_of(extractor):
         if label not in here:  # an asset need not have every label of its family, so this is no error
-            remark(f"no hull here is labelled {label!r}; labels here: {', '.join(here) or 'none'}")
+            remark(f"no hull here is labelled {label!r}. {suggest_among(label, here, 'Labels here:')}")
     chosen = sorted(extractor.select(mesh))
     names = [mesh.hulls[k].name for k in chosen]
     if picture:

@@ -7,7 +7,7 @@ from collections.abc import Callable, Sequence
 from meshforge.cli.console import show_status
 from meshforge.cli.synthesize_session import LearningSession, QuestionPictures
 from meshforge.cli.synthesize_text import describe_change, format_question, format_repair
-from meshforge.common import UsageError, nearest_name
+from meshforge.common import UsageError, suggest_aside
 from meshforge.language import explain
 from meshforge.symbolic import SymbolicMesh
 from meshforge.synthesis import Ambiguous, LearningOutcome, NeedsRepair, NoProgram, Question
@@ -165,7 +165,6 @@ def parse_labels(text: str, mesh: SymbolicMesh, vocabulary: Sequence[str]) -> di
             raise UsageError(f"{part!r} is not of the form HULL=LABEL")
         for name, known, what in ((hull, mesh.index, "hull"), (label, vocabulary, "label")):
             if name not in known:
-                like = nearest_name(name, known)
-                raise UsageError(f"there is no {what} {name!r}" + (f"; did you mean {like!r}?" if like else ""))
+                raise UsageError(f"there is no {what} {name!r}{suggest_aside(name, known)}")
         given[hull] = label
     return given

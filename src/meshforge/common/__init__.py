@@ -9,6 +9,7 @@ from meshforge.common.files import (
     is_file,
     is_link_cycle,
     plain_path,
+    quote_path,
     relative_name,
     replace_atomically,
     write_atomically,
@@ -27,6 +28,9 @@ from meshforge.common.messages import (
     join_names,
     nearest_name,
     pluralize,
+    suggest_among,
+    suggest_aside,
+    suggest_name,
 )
 
 __all__ = [
@@ -51,7 +55,11 @@ __all__ = [
     "nearest_name",
     "plain_path",
     "pluralize",
+    "quote_path",
     "relative_name",
     "replace_atomically",
+    "suggest_among",
+    "suggest_aside",
+    "suggest_name",
     "write_atomically",
 ]

@@ -6,6 +6,7 @@ from __future__ import annotations
 import glob
 import hashlib
 import os
+import shlex
 import tempfile
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
@@ -77,6 +78,12 @@ def relative_name(path: Path, base: Path) -> str:
 def plain_path(path: Path) -> Path:
     """The absolute path without `..`; symbolic links stay as the user wrote them."""
     return Path(os.path.normpath(path.absolute()))
+
+
+def quote_path(path: Path) -> str:
+    """A path as one types it here."""
+    here = Path.cwd()
+    return shlex.quote(str(path.relative_to(here) if path.is_relative_to(here) else path))
 
 
 def _mode_of(path: Path) -> int:

@@ -5,7 +5,7 @@ where, and what to do about it.
 from __future__ import annotations
 
 import difflib
-from collections.abc import Iterable, Sequence
+from collections.abc import Collection, Iterable, Sequence
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
@@ -27,6 +27,23 @@ def nearest_name(name: str, available: Iterable[str]) -> str | None:
     """The available name most like `name`, or None where nothing is alike."""
     found = difflib.get_close_matches(name, sorted(available), n=1, cutoff=0.5)
     return found[0] if found else None
+
+
+def suggest_name(name: str, available: Iterable[str], otherwise: str | None = None) -> str | None:
+    """The remedy for a name that is not available: the nearest one that is; otherwise, where nothing is alike."""
+    like = nearest_name(name, available)
+    return f"Did you mean {like!r}?" if like else otherwise
+
+
+def suggest_aside(name: str, available: Iterable[str]) -> str:
+    """The end of a sentence on a name that is not available: the nearest one that is, or nothing."""
+    like = nearest_name(name, available)
+    return f"; did you mean {like!r}?" if like else ""
+
+
+def suggest_among(name: str, available: Collection[str], listing: str = "The vocabulary is") -> str:
+    """The remedy for a name that is not available: the nearest one that is, and all of them."""
+    return f"{suggest_name(name, available, '')} {listing} {', '.join(available) or 'empty'}.".lstrip()
 
 
 class MeshForgeError(Exception):

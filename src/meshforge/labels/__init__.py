@@ -1,6 +1,7 @@
 """The labels of a project: from people, names, files, a few labelled assets or a model; a person's label is never
 overwritten by a machine."""
 
+from meshforge.labels.by_hand import label_command
 from meshforge.labels.from_files.points import PointsOptions
 from meshforge.labels.from_files.read import LabelFileOptions, label_file_beside
 from meshforge.labels.from_files.segments import PointAlignment
@@ -34,6 +35,7 @@ __all__ = [
     "VlmResult",
     "check_vlm_settings",
     "endpoint_of",
+    "label_command",
     "label_file_beside",
     "label_new_hulls",
 ]

@@ -18,6 +18,7 @@ from meshforge.label_model import (
     correct_upright,
     find_doubtful_sides,
 )
+from meshforge.labels.by_hand import label_command
 from meshforge.labels.descriptor_cache import DescriptorCache
 from meshforge.labels.merge import LabelOutcome, LabelWriter, OutcomeCallback, ReplacePolicy, infer_over
 from meshforge.store import Store, survey
@@ -105,8 +106,10 @@ def compare_assets(
     table = _set_upright(cache, assets, table, seen, lost, execution.stop, stage)
     compared = FamilyComparison(hulls, current, lost, assets, said, _compute_isolated(table, seen, execution.stop))
     if not compared.found.seen.labels:
-        best = compared.next
-        remedy = f"Label the hulls of one asset first, best {best}." if best else "Decompose the assets first."
+        best, remedy = compared.next, "Decompose the assets first."
+        if best:
+            command = label_command(store.folder, best, next(iter(hulls[best])), vocabulary)
+            remedy = f"Label the hulls of one asset first, best {best}. In the studio, or: {command}"
         raise ProjectError("there is no label that others could be taken from", where=str(store.folder), remedy=remedy)
     return compared
 

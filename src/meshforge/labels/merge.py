@@ -7,7 +7,7 @@ from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from meshforge import symbolic
-from meshforge.common import AssetError, ProjectError, file_state, join_names, nearest_name
+from meshforge.common import AssetError, ProjectError, file_state, join_names, suggest_aside
 from meshforge.geometry import Shape, digest, overlap_volume
 from meshforge.label_model import evidence_of
 from meshforge.rendering import UNSURE
@@ -49,7 +49,7 @@ def set_labels(
         mesh, vocabulary = store.mesh(asset), store.vocabulary
         labelled, report = merge_labels(asset, mesh.index, mesh.labels, given, vocabulary)
         gone = [
-            f"there is no hull {name!r}{_suggest_nearest(name, mesh.index)}" for name in away if name not in mesh.index
+            f"there is no hull {name!r}{suggest_aside(name, mesh.index)}" for name in away if name not in mesh.index
         ]
         problems = [*report.problems, *gone]
         if problems:
@@ -105,15 +105,10 @@ def infer_over(current: Label | None, given: Label) -> Label:
 
 def _problem(name: str, label: Label, hulls: Collection[str], vocabulary: Sequence[str]) -> str | None:
     if name not in hulls:
-        return f"there is no hull {name!r}{_suggest_nearest(name, hulls)}"
+        return f"there is no hull {name!r}{suggest_aside(name, hulls)}"
     if label.name not in vocabulary:
-        return f"{name}: the label {label.name!r} is not in the vocabulary{_suggest_nearest(label.name, vocabulary)}"
+        return f"{name}: the label {label.name!r} is not in the vocabulary{suggest_aside(label.name, vocabulary)}"
     return None
-
-
-def _suggest_nearest(name: str, available: Collection[str]) -> str:
-    like = nearest_name(name, available)
-    return f"; did you mean {like!r}?" if like else ""
 
 
 OutcomeCallback = Callable[[LabelOutcome], None]

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Literal, assert_never, get_args
 
-from meshforge.common import ProgramError, nearest_name
+from meshforge.common import ProgramError, suggest_among
 from meshforge.geometry import Aabb
 from meshforge.symbolic import SymbolicMesh, bits_of, mask_of
 
@@ -273,9 +273,7 @@ def rename_in_extractor(node: Extractor, old: str, new: str) -> Extractor:
 def check_declared(label: str, declared: tuple[str, ...]) -> None:
     """Raises ProgramError for a label that is not among those declared."""
     if label not in declared:
-        like = nearest_name(label, declared)
-        hint = f"Did you mean {like!r}? " if like else ""
-        raise ProgramError(f"unknown label {label!r}", remedy=f"{hint}Declared labels: {', '.join(declared)}.")
+        raise ProgramError(f"unknown label {label!r}", remedy=suggest_among(label, declared, "Declared labels:"))
 
 
 def check_threshold(name: str, value: float | None) -> None:

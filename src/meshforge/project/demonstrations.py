@@ -8,7 +8,7 @@ from collections.abc import Container, Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 
 from meshforge import store as files
-from meshforge.common import MeshForgeError, ProjectError, UsageError, nearest_name
+from meshforge.common import MeshForgeError, ProjectError, UsageError, suggest_among, suggest_name
 from meshforge.labels import merge
 from meshforge.store import Store
 from meshforge.symbolic import Label, SymbolicMesh
@@ -19,14 +19,17 @@ def demonstrate(store: Store, asset: str, steps: Iterable[Step]) -> None:
     """Set the steps that are demonstrated on an asset; no steps take the demonstration away.
 
     Raises DemonstrationError for steps that are not numbered in order, ProjectError for a hull that cannot be there:
-    every name is a hull of the mesh, or, after the first step, one that an edit of such a hull can have made.
+    every name is a hull of the mesh, or, after the first step, one that an edit of such a hull can have made; and for
+    a label that is not in the vocabulary, if there is one.
     """
-    mesh, steps = store.mesh(asset), tuple(steps)
+    mesh, steps, words = store.mesh(asset), tuple(steps), store.vocabulary
+    for rule, label in ((step.rule, step.label) for step in steps):
+        if label and words and label not in words:
+            problem = f"rule {rule}: the label {label!r} is not in the vocabulary"
+            raise ProjectError(problem, where=asset, remedy=suggest_among(label, words))
     for rule, name in find_unknown_hulls(Demonstration(mesh, steps, asset).steps, mesh.index):
-        like = nearest_name(name, mesh.index)
-        raise ProjectError(
-            f"rule {rule}: there is no hull {name!r}", where=asset, remedy=f"Did you mean {like!r}?" if like else None
-        )
+        remedy = suggest_name(name, mesh.index)
+        raise ProjectError(f"rule {rule}: there is no hull {name!r}", where=asset, remedy=remedy)
     store.write_steps(asset, steps)
 
 
@@ -239,9 +242,8 @@ def take_back(store: Store, said: str) -> str | None:
     with store.lock():
         kept = store.answers()
         if said not in kept.ids:
-            like = nearest_name(said, kept.ids)
             listing = f"See what was said: meshforge synthesize {store.folder} --list-answers"
-            remedy = f"Did you mean {like!r}?" if like else listing
+            remedy = suggest_name(said, kept.ids, listing)
             raise ProjectError(f"there is no answer or repair {said!r}", where=str(store.folder), remedy=remedy)
         notes = [_restore_label(store, line) for line in kept.confirmed if line.id == said]
         store.write_answers(kept.without(said))

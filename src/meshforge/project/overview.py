@@ -7,6 +7,7 @@ from functools import partial
 
 from meshforge.batch import ApplyTask, AssetJob, ExecutionOptions, Stamp, inputs_of, read_stamp
 from meshforge.common import MeshForgeError
+from meshforge.labels import OfferCache
 from meshforge.language import Program
 from meshforge.project.demonstrations import find_unknown_hulls
 from meshforge.project.learn import program_state_of, suggest_first_demonstration
@@ -50,7 +51,8 @@ def compute_status(
     known = {asset.id: asset for asset in (*others, *assets)}
     every = [known[asset] for asset in ids if asset in known]
     first = partial(suggest_first_demonstration, store) if only is None else lambda assets: None
-    adviser = Adviser(store.folder, ids, every, settings.vocabulary, rules, state, problem, first)
+    count_names = partial(_count_names, store) if only is None else lambda: 0
+    adviser = Adviser(store.folder, ids, every, settings.vocabulary, rules, state, problem, first, count_names)
     return Status(
         settings.name,
         assets,
@@ -63,6 +65,14 @@ def compute_status(
         state.question,
         last.bar if last else BAR,
     )
+
+
+def _count_names(store: Store) -> int:
+    """How many hulls without a label have names that say one; 0 where the patterns of the settings make no sense."""
+    try:
+        return sum(map(len, OfferCache().of(store).names.values()))
+    except MeshForgeError:  # `label --with names` says why
+        return 0
 
 
 def _read_program(store: Store) -> tuple[Program | None, ApplyTask | None, str | None]:

@@ -7,7 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from meshforge import store as files
-from meshforge.common import ProgramError, ProjectError, nearest_name, write_atomically
+from meshforge.common import ProgramError, ProjectError, suggest_name, write_atomically
 from meshforge.language import Program, rename_in_orient, rename_in_program
 from meshforge.project import learn
 from meshforge.store import Store
@@ -41,8 +41,7 @@ def rename_label(store: Store, old: str, new: str) -> None:
 def _check_names(store: Store, vocabulary: tuple[str, ...], old: str, new: str) -> None:
     where = str(store.folder)
     if old not in vocabulary:
-        like = nearest_name(old, vocabulary)
-        remedy = f"Did you mean {like!r}?" if like else f"The vocabulary is: {', '.join(vocabulary) or 'empty'}."
+        remedy = suggest_name(old, vocabulary, f"The vocabulary is: {', '.join(vocabulary) or 'empty'}.")
         raise ProjectError(f"there is no label {old!r}", where=where, remedy=remedy)
     if new in vocabulary:
         remedy = "Choose another name, or give its hulls that label."

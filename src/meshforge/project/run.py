@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from typing import TypeVar
 
 from meshforge import batch
-from meshforge.common import ProjectError, nearest_name
+from meshforge.common import ProjectError, suggest_name
 from meshforge.geometry import digest
 from meshforge.language import Action, Program, RunResult, Template
 from meshforge.store import Review, RuleSelection, Store, Verdict, action_text_without_each
@@ -122,8 +122,7 @@ def make_correction(
     """One more edit by hand, on hulls of the mesh. Raises ProjectError for a hull that is not there."""
     for name in select:
         if name not in mesh.index:
-            like = nearest_name(name, mesh.index)
-            remedy = f"Did you mean {like!r}?" if like else None
+            remedy = suggest_name(name, mesh.index)
             raise ProjectError(f"after the program there is no hull {name!r}", where=asset, remedy=remedy)
     return batch.Correction(tuple((name, digest(mesh.hull_of(name).shape)) for name in select), action, label)
 

@@ -3,13 +3,13 @@ command."""
 
 from __future__ import annotations
 
-import shlex
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Literal
 
-from meshforge.labels import label_file_beside
+from meshforge.common import pluralize, quote_path
+from meshforge.labels import label_command, label_file_beside
 from meshforge.project.learn import ProgramState
 from meshforge.signoff import BAR, Doubt
 from meshforge.symbolic import Label
@@ -162,7 +162,8 @@ class Advice:
 class Adviser:
     """Finds what to do next in a project. paths: of the assets by id; rules: of the program, None where there is none.
 
-    problem: why the program cannot be applied; first: which of some assets, by id, is to be demonstrated first.
+    problem: why the program cannot be applied; first: which of some assets, by id, is to be demonstrated first;
+    count_names: how many hulls without a label have names that say one.
     """
 
     folder: Path
@@ -173,6 +174,7 @@ class Adviser:
     state: ProgramState
     problem: str | None
     first: Callable[[Sequence[str]], str | None]
+    count_names: Callable[[], int]
 
     def advise(self) -> Advice:
         """The first thing that is missing on the way from assets to edited assets."""
@@ -201,23 +203,35 @@ class Adviser:
             command = self._type("label --with file")
             if any(map(label_file_beside, self.paths.values())):
                 return Advice("No hull has a label yet: take over the labels files beside the assets.", command)
-            words = "" if self.vocabulary else " --vocabulary a,b,c"
-            return Advice(
-                "No hull has a label yet: name a folder of labels files.", f"{command} --labels FOLDER{words}"
-            )
+            return self._advise_label_source()
         bare = [asset for asset in self.assets if asset.hulls and not asset.labelled]
         if bare and any(asset.hulls and asset.labelled == asset.hulls for asset in self.assets):
             say = f"{_name_assets(bare)} no label: propagate those of the labelled assets."
             return Advice(say, self._type("label --with propagate"))
         return None if shown else self._advise_demonstration()
 
+    def _advise_label_source(self) -> Advice:
+        """Names where they say something, else by hand."""
+        if count := self.count_names():
+            say = f"No hull has a label yet: the names of {pluralize(count, 'hull')} say what they are."
+            return Advice(say, self._type("label --with names"))
+        counts = sorted(len(asset.names) for asset in self.assets if asset.names)
+        if not counts:
+            return Advice("No asset has hulls that can be read: see the remarks.")
+        usual = next(asset for asset in self.assets if len(asset.names) == counts[(len(counts) - 1) // 2])
+        say = (
+            f"No hull has a label yet: label those of an asset by hand, best first {usual.id}, here or in the studio. "
+            f"The names of hulls: meshforge info {quote_path(Path(usual.id))} --project {quote_path(self.folder)}"
+        )
+        return Advice(say, label_command(self.folder, usual.id, usual.names[0], self.vocabulary))
+
     def _advise_demonstration(self) -> Advice:
         labelled = [asset.id for asset in self.assets if asset.labelled]
         example = self.first(labelled) or next(iter(labelled or self.paths))
-        quoted = _quote_path(Path(example))
+        quoted = quote_path(Path(example))
         return Advice(
             f"Nothing is demonstrated yet: show the steps of the edit on an asset or two, best first on {example}. "
-            f"The names of hulls: meshforge info {quoted} --project {_quote_path(self.folder)}",
+            f"The names of hulls: meshforge info {quoted} --project {quote_path(self.folder)}",
             self._type(f"demonstrate {quoted} 'HULLS => ACTION' ..."),
         )
 
@@ -252,21 +266,15 @@ class Adviser:
         odd = [asset.id for asset in self.assets if asset.flags or asset.review == "flagged"]
         if odd:
             return Advice(f"All assets are edited; {len(odd)} of them want a look, first {odd[0]}.")
-        edited = _quote_path(self.folder / "edited")
+        edited = quote_path(self.folder / "edited")
         return Advice("All assets are edited and up to date: check them.", f"meshforge check {edited}")
 
     def _type(self, words: str) -> str:
         """A command on the project as one types it here; words: its name, and what follows the project."""
         command, *more = words.split(" ", 1)
-        return " ".join(["meshforge", command, _quote_path(self.folder), *more])
+        return " ".join(["meshforge", command, quote_path(self.folder), *more])
 
 
 def _name_assets(assets: Sequence[AssetStatus]) -> str:
     first = assets[0].id
     return f"{first} has" if len(assets) == 1 else f"{len(assets)} assets, first {first}, have"
-
-
-def _quote_path(path: Path) -> str:
-    """A path as one types it here."""
-    here = Path.cwd()
-    return shlex.quote(str(path.relative_to(here) if path.is_relative_to(here) else path))

@@ -80,7 +80,8 @@ class Store:
         """The file of an asset. Raises ProjectError, naming the nearest id, where there is no such asset."""
         ids = self.found.ids
         if asset not in ids:
-            like = nearest_name(asset, ids)
+            by_name = {Path(key).name: key for key in ids}
+            like = nearest_name(asset, ids) or by_name.get(nearest_name(Path(asset).name, by_name) or "")
             remedy = f"Did you mean {like!r}?" if like else f"See them with: meshforge status {self.folder}"
             raise ProjectError(f"there is no asset {asset!r}", where=str(self.folder), remedy=remedy)
         return ids[asset]

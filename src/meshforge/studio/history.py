@@ -52,6 +52,11 @@ class History:
         with self._mutex:
             return tuple(self._files.entries[: self._files.position])
 
+    def refresh(self) -> bool:
+        """See whether another process, as `meshforge label`, made edits; whether it did."""
+        with self._mutex:
+            return self._files.refresh()
+
     def path_of(self, digest: str) -> Path:
         """A file with the content of that digest. There is none where the history was damaged from outside."""
         return self._snapshots.blobs.path_of(digest)
@@ -134,7 +139,8 @@ class History:
         self._files.end()
 
     def _recover(self, project: Project) -> None:
-        """Complete what was under way."""
+        """Complete what was under way, after reading what other processes did."""
+        self._files.refresh()
         pending = self._files.read_pending()
         if pending is None:
             return

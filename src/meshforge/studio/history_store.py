@@ -12,7 +12,7 @@ from typing import Any, Literal
 from pydantic import BaseModel, ConfigDict
 
 from meshforge.batch import file_digest
-from meshforge.common import ProjectError, relative_name, replace_atomically, write_atomically
+from meshforge.common import ProjectError, file_state, relative_name, replace_atomically, write_atomically
 
 FileState = dict[str, str | None]
 """The digest of each file by its path from the project's folder, None for a file that is not there."""
@@ -65,6 +65,19 @@ class EntryFiles:
         self._pending = folder / "pending.json"
         self._position = folder / "position"
         self.entries = self._read_all()
+        self._state = self._read_state()
+
+    def refresh(self) -> bool:
+        """Read the entries again where another process changed them; whether one did."""
+        if self._read_state() == self._state:
+            return False
+        self.entries = self._read_all()
+        self._state = self._read_state()
+        return True
+
+    def _read_state(self) -> tuple[object, ...]:
+        """What differs as soon as others add, replace or remove entries."""
+        return tuple(map(file_state, (self._path_of(len(self.entries)), self._path_of(len(self.entries) + 1))))
 
     @property
     def position(self) -> int:
@@ -87,6 +100,7 @@ class EntryFiles:
             self._path_of(gone).unlink()
         write_atomically(self._path_of(number), entry.model_dump_json())
         self.entries[number - 1 :] = [entry]
+        self._state = self._read_state()
 
     def read_pending(self) -> PendingEntry | None:
         """What is under way, None for nothing."""

@@ -11,7 +11,7 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import Any
 
-from meshforge.common import AssetError, nearest_name, write_atomically
+from meshforge.common import AssetError, suggest_name, write_atomically
 from meshforge.geometry import digest
 from meshforge.symbolic.hull import INFERRED_SOURCES, LABEL_SOURCES, Label
 from meshforge.symbolic.mesh import SymbolicMesh
@@ -174,8 +174,7 @@ def _check_label(name: str, label: str, vocabulary: Sequence[str], path: Path) -
     if not label.isprintable():
         raise AssetError(f"the label {label!r} of hull {name!r} is no plain text", where=str(path))
     if vocabulary and label not in vocabulary:
-        like = nearest_name(label, vocabulary)
-        hint = f"Did you mean {like!r}?" if like else f"The vocabulary is: {', '.join(vocabulary)}."
+        hint = suggest_name(label, vocabulary, f"The vocabulary is: {', '.join(vocabulary)}.")
         raise AssetError(f"the label {label!r} of hull {name!r} is not in its vocabulary", where=str(path), remedy=hint)
 
 

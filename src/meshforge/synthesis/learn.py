@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 
-from meshforge.common import DemonstrationError, nearest_name
+from meshforge.common import DemonstrationError, suggest_among
 from meshforge.language import Orient, Program, Template
 from meshforge.symbolic import SymbolicMesh
 from meshforge.synthesis.demonstration import Demonstration, collect_rule_specs, name_demonstrations
@@ -128,7 +128,5 @@ def _labels_in_steps(demo: Demonstration) -> list[str]:
 
 def _check_label(label: str, vocabulary: Sequence[str], where: str) -> None:
     if label not in vocabulary:
-        like = nearest_name(label, vocabulary)
-        hint = f"Did you mean {like!r}? " if like else ""
-        remedy = f"{hint}The vocabulary is {', '.join(vocabulary) or 'empty'}."
+        remedy = suggest_among(label, vocabulary)
         raise DemonstrationError(f"the label {label!r} is not in the vocabulary", where=where, remedy=remedy)

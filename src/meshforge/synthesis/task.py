@@ -9,7 +9,7 @@ from typing import TypeVar
 from weakref import WeakKeyDictionary
 
 from meshforge import language
-from meshforge.common import DemonstrationError, MeshForgeError, nearest_name
+from meshforge.common import DemonstrationError, MeshForgeError, suggest_name
 from meshforge.symbolic import Label, SymbolicMesh, mask_of, split_by_contact
 from meshforge.synthesis.demonstration import Demonstration, Example, RuleSpec, name_demonstrations
 from meshforge.synthesis.options import Options
@@ -268,10 +268,7 @@ def _unknown_hull_error(replay: Replay, number: int, name: str) -> Demonstration
         problem = f"the hull {name!r} is gone: an earlier rule removed or replaced it"
         remedy = "Select what that rule made, or change the order of the steps."
         return DemonstrationError(problem, where=where, remedy=remedy)
-    like = nearest_name(name, replay.mesh.index)
-    return DemonstrationError(
-        f"there is no hull {name!r}", where=where, remedy=f"Did you mean {like!r}?" if like else None
-    )
+    return DemonstrationError(f"there is no hull {name!r}", where=where, remedy=suggest_name(name, replay.mesh.index))
 
 
 def _check_single(replay: Replay, rule: RuleSpec, selection: int) -> None:

@@ -50,11 +50,18 @@ def test_the_asset_that_tells_most_is_advised_and_one_that_cannot_be_read_passed
     assert suggest_first_demonstration(project, ()) is None
 
 
-def test_labels_that_lie_nowhere_are_asked_for(tmp_path: Path) -> None:
+def test_labels_that_lie_nowhere_are_to_be_given_by_hand_or_read_from_names(tmp_path: Path) -> None:
     write_table(tmp_path / "assets/t.obj", labels=False)
     project = Project.create(tmp_path / "p", [tmp_path / "assets"])
-    command = of(project).next.command
-    assert command == f"meshforge label {project.folder} --with file --labels FOLDER --vocabulary a,b,c"
+    assert of(project).next.command == f"meshforge label {project.folder} t.obj 'top=LABEL' --vocabulary a,b,c"
+    project.set_vocabulary(("panel", "leg"))
+    assert of(project).next.command == f"meshforge label {project.folder} t.obj 'top=LABEL'"
+    project.set_vocabulary(("top", "leg"))
+    advice = of(project).next
+    assert advice.say == "No hull has a label yet: the names of 1 hull say what they are."
+    assert advice.command == f"meshforge label {project.folder} --with names"
+    (tmp_path / "assets/t.obj").write_text("nothing of use")
+    assert of(project).next.command is None
 
 
 def test_commands_name_the_project_as_one_types_it_here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

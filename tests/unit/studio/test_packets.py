@@ -71,17 +71,17 @@ def test_a_preview_shows_what_the_step_then_does(tmp_path: Path) -> None:
     project = demo_project(tmp_path)
     mesh = project.mesh(SHOWN)
     legs = ("convex_06~1", "convex_10~1")
-    request = PreviewRequest(asset=SHOWN, steps=3, select=legs, action="Each(Replace(cylinder)) as post")
+    request = PreviewRequest(asset=SHOWN, steps=3, select=legs, action="Each(Replace(cylinder)) as misc")
     header, shapes = read_packet(packets.preview_action(project, SHOWN, mesh, request))
     assert header["removed"] == list(legs)
     assert header["made"] == ["convex_06~2", "convex_10~2"]
-    step = Step(4, legs, parse_action("Each(Replace(cylinder))"), "post")
+    step = Step(4, legs, parse_action("Each(Replace(cylinder))"), "misc")
     project.demonstrate(SHOWN, [*project.steps(SHOWN)[:3], step])
     after, then = read_packet(packets.preview_steps(project, SHOWN, mesh, 4))
     assert after["hulls"] == header["hulls"]
     assert [row["name"] for row in header["rows"]] == [row["name"] for row in after["rows"]]
     assert all(np.array_equal(a, b) for (a, _), (b, _) in zip(shapes, then, strict=True))
-    assert {hull["label"] for hull in header["hulls"] if hull["name"] in header["made"]} == {"post"}
+    assert {hull["label"] for hull in header["hulls"] if hull["name"] in header["made"]} == {"misc"}
 
 
 def test_a_preview_says_what_a_user_should_know(project: Project) -> None:

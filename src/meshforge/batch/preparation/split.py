@@ -9,7 +9,7 @@ import numpy as np
 
 from meshforge.batch.preparation import record
 from meshforge.batch.preparation.decompose import decompose_surface, settings_to_json, software_versions
-from meshforge.common import GeometryError, nearest_name, pluralize
+from meshforge.common import GeometryError, pluralize, suggest_name
 from meshforge.geometry import DecomposeSettings, Floats, Polytope, cut, digest, partition
 from meshforge.symbolic import Asset, Geom, Surface
 
@@ -73,10 +73,8 @@ def split_hull(
 def _find_hull(asset: Asset, before: record.Preparation, name: str) -> Geom:
     geoms = {geom.name: geom for geom in record.apply_preparation(asset, before).geoms}
     if name not in geoms:
-        like = nearest_name(name, geoms)
-        raise GeometryError(
-            f"there is no hull {name!r}", where=str(asset.path), remedy=f"Did you mean {like!r}?" if like else None
-        )
+        remedy = suggest_name(name, geoms)
+        raise GeometryError(f"there is no hull {name!r}", where=str(asset.path), remedy=remedy)
     return geoms[name]
 
 

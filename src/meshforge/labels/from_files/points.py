@@ -10,7 +10,7 @@ from pathlib import Path
 
 import numpy as np
 
-from meshforge.common import AssetError, GeometryError, join_names, nearest_name, pluralize
+from meshforge.common import AssetError, GeometryError, join_names, pluralize, suggest_aside
 from meshforge.formats import Segmentation, attach_own_mesh, read_class_names, read_segmentation
 from meshforge.geometry import Aabb, Floats
 from meshforge.labels.from_files import segments
@@ -88,11 +88,9 @@ class FileLabels:
 
 def describe_unknown_class(name: str, hulls: int, vocabulary: Sequence[str]) -> str:
     """The sentence on a name that means nothing in a vocabulary."""
-    like = nearest_name(name, vocabulary)
-    hint = f"; did you mean {like!r}?" if like else ""
     return (
         f"{pluralize(hulls, 'hull')} left out: {name!r} is not in the vocabulary, and no pattern says what "
-        f"it means{hint}"
+        f"it means{suggest_aside(name, vocabulary)}"
     )
 
 

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Literal
 
 from meshforge.batch import SETTINGS, ExecutionOptions
-from meshforge.common import MeshForgeError, ProjectError, UsageError, nearest_name
+from meshforge.common import MeshForgeError, ProjectError, UsageError, suggest_name
 from meshforge.labels.merge import LabelOutcome, LabelWriter, OutcomeCallback, can_fill_gap
 from meshforge.labels.names.words import UNSURE, match_label
 from meshforge.labels.summary import LabelEvidence, Proposals, group_evidence
@@ -149,8 +149,7 @@ def name_patterns(
 
 def _check_pattern(text: str, label: str, vocabulary: Sequence[str]) -> NamePattern:
     if label and label not in vocabulary:
-        like = nearest_name(label, vocabulary)
-        remedy = f"Did you mean {like!r}?" if like else f"The vocabulary is: {', '.join(vocabulary) or 'empty'}."
+        remedy = suggest_name(label, vocabulary, f"The vocabulary is: {', '.join(vocabulary) or 'empty'}.")
         raise UsageError(f"the pattern {text} means {label!r}, which is not in the vocabulary", remedy=remedy)
     return pattern_of(text, label)
 

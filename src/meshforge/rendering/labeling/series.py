@@ -6,7 +6,7 @@ from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 
 import numpy as np
 
-from meshforge.common import UsageError, nearest_name
+from meshforge.common import UsageError, suggest_name
 from meshforge.geometry import Aabb, Floats
 from meshforge.rendering.camera import Up, View
 from meshforge.rendering.labeling.picture import LabelingCanvas, LabelingPicture
@@ -56,8 +56,7 @@ def draw_labeling_pictures(
 def _check_arguments(names: Mapping[str, int], picked: Collection[str], most: int, size: int) -> None:
     unknown = sorted(set(picked) - set(names))
     if unknown:
-        alike = nearest_name(unknown[0], names)
-        raise UsageError(f"there is no hull {unknown[0]!r}", remedy=f"Is it {alike!r}?" if alike else None)
+        raise UsageError(f"there is no hull {unknown[0]!r}", remedy=suggest_name(unknown[0], names))
     if most < 1:
         raise UsageError(f"{most} pictures show nothing", remedy="Ask for one at least.")
     if size not in LABELING_SIZES:

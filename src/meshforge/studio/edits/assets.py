@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from pathlib import Path
 from typing import Literal
 
@@ -28,6 +29,32 @@ class LabelHulls(Edit):
     def describe(self, project: Project) -> str:
         hulls = f"{pluralize(len(self.hulls), 'hull')} of {self.asset}"
         return f"{hulls} labelled {self.label}" if self.label else f"label of {hulls} taken away"
+
+
+class LabelByName(Edit):
+    """Label hulls of an asset, each with its own label, as `meshforge label` does; null takes a label away.
+
+    vocabulary: set before, None for that of the project.
+    """
+
+    touches = ("labels/{asset}.json",)
+    asset: str
+    labels: dict[str, str | None]
+    vocabulary: tuple[str, ...] | None = None
+
+    def apply(self, project: Project) -> None:
+        if self.vocabulary is not None:
+            project.set_vocabulary(self.vocabulary)
+        project.set_labels(self.asset, self.labels)
+
+    def list_paths(self, project: Project) -> tuple[Path, ...]:
+        return (*super().list_paths(project), *([] if self.vocabulary is None else [project.layout.settings]))
+
+    def describe(self, project: Project) -> str:
+        counts = Counter(self.labels.values())
+        parts = [f"{pluralize(n, 'hull')} labelled {label}" for label, n in counts.items() if label is not None]
+        parts += [f"label of {pluralize(counts[None], 'hull')} taken away"] if counts[None] else []
+        return f"{self.asset}: {', '.join(parts)}"
 
 
 class HullOfAsset(Wire):

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 
 from meshforge import language
-from meshforge.common import DemonstrationError, MeshForgeError, ProgramError, nearest_name
+from meshforge.common import DemonstrationError, MeshForgeError, ProgramError, suggest_name
 from meshforge.geometry import Pose
 from meshforge.language import EXTREMITY, Action, Program, Rule, Template, orient_mesh, select_mask
 from meshforge.project import Project
@@ -89,9 +89,7 @@ class AssetReplay:
                 where=where,
                 remedy="Select what that rule made, or change the order of the steps.",
             )
-        like = nearest_name(name, self.mesh.index)
-        remedy = f"Did you mean {like!r}?" if like else None
-        return DemonstrationError(f"there is no hull {name!r}", where=where, remedy=remedy)
+        return DemonstrationError(f"there is no hull {name!r}", where=where, remedy=suggest_name(name, self.mesh.index))
 
 
 @dataclass(frozen=True, eq=False, slots=True)

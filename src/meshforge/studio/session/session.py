@@ -175,6 +175,9 @@ class Session:
     def _poll_files(self) -> None:
         with self._mutex:
             self._file_sync.poll()
+            if self.history.refresh():
+                view = self.history.view
+                self.pages.set_history(HistoryChanged(history=view, did="edit", said=view.undo or ""))
 
     # Learning
 

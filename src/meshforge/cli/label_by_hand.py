@@ -1,0 +1,73 @@
+"""`meshforge label PROJECT ASSET 'HULLS=LABEL' ...`: labels that a person gives on the command line."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+import typer
+
+from meshforge.cli.hulls import find_hulls
+from meshforge.cli.options import asset_id, list_typed
+from meshforge.cli.terminal import print_json
+from meshforge.common import UsageError, pluralize, quote_path, suggest_among
+from meshforge.labels import label_command
+from meshforge.project import Project
+from meshforge.studio.edits.assets import LabelByName
+from meshforge.studio.history import History
+from meshforge.symbolic import Label, SymbolicMesh
+
+_OWN = ("project", "asset", "hulls", "vocabulary", "json")
+
+
+def refuse_sources(context: typer.Context) -> None:
+    """Raise UsageError for an option that is for labels from elsewhere."""
+    for name, option in list_typed(context):
+        if name not in _OWN:
+            raise UsageError(f"{option} says nothing on labels by hand", remedy="Leave it out, or ASSET.")
+
+
+def label_by_hand(
+    project: Project, asset: str, texts: Sequence[str], vocabulary: Sequence[str] | None, *, json: bool
+) -> None:
+    """Give labels to hulls of an asset, and say what was done; the studio can undo it.
+
+    texts: `HULLS=LABEL` each, of which the last one counts for a hull; without a label, the labels are taken away.
+    vocabulary: to be set before, None for that of the project. Raises MeshForgeError, with nothing written, where
+    anything of it is wrong.
+    """
+    if not texts and "=" in asset:
+        remedy = f"meshforge label {quote_path(project.folder)} ASSET '{asset}'"
+        raise UsageError(f"{asset}: of which asset?", remedy=remedy)
+    asset = asset_id(asset, project)
+    mesh, words = project.mesh(asset), project.vocabulary if vocabulary is None else vocabulary
+    if not texts:
+        remedy = label_command(project.folder, asset, next(iter(mesh.index), "HULLS"), words)
+        raise UsageError(f"what is to be labelled on {asset} is missing", remedy=remedy)
+    see = f"meshforge info {quote_path(Path(asset))} --project {quote_path(project.folder)}"
+    labels = _parse_labels(texts, mesh, words, see)
+    edit = LabelByName(asset=asset, labels=labels, vocabulary=None if vocabulary is None else tuple(vocabulary))
+    entry = History(project).do(project, edit)
+    before = {name: mesh.hull_of(name).annotation for name in mesh.index}
+    after = before | {name: Label(label, 1.0, "user") if label else None for name, label in labels.items()}
+    changed = {name: labels[name] for name in labels if after[name] != before[name]}
+    bare = sum(label is None for label in after.values())
+    if json:
+        print_json({"asset": asset, "labels": changed, "same": len(labels) - len(changed), "unlabelled": bare})
+        return
+    rest = f"{pluralize(bare, 'hull')} of {len(after)} without a label" if bare else "every hull has a label"
+    typer.echo(f"{entry.title if entry else f'{asset}: nothing to change'}; {rest}")
+
+
+def _parse_labels(texts: Sequence[str], mesh: SymbolicMesh, words: Sequence[str], see: str) -> dict[str, str | None]:
+    """The label of each hull that is named, None for none, in the order of the mesh; see: what lists the names."""
+    found: dict[str, str | None] = {}
+    for text in texts:
+        hulls, sign, label = (part.strip() for part in text.rpartition("="))
+        if not sign or not hulls:
+            raise UsageError(f"{text}: it needs hulls and a label", remedy="Write it so: 'HULLS=LABEL'.")
+        if label and label not in words:
+            remedy = suggest_among(label, words) + (" Set it with: --vocabulary a,b,c" if not words else "")
+            raise UsageError(f"{text}: the label {label!r} is not in the vocabulary", remedy=remedy)
+        found |= dict.fromkeys(find_hulls(hulls, mesh.index, text, see), label or None)
+    return {name: found[name] for name in mesh.index if name in found}
