@@ -145,7 +145,10 @@ def test_a_sphere_is_the_ellipsoid_that_fills_the_box() -> None:
     result = applied(mesh(hull("a", box([0, 0, 0], [1, 2, 4]))), Replace("sphere"))
     inside = (result.mesh.hulls[0].vertices - [0.5, 1, 2]) / [0.5, 1, 2]
     assert np.allclose(np.linalg.norm(inside, axis=1), 1.0)
-    assert result.note == "sides of the sphere differ by more than 1%, so it is a hull mesh"
+    assert result.note == (
+        "sides of the sphere differ by more than 1%, so it is a hull mesh"
+        " (Replace(sphere, native) makes a native sphere)"
+    )
     cube = applied(mesh(hull("a", box([0, 0, 0], [2, 2, 2]))), Replace("sphere")).mesh.hulls[0].shape
     assert isinstance(cube, Sphere) and cube.radius == pytest.approx(1.0)
 
@@ -260,6 +263,8 @@ def test_a_missing_template_is_named_with_those_that_there_are() -> None:
         lambda: Replace("sphere", "tight"),
         lambda: Replace("bar.obj", "tight"),
         lambda: Replace("box", "longest"),
+        lambda: Replace("box", "native"),
+        lambda: Replace("bar.obj", "native"),
         lambda: Replace(""),
         lambda: Add("X", "bar.obj"),  # type: ignore[arg-type]
         lambda: Scale("all", 0.0),
@@ -279,7 +284,7 @@ def test_the_registry_knows_every_action_by_the_name_it_is_written_with() -> Non
     assert list(ACTIONS) == ["Delete", "Replace", "Add", "Merge", "Scale", "Each"]
     assert [kind.usage() for kind in ACTIONS.values()] == [
         "Delete",
-        'Replace(box|cylinder|capsule|sphere|"file"[, tight|longest])',
+        'Replace(box|cylinder|capsule|sphere|"file"[, native|tight|longest])',
         'Add(+X|-X|+Y|-Y|+Z|-Z, "file"[, keep])',
         "Merge",
         "Scale(all|X|Y|Z, factor)",
