@@ -160,6 +160,7 @@ def simple_actions(factor: st.SearchStrategy[float] = factors, *, tight: bool = 
             st.just(Merge()),
             st.builds(Replace, st.sampled_from(PRIMITIVES)),
             *fits,
+            st.builds(Replace, st.sampled_from(("cylinder", "capsule", "sphere")), st.just("native")),
             st.builds(Replace, files, st.sampled_from((None, "longest"))),
             st.builds(Add, directions, files, st.booleans()),
             st.builds(Scale, st.sampled_from(AXES), factor),

@@ -8,6 +8,7 @@ from meshforge.geometry.decomposition.triangles import is_line, is_sheet, sheet_
 from meshforge.geometry.distance import close_pairs, distance
 from meshforge.geometry.fill import aabb_box, aabb_capsule, aabb_cylinder, aabb_sphere, longest_axis, map_to_box
 from meshforge.geometry.fit import tight_box, tight_capsule, tight_cylinder
+from meshforge.geometry.native import native_capsule, native_cylinder, native_sphere
 from meshforge.geometry.pieces import Piece, split_pieces
 from meshforge.geometry.pose import (
     Pose,
@@ -80,6 +81,9 @@ __all__ = [
     "longest_axis",
     "map_to_box",
     "measure_extents",
+    "native_capsule",
+    "native_cylinder",
+    "native_sphere",
     "nearest_aligned_rotation",
     "nearest_aligned_rotation_between",
     "nearest_on_triangles",

@@ -14,27 +14,28 @@ from meshforge.geometry.shape import Box, Polytope, Shape
 
 ROUND = 0.01
 """Sides that agree within this share of the longer one make a native round primitive, by their mean."""
-_SAME_LENGTH = 1e-9  # sides that differ by less than this share are equal: rounding must not choose the axis
+SAME_LENGTH = 1e-9
+"""Sides that differ by less than this share are equal: rounding must not choose the axis."""
 
 
 def longest_axis(bounds: Aabb) -> int:
     """The axis (0, 1, 2) of the longest side; of equal ones Z, then Y, then X."""
     longest = float(bounds.size.max())
-    return max(axis for axis in range(3) if bounds.size[axis] >= longest * (1 - _SAME_LENGTH))
+    return max(axis for axis in range(3) if bounds.size[axis] >= longest * (1 - SAME_LENGTH))
 
 
 def aabb_box(bounds: Aabb) -> Box:
     """The box that is `bounds`. Raises GeometryError where a side has no extent; so do the other shapes here."""
-    _check_extent(bounds)
+    check_extent(bounds)
     return Box.of_bounds(bounds)
 
 
 def aabb_cylinder(bounds: Aabb) -> Cylinder | Polytope:
     """The cylinder along the longest side that fills `bounds`: native where it is round, else of 64 vertices."""
-    axis = _check_extent(bounds)
+    axis = check_extent(bounds)
     across = np.delete(bounds.size, axis)
     if _are_equal(across):
-        return Cylinder(_pose_along(axis, bounds), float(across.mean()) / 2, float(bounds.size[axis]) / 2)
+        return Cylinder(pose_along(axis, bounds), float(across.mean()) / 2, float(bounds.size[axis]) / 2)
     return _stretch(*unit_cylinder(), axis, bounds)
 
 
@@ -43,21 +44,21 @@ def aabb_capsule(bounds: Aabb) -> Capsule | Sphere | Polytope:
 
     One without a straight part is a sphere. The ends of a polytope rise by the mean of its half widths.
     """
-    axis = _check_extent(bounds)
+    axis = check_extent(bounds)
     across, length = np.delete(bounds.size, axis), float(bounds.size[axis])
     radius = float(across.mean()) / 2
     straight = length / 2 - radius
     if not _are_equal(across):
         points, faces = tessellate_capsule(1.0, straight / radius)
         return _stretch(points / [1.0, 1.0, 1.0 + straight / radius], faces, axis, bounds)
-    if straight <= _SAME_LENGTH * length:
+    if straight <= SAME_LENGTH * length:
         return Sphere(Pose.of_translation(bounds.center), radius)
-    return Capsule(_pose_along(axis, bounds), radius, straight)
+    return Capsule(pose_along(axis, bounds), radius, straight)
 
 
 def aabb_sphere(bounds: Aabb) -> Sphere | Polytope:
     """The ellipsoid that fills `bounds`: a native sphere where it is round, else a polytope of 58 vertices."""
-    axis = _check_extent(bounds)
+    axis = check_extent(bounds)
     if _are_equal(bounds.size):
         return Sphere(Pose.of_translation(bounds.center), float(bounds.size.mean()) / 2)
     return _stretch(*unit_sphere(), axis, bounds)
@@ -68,14 +69,15 @@ def map_to_box(shapes: Iterable[Shape], source: Aabb, target: Aabb) -> tuple[Sha
 
     A side of `source` without extent is moved only. Raises GeometryError where a side of `target` has no extent.
     """
-    _check_extent(target)
+    check_extent(target)
     flat = source.size <= 0
     factors = np.where(flat, 1.0, target.size / np.where(flat, 1.0, source.size))
     offset = target.center - source.center * factors
     return tuple(shape.transform(np.diag(factors), offset) for shape in shapes)
 
 
-def _check_extent(bounds: Aabb) -> int:
+def check_extent(bounds: Aabb) -> int:
+    """The axis of the longest side. Raises GeometryError where a side has no extent."""
     if not (bounds.size > 0).all():
         sides = " x ".join(f"{side:.3g}" for side in bounds.size)
         raise GeometryError(f"a bounding box of {sides} m cannot be filled", remedy="Give it a thickness first.")
@@ -86,7 +88,7 @@ def _are_equal(sides: Floats) -> bool:
     return bool(np.ptp(sides) <= ROUND * sides.max())
 
 
-def _pose_along(axis: int, bounds: Aabb) -> Pose:
+def pose_along(axis: int, bounds: Aabb) -> Pose:
     """The pose at the middle of `bounds` whose Z axis is the coordinate axis; the others follow in their order."""
     return Pose(np.roll(np.eye(3), axis - 2, axis=0), bounds.center)
 

@@ -1,4 +1,4 @@
-"""The smallest box, cylinder, capsule and circle around points, the search for them, and the memo of fits."""
+"""The smallest box, cylinder and capsule around points, the search for them, and the memo of fits."""
 
 from __future__ import annotations
 
@@ -16,6 +16,7 @@ from meshforge.geometry.convex import convex_hull
 from meshforge.geometry.pose import Pose, quaternions_of_rotations, rotations_of_quaternions
 from meshforge.geometry.round_shapes import Capsule, Cylinder, Sphere
 from meshforge.geometry.shape import Box, Polytope, Shape
+from meshforge.geometry.smallest_ball import smallest_ball
 
 _MOST_SIDES, _LEAST_SIDES = 48, 12  # faces and edges, the largest first, that a box is laid against
 _SIDE_WORK = 5000  # these times the vertices; of more vertices, fewer sides
@@ -24,7 +25,6 @@ _NO_BETTER = 1e-6  # a box that is smaller by less than this share is no better 
 _DIRECTIONS_TRIED = 24  # directions tried from each start in a round
 _ROUNDS = 120
 _DIRECTIONS = 96  # axes to begin with, besides those of the hull's faces and edges
-_SLACK = 1e-12  # relative; points this far outside are on the circle
 
 AnyShape = TypeVar("AnyShape", bound=Shape, covariant=True)
 _MEMO_SIZE = 4096  # fits, a few hundred bytes each
@@ -146,7 +146,7 @@ def tight_cylinder(points: Floats, *, name: str = "points", thicken: float | Non
     corners, everything, middle, size, axes = _prepare(points, name, thicken)
     line = _minimize_volume(lambda lines: _cylinder_volumes(corners, lines), corners, axes, 6)
     frame = _frame_of_axis(line[:3])
-    center, _ = smallest_circle((corners @ frame.T)[:, :2])
+    center, _ = smallest_ball((corners @ frame.T)[:, :2])
     local = everything @ frame.T
     radius = float(np.linalg.norm(local[:, :2] - center, axis=1).max())
     low, high = float(local[:, 2].min()), float(local[:, 2].max())
@@ -251,50 +251,3 @@ def _frame_of_axis(axis: Floats) -> Floats:
     first = first - third * (first @ third)
     first = first / np.linalg.norm(first)
     return np.stack([first, np.cross(third, first), third])
-
-
-def smallest_circle(points: Floats) -> tuple[Floats, float]:
-    """Centre (2,) and radius of the smallest circle around points (n, 2); all are inside, the radius sees to it.
-
-    The circle of the few points that bear it grows by the farthest point outside, until there is none.
-    """
-    bearing, center, radius = points[:1], points[0], 0.0
-    for _ in range(len(points) + 8):
-        reach = np.linalg.norm(points - center, axis=1)
-        farthest = int(np.argmax(reach))
-        if reach[farthest] <= radius * (1 + _SLACK):
-            break
-        center, radius, bearing = _circle_around_few(np.concatenate([bearing, points[farthest : farthest + 1]]))
-    return center, float(np.linalg.norm(points - center, axis=1).max())
-
-
-def _circle_around_few(points: Floats) -> tuple[Floats, float, Floats]:
-    """The smallest circle around at most four points, with those of them that bear it."""
-    best: tuple[Floats, float, Floats] | None = None
-    for count in (1, 2, 3):
-        for chosen in itertools.combinations(range(len(points)), count):
-            some = points[list(chosen)]
-            center = _circumcentre(some)
-            if center is None:
-                continue
-            radius = float(np.linalg.norm(some - center, axis=1).max())
-            inside = bool((np.linalg.norm(points - center, axis=1) <= radius * (1 + _SLACK)).all())
-            if inside and (best is None or radius < best[1]):
-                best = center, radius, some
-    if best:
-        return best
-    center = points.mean(axis=0)  # rounding: nearly collinear points on a circle without end
-    return center, float(np.linalg.norm(points - center, axis=1).max()), points[:3]
-
-
-def _circumcentre(points: Floats) -> Floats | None:
-    """The centre of the circle through one to three points with as few of them across; None where they are in line."""
-    if len(points) < 3:
-        return np.asarray(points.mean(axis=0))
-    a, b = points[1] - points[0], points[2] - points[0]
-    twice = 2 * (a[0] * b[1] - a[1] * b[0])
-    if abs(twice) <= 1e-14 * float(a @ a + b @ b):
-        return None
-    aa, bb = float(a @ a), float(b @ b)
-    center: Floats = points[0] + np.array([b[1] * aa - a[1] * bb, a[0] * bb - b[0] * aa]) / twice
-    return center

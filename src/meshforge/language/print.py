@@ -197,7 +197,15 @@ def _substitute_phrase(action: Replace, whose: str) -> str:
     if action.geometry not in PRIMITIVES:
         turned = " turned lengthwise and" if action.fit == "longest" else ""
         return f"“{action.geometry}”,{turned} stretched to fill {whose} bounding box"
-    solid = _SOLID_WORDS[action.geometry]
+    solid, around = _SOLID_WORDS[action.geometry], f"around {'it' if whose == 'its' else 'them'}"
     if action.fit == "tight":
-        return f"the smallest {solid} around {'it' if whose == 'its' else 'them'}, at any angle"
+        return f"the smallest {solid} {around}, at any angle"
+    if action.fit == "native":
+        return _native_phrase(action.geometry, whose, around)
     return f"a {solid} that fills {whose} bounding box"
+
+
+def _native_phrase(primitive: str, whose: str, around: str) -> str:
+    if primitive == "sphere":
+        return f"the smallest sphere {around}"
+    return f"the thinnest {primitive} {around}, along the longest side of {whose} bounding box"

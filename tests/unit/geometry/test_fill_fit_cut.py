@@ -27,7 +27,7 @@ from meshforge.geometry import (
     tight_cylinder,
     volume_of_union,
 )
-from meshforge.geometry.fit import smallest_circle
+from meshforge.geometry.smallest_ball import smallest_ball
 
 CUBE = Box.of_bounds(Aabb([0, 0, 0], [1, 1, 1]))
 
@@ -123,16 +123,16 @@ def test_the_same_points_give_the_same_fit_to_the_last_bit() -> None:
 
 
 def test_the_smallest_circle_goes_through_the_points_that_bear_it() -> None:
-    center, radius = smallest_circle(np.array([[0.0, 0], [2, 0], [1, 0.5], [1, -1]]))
+    center, radius = smallest_ball(np.array([[0.0, 0], [2, 0], [1, 0.5], [1, -1]]))
     assert np.allclose(center, [1, 0])
     assert radius == pytest.approx(1)
-    center, radius = smallest_circle(np.array([[3.0, 4.0]]))
+    center, radius = smallest_ball(np.array([[3.0, 4.0]]))
     assert (center.tolist(), radius) == ([3, 4], 0)
 
 
 def test_the_smallest_circle_of_points_in_a_line_spans_their_ends() -> None:
     points = np.linspace([0.0, 0.0], [3.0, 4.0], 20)
-    center, radius = smallest_circle(points)
+    center, radius = smallest_ball(points)
     assert np.allclose(center, [1.5, 2])
     assert radius == pytest.approx(2.5)
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from meshforge.common import ProgramError
-from meshforge.geometry import Box, Cylinder, Floats, Pose, Sphere, convex_hull
+from meshforge.geometry import Box, Capsule, Cylinder, Floats, Pose, Sphere, convex_hull
 from meshforge.language import (
     ACTIONS,
     PRIMITIVES,
@@ -145,7 +145,10 @@ def test_a_sphere_is_the_ellipsoid_that_fills_the_box() -> None:
     result = applied(mesh(hull("a", box([0, 0, 0], [1, 2, 4]))), Replace("sphere"))
     inside = (result.mesh.hulls[0].vertices - [0.5, 1, 2]) / [0.5, 1, 2]
     assert np.allclose(np.linalg.norm(inside, axis=1), 1.0)
-    assert result.note == "sides of the sphere differ by more than 1%, so it is a hull mesh"
+    assert result.note == (
+        "sides of the sphere differ by more than 1%, so it is a hull mesh"
+        " (Replace(sphere, native) makes a native sphere)"
+    )
     cube = applied(mesh(hull("a", box([0, 0, 0], [2, 2, 2]))), Replace("sphere")).mesh.hulls[0].shape
     assert isinstance(cube, Sphere) and cube.radius == pytest.approx(1.0)
 
@@ -158,6 +161,60 @@ def test_a_tight_fit_follows_a_slanted_leg(primitive: str) -> None:
     around = applied(mesh(hull("leg", leg)), Replace("box")).mesh.hulls[0]
     assert after.shape.kind == primitive
     assert after.volume < 3 * leg.volume < around.volume
+
+
+def test_a_native_capsule_is_as_thin_as_what_it_encloses_allows() -> None:
+    scene = mesh(hull("low", box([0, 0, 0], [3, 4, 6])), hull("high", box([1, 1, 6], [2, 3, 20])))
+    result = applied(scene, Replace("capsule", "native"))
+    shape = result.mesh.hull_of("low~1").shape
+    assert result.note is None and isinstance(shape, Capsule)
+    assert shape.radius == pytest.approx(2.5)
+    assert shape.pose.translation[:2] == pytest.approx([1.5, 2.0])
+    top = 20 - np.sqrt(2.5**2 - 0.5**2 - 1.0**2)  # the corners of the upper block are nearer to the axis
+    ends = shape.pose.translation[2] + shape.half_length * np.array([-1, 1])
+    assert ends == pytest.approx([0.0, top])
+
+
+def test_a_native_cylinder_is_as_long_as_the_longest_side() -> None:
+    result = applied(mesh(hull("a", box([0, 0, 0], [20, 3, 4]))), Replace("cylinder", "native"))
+    shape = result.mesh.hulls[0].shape
+    assert result.note is None and isinstance(shape, Cylinder)
+    assert np.allclose(shape.pose.rotation[:, 2], [1, 0, 0])
+    assert (shape.radius, shape.half_length) == pytest.approx((2.5, 10.0))
+
+
+def test_a_native_sphere_is_the_smallest_around_the_hulls_not_around_their_box() -> None:
+    balls = [hull(name, Sphere(Pose.of_translation([x, 0, 0]), 1.0)) for name, x in (("a", 0.0), ("b", 4.0))]
+    shape = applied(mesh(*balls), Replace("sphere", "native")).mesh.hulls[0].shape
+    assert isinstance(shape, Sphere)
+    assert shape.radius == pytest.approx(3.0)
+    assert shape.pose.translation == pytest.approx([2, 0, 0])
+
+
+def test_a_native_capsule_needs_no_straight_part_around_a_ball() -> None:
+    ball = Sphere(Pose.of_translation([1, 2, 3]), 0.5)
+    shape = applied(mesh(hull("a", ball)), Replace("capsule", "native")).mesh.hulls[0].shape
+    assert isinstance(shape, Sphere) and shape.radius == pytest.approx(0.5)
+
+
+@pytest.mark.parametrize("primitive", ["cylinder", "capsule", "sphere"])
+def test_native_shapes_are_made_one_a_body(primitive: str) -> None:
+    scene = mesh(
+        hull("a", box([0, 0, 0], [1, 2, 4]), body="base"),
+        hull("b", box([1, 0, 0], [2, 2, 4]), body="door"),
+    )
+    result = applied(scene, Replace(primitive, "native"))
+    assert [(h.name, h.body, h.shape.kind) for h in result.mesh.hulls] == [
+        ("a~1", "base", primitive), ("b~1", "door", primitive),
+    ]  # fmt: skip
+
+
+@pytest.mark.parametrize("primitive", ["cylinder", "capsule", "sphere"])
+def test_a_native_shape_around_a_needle_has_a_thickness(primitive: str) -> None:
+    needle = convex_hull(np.array([[0, 0, 0], [1, 0, 0], [1, 1e-13, 0], [0, 0, 1e-13]]), thicken=1e-13)
+    shape = applied(mesh(hull("a", needle)), Replace(primitive, "native")).mesh.hulls[0].shape
+    assert shape.kind == primitive
+    assert shape.aabb.size[1:].min() >= 1e-4 * (1 - 1e-9)
 
 
 def rotation(angle: float) -> Floats:
@@ -260,6 +317,8 @@ def test_a_missing_template_is_named_with_those_that_there_are() -> None:
         lambda: Replace("sphere", "tight"),
         lambda: Replace("bar.obj", "tight"),
         lambda: Replace("box", "longest"),
+        lambda: Replace("box", "native"),
+        lambda: Replace("bar.obj", "native"),
         lambda: Replace(""),
         lambda: Add("X", "bar.obj"),  # type: ignore[arg-type]
         lambda: Scale("all", 0.0),
@@ -279,7 +338,7 @@ def test_the_registry_knows_every_action_by_the_name_it_is_written_with() -> Non
     assert list(ACTIONS) == ["Delete", "Replace", "Add", "Merge", "Scale", "Each"]
     assert [kind.usage() for kind in ACTIONS.values()] == [
         "Delete",
-        'Replace(box|cylinder|capsule|sphere|"file"[, tight|longest])',
+        'Replace(box|cylinder|capsule|sphere|"file"[, native|tight|longest])',
         'Add(+X|-X|+Y|-Y|+Z|-Z, "file"[, keep])',
         "Merge",
         "Scale(all|X|Y|Z, factor)",

@@ -34,6 +34,15 @@ _SENTENCES = [
         " at any angle.",
     ),
     (
+        "Is(leg) => Each(Replace(cylinder, native))",
+        "Each connected group of leg hulls is replaced by the thinnest cylinder around it, along the longest side of"
+        " its bounding box.",
+    ),
+    (
+        "Is(leg) => Replace(sphere, native)",
+        "The leg hulls are replaced by the smallest sphere around them, one for each body.",
+    ),
+    (
         'Diff(Union(Is("back rest"), Is(leg)), Attach(Is(leg), All)) => Scale(all, 1.5)',
         "(the “back rest” hulls and the leg hulls), except the leg hulls that touch any other hull, are scaled by 1.5"
         " in every direction, about their common centre.",

@@ -160,7 +160,7 @@ def test_wrong_labels_given_by_hand_are_refused_whole(tmp_path: Path) -> None:
 
 def test_demonstrations_are_kept_as_the_steps_that_were_shown(tmp_path: Path) -> None:
     project = labelled(tmp_path)
-    steps = (*STEPS, Step(3, (), Delete()), Step(4, None, Replace("box"), "top"))
+    steps = (*STEPS, Step(3, (), Delete()), Step(4, None, Replace("capsule", "native"), "top"))
     project.demonstrate(FIRST, steps)
     path = project.folder / "demonstrations" / f"{FIRST}.json"
     assert json.loads(path.read_text()) == {
@@ -169,7 +169,7 @@ def test_demonstrations_are_kept_as_the_steps_that_were_shown(tmp_path: Path) ->
             {"rule": 1, "select": ["crumb"], "action": "Delete"},
             {"rule": 2, "select": sorted(LEGS), "action": "Each(Merge)"},
             {"rule": 3, "select": [], "action": "Delete"},
-            {"rule": 4, "select": None, "action": "Replace(box) as top"},
+            {"rule": 4, "select": None, "action": "Replace(capsule, native) as top"},
         ],
     }
     assert project.steps(FIRST) == steps

@@ -9,11 +9,11 @@ from meshforge.studio.queries.programs import build_language_view
 from meshforge.studio.wire.program import ActionForm
 
 VIEW = build_language_view()
-VALUES = {"file": '"part.obj"', "factor": "2"}
+VALUES = {"file": '"part.obj"', "factor": "2", "shape": "capsule"}
 
 
 def written(form: ActionForm, required: bool) -> str:
-    """An action filled into its form, with the first choice everywhere."""
+    """An action filled into its form, with a capsule and else the first choice everywhere."""
     given = [VALUES.get(a.kind) or a.choices[0] for a in form.arguments if a.required or not required]
     return f"{form.name}({', '.join(given)})" if given else form.name
 
@@ -34,7 +34,7 @@ def test_a_form_makes_text_that_parses(form: ActionForm) -> None:
 def test_a_form_with_everything_filled_in_parses_where_its_words_go_together() -> None:
     texts = {form.name: written(form, required=False) for form in VIEW.actions}
     assert texts["Add"] == 'Add(+X, "part.obj", keep)'
-    assert texts["Replace"] == "Replace(box, tight)"
+    assert texts["Replace"] == "Replace(capsule, native)"
     for text in texts.values():
         parse_action(text)
 

@@ -88,7 +88,10 @@ def test_a_preview_says_what_a_user_should_know(project: Project) -> None:
     mesh = project.mesh(SHOWN)
     request = PreviewRequest(asset=SHOWN, select=("convex_00",), action="Replace(capsule)")
     header, _ = read_packet(packets.preview_action(project, SHOWN, mesh, request))
-    assert header["note"] == "sides of the capsule differ by more than 1%, so it is a hull mesh"
+    assert header["note"] == (
+        "sides of the capsule differ by more than 1%, so it is a hull mesh"
+        " (Replace(capsule, native) or Replace(capsule, tight) makes a native capsule)"
+    )
     assert header["trace"][0]["selected"] == ["convex_00"]
 
 

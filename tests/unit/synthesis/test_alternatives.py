@@ -123,6 +123,8 @@ def test_actions_that_go_by_axes_count_where_a_later_rule_asks_for_places() -> N
         ("Replace(box)", True),
         ("Replace(box, tight)", False),
         ("Each(Replace(capsule))", True),
+        ("Each(Replace(capsule, native))", True),
+        ("Replace(sphere, native)", False),
         ('Add(+Z, "knob.obj")', True),
         ("Scale(all, 0.9)", False),
         ("Scale(X, 0.9)", True),

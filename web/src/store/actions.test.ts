@@ -22,7 +22,7 @@ const form = (name: string, ...args: Argument[]): ActionForm => ({
 const replace = form(
   "Replace",
   argument("geometry", "shape", ["box", "cylinder", "capsule", "sphere"]),
-  argument("fit", "words", ["tight", "longest"], false),
+  argument("fit", "words", ["native", "tight", "longest"], false),
 );
 const add = form(
   "Add",
@@ -48,6 +48,7 @@ describe("the text of a step, read as a draft and written again", () => {
     "Each(Merge)",
     "Replace(box)",
     "Replace(capsule, tight)",
+    "Each(Replace(sphere, native))",
     'Each(Replace("tray, big.obj", longest)) as "table top"',
     'Add(-Z, "a \\"b\\".obj", keep)',
     'Add(+X, "knob.obj") as knob',
@@ -81,6 +82,9 @@ describe("arguments", () => {
       geometry: "capsule",
       fit: "tight",
     });
+    expect(withArgument({ geometry: "capsule", fit: "native" }, "geometry", "box")).toEqual({ geometry: "box" });
+    expect(goesWith("native", { geometry: "sphere" })).toBe(true);
+    expect(goesWith("native", { geometry: "bar.obj" })).toBe(false);
     expect(goesWith("longest", { geometry: "bar.obj" })).toBe(true);
   });
 });

@@ -50,9 +50,10 @@ export function defaultArguments(form: ActionForm, templates: readonly string[])
   return Object.fromEntries(required.map((argument) => [argument.name, usual(argument)]));
 }
 
-/** Whether a word goes with the shape that is chosen: `tight` is for slanted primitives, `longest` for templates. */
+/** Whether a word goes with the shape that is chosen: `native` is for round ones, `longest` for templates. */
 export function goesWith(word: string, { geometry = "" }: Draft["arguments"]): boolean {
   const shape = String(geometry);
+  if (word === "native") return ["cylinder", "capsule", "sphere"].includes(shape);
   if (word === "tight") return ["box", "cylinder", "capsule"].includes(shape);
   if (word === "longest") return shape !== "" && !PRIMITIVES.has(shape);
   return true;

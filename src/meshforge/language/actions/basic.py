@@ -2,16 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
-from typing import ClassVar, Literal
+from typing import ClassVar, Literal, get_args
 
 import numpy as np
 
 from meshforge import geometry
 from meshforge.geometry import Aabb, Floats, Shape, convex_hull
 from meshforge.language.actions import base
-from meshforge.language.actions.base import AXES, Action, ActionArgument, Axis, FactorArgument, WordArgument
+from meshforge.language.actions.base import (
+    AXES,
+    Action,
+    ActionArgument,
+    Axis,
+    FactorArgument,
+    WordArgument,
+    join_alternatives,
+)
 from meshforge.language.actions.edit import GroupEdit, HullGroup, NewShape
 from meshforge.language.syntax import Direction
 from meshforge.symbolic import SymbolicMesh, split_by_contact
@@ -23,6 +31,13 @@ _FILL_SHAPES: Mapping[str, Callable[[Aabb], Shape]] = {
     "sphere": geometry.aabb_sphere,
 }
 _TIGHT_FITS = {"box": geometry.tight_box, "cylinder": geometry.tight_cylinder, "capsule": geometry.tight_capsule}
+_NATIVE_FITS: Mapping[str, Callable[[Iterable[Shape], Aabb], Shape]] = {
+    "cylinder": geometry.native_cylinder,
+    "capsule": geometry.native_capsule,
+    "sphere": geometry.native_sphere,
+}
+_FITS = (("native", _NATIVE_FITS), ("tight", _TIGHT_FITS))
+Fit = Literal["native", "tight", "longest"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,12 +46,14 @@ class Replace(base.Action):
 
     by_body: ClassVar[bool] = True
     geometry: str = field(metadata={"argument": base.PrimitiveOrFileArgument()})
-    fit: Literal["tight", "longest"] | None = field(
-        default=None, metadata={"argument": base.WordArgument(("tight", "longest"))}
-    )
+    fit: Fit | None = field(default=None, metadata={"argument": base.WordArgument(get_args(Fit))})
 
     def conflict(self) -> str | None:
-        if self.fit == "tight" and self.geometry not in ("box", "cylinder", "capsule"):
+        if self.fit == "native" and self.geometry == "box":
+            return "native is for cylinder, capsule and sphere: a box always is a native one"
+        if self.fit == "native" and self.geometry not in _NATIVE_FITS:
+            return f"native is for cylinder, capsule and sphere, not {self.geometry}"
+        if self.fit == "tight" and self.geometry not in _TIGHT_FITS:
             return f"tight is for box, cylinder and capsule, not {self.geometry}"
         if self.fit == "longest" and self.geometry in base.PRIMITIVES:
             return f"longest is for template files, not {self.geometry}"
@@ -48,24 +65,32 @@ class Replace(base.Action):
 
     @property
     def depends_on_frame(self) -> bool:
-        return self.fit != "tight"
+        return self.fit != "tight" and (self.geometry, self.fit) != ("sphere", "native")
 
     def edit(self, group: HullGroup) -> GroupEdit:
         if self.templates:
             return GroupEdit.insert(fit_template(group, self.geometry, turned=self.fit == "longest"), group)
-        shape, note = fit_primitive(group, self.geometry, tight=self.fit == "tight")
+        shape, note = fit_primitive(group, self.geometry, self.fit)
         return GroupEdit.insert((shape,), group, note=note)
 
 
-def fit_primitive(group: HullGroup, primitive: str, *, tight: bool) -> tuple[Shape, str | None]:
-    """The primitive that fills the bounding box of the group, or the smallest one around its points; with a note."""
-    if tight:
+def fit_primitive(group: HullGroup, primitive: str, fit: Fit | None) -> tuple[Shape, str | None]:
+    """The primitive that replaces a group, and a note on what a user should know.
+
+    fit: None fills the bounding box; native: along the longest side of that box, of the least radius around the
+    hulls; tight: the smallest one around their points.
+    """
+    if fit == "native":
+        return _NATIVE_FITS[primitive]((hull.shape for hull in group.hulls), group.bounds), None
+    if fit == "tight":
         note = "round primitives were fitted by their tessellated points" if group.has_round else None
         return _TIGHT_FITS[primitive](group.points, name=group.largest.name, thicken=group.thickness), note
     shape = _FILL_SHAPES[primitive](group.bounds)
     if shape.is_primitive:
         return shape, None
-    return shape, f"sides of the {primitive} differ by more than 1%, so it is a hull mesh"
+    others = [f"Replace({primitive}, {word})" for word, fits in _FITS if primitive in fits]
+    made = f"{join_alternatives(others)} makes a native {primitive}"
+    return shape, f"sides of the {primitive} differ by more than 1%, so it is a hull mesh ({made})"
 
 
 def fit_template(group: HullGroup, name: str, *, turned: bool) -> tuple[Shape, ...]:

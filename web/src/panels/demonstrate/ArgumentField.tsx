@@ -61,6 +61,7 @@ const NAMES: Readonly<Record<string, string>> = {
   template: "Template",
 };
 const WORDS: Readonly<Record<string, string>> = {
+  native: "native, around all of it",
   tight: "tight, in any direction",
   longest: "longest side matched",
   all: "all axes",
