@@ -16,8 +16,8 @@ _NOTES = (
     "Families are smaller than 25 and differ more; the goals are those of generated families.",
     "Nothing was tuned on these assets. An earlier run of this part showed that the label model replaced up to a third "
     "of the right labels here; what was changed then was chosen and fitted on generated families (decision 0033). On "
-    "many assets the reference itself fails under true labels, as hulls span parts: *possible* says on how many it does "
-    "not.",
+    "many assets the reference itself fails under true labels, as hulls span parts: *possible* says on how many it "
+    "does not.",
 )
 
 
