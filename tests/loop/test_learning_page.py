@@ -23,11 +23,11 @@ def commands() -> list[list[str]]:
 def test_five_rules_are_taught_with_one_demonstration_and_one_answer(tmp_path: Path) -> None:
     for words in commands():
         meshforge(*words, cwd=tmp_path)
-    (tmp_path / "answers.json").write_text(json.dumps([{"question": "5:table_02.obj", "choice": 1}]), "utf-8")
+    (tmp_path / "answers.json").write_text(json.dumps([{"question": "5:table_03.obj", "choice": 2}]), "utf-8")
     meshforge("synthesize", "desks", "--answers", "answers.json", cwd=tmp_path)
     page = PAGE.read_text("utf-8")
-    assert '[{"question": "5:table_02.obj", "choice": 1}]' in page
-    shown = page.split("Answer 1, and")[1].split("```")[1].strip()
+    assert '[{"question": "5:table_03.obj", "choice": 2}]' in page
+    shown = page.split("Answer 2, and")[1].split("```")[1].strip()
     learned = Program.read(tmp_path / "desks" / "program.mf")
     assert [str(rule) for rule in learned.rules] == [str(rule) for rule in Program.parse(header(learned) + shown).rules]
 
