@@ -59,7 +59,12 @@ def reply_to(question: dict[str, Any], project: Project) -> dict[str, Any]:
         program = project.program()
         assert program
         made = program.run(project.mesh(asset), project.templates(program.templates)).mesh
-        return {"choice": 0 if made.index.keys() == right.index.keys() else 1}
+        if made.index.keys() == right.index.keys():
+            return {"choice": 0}
+        hulls = project.mesh(asset).hulls
+        wrong = {h.name: label_of(asset, h.name) for h in hulls if h.label != label_of(asset, h.name)}
+        project.set_labels(asset, wrong)
+        return {"later": True}
     assert kind in ("reading", "label")
     trace = MEANT.run(load(TABLES / question["asset"]), project.templates(MEANT.templates)).trace
     wanted = set(trace[question["rule"] - 1].selected)
