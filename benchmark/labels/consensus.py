@@ -53,7 +53,7 @@ class FamilyCase:
 def draw_cases(folder: Path, fold: Sequence[str], seed: int) -> Iterator[FamilyCase]:
     """Calibration families of some categories, each with every sort of labels; no hull of one category is labelled by
     hand for another."""
-    for kind, _, rows in draw_families(folder, fold):
+    for kind, rows in draw_families(folder, fold):
         table = FamilyModel([row.mesh for row in rows]).table
         for sort in SORTS:
             if not (sort.isdigit() and kind == CROSSED):

@@ -23,19 +23,19 @@ _DRAWS = 2  # families of those that differ, from different beginnings
 _FEW, _MORE = 8, 10
 
 
-def draw_families(folder: Path, fold: Sequence[str]) -> Iterator[tuple[str, str, list[Sample]]]:
-    """The kind of each family, a name, and its meshes. folder: where the families of 25 are."""
+def draw_families(folder: Path, fold: Sequence[str]) -> Iterator[tuple[str, list[Sample]]]:
+    """The kind of each family, and its meshes. folder: where the families of 25 are."""
     small = {name: [row for setting in SEPARATE for row in family(name, setting, True)] for name in fold}
     for name in fold:
         every = list(read(folder, stem_of(name, True)))
         for setting in SEPARATE:
-            yield FULL, name, [row for row in every if row.setting == setting]
-            yield SMALL, name, [row for row in small[name] if row.setting == setting]
+            yield FULL, [row for row in every if row.setting == setting]
+            yield SMALL, [row for row in small[name] if row.setting == setting]
         for draw in range(_DRAWS):
-            yield MIXED, name, choose_differing(small[name], _FEW, draw)
+            yield MIXED, choose_differing(small[name], _FEW, draw)
     for one, other in combinations(fold, 2):
         for draw in range(_DRAWS):
-            yield CROSSED, f"{one} and {other}", choose_differing(small[one] + small[other], _MORE, draw)
+            yield CROSSED, choose_differing(small[one] + small[other], _MORE, draw)
 
 
 def choose_differing(rows: Sequence[Sample], count: int, seed: int) -> list[Sample]:

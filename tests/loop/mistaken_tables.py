@@ -43,7 +43,8 @@ def label_of(asset: str, hull: str) -> str:
 
 
 def reply_to(question: dict[str, Any], project: Project) -> dict[str, Any]:
-    """What a person says who knows every label and what each rule means."""
+    """What a person says who knows every label and what each rule means; nothing, once the labels of a wrong result are
+    mended."""
     kind, choices = question["kind"], question["choices"]
     if kind in ("group", "repair"):
         true = {(one["asset"], one["hull"]): label_of(one["asset"], one["hull"]) for one in question["hulls"]}
@@ -63,8 +64,9 @@ def reply_to(question: dict[str, Any], project: Project) -> dict[str, Any]:
             return {"choice": 0}
         hulls = project.mesh(asset).hulls
         wrong = {h.name: label_of(asset, h.name) for h in hulls if h.label != label_of(asset, h.name)}
+        assert wrong, f"the program is wrong on {asset}, not its labels"
         project.set_labels(asset, wrong)
-        return {"later": True}
+        return {}
     assert kind in ("reading", "label")
     trace = MEANT.run(load(TABLES / question["asset"]), project.templates(MEANT.templates)).trace
     wanted = set(trace[question["rule"] - 1].selected)

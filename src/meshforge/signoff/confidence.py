@@ -1,5 +1,6 @@
-"""From readings, labels and all that is odd about an asset to one probability that its edit is right: a logistic
-regression, fitted on sessions of the calibration set (`python -m benchmark.signoff fit`; Platt 1999)."""
+"""From readings, labels and all that is odd about an asset to one probability that its edit is right: that of its
+program, times a logistic regression, fitted on sessions of the calibration set (`python -m benchmark.signoff fit`;
+Platt 1999)."""
 
 from __future__ import annotations
 

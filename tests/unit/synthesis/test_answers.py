@@ -48,6 +48,7 @@ def test_a_choice_that_is_taken_is_what_the_program_selects(choice: int) -> None
     assert selected(outcome.program, 1, MESHES["c0"]) == {"pull"}
 
 
+@pytest.mark.slow
 def test_every_choice_of_every_question_about_a_family_can_be_taken() -> None:
     meshes = {f"t{k}": mesh for k, mesh in enumerate(family("table", 12, seed=5))}
     asked = 0
