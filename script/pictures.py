@@ -18,7 +18,7 @@ from meshforge.symbolic import SymbolicMesh, read_labels
 from script.sign_off_picture import draw_sign_off
 
 SHOWN = ("table_03", "table_08", "table_09", "table_11")
-CHOICES = ("Attach(Is(handle), Is(drawer))", "Geo(Is(handle), -Z)", "Geo(Is(handle), -Y)")
+CHOICES = ("Geo(Is(handle), -Z)", "Attach(Is(handle), Is(drawer))", "Geo(Is(handle), -Y)")
 """Three readings of a rule of docs/learning.md, on the table that it is asked about."""
 BY_HAND = ("table_10", "table_08")
 """The tables that somebody labels who follows the advice."""
@@ -50,7 +50,7 @@ def _tables(path: Path) -> None:
 
 
 def _question(path: Path) -> None:
-    mesh, _ = to_canonical_frame(load(TABLES / "table_02.obj"), Program.read(TABLES / "tables.mf").orient)
+    mesh, _ = to_canonical_frame(load(TABLES / "table_03.obj"), Program.read(TABLES / "tables.mf").orient)
     drawn = []
     for text in CHOICES:
         (rule,) = Program.parse(f"{text} => Delete").rules
