@@ -97,11 +97,12 @@ def observe(name: str, condition: str, folder: str) -> list[list[float]]:
 
 
 def observe_taught(name: str, condition: str, folder: str) -> list[list[float]]:
-    """The rows of a family that was taught as before there was a queue."""
+    """The rows of a family that was taught as before there was a queue; trust in the program is a column of its own, so
+    none of its edits has to be told as right."""
     one = CONDITIONS[condition]
     bench = open_family(name, one.setting(SEED), folder)
     tool = _Observer(bench, one)
-    open_review(bench, one, SEED, tool)
+    open_review(bench, one, SEED, tool, tells_looks=False)
     return tool.list_rows()
 
 

@@ -15,8 +15,8 @@ from meshforge.common import MeshForgeError
 
 @dataclass(frozen=True, slots=True)
 class FirstLook:
-    """One family. right: of the possible assets; pairs: of each of them that was not demonstrated, the probability that
-    the tool gives it, and whether it is right."""
+    """One family. right: of the possible assets; pairs: of each of them that was neither demonstrated nor looked
+    at, the probability that the tool gives it, and whether it is right."""
 
     task: str
     condition: str
@@ -30,10 +30,12 @@ class FirstLook:
         return FirstLook(**{**row, "pairs": tuple((share, right) for share, right in row["pairs"])})
 
 
-def open_review(bench: Bench, condition: Condition, seed: int, tool: Tool | None = None) -> FirstLook:
+def open_review(
+    bench: Bench, condition: Condition, seed: int, tool: Tool | None = None, tells_looks: bool = True
+) -> FirstLook:
     """Teach a task as before, on labels as the tool takes them now, and look how the family stands then.
 
-    tool: another than the product, for tests.
+    tool: another than the product. tells_looks: whether the person tells which results they found right in the end.
     """
     judge, tool = Judge(bench), tool or Tool(bench, condition)
     course = Course(bench, condition, seed)
@@ -42,9 +44,14 @@ def open_review(bench: Bench, condition: Condition, seed: int, tool: Tool | None
     desk = tool.take_labels(course.desk)
     outcome = None if isinstance(course.outcome, MeshForgeError) else course.outcome
     demos = {name: course.person.shows(desk, name, rules) for name, rules in course.given.items()}
-    state = tool.begin(desk, demos, course.answers, course.accepted)
-    assessment, program = tool.review(desk, state, outcome), program_of(outcome)
+    program = program_of(outcome)
+    told = sorted(course.found_right) if tells_looks else ()
+    seen = {name: course.desk.select(program, name) for name in told if program}
+    accepted = {name: done for name, done in seen.items() if done is not None}
+    state = tool.begin(desk, demos, course.answers, {**course.accepted, **accepted})
+    assessment = tool.review(desk, state, outcome)
     right = {name for name in bench.samples if judge.is_right(desk, program, name)}
-    rest = [name for name in bench.samples if name in judge.possible and name not in course.log.shown]
+    known = {*course.log.shown, *state.accepted}
+    rest = [name for name in bench.samples if name in judge.possible and name not in known]
     pairs = tuple((round(assessment.assets[name].probability, 4), name in right) for name in rest if program)
     return FirstLook(bench.task.name, condition.name, seed, len(judge.possible), len(right), pairs)

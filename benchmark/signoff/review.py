@@ -128,9 +128,12 @@ _NOTES = (
     "queue in all acts, demonstrations too.",
     f"Sessions are broken off after {CAP:.0f} s; their time counts as it stands then, so it is a lower bound, and what "
     "is held then is not right.",
-    "*Before any question*: the task is taught as before, on the labels as the tool takes them now. *The first "
-    "program*: after the demonstrations that begin a session of the queue. The probabilities are of possible assets "
-    "that nobody showed; the goals are about all conditions together.",
+    "*Before any question*: the task is taught as before, on the labels as the tool takes them now, until all of a "
+    "dozen results look right; the tool is told so. *The first program*: after the demonstrations that begin a session "
+    "of the queue. The probabilities are of possible assets that nobody showed or looked at; the goals are about all "
+    "conditions together.",
+    "A change of protocol: until this run the tool was not told of that dozen, and as it trusts no program of which "
+    "nobody has seen a result (decision 0034), it could not say more than 92% of any asset.",
     "The person of the queue shows an asset, and another one while a rule has had nothing to do, replies to each "
     "question by what is true, and mends a result that is wrong by hand: it then counts as it was left. Where a mesh "
     "is turned wrongly, or no program fits what was shown on it, the person looks through its labels one by one, and "

@@ -50,6 +50,8 @@ class Course:
         """What the tool made of it when it last learned."""
         self.clean: Program | None = None
         """The last program of which all results that were looked at were right."""
+        self.found_right = frozenset[str]()
+        """The meshes of those results."""
 
     def session(self, others: Sequence[Bench]) -> Session:
         if not self._showable():
@@ -235,6 +237,7 @@ class Course:
             self._accept(program, looked_at)
         if seen is None:
             self.clean, self.log.accepted = program, not guided
+            self.found_right = frozenset(looked_at)
             return guided
         name, rules = seen
         wrong = rules and self.person.takes_back(self.desk, self.answers, max(rules))

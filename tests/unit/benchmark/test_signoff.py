@@ -23,6 +23,7 @@ from benchmark.study import FLAT, TRUE, Bench
 from benchmark.study.condition import PROPAGATED
 from benchmark.study.desk import Desk
 from benchmark.study.keystrokes import APPROVAL, GLANCE, STROKE, price_group
+from benchmark.study.person import Person
 from benchmark.tasks import task
 from meshforge.signoff import (
     Assessment,
@@ -150,10 +151,15 @@ def test_each_exception_of_a_group_is_named_and_paid_for(bench: Bench) -> None:
     assert all(state.meshes[name].hull_of(hull.hull).source == "user" for hull in hulls)
 
 
-def test_before_any_question_all_that_nobody_showed_has_a_probability(bench: Bench) -> None:
+def test_before_any_question_all_that_nobody_showed_or_looked_at_has_a_probability(
+    bench: Bench, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(Person, "looks_at", lambda _, names: names[:1])
     opening = open_review(bench, TRUE, 1, FakeTool(bench, TRUE))
     assert opening.right == opening.possible
-    assert 0 < len(opening.pairs) <= opening.possible
+    assert 0 < len(opening.pairs) < opening.possible
+    monkeypatch.undo()
+    assert not open_review(bench, TRUE, 1, FakeTool(bench, TRUE)).pairs  # a dozen looks are all that there is
     assert FirstLook.of_json(json.loads(json.dumps(asdict(opening)))) == opening
 
 
