@@ -13,9 +13,9 @@ from meshforge.samples.parts import Files, format_hulls, format_labels, name_hul
 from meshforge.samples.pieces import Y_UP, Cut, Profile, X, Y, Z, block, slice_all, stack, superellipse
 
 _ROUND = superellipse(2.0, 2.0, 2.0, 16)
-_OVAL = superellipse(2.0, 1.1, 2.5, 20)
+_OVAL = superellipse(2.0, 1.1, 2.5, 18)
 _SQUARE = superellipse(2.0, 2.0, 8.0, 16)
-_FLAT = superellipse(2.0, 0.8, 6.0, 20)
+_FLAT = superellipse(2.0, 0.8, 6.0, 16)
 _UPRIGHT = Pose.identity()
 _ON_ITS_SIDE = Pose([[0, 0, 1], [0, 1, 0], [-1, 0, 0]], [0, 0, 0.03])
 
@@ -121,7 +121,7 @@ def _list_bottles() -> list[Bottle]:
             "ketchup",
             "oval, stands on its cap",
             outline=_OVAL,
-            body=[(0.034, 0.03), (0.04, 0.07), (0.03, 0.14), (0.036, 0.19)],
+            body=[(0.034, 0.03), (0.037, 0.07), (0.034, 0.14), (0.036, 0.19)],
             body_cuts=((Z, 2),),
             cap=_cap((0.026, 0), (0.028, 0.03), cuts=((X, 2), (Y, 2))),
             names="hull_{}",
@@ -147,7 +147,7 @@ def _list_bottles() -> list[Bottle]:
             "soda",
             "round, waist, Y up in its file",
             outline=_ROUND,
-            body=[(0.028, 0), (0.033, 0.02), (0.029, 0.08), (0.033, 0.14), (0.013, 0.2), (0.012, 0.215)],
+            body=[(0.028, 0), (0.033, 0.02), (0.0315, 0.08), (0.033, 0.14), (0.013, 0.2), (0.012, 0.215)],
             body_cuts=((Y, 2),),
             cap=_cap((0.015, 0.215), (0.014, 0.23)),
             names="Mesh.{}",

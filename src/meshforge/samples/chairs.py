@@ -82,7 +82,7 @@ def _slab(
     width: float, depth: float, top: float, thickness: float, power: float = 8.0, cuts: Iterable[Cut] = ()
 ) -> Hulls:
     """A level plate about the Z axis, cut up."""
-    outline = superellipse(2.0, 2.0 * depth / width, power, 20)
+    outline = superellipse(2.0, 2.0 * depth / width, power, 16)
     return slice_all(stack(outline, [(width / 2, top - thickness), (width / 2, top)]), cuts)
 
 

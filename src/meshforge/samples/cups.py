@@ -13,10 +13,11 @@ from meshforge.samples.pieces import X, Y
 
 def build_cups() -> Files:
     """All cups."""
-    return {path: content for cup in _list_cups() for path, content in cup.write().items()}
+    return {path: content for cup in list_cups() for path, content in cup.write().items()}
 
 
-def _list_cups() -> list[Cup]:
+def list_cups() -> list[Cup]:
+    """The cups as numbers, in no order that tells anything."""
     straight = [(0.04, 0.006), (0.04, 0.05), (0.04, 0.095)]
     return [
         Cup(
@@ -176,12 +177,12 @@ def _list_cups() -> list[Cup]:
         ),
         Cup(
             "loving_cup",
-            "three handles, a foot and a stem",
-            base=[(0.04, 0), (0.04, 0.006), (0.014, 0.02), (0.014, 0.05), (0.034, 0.062)],
-            wall=[(0.034, 0.062), (0.048, 0.09), (0.05, 0.14)],
+            "three handles, a foot",
+            base=[(0.03, 0), (0.03, 0.006), (0.028, 0.012), (0.034, 0.018)],
+            wall=[(0.034, 0.018), (0.048, 0.05), (0.05, 0.1)],
             thickness=0.004,
             columns=8,
-            ears=tuple(Ear(turn, 0.132, 0.085, 0.028, 0.012, 0.008, 4 + k) for k, turn in enumerate((30, 150, 270))),
+            ears=tuple(Ear(turn, 0.092, 0.045, 0.028, 0.012, 0.008, 4 + k) for k, turn in enumerate((30, 150, 270))),
             order="wall handle base",
             names="hull_{}",
             link="loving_cup",
