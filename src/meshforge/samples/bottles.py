@@ -13,9 +13,9 @@ from meshforge.samples.parts import Files, format_hulls, format_labels, name_hul
 from meshforge.samples.pieces import Y_UP, Cut, Profile, X, Y, Z, block, slice_all, stack, superellipse
 
 _ROUND = superellipse(2.0, 2.0, 2.0, 16)
-_OVAL = superellipse(2.0, 1.1, 2.5, 18)
+_OVAL = superellipse(2.0, 1.1, 2.5, 14)
 _SQUARE = superellipse(2.0, 2.0, 8.0, 16)
-_FLAT = superellipse(2.0, 0.8, 6.0, 16)
+_FLAT = superellipse(2.0, 0.8, 6.0, 14)
 _UPRIGHT = Pose.identity()
 _ON_ITS_SIDE = Pose([[0, 0, 1], [0, 1, 0], [-1, 0, 0]], [0, 0, 0.03])
 

@@ -12,7 +12,7 @@ from meshforge.geometry import Floats, Polytope, Pose, inertia
 from meshforge.samples.parts import Files, NamedHull, format_hulls, format_labels, join_surfaces, name_hulls
 from meshforge.samples.pieces import Cut, Profile, bend, hull_of, slice_all, stack, superellipse, wall
 
-_ROUND = superellipse(2.0, 2.0, 2.0, 16)
+_ROUND = superellipse(2.0, 2.0, 2.0, 14)
 SQUARE = superellipse(2.0, 2.0, 7.0, 16)
 OCTAGON = superellipse(2.0, 2.0, 2.0, 8)
 _COLLISION = """\
