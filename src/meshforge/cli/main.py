@@ -16,6 +16,7 @@ import meshforge
 
 COMMANDS = {
     "demo": "The whole loop on the bundled tables",
+    "samples": "Write a family of assets to try things on, with labels beside them",
     "new": "Make a project folder",
     "prepare": "Decompose non-convex pieces, and what bodies without collision geometry show, into convex hulls",
     "split": "Split a hull",
