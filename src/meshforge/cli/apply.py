@@ -52,7 +52,7 @@ class ApplyArguments:
     ] = "keep"
     link: Annotated[bool, typer.Option("--link", help="Hard-link files that are only copied.")] = False
     dry_run: options.DryRun = False
-    fresh: Annotated[bool, typer.Option("--fresh", help="Do again what an earlier run has done.")] = False
+    again: Annotated[bool, typer.Option("--again", help="Do again what an earlier run has done.")] = False
     report: options.ReportPath = None
     check: Annotated[
         list[str] | None,
@@ -92,7 +92,7 @@ def apply(given: ApplyArguments) -> None:
     for text in batch.describe_absent_labels(work.program, work.jobs):
         remark(text)
     summary, started, done = batch.RunSummary(), perf_counter(), list[batch.AssetOutcome]()
-    run_options = batch.ApplyOptions(given.mass, given.link, given.dry_run, resume=not given.fresh)
+    run_options = batch.ApplyOptions(given.mass, given.link, given.dry_run, resume=not given.again)
     try:
         with progress(len(work.jobs), "editing") as advance:
             execution = replace(given.execution.to_options(), progress=advance)

@@ -59,9 +59,11 @@ class CommandGroup(TyperGroup):
 
 def load_command(name: str) -> TyperCommand:
     """The command of a name, from its module."""
+    from meshforge.cli.command import Command  # lazy: the list of commands needs none
+
     app = typer.Typer(add_completion=False, pretty_exceptions_enable=False, rich_markup_mode=None)
     function: Callable[..., None] = getattr(import_module(f"meshforge.cli.{name}"), name)
-    app.command(name, context_settings=_HELP_OPTIONS)(function)
+    app.command(name, cls=Command, context_settings=_HELP_OPTIONS)(function)
     return cast(TyperCommand, typer.main.get_command(app))
 
 

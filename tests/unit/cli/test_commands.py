@@ -146,7 +146,7 @@ def test_render_writes_a_picture_of_the_size_asked_for(run: Run) -> None:
 
 def test_decompose_makes_hulls_that_info_reads(run: Run) -> None:
     Path("bar.obj").write_text(CUBE.format(*range(1, 9), name="bar", x=0, x1=3))
-    assert run("decompose", "bar.obj", "-o", "hulls.obj", "--no-cache", "--method", "vhacd").code == 0
+    assert run("decompose", "bar.obj", "-o", "hulls.obj", "--no-cache", "--decompose", "vhacd").code == 0
     assert len(run("info", "hulls.obj", "--json").json["hulls"]) >= 1
 
 
