@@ -176,6 +176,7 @@ def test_a_label_that_no_asset_has_is_named_with_the_nearest(run: Run, tmp_path:
     words = ("apply", "p.mf", f"assets/{FIRST}", "--out", "out", "--labels", f"p/labels/{FIRST}.json", "--workers", "1")
     said = "the program asks for 'legs', a label that no asset has; did you mean 'leg'?\n"
     assert run(*words).err == said
+    assert run(*words).err == said  # that is up to date, and says so again
     selected = run("select", "Is(legs)", FIRST, "--project", "p").err
     assert selected.startswith("no hull here is labelled 'legs'. Did you mean 'leg'? Labels here: leg, top.\n")
     shown = run("demonstrate", "p", FIRST, "top => Merge as tpo").err
