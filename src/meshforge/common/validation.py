@@ -69,7 +69,7 @@ def describe_invalid_field(complaint: Mapping[str, Any]) -> str:
     field = _name_field(complaint["loc"])
     at = f"the field {field}" if field else ""
     if kind == "json_invalid":
-        return f"this is no JSON{_find_place(str(about.get('error', '')))}"
+        return _describe_json_error(str(about.get("error", "")))
     if kind.startswith("missing"):
         return f"{at or 'a field'} is missing"
     if kind.startswith(("extra_forbidden", "unexpected", "no_such")):
@@ -89,10 +89,11 @@ def _name_field(steps: Sequence[int | str]) -> str:
     return "".join(f"[{step}]" if isinstance(step, int) else f".{step}" for step in steps).removeprefix(".")
 
 
-def _find_place(text: str) -> str:
-    """Where a text stops being JSON, as far as a message says it."""
+def _describe_json_error(text: str) -> str:
+    """Where a file stops being JSON, as far as the parser's message says it."""
     found = re.search(r"line (\d+) column (\d+)", text)
-    return f" (line {found[1]}, column {found[2]})" if found else ""
+    place = f" (line {found[1]}, column {found[2]})" if found else ""
+    return f"this JSON is nested too deeply{place}" if "recursion" in text else f"this is no JSON{place}"
 
 
 def _format_value(value: Any) -> str:
