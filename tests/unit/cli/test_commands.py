@@ -131,11 +131,20 @@ def test_select_lists_names_and_as_json(run: Run) -> None:
     assert run("select", "Geo(All, +X)", "row.obj", "--json").json == {"hulls": ["far"]}
 
 
-def test_select_of_a_label_that_no_hull_has_says_so(run: Run) -> None:
+def test_select_of_a_label_that_no_hull_has_names_the_nearest(run: Run) -> None:
     told = run("select", "Is(pannel)", "row.obj")
-    assert told.code == 0
-    assert "no hull here is labelled 'pannel'" in told.err
-    assert "panel" in told.err
+    assert (told.code, told.out) == (2, "")
+    assert told.err == "error: row.obj: no hull is labelled 'pannel'\n  Did you mean 'panel'? Labels are leg, panel.\n"
+    Path("row.labels.json").unlink()
+    said = "no hull is labelled 'panel'\n  Give labels: meshforge label, or --labels."
+    assert run("select", "Is(panel)", "row.obj").err == f"error: row.obj: {said}\n"
+
+
+def test_a_label_of_the_family_need_not_be_on_the_asset(run: Run) -> None:
+    Path("row.labels.json").write_text('{"vocabulary": ["leg", "door"], "hulls": {"left": "leg"}}')
+    told = run("select", "Is(door)", "row.obj")
+    assert (told.code, told.out) == (0, "")
+    assert told.err == "0 of 3 hulls\nno hull here is labelled 'door'\n"
 
 
 def test_render_writes_a_picture_of_the_size_asked_for(run: Run) -> None:
