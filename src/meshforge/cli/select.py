@@ -23,18 +23,20 @@ def select(
     labels: LabelsPath = None,
     project: InProject = None,
     json: Json = False,
-    picture: Annotated[Path | None, typer.Option("-o", "--out", help="A PNG with the selection lit.")] = None,
+    picture: Annotated[Path | None, typer.Option("-o", "--out", help="A picture with the selection lit.")] = None,
 ) -> None:
     """List the hulls that an extractor selects, in the frame the asset comes in."""
+    if picture:
+        from meshforge.rendering import check_picture_path, render, write_picture  # lazy: 40 modules of a picture
+
+        check_picture_path(picture)
     mesh = open_asset(asset, labels, project)
     extractor = parse_extractor(expression)
     absent = find_absent_labels(extractor, mesh, partial(_read_known_labels, asset, labels, project), str(asset))
     chosen = sorted(extractor.select(mesh))
     names = [mesh.hulls[k].name for k in chosen]
     if picture:
-        from meshforge.rendering import render, write_png  # lazy: 40 modules that only a picture needs
-
-        write_png(picture, render(mesh, highlight=frozenset(names)))
+        write_picture(picture, render(mesh, highlight=frozenset(names)))
     if json:
         print_json({"hulls": names})
     else:

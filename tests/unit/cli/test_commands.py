@@ -153,6 +153,24 @@ def test_render_writes_a_picture_of_the_size_asked_for(run: Run) -> None:
         assert picture.size == (300, 200)
 
 
+@pytest.mark.parametrize(
+    "words",
+    [
+        ("render", "row.obj", "-o"),
+        ("render", "row.obj", "--views", "labelling", "--size", "256x256", "-o"),
+        ("select", "Is(leg)", "row.obj", "-o"),
+        ("diff", "row.obj", "row.obj", "-o"),
+    ],
+)
+def test_a_picture_is_a_jpeg_or_png_as_its_suffix_says(run: Run, words: tuple[str, ...]) -> None:
+    assert run(*words, "a.jpg").code == 0
+    with Image.open("a.jpg") as picture:
+        assert picture.format == "JPEG"
+    refused = run(*words, "a.gif")
+    said = "a.gif: .gif is no picture that can be written\n  Pictures end in .png, .jpg, .jpeg."
+    assert (refused.code, refused.out, refused.err) == (2, "", f"error: {said}\n")
+
+
 def test_decompose_makes_hulls_that_info_reads(run: Run) -> None:
     Path("bar.obj").write_text(CUBE.format(*range(1, 9), name="bar", x=0, x1=3))
     assert run("decompose", "bar.obj", "-o", "hulls.obj", "--no-cache", "--decompose", "vhacd").code == 0

@@ -148,7 +148,7 @@ def test_a_picture_without_background_is_transparent_and_opaque_in_the_right_pla
 
 
 def test_numbers_are_written_on_the_hulls_that_are_seen() -> None:
-    plain, numbered = pixels(bare(table(), views=("top",))), pixels(bare(table(), views=("top",), labels=True))
+    plain, numbered = pixels(bare(table(), views=("top",))), pixels(bare(table(), views=("top",), names=True))
     items = render_id_buffer(table(), view="top", size=SMALL)
     changed = np.abs(plain - numbered).max(axis=2) > 0.2
     assert {int(k) for k in np.unique(items[changed])} >= {0, 1, 4}
