@@ -27,7 +27,7 @@ def write_hull_names(image: Image, views: Sequence[DrawnView], names: Sequence[s
     """The picture with the names of hulls on it, or with their numbers, which count from 0 in the order of `names`.
 
     Numbers stand there where the names would not fit; a legend below the picture then has the name of each. Hulls that
-    no view shows are listed there in any case. colors: (n, 3), of the hulls.
+    are hidden, or too small for a text, in all views are listed there in any case. colors: (n, 3), of the hulls.
     """
     from PIL import ImageDraw  # lazy: 0.01 s, only pictures need it
 
@@ -45,7 +45,7 @@ def write_hull_names(image: Image, views: Sequence[DrawnView], names: Sequence[s
     if not listed:
         return image
     notes = [] if is_named else [_NUMBERS_NOTE]
-    notes += ["Not seen here:" if is_named else "Grey: not seen here."] if hidden else []
+    notes += ["Hidden or too small here:" if is_named else "Grey: hidden or too small here."] if hidden else []
     return _add_legend(image, " ".join(notes), {k: f"#{k}  {names[k]}" for k in listed}, colors, set(hidden))
 
 
