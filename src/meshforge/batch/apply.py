@@ -149,6 +149,7 @@ def _run_program(
         notes=(*asset.notes, *_opaque_notes(asset), *_label_notes(followed), *draft.notes),
         flags=flags,
         measures=measure_edit(source, mesh),
+        labels=tuple(sorted({hull.label for hull in source.hulls if hull.label})),
     )
     if task.options.dry_run:
         return outputs.WorkerResult(outcome)

@@ -45,7 +45,7 @@ class Stamp(BaseModel):
 
     outputs: the digest of every file, by its path in the output folder; out: the main one of them.
     labels: of its hulls, in the order that the main file has them; empty where they are not known.
-    measures: of the edit; None in stamps of earlier versions.
+    measures: of the edit; labels_before: all that its hulls had before it; both None in stamps of earlier versions.
     """
 
     model_config = ConfigDict(frozen=True)
@@ -63,6 +63,7 @@ class Stamp(BaseModel):
     flags: tuple[str, ...] = ()
     error: str | None = None
     measures: EditMeasures | None = None
+    labels_before: tuple[str, ...] | None = None
 
     @staticmethod
     def of(outcome: Edited | Unchanged, inputs: OutputInputs, draft: OutputDraft) -> Stamp:
@@ -80,6 +81,7 @@ class Stamp(BaseModel):
             notes=outcome.notes,
             flags=outcome.flags,
             measures=outcome.measures,
+            labels_before=outcome.labels,
         )
 
     @staticmethod
@@ -90,7 +92,18 @@ class Stamp(BaseModel):
     def to_skipped(self, folder: Path) -> Skipped:
         """The outcome of finding this output up to date."""
         out = str(folder / self.out)
-        return Skipped(self.asset, out, self.rules, self.before, self.after, 0.0, self.notes, self.flags, self.measures)
+        return Skipped(
+            self.asset,
+            out,
+            self.rules,
+            self.before,
+            self.after,
+            0.0,
+            self.notes,
+            self.flags,
+            self.measures,
+            self.labels_before,
+        )
 
     def is_whole(self, folder: Path) -> bool:
         """Whether all files of this output are there, as they were written."""

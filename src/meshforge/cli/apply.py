@@ -52,7 +52,7 @@ class ApplyArguments:
     ] = "keep"
     link: Annotated[bool, typer.Option("--link", help="Hard-link files that are only copied.")] = False
     dry_run: options.DryRun = False
-    fresh: Annotated[bool, typer.Option("--fresh", help="Do again what an earlier run has done.")] = False
+    again: Annotated[bool, typer.Option("--again", help="Do again what an earlier run has done.")] = False
     report: options.ReportPath = None
     check: Annotated[
         list[str] | None,
@@ -89,10 +89,8 @@ def apply(given: ApplyArguments) -> None:
     work = _work_of_project(given) if given.program.is_dir() else _work_of_program(given)
     if len(work.jobs) > 1:
         remark(str(batch.plan_run(work.jobs, work.out)))
-    for text in batch.describe_absent_labels(work.program, work.jobs):
-        remark(text)
     summary, started, done = batch.RunSummary(), perf_counter(), list[batch.AssetOutcome]()
-    run_options = batch.ApplyOptions(given.mass, given.link, given.dry_run, resume=not given.fresh)
+    run_options = batch.ApplyOptions(given.mass, given.link, given.dry_run, resume=not given.again)
     try:
         with progress(len(work.jobs), "editing") as advance:
             execution = replace(given.execution.to_options(), progress=advance)
@@ -119,6 +117,8 @@ def apply(given: ApplyArguments) -> None:
         typer.echo(f"{summary}{NOTHING_WRITTEN if given.dry_run else ''}")
         if alarms:
             typer.echo(batch.describe_alarms(alarms))
+    for text in summary.describe_absent_labels(work.program):
+        remark(text)
     if given.report:
         _write_report(given.report, work, summary, perf_counter() - started, measures)
     raise typer.Exit(int(summary.counts["failed"] > 0 or bool(work.held)))

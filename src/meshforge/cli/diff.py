@@ -17,16 +17,20 @@ from meshforge.symbolic import SymbolicMesh
 def diff(
     before: Annotated[Path, typer.Argument(help="The asset as it was.")],
     after: Annotated[Path, typer.Argument(help="The asset as it is now.")],
-    out: Annotated[Path | None, typer.Option("-o", "--out", help="A PNG: before beside after.")] = None,
+    out: Annotated[
+        Path | None, typer.Option("-o", "--out", help="A picture: before beside after, with what changed marked.")
+    ] = None,
     json: Json = False,
 ) -> None:
     """Compare two assets hull by hull: removed, made, changed, kept, with counts and volumes."""
+    if out:
+        from meshforge.rendering import check_picture_path, draw_changes, write_picture  # lazy: 40 modules of a picture
+
+        check_picture_path(out)
     old, new = load(before), load(after)
     changes = compare_meshes(old, new)
     if out:
-        from meshforge.rendering import draw_before_after, write_png  # lazy: 40 modules that only a picture needs
-
-        write_png(out, draw_before_after(old, new))
+        write_picture(out, draw_changes(old, new, changes["changed"]))
         remark(f"wrote {out}")
     if json:
         print_json({"before": str(before), "after": str(after), **changes})

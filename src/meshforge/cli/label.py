@@ -32,8 +32,8 @@ class LabelArguments:
         list[str] | None,
         typer.Argument(
             metavar="HULLS=LABEL",
-            help="Labels by hand: hulls by name or pattern, with commas between, and their label; no label takes it "
-            "away, and the last one counts: '*=panel' 'geom9,geom10=handle'.",
+            help="Labels by hand: hulls by name, number (#5) or pattern, with commas between, and their label; no "
+            "label takes it away, and the last one counts: '*=panel' 'geom9,#10=handle'.",
         ),
     ] = None
     source: Annotated[

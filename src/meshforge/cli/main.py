@@ -30,7 +30,7 @@ COMMANDS = {
     "check": "Check that every hull is convex, closed and solid, and keeps to the limits of an engine",
     "info": "Show hulls, labels, bodies, contacts and near misses of an asset, in the frame it comes in",
     "select": "List the hulls that an extractor selects, in the frame the asset comes in",
-    "render": "Draw an asset as a PNG, one colour a hull or a label",
+    "render": "Draw an asset as a PNG or JPEG, one colour a hull or a label",
     "diff": "Compare two assets hull by hull",
     "decompose": "Decompose a mesh into convex hulls by CoACD or V-HACD",
     "convert": "Write an asset in another format, or unchanged in its own",
@@ -60,9 +60,11 @@ class CommandGroup(TyperGroup):
 
 def load_command(name: str) -> TyperCommand:
     """The command of a name, from its module."""
+    from meshforge.cli.command import Command  # lazy: the list of commands needs none
+
     app = typer.Typer(add_completion=False, pretty_exceptions_enable=False, rich_markup_mode=None)
     function: Callable[..., None] = getattr(import_module(f"meshforge.cli.{name}"), name)
-    app.command(name, context_settings=_HELP_OPTIONS)(function)
+    app.command(name, cls=Command, context_settings=_HELP_OPTIONS)(function)
     return cast(TyperCommand, typer.main.get_command(app))
 
 

@@ -24,7 +24,6 @@ from meshforge.common.messages import (
     StoppedError,
     UsageError,
     describe_error,
-    first_validation_error,
     join_names,
     nearest_name,
     pluralize,
@@ -32,6 +31,7 @@ from meshforge.common.messages import (
     suggest_aside,
     suggest_name,
 )
+from meshforge.common.validation import describe_invalid_field, first_validation_error
 
 __all__ = [
     "AssetError",
@@ -44,6 +44,7 @@ __all__ = [
     "StoppedError",
     "UsageError",
     "describe_error",
+    "describe_invalid_field",
     "expand_glob",
     "file_digest",
     "file_state",

@@ -22,6 +22,7 @@ from meshforge.formats.registry import (
     load,
     load_many,
     read,
+    resolve_asset_path,
 )
 from meshforge.formats.segmentation.base import (
     POINTS_SUFFIXES,
@@ -69,6 +70,7 @@ __all__ = [
     "read_segmentation",
     "read_semantics",
     "read_triangles",
+    "resolve_asset_path",
     "save",
     "split_into_pieces",
 ]

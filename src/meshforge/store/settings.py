@@ -94,7 +94,7 @@ def read_settings(folder: Path) -> Settings:
     except tomllib.TOMLDecodeError as error:
         raise ProjectError(f"this is no TOML: {error}", where=str(path), remedy="Correct the file by hand.") from error
     except ValidationError as error:
-        raise invalid_file(path, error) from error
+        raise invalid_file(path, error, "Correct the file by hand.") from error
 
 
 def write_settings(folder: Path, settings: Settings) -> None:
