@@ -132,25 +132,8 @@ def ensure_valid(shape: geometry.Shape, name: str, thickness: float) -> geometry
 
     Raises GeometryError naming `name` where no sound shape can be made of it.
     """
-    return shape if is_valid(shape) else geometry.convex_hull(shape.vertices, name=name, thicken=thickness)
-
-
-def is_valid(shape: geometry.Shape) -> bool:
-    """Whether a shape is finite, closed, convex, and spans a volume."""
-    with np.errstate(all="ignore"):
-        vertices, volume = shape.vertices, shape.volume
-    if not np.isfinite(vertices).all() or not (np.isfinite(volume) and volume > 0):
-        return False
-    return geometry.spans_volume(vertices) and (not isinstance(shape, geometry.Polytope) or _is_valid_polytope(shape))
-
-
-def _is_valid_polytope(shape: geometry.Polytope) -> bool:
-    vertices, faces = shape.vertices, shape.faces
-    return (
-        geometry.is_closed(faces)
-        and geometry.is_outward(vertices, faces)
-        and geometry.is_convex(vertices, faces, _CONVEXITY)
-    )
+    is_sound = geometry.find_fault(shape, _CONVEXITY) is None
+    return shape if is_sound else geometry.convex_hull(shape.vertices, name=name, thicken=thickness)
 
 
 @dataclass(frozen=True, slots=True)
