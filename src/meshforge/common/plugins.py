@@ -230,7 +230,7 @@ class Registry(Mapping[str, T], Generic[T]):
         return name in self.built_in or name in self._reserved
 
     def _claims(self, name: str) -> list[Plugin]:
-        if self._is_taken(name):
+        if not name or self._is_taken(name):
             return []
         return [plugin for plugin in installed_plugins(self.kind) if plugin.name == name]
 

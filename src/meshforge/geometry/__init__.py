@@ -6,7 +6,7 @@ from meshforge.geometry.decomposition.engines import CoacdSettings, DecomposeSet
 from meshforge.geometry.decomposition.run import cache_folder, decompose
 from meshforge.geometry.decomposition.triangles import is_line, is_sheet, sheet_hulls, volume_inside
 from meshforge.geometry.distance import close_pairs, distance
-from meshforge.geometry.faults import HULL_FAULTS, HullFault, describe_fault, find_fault
+from meshforge.geometry.faults import HullFault, describe_fault, find_fault
 from meshforge.geometry.fill import aabb_box, aabb_capsule, aabb_cylinder, aabb_sphere, longest_axis, map_to_box
 from meshforge.geometry.fit import tight_box, tight_capsule, tight_cylinder
 from meshforge.geometry.native import native_capsule, native_cylinder, native_sphere
@@ -38,7 +38,6 @@ from meshforge.geometry.surface import (
 
 __all__ = [
     "FLATNESS",
-    "HULL_FAULTS",
     "LEVEL",
     "Aabb",
     "Box",

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Literal, get_args
+from typing import Literal
 
 import numpy as np
 
@@ -11,8 +11,6 @@ from meshforge.geometry.shape import Polytope, Shape
 from meshforge.geometry.surface import is_closed, is_convex, is_outward
 
 HullFault = Literal["finite", "solid", "flat", "closed", "volume", "convex", "outward"]
-HULL_FAULTS: tuple[HullFault, ...] = get_args(HullFault)
-"""In the order in which they are looked for."""
 CONVEXITY = 1e-6
 """The tolerance of files, relative to the size of a hull; single precision leaves 1e-7."""
 
