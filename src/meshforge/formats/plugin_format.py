@@ -11,7 +11,7 @@ from typing import Any
 from meshforge.common import Plugin, PluginError, blame, join_names
 from meshforge.formats.base import Format, Mass, Output, ReadOptions
 from meshforge.geometry import describe_fault, find_fault
-from meshforge.symbolic import Asset, Feature
+from meshforge.symbolic import Asset, Feature, Geom, Opaque
 
 
 def guard_format(plugin: Plugin, kind: Any, taken: Iterable[str]) -> Format:
@@ -41,9 +41,7 @@ def _guard(plugin: Plugin, kind: type[Format]) -> type[Format]:
     class GuardedFormat(kind):  # type: ignore[valid-type, misc]  # the class is known only when it is loaded
         def read(self, path: Path, options: ReadOptions) -> Asset:
             with blame(plugin, str(path)):
-                asset = super().read(path, options)
-                _check_asset(plugin, self.name, asset, path)
-                return asset
+                return _check_asset(plugin, self.name, super().read(path, options), path)
 
         def write(self, asset: Asset, name: str, mass: Mass = "keep") -> Output:
             with blame(plugin, str(asset.path)):
@@ -76,21 +74,24 @@ def _guard(plugin: Plugin, kind: type[Format]) -> type[Format]:
     return GuardedFormat
 
 
-def _check_asset(plugin: Plugin, name: str, asset: Any, path: Path) -> None:
-    """Raise PluginError where what was read is no asset that MeshForge can work with."""
-    problem = None if isinstance(asset, Asset) else f"read a {type(asset).__name__}, not an Asset"
-    if problem := problem or _find_bad_asset(name, asset) or _find_bad_geom(asset):
+def _check_asset(plugin: Plugin, name: str, asset: Any, path: Path) -> Asset:
+    """The asset that was read. Raises PluginError where it is none that MeshForge can work with."""
+    if not isinstance(asset, Asset):
+        raise plugin.error(f"read a {type(asset).__name__}, not an Asset", str(path))
+    if problem := _find_bad_asset(name, asset) or _find_bad_geom(asset):
         raise plugin.error(problem, str(path))
+    return asset
 
 
 def _find_bad_asset(name: str, asset: Asset) -> str | None:
     if asset.format != name:
         return f"read an asset of the format {asset.format!r}, not {name!r}"
-    counts = Counter(piece.name for piece in (*asset.geoms, *asset.opaque))
+    pieces: list[Geom | Opaque] = [*asset.geoms, *asset.opaque]
+    counts = Counter(piece.name for piece in pieces)
     twice = [one for one, count in counts.items() if count > 1]
     if twice:
         return f"gave several hulls the name {twice[0]!r}"
-    astray = [piece for piece in (*asset.geoms, *asset.opaque) if piece.body not in asset.body_poses]
+    astray = [piece for piece in pieces if piece.body not in asset.body_poses]
     return f"put the hull {astray[0].name!r} into the body {astray[0].body!r}, which is not there" if astray else None
 
 

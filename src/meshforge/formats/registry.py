@@ -1,6 +1,5 @@
-"""The formats MeshForge knows, one line each, those of plug-ins, and which of them a file is of; assets read by them, alone or many, with
-the labels that lie beside them.
-"""
+"""The formats MeshForge knows, one line each, those of plug-ins, and which of them a file is of; assets read by them,
+alone or many, with the labels that lie beside them."""
 
 from __future__ import annotations
 
