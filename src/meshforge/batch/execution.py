@@ -12,7 +12,7 @@ from typing import Any
 
 from meshforge.batch import workers as processes
 from meshforge.batch.workers import ExecutionOptions, Item, Result, WorkerFailure, memory_share, run_isolated
-from meshforge.common import MeshForgeError, Plugin, PluginKind, adopt_plugins, known_plugins
+from meshforge.common import MeshForgeError, Plugin, PluginKind, adopt_plugins, collect_plugins
 
 ITEMS_A_CHUNK = 32
 """Items for each processor of a chunk: a node that dies costs the work on so many, which another one does again."""
@@ -56,7 +56,7 @@ def run_on_cluster(
         at_once = max(1, min(workers, every) // cores)
         remote = ray.remote(_run_chunk).options(num_cpus=cores, max_retries=_MOST_RETRIES, scheduling_strategy="SPREAD")
         length = max(1, min(ITEMS_A_CHUNK * cores, math.ceil(len(items) / (at_once * _CHUNKS_AHEAD))))
-        starts, plugins = iter(range(0, len(items), length)), known_plugins()
+        starts, plugins = iter(range(0, len(items), length)), collect_plugins()
         while True:
             while len(waiting) < at_once * _CHUNKS_AHEAD and (start := next(starts, None)) is not None:
                 chunk = list(items[start : start + length])

@@ -15,7 +15,7 @@ from multiprocessing import get_context
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, TypeVar
 
-from meshforge.common import MeshForgeError, Plugin, PluginKind, StoppedError, adopt_plugins, known_plugins
+from meshforge.common import MeshForgeError, Plugin, PluginKind, StoppedError, adopt_plugins, collect_plugins
 
 if TYPE_CHECKING:
     from pebble import ProcessPool
@@ -109,7 +109,7 @@ def _run_pool(
     pool = ProcessPool(
         workers,
         initializer=_begin_worker,
-        initargs=[function, options.memory, known_plugins()],
+        initargs=[function, options.memory, collect_plugins()],
         context=worker_context(),
     )
     waiting: deque[Future[Result]] = deque()

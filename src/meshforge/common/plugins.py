@@ -85,14 +85,14 @@ def blame(plugin: Plugin | None, where: str | None = None) -> Iterator[None]:
 _adopted: dict[PluginKind, tuple[Plugin, ...]] = {}
 
 
-def installed_plugins(kind: PluginKind) -> tuple[Plugin, ...]:
+def find_plugins(kind: PluginKind) -> tuple[Plugin, ...]:
     """The plug-ins of a kind that are installed, by name and package; looked for once in a process."""
     return _adopted[kind] if kind in _adopted else _find(kind)
 
 
-def known_plugins() -> dict[PluginKind, tuple[Plugin, ...]]:
+def collect_plugins() -> dict[PluginKind, tuple[Plugin, ...]]:
     """The plug-ins of all kinds, for another process to adopt."""
-    return {kind: installed_plugins(kind) for kind in PLUGIN_KINDS}
+    return {kind: find_plugins(kind) for kind in PLUGIN_KINDS}
 
 
 def adopt_plugins(known: Mapping[PluginKind, tuple[Plugin, ...]]) -> None:
@@ -185,7 +185,7 @@ class Registry(Mapping[str, T], Generic[T]):
     @property
     def plugin_names(self) -> tuple[str, ...]:
         """The names that plug-ins have, without loading these."""
-        names = dict.fromkeys(plugin.name for plugin in installed_plugins(self.kind))
+        names = dict.fromkeys(plugin.name for plugin in find_plugins(self.kind))
         return tuple(name for name in names if not self._is_taken(name))
 
     def plugin(self, name: str) -> Plugin | None:
@@ -232,7 +232,7 @@ class Registry(Mapping[str, T], Generic[T]):
     def _claims(self, name: str) -> list[Plugin]:
         if not name or self._is_taken(name):
             return []
-        return [plugin for plugin in installed_plugins(self.kind) if plugin.name == name]
+        return [plugin for plugin in find_plugins(self.kind) if plugin.name == name]
 
 
 def _clash(claims: list[Plugin]) -> PluginError:
