@@ -14,7 +14,7 @@ from pydantic import BaseModel, ConfigDict, ValidationError
 
 from meshforge.batch.discovery import STATE
 from meshforge.batch.outcome import Edited, Failed, RuleEffect, Skipped, Unchanged
-from meshforge.common import relative_name, write_atomically
+from meshforge.common import Plugin, relative_name, write_atomically
 from meshforge.formats import MESH_SUFFIXES
 from meshforge.geometry import digest as shape_digest
 from meshforge.language import Comments, HeaderComments, Program, Template
@@ -187,9 +187,10 @@ def source_files(path: Path) -> list[Path]:
     return sorted(file for file in files if file.suffix.lower() in MESH_SUFFIXES)
 
 
-def software_version() -> str:
-    """The version of this program, since another one may write other files."""
-    return version("meshforge")
+def software_version(plugins: Iterable[Plugin | None] = ()) -> str:
+    """The version of this program and of the plug-ins that are used, since others may write other files."""
+    own = sorted({f"{plugin.package} {plugin.version}" for plugin in plugins if plugin})
+    return ", ".join([version("meshforge"), *own])
 
 
 def _new_hash(data: bytes = b"") -> hashlib.blake2b:

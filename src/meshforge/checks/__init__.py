@@ -4,9 +4,12 @@ from meshforge.checks.engines import ENGINES, find_engine
 from meshforge.checks.examination import CheckOptions, Examination, check, draw_examination, examine_mesh
 from meshforge.checks.fix import FixResult, fix
 from meshforge.checks.legality import Finding, Severity
+from meshforge.checks.registry import CHECKS, Check
 
 __all__ = [
+    "CHECKS",
     "ENGINES",
+    "Check",
     "CheckOptions",
     "Examination",
     "Finding",

@@ -3,18 +3,20 @@ and pictures of what was measured."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from meshforge.checks.clearance import Clearance, measure_clearance
-from meshforge.checks.engines import find_engine
+from meshforge.checks.engines import ENGINES, find_engine
 from meshforge.checks.fit import LEAST_GAP_SHARE, FitGroup, MeshFit, measure_fit
 from meshforge.checks.legality import Finding, check_legality, find_oddities
 from meshforge.checks.limits import check_limits
 from meshforge.checks.physics.simulation import Physics, simulate
+from meshforge.checks.registry import CHECKS, MEASURES, run_checks
+from meshforge.common import UsageError, suggest_among
 from meshforge.geometry import Floats, Ints
 from meshforge.rendering import draw_heat_map, draw_volumes
 from meshforge.symbolic import Surface, SymbolicMesh
@@ -28,18 +30,44 @@ NO_VISUAL_MESH = "nothing is shown (no visual mesh), so clearance and fit have n
 
 @dataclass(frozen=True, slots=True)
 class CheckOptions:
-    """What is measured besides legality; engine: whose limits; cell: of the grids of clearance and fit [m]."""
+    """What is measured besides legality; engine: whose limits; cell: of the grids of clearance and fit [m].
+
+    plugins: names of checks of plug-ins.
+    """
 
     engine: str | None = None
     fit: bool = False
     clearance: bool = False
     physics: bool = False
     cell: float | None = None
+    plugins: tuple[str, ...] = ()
 
     @property
     def is_costly(self) -> bool:
         """Whether anything is measured that takes its time."""
-        return self.fit or self.clearance or self.physics
+        return self.fit or self.clearance or self.physics or bool(self.plugins)
+
+    def with_checks(self, names: Iterable[str]) -> CheckOptions:
+        """The same and further checks, by the names of measurements, of one engine, and of plug-ins.
+
+        Raises UsageError for a name that is not known, or a second engine; PluginError for a plug-in that cannot be
+        loaded.
+        """
+        options = self
+        for name in dict.fromkeys(names):
+            if name in MEASURES:
+                chosen: dict[str, Any] = {name: True}
+                options = replace(options, **chosen)
+            elif name in ENGINES:
+                if options.engine not in (None, name):
+                    raise UsageError(f"two engines: {options.engine}, {name}", remedy="Choose one of them.")
+                options = replace(options, engine=name)
+            elif CHECKS.get(name):
+                options = replace(options, plugins=tuple(dict.fromkeys([*options.plugins, name])))
+            else:
+                known = (*MEASURES, *ENGINES, *CHECKS)
+                raise UsageError(f"there is no check {name!r}", remedy=suggest_among(name, known, "There are"))
+        return options
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -87,6 +115,7 @@ def examine_mesh(mesh: SymbolicMesh, wanted: CheckOptions, before: SymbolicMesh 
     findings = list(check(mesh, wanted.engine))
     if not wanted.is_costly:
         return Examination(tuple(findings))
+    findings += run_checks(wanted.plugins, mesh, before)
     sound = _without_illegal_hulls(_with_visuals_of(mesh, before))
     was = _without_illegal_hulls(before) if before else None
     notes = []

@@ -35,6 +35,10 @@ class CheckArguments:
         bool, typer.Option("--clearance", help="Measure what hulls close and open of the space that can be reached.")
     ] = False
     physics: Annotated[bool, typer.Option("--physics", help="Rest each asset on a plane in MuJoCo.")] = False
+    check: Annotated[
+        list[str] | None,
+        typer.Option("--check", help="A check of a plug-in, or one of those above by its name. May be repeated."),
+    ] = None
     against: Annotated[
         Path | None, typer.Option("--against", help="The asset before an edit, or a folder that mirrors the assets'.")
     ] = None
@@ -81,8 +85,9 @@ def check(given: CheckArguments) -> None:
     --fit, --clearance and --physics measure more, in seconds an asset. Exit code 1 when a check does not hold or a
     file cannot be read.
     """
-    _refuse_stray_options(given)
-    measures = CheckOptions(given.engine, given.fit, given.clearance, given.physics, given.cell)
+    asked = CheckOptions(given.engine, given.fit, given.clearance, given.physics, given.cell)
+    measures = asked.with_checks(given.check or ())
+    _refuse_stray_options(given, measures)
     task = batch.CheckTask(measures, given.out, given.tolerance, given.overwrite, given.against, given.pictures)
     jobs = batch.make_jobs(batch.expand(given.assets), given.labels)
     if len(jobs) > _FEW:
@@ -113,15 +118,17 @@ def check(given: CheckArguments) -> None:
     raise typer.Exit(int(failed > 0))
 
 
-def _refuse_stray_options(given: CheckArguments) -> None:
+def _refuse_stray_options(given: CheckArguments, measures: CheckOptions) -> None:
     """Raise UsageError for an option that was given without the one that it belongs to."""
-    if given.fix and not (given.engine and given.out):
+    if given.fix and not (measures.engine and given.out):
         remedy = "meshforge check ASSETS... --engine NAME --fix --out DIR"
         raise UsageError("--fix needs --engine and --out", remedy=remedy)
     overwrite = given.overwrite or None
     _refuse({"--out": given.out, "--tolerance": given.tolerance, "--overwrite": overwrite}, given.fix, "--fix")
-    _refuse({"--cell": given.cell, "--pictures": given.pictures}, given.fit or given.clearance, "--fit or --clearance")
-    _refuse({"--against": given.against}, given.clearance or given.physics, "--clearance or --physics")
+    on_grid = measures.fit or measures.clearance
+    _refuse({"--cell": given.cell, "--pictures": given.pictures}, on_grid, "--fit or --clearance")
+    against = measures.clearance or measures.physics or bool(measures.plugins)
+    _refuse({"--against": given.against}, against, "--clearance or --physics")
 
 
 def _refuse(values: dict[str, object], is_allowed: bool, without: str) -> None:

@@ -12,7 +12,7 @@ import typer
 from meshforge.cli import options
 from meshforge.cli.terminal import print_json, remark
 from meshforge.common import UsageError, pluralize
-from meshforge.formats import FORMATS, Loss, SaveResult, labels_beside, load, save
+from meshforge.formats import FORMATS, PLUGIN_FORMATS, Loss, SaveResult, labels_beside, load, save
 from meshforge.symbolic import Feature, SymbolicMesh, write_labels
 
 
@@ -77,10 +77,14 @@ def convert(given: ConvertArguments) -> None:
 
 
 def _parse_suffix(to: str) -> str:
-    """The suffix of a format that can be written. Raises UsageError."""
+    """The suffix of a format that can be written. Raises UsageError; PluginError for one that cannot be loaded."""
     suffix = f".{to.lower().lstrip('.')}"
     known = [own for found in FORMATS if found.writable for own in found.suffixes]
-    if suffix not in known:
+    if suffix in known:
+        return suffix
+    plugin = PLUGIN_FORMATS.get(suffix.removeprefix("."))
+    if not (plugin and plugin.writable):
+        known += [f".{name}" for name in PLUGIN_FORMATS.plugin_names]
         raise UsageError(f"nothing is written as {suffix}", remedy=f"Formats: {', '.join(known)}.")
     return suffix
 

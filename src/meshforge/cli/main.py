@@ -34,6 +34,7 @@ COMMANDS = {
     "diff": "Compare two assets hull by hull",
     "decompose": "Decompose a mesh into convex hulls by CoACD or V-HACD",
     "convert": "Write an asset in another format, or unchanged in its own",
+    "plugins": "List the plug-ins that are installed",
     "fmt": "Print a program in its canonical form, comments kept",
 }
 """Every command with the line that the list of commands shows: the function of its name in the module of its name."""

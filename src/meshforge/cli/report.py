@@ -214,4 +214,5 @@ def _describe_measures(measures: CheckOptions) -> str:
     parts = ["legality"]
     parts += [f"limits of {measures.engine}"] if measures.engine else []
     parts += [name for name in ("fit", "clearance", "physics") if getattr(measures, name)]
+    parts += measures.plugins
     return f"Checked: {', '.join(parts)}."

@@ -124,5 +124,9 @@ class UsageError(MeshForgeError):
     """Arguments that do not fit together."""
 
 
+class PluginError(MeshForgeError):
+    """What a plug-in of another package does wrong, or that it cannot be loaded."""
+
+
 class StoppedError(MeshForgeError):
     """Work that was stopped by whoever asked for it."""

@@ -1,6 +1,6 @@
 """Files: a reader and a writer for each format, and the door to them all."""
 
-from meshforge.formats.base import Format, Loss, Mass, Output
+from meshforge.formats.base import Format, Loss, Mass, Output, ReadOptions
 from meshforge.formats.engine_names.conventions import EngineName
 from meshforge.formats.mesh_reader import read_triangles, split_into_pieces
 from meshforge.formats.meshfile.surface import RawSurface
@@ -13,14 +13,18 @@ from meshforge.formats.registry import (
     FORMATS,
     MESH_SUFFIXES,
     NO_GEOMETRY,
+    PLUGIN_FORMATS,
     SUFFIXES,
+    all_suffixes,
     format_for,
     format_of,
     format_with_names,
     is_asset,
+    is_description,
     labels_beside,
     load,
     load_many,
+    plugin_of_suffix,
     read,
     resolve_asset_path,
 )
@@ -41,6 +45,7 @@ __all__ = [
     "FORMATS",
     "MESH_SUFFIXES",
     "NO_GEOMETRY",
+    "PLUGIN_FORMATS",
     "POINTS_SUFFIXES",
     "SEMANTICS_FILE",
     "SUFFIXES",
@@ -51,19 +56,23 @@ __all__ = [
     "MeshPart",
     "Output",
     "RawSurface",
+    "ReadOptions",
     "SaveResult",
     "Segmentation",
     "VisualSurfaces",
+    "all_suffixes",
     "attach_own_mesh",
     "format_for",
     "format_obj",
     "format_of",
     "format_with_names",
     "is_asset",
+    "is_description",
     "labels_beside",
     "load",
     "load_many",
     "output_path_of",
+    "plugin_of_suffix",
     "points_beside",
     "read",
     "read_class_names",

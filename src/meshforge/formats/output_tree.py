@@ -16,7 +16,7 @@ from meshforge.common import AssetError, plain_path, replace_atomically, write_a
 from meshforge.formats.base import Format, Mass, Output
 from meshforge.formats.conversion import ConversionReport, report_conversion, turn_upright
 from meshforge.formats.engine_names.conventions import EngineName
-from meshforge.formats.registry import FOLDER, FORMATS, SUFFIXES, format_for, format_with_names
+from meshforge.formats.registry import FOLDER, SUFFIXES, format_for, format_named, format_with_names
 from meshforge.geometry import Pose
 from meshforge.symbolic import Asset, Body, Document, Geom, SymbolicMesh
 
@@ -84,7 +84,7 @@ def _make_output(asset: Asset, known: Format, name: str, mass: Mass) -> tuple[Ou
     if known.can_write_back(asset):
         output = known.write(asset, name, mass)
         return output, ConversionReport(remarks=output.notes)
-    source = next((own for own in FORMATS if own.name == asset.format), None)
+    source = format_named(asset.format)
     upright, remarks = turn_upright(asset, source, known)
     output = known.create(upright, name)
     return output, report_conversion(upright, source, known, output, remarks)
@@ -181,7 +181,8 @@ def output_path_of(asset: Asset, base: Path, out_dir: Path) -> Path:
     """
     path, base = plain_path(asset.path), plain_path(base)
     folders = [path.parent, *(plain_path(file).parent for file in asset.files)]
-    folders += [plain_path(known.top(asset)) for known in FORMATS if known.name == asset.format]
+    known = format_named(asset.format)
+    folders += [plain_path(known.top(asset))] if known else []
     if not all(folder.is_relative_to(base) for folder in folders):
         base = Path(os.path.commonpath(folders))
     return out_dir / path.relative_to(base)

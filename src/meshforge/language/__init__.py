@@ -11,8 +11,9 @@ from meshforge.language.actions.base import (
     PrimitiveOrFileArgument,
     WordArgument,
 )
-from meshforge.language.actions.basic import ACTIONS, Add, Delete, Each, Merge, Replace, Scale
-from meshforge.language.actions.edit import Template
+from meshforge.language.actions.basic import Add, Delete, Each, Merge, Replace, Scale
+from meshforge.language.actions.edit import GroupEdit, HullGroup, NewShape, Template
+from meshforge.language.actions.registry import ACTIONS, make_action, plugin_of
 from meshforge.language.apply import (
     ActionResult,
     RuleTrace,
@@ -78,11 +79,14 @@ __all__ = [
     "FileArgument",
     "FlagArgument",
     "Geo",
+    "GroupEdit",
     "HeaderComments",
+    "HullGroup",
     "Intersect",
     "Is",
     "LandmarkPair",
     "Merge",
+    "NewShape",
     "Orient",
     "PrimitiveOrFileArgument",
     "Program",
@@ -103,10 +107,12 @@ __all__ = [
     "from_canonical_frame",
     "geo_mask",
     "labels_of",
+    "make_action",
     "orient_mesh",
     "parse_action",
     "parse_extractor",
     "parse_orient",
+    "plugin_of",
     "reference_length",
     "rename_in_orient",
     "rename_in_program",

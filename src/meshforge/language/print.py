@@ -11,11 +11,13 @@ from typing import assert_never
 from meshforge.common import ProgramError
 from meshforge.language import syntax
 from meshforge.language.actions.base import PRIMITIVES, Action, show_number
-from meshforge.language.actions.basic import ACTIONS, Add, Delete, Each, Merge, Replace, Scale
+from meshforge.language.actions.basic import Add, Delete, Each, Merge, Replace, Scale
+from meshforge.language.actions.registry import ACTIONS
 from meshforge.language.syntax import All, Attach, BaseExtractor, Diff, Extractor, Geo, Intersect, Is, Orient, Union
 
 WORD = re.compile(r"[^\W\d]\w*")
-RESERVED = frozenset(syntax.OPERATORS) | frozenset(ACTIONS)
+RESERVED = frozenset(syntax.OPERATORS) | frozenset(ACTIONS.built_in)
+"""Words that labels are quoted for, whatever plug-ins are installed."""
 
 CommentLines = tuple[str | None, ...]
 """Comment lines without their `#`; None is an empty line."""
@@ -190,7 +192,7 @@ def _action_phrase(action: Action, whose: str) -> str:
             where = "in every direction" if action.axis == "all" else f"along {action.axis}"
             return f"scaled by {show_number(action.factor)} {where}, about {whose} common centre"
         case _:
-            raise TypeError(f"no words for {type(action).__name__}")
+            return f"edited by {action}"  # of a plug-in
 
 
 def _substitute_phrase(action: Replace, whose: str) -> str:

@@ -9,9 +9,9 @@ from collections.abc import Callable, Iterable, Set
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, TypeAlias, TypeVar
 
-from meshforge.common import ProgramError, nearest_name
+from meshforge.common import PluginError, ProgramError, nearest_name
 from meshforge.language.actions.base import join_alternatives
-from meshforge.language.actions.basic import ACTIONS
+from meshforge.language.actions.registry import ACTIONS
 from meshforge.language.print import RESERVED
 from meshforge.language.syntax import DIRECTIONS, OPERATORS, check_declared, check_label
 
@@ -86,7 +86,7 @@ class TreeReader:
         """What is made; an error on the way is given its place in the text."""
         try:
             return make()
-        except ProgramError as error:
+        except (ProgramError, PluginError) as error:
             raise self.source.error_at(start_of(at), error.problem, error.remedy, width) from None
 
     def error_at(self, at: Node | Token, problem: str, remedy: str | None) -> ProgramError:

@@ -7,7 +7,7 @@ from typing import Literal, get_args
 
 from meshforge.geometry import Aabb, Floats, Ints, Pose, Shape
 
-LabelSource = Literal["vlm", "propagated", "consensus", "name", "file", "user", "repair", "edit"]
+LabelSource = Literal["vlm", "propagated", "consensus", "name", "file", "user", "repair", "edit", "plugin"]
 LABEL_SOURCES: tuple[str, ...] = get_args(LabelSource)
 HUMAN_SOURCES = frozenset({"user", "repair"})
 INFERRED_SOURCES = frozenset({"propagated", "consensus"})

@@ -390,7 +390,7 @@ def test_apply_writes_a_report_with_checks_failures_first(run: Run) -> None:
         (("--check", "fit"), "--check says nothing without --report"),
         (("--report", "r.html", "--dry-run"), "with --dry-run there is nothing to show"),
         (("--report", "r.html", "--check", "fits"), "there is no check 'fits'"),
-        (("--report", "r.html", "--check", "unity", "--check", "bullet"), "two engines for one report: unity, bullet"),
+        (("--report", "r.html", "--check", "unity", "--check", "bullet"), "two engines: unity, bullet"),
         (("--memory", "much"), "'much' is no number of GiB above 0"),
     ],
 )

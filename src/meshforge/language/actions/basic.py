@@ -1,4 +1,4 @@
-"""The actions: Replace and Add, which insert shapes; Delete, Merge, Scale and Each; and the registry of all by name."""
+"""The actions: Replace and Add, which insert shapes; Delete, Merge, Scale and Each."""
 
 from __future__ import annotations
 
@@ -228,6 +228,3 @@ class Each(Action):
     @property
     def makes_hulls(self) -> bool:
         return self.action.makes_hulls
-
-
-ACTIONS: Mapping[str, type[Action]] = {kind.__name__: kind for kind in (Delete, Replace, Add, Merge, Scale, Each)}
