@@ -1,5 +1,6 @@
 """Whether hulls are legal, within the limits of an engine, fit, leave free what is free, and rest; and fixes."""
 
+from meshforge.checks.engine_trial import EngineTrial
 from meshforge.checks.engines import ENGINES, find_engine
 from meshforge.checks.examination import CheckOptions, Examination, check, draw_examination, examine_mesh
 from meshforge.checks.fix import FixResult, fix
@@ -8,6 +9,7 @@ from meshforge.checks.legality import Finding, Severity
 __all__ = [
     "ENGINES",
     "CheckOptions",
+    "EngineTrial",
     "Examination",
     "Finding",
     "FixResult",
