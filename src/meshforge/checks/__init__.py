@@ -5,9 +5,11 @@ from meshforge.checks.engines import ENGINES, find_engine
 from meshforge.checks.examination import CheckOptions, Examination, check, draw_examination, examine_mesh
 from meshforge.checks.fix import FixResult, fix
 from meshforge.checks.legality import Finding, Severity
+from meshforge.checks.written import ENGINES_OF_FORMATS, note_limits
 
 __all__ = [
     "ENGINES",
+    "ENGINES_OF_FORMATS",
     "CheckOptions",
     "EngineTrial",
     "Examination",
@@ -19,4 +21,5 @@ __all__ = [
     "examine_mesh",
     "find_engine",
     "fix",
+    "note_limits",
 ]
