@@ -5,7 +5,7 @@ from meshforge.checks.engines import ENGINES, find_engine
 from meshforge.checks.examination import CheckOptions, Examination, check, draw_examination, examine_mesh
 from meshforge.checks.fix import FixResult, fix
 from meshforge.checks.legality import Finding, Severity
-from meshforge.checks.written import ENGINES_OF_FORMATS, note_limits
+from meshforge.checks.limit_notes import ENGINES_OF_FORMATS, note_limits
 
 __all__ = [
     "ENGINES",
