@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from meshforge.checks.clearance import Clearance, measure_clearance
+from meshforge.checks.engine_trial import EngineTrial
 from meshforge.checks.engines import ENGINES, find_engine
 from meshforge.checks.fit import LEAST_GAP_SHARE, FitGroup, MeshFit, measure_fit
 from meshforge.checks.legality import Finding, check_legality, find_oddities
@@ -25,6 +26,8 @@ if TYPE_CHECKING:
     from PIL.Image import Image
 
 
+REFUSED = "MuJoCo refuses this file"
+"""How a note begins on an MJCF that was read for its collision geometry only."""
 NO_VISUAL_MESH = "nothing is shown (no visual mesh), so clearance and fit have nothing to be measured against"
 
 
@@ -75,6 +78,7 @@ class Examination:
     """What was measured of a mesh, None for what was not asked for or could not be.
 
     changed: what its hulls closed and opened of the space between the hulls before; earlier: physics of those.
+    trial: what the hulls were held against, where the limits of an engine were asked for.
     """
 
     findings: tuple[Finding, ...]
@@ -84,6 +88,17 @@ class Examination:
     physics: Physics | None = None
     earlier: Physics | None = None
     notes: tuple[str, ...] = ()
+    trial: EngineTrial | None = None
+
+    def add_trial(self, trial: EngineTrial) -> Examination:
+        """The same with what an engine itself said."""
+        return replace(self, findings=(*trial.findings, *self.findings), trial=trial)
+
+    def add_notes(self, notes: Iterable[str]) -> Examination:
+        """The same with more notes, but for what its trial has said in a finding."""
+        refused = self.trial is not None and self.trial.refusal is not None
+        more = (note for note in notes if not (refused and note.startswith(REFUSED)))
+        return replace(self, notes=(*self.notes, *more))
 
     @property
     def descriptions(self) -> tuple[str, ...]:
@@ -92,6 +107,7 @@ class Examination:
         found += [f"clearance: {c.description}" for c in (self.clearance, self.changed) if c]
         found += [f"physics: {self.physics.description}"] if self.physics else []
         found += [f"physics before: {self.earlier.description}"] if self.earlier else []
+        found += [f"engine: {self.trial.description}"] if self.trial and self.trial.description else []
         return (*found, *(f"note: {note}" for note in self.notes))
 
     def to_json(self) -> dict[str, Any]:
@@ -104,7 +120,8 @@ class Examination:
             "physics_before": self.earlier,
         }
         notes = {"notes": list(self.notes)} if self.notes else {}
-        return {name: part.to_json() for name, part in parts.items() if part is not None} | notes
+        trial = {"engine": self.trial.to_json()} if self.trial else {}
+        return trial | {name: part.to_json() for name, part in parts.items() if part is not None} | notes
 
 
 def examine_mesh(mesh: SymbolicMesh, wanted: CheckOptions, before: SymbolicMesh | None = None) -> Examination:

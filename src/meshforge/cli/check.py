@@ -27,7 +27,13 @@ class CheckArguments:
     """What is typed after `meshforge check`."""
 
     assets: options.AssetFiles
-    engine: Annotated[EngineName | None, typer.Option("--engine", help="Also check the limits of this engine.")] = None
+    engine: Annotated[
+        EngineName | None,
+        typer.Option(
+            "--engine",
+            help="Also check the limits of this engine, and ask it itself: MuJoCo, or Bullet if pybullet is installed.",
+        ),
+    ] = None
     fit: Annotated[
         bool, typer.Option("--fit", help="Measure how far hulls stick out of the visual mesh, and what lies bare.")
     ] = False
@@ -93,8 +99,9 @@ def check(given: CheckArguments) -> None:
     if len(jobs) > _FEW:
         remark(str(batch.plan_run(jobs, given.out)))
     # of one asset, starting a process would take longer than the work
+    isolated = measures.is_costly or given.engine in batch.ENGINES_TO_ASK  # an engine may crash
     is_bounded = given.execution.timeout is not None or given.execution.memory is not None
-    in_process = len(jobs) == 1 and not measures.is_costly and not is_bounded
+    in_process = len(jobs) == 1 and not isolated and not is_bounded
     execution = (replace(given.execution, workers=0) if in_process else given.execution).to_options()
     failed, page, started = 0, CheckReport() if given.report else None, perf_counter()
     journal_file = batch.open_journal(given.journal) if given.journal else nullcontext()
@@ -158,10 +165,12 @@ def _describe_check(outcome: batch.CheckOutcome) -> str:
     if found is None:
         return f"{path}: cannot be read\n  " + (outcome.error or "").replace("\n", "\n  ")
     lines = [*_describe_work(outcome)]
+    if not found.findings and len(lines) == bool(found.trial):  # nothing else to say
+        return f"{path}: legal{f' ({found.trial.description})' if found.trial else ''}"
     for finding in found.findings:
         lines.append(f"{finding.severity}: {finding.message}")
         lines += [f"  {finding.remedy}"] if finding.remedy else []
-    return "\n  ".join([f"{path}:", *lines]) if lines else f"{path}: legal"
+    return "\n  ".join([f"{path}:", *lines])
 
 
 def _describe_work(outcome: batch.CheckOutcome) -> tuple[str, ...]:

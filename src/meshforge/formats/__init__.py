@@ -4,6 +4,7 @@ from meshforge.formats.base import Format, Loss, Mass, Output, ReadOptions
 from meshforge.formats.engine_names.conventions import EngineName
 from meshforge.formats.mesh_reader import read_triangles, split_into_pieces
 from meshforge.formats.meshfile.surface import RawSurface
+from meshforge.formats.mjcf.trial import MujocoTrial, try_in_mujoco
 from meshforge.formats.output_tree import SaveResult, output_path_of, save
 from meshforge.formats.plain.obj_text import format_obj
 from meshforge.formats.plain.parts import MeshPart
@@ -54,6 +55,7 @@ __all__ = [
     "Loss",
     "Mass",
     "MeshPart",
+    "MujocoTrial",
     "Output",
     "RawSurface",
     "ReadOptions",
@@ -82,4 +84,5 @@ __all__ = [
     "resolve_asset_path",
     "save",
     "split_into_pieces",
+    "try_in_mujoco",
 ]

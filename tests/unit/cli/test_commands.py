@@ -335,7 +335,9 @@ def test_a_check_that_was_killed_goes_on_where_it_was(run: Run) -> None:
     assert run(*words).out == whole.out.replace("0/model.obj: legal", "0/model.obj: kept!").replace(
         "2/model.obj: legal", "2/model.obj: kept!"
     )
-    assert run(*words[:3], "unity", *words[4:]).out == whole.out  # another question: all are asked again
+    assert run(*words[:3], "unity", *words[4:]).out == whole.out.replace(
+        "Unreal", "Unity"
+    )  # another question: all are asked again
 
 
 @pytest.mark.parametrize("text", [b"solid x", b"v 0 0 0\n", b'{"hulls": {}}\n', b"[" * 100_000])
