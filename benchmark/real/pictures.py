@@ -10,13 +10,14 @@ from PIL import Image, ImageDraw
 
 from benchmark.real.regions import RegionPatch
 from benchmark.real.surface import AssetSurface, Patch
-from meshforge.geometry import Floats, Ints
+from meshforge.geometry import Floats
 from meshforge.rendering import RenderMesh, View, label_colors, write_png
-from meshforge.rendering.annotation import INK, font, shorten, text_scale, text_width
+from meshforge.rendering.annotation import font, shorten
 from meshforge.rendering.canvas import Canvas
 from meshforge.rendering.colors import HullColors, candidate_colors, rgb
+from meshforge.rendering.hull_names import place_texts
 from meshforge.rendering.picture import Subject, draw_on_canvas
-from meshforge.rendering.placement import place_numbers
+from meshforge.rendering.placement import draw_texts
 from meshforge.rendering.raycast import DrawLayer
 
 VIEWS: tuple[View, ...] = ("iso", "iso-back", "front-left-below", "front")
@@ -94,23 +95,13 @@ def _write(
         left, top = k % 2 * _SIDE, canvas.room[1] + k // 2 * _SIDE
         box = (left, top, left + _SIDE, min(top + _SIDE, canvas.room[3]))
         items = draw_on_canvas(canvas, what, None, view, box)
-        _write_marks(canvas, items, marks, box[:2])
+        draw_texts(ImageDraw.Draw(canvas.image), place_texts(items, marks, canvas.size), marks, colors, box[:2])
         canvas.write_view_name(view, box[:2])
     page = Image.new("RGB", (2 * _SIDE + _LIST, canvas.image.height), "#ffffff")
     page.paste(canvas.image, (0, 0))
     _write_list(ImageDraw.Draw(page), lines)
     path.parent.mkdir(parents=True, exist_ok=True)
     write_png(path, page)
-
-
-def _write_marks(canvas: Canvas, items: Ints, marks: Mapping[int, str], corner: tuple[int, int]) -> None:
-    """Write the texts of pieces on what is seen of them; those with the most room first, none over another."""
-    high = max(10, round(14 * text_scale(canvas.image.size)))
-    sizes = {item: {high: (text_width(text, high) + 0.6 * high, 1.25 * high)} for item, text in marks.items()}
-    draw = ImageDraw.Draw(canvas.image)
-    for place in place_numbers(items, sizes):
-        at = (corner[0] + place.center[0], corner[1] + place.center[1])
-        draw.text(at, marks[place.item], INK, font(place.height), "mm", stroke_width=2, stroke_fill="white")
 
 
 def _write_list(draw: ImageDraw.ImageDraw, lines: Sequence[tuple[tuple[float, ...], str]]) -> None:
