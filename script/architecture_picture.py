@@ -28,7 +28,11 @@ LAYERS = (
     (("project", "use cases: demonstrate, learn, ask, review, apply"),),
     (("labels", "from names, files, models, propagation"),),
     (("store", "the project folder on disk"),),
-    (("batch", "many assets: workers, outputs, report"), ("samples", "bundled families")),
+    (
+        ("batch", "many assets: workers, outputs, report"),
+        ("samples", "bundled families"),
+        ("inspection", "checks, pictures, differences"),
+    ),
     (
         ("synthesis", "learns programs"),
         ("checks", "legality, limits, fit, physics"),

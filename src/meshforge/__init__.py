@@ -11,19 +11,45 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     __version__: str
     from meshforge.common import MeshForgeError
-    from meshforge.formats import load, load_many, save
-    from meshforge.language import Add, Delete, Each, Merge, Program, Replace, Rule, Scale, Template
+    from meshforge.formats import convert, decompose, load, load_many, save
+    from meshforge.geometry import CoacdSettings, VhacdSettings
+    from meshforge.inspection import check, diff, render
+    from meshforge.language import (
+        Add,
+        All,
+        Attach,
+        Delete,
+        Diff,
+        Each,
+        Geo,
+        Intersect,
+        Is,
+        Merge,
+        Program,
+        Replace,
+        Rule,
+        Scale,
+        Template,
+        Union,
+    )
     from meshforge.project import Project
     from meshforge.symbolic import Hull, Label, SymbolicMesh
     from meshforge.synthesis import Answer, Demonstration, Options, Step, synthesize
 
 __all__ = [
     "Add",
+    "All",
     "Answer",
+    "Attach",
+    "CoacdSettings",
     "Delete",
     "Demonstration",
+    "Diff",
     "Each",
+    "Geo",
     "Hull",
+    "Intersect",
+    "Is",
     "Label",
     "Merge",
     "MeshForgeError",
@@ -36,16 +62,28 @@ __all__ = [
     "Step",
     "SymbolicMesh",
     "Template",
+    "Union",
+    "VhacdSettings",
+    "check",
+    "convert",
+    "decompose",
+    "diff",
     "load",
     "load_many",
+    "render",
     "save",
     "synthesize",
 ]
 
 _PACKAGES = {
     "common": ("MeshForgeError",),
-    "formats": ("load", "load_many", "save"),
-    "language": ("Add", "Delete", "Each", "Merge", "Program", "Replace", "Rule", "Scale", "Template"),
+    "formats": ("convert", "decompose", "load", "load_many", "save"),
+    "geometry": ("CoacdSettings", "VhacdSettings"),
+    "inspection": ("check", "diff", "render"),
+    "language": (
+        *("All", "Attach", "Diff", "Geo", "Intersect", "Is", "Union"),
+        *("Add", "Delete", "Each", "Merge", "Program", "Replace", "Rule", "Scale", "Template"),
+    ),
     "project": ("Project",),
     "symbolic": ("Hull", "Label", "SymbolicMesh"),
     "synthesis": ("Answer", "Demonstration", "Options", "Step", "synthesize"),

@@ -58,6 +58,15 @@ class Examination:
     notes: tuple[str, ...] = ()
 
     @property
+    def has_failed(self) -> bool:
+        """Whether a finding is an error."""
+        return any(finding.severity == "error" for finding in self.findings)
+
+    def __str__(self) -> str:
+        """What was measured and what is wrong, line by line; `legal` where there is nothing to say."""
+        return "\n".join([*self.descriptions, *map(str, self.findings)]) or "legal"
+
+    @property
     def descriptions(self) -> tuple[str, ...]:
         """What was measured, a sentence each."""
         found = [f"fit: {self.fit.description}"] if self.fit and self.fit.hulls else []

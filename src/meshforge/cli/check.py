@@ -151,9 +151,7 @@ def _describe_check(outcome: batch.CheckOutcome) -> str:
     if found is None:
         return f"{path}: cannot be read\n  " + (outcome.error or "").replace("\n", "\n  ")
     lines = [*_describe_work(outcome)]
-    for finding in found.findings:
-        lines.append(f"{finding.severity}: {finding.message}")
-        lines += [f"  {finding.remedy}"] if finding.remedy else []
+    lines += [line for finding in found.findings for line in str(finding).split("\n")]
     return "\n  ".join([f"{path}:", *lines]) if lines else f"{path}: legal"
 
 

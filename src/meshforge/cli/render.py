@@ -9,11 +9,11 @@ from typing import Annotated, Literal
 
 import typer
 
+from meshforge import inspection
 from meshforge.cli.options import AssetFile, InProject, LabelsPath, open_asset, takes
 from meshforge.cli.terminal import remark
 from meshforge.common import UsageError, pluralize
 from meshforge.rendering import VIEWS, View, draw_labeling_pictures, make_contact_sheet, write_png
-from meshforge.rendering import render as draw
 from meshforge.symbolic import SymbolicMesh
 
 _LABELLING = "labelling"
@@ -62,15 +62,10 @@ def render(given: RenderArguments) -> None:
         remark(f"wrote {write_part_pictures(mesh, given.out, side)}")
         return
     mesh = open_asset(given.asset, given.labels, given.project)
-    image = draw(
-        mesh,
-        views=_parse_views(given.views),
-        color_by=given.color_by or ("label" if mesh.labels else "hull"),
-        size=_parse_pixels(given.size or "900x700"),
-        ghost=tuple(mesh.asset.visuals) if given.ghost and mesh.asset else None,
-        labels=given.names,
+    views, size = _parse_views(given.views), _parse_pixels(given.size or "900x700")
+    inspection.render(
+        mesh, given.out, views=views, color_by=given.color_by, size=size, ghost=given.ghost, names=given.names
     )
-    write_png(given.out, image)
     remark(f"wrote {given.out}")
 
 

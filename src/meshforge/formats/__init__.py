@@ -1,6 +1,8 @@
 """Files: a reader and a writer for each format, and the door to them all."""
 
 from meshforge.formats.base import Format, Loss, Mass, Output
+from meshforge.formats.convert import convert
+from meshforge.formats.decompose import decompose
 from meshforge.formats.engine_names.conventions import EngineName
 from meshforge.formats.mesh_reader import read_triangles, split_into_pieces
 from meshforge.formats.meshfile.surface import RawSurface
@@ -14,6 +16,7 @@ from meshforge.formats.registry import (
     MESH_SUFFIXES,
     NO_GEOMETRY,
     SUFFIXES,
+    Source,
     format_for,
     format_of,
     format_with_names,
@@ -22,6 +25,7 @@ from meshforge.formats.registry import (
     load,
     load_many,
     read,
+    to_mesh,
 )
 from meshforge.formats.segmentation.base import (
     POINTS_SUFFIXES,
@@ -52,8 +56,11 @@ __all__ = [
     "RawSurface",
     "SaveResult",
     "Segmentation",
+    "Source",
     "VisualSurfaces",
     "attach_own_mesh",
+    "convert",
+    "decompose",
     "format_for",
     "format_obj",
     "format_of",
@@ -71,4 +78,5 @@ __all__ = [
     "read_triangles",
     "save",
     "split_into_pieces",
+    "to_mesh",
 ]

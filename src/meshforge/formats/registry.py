@@ -4,6 +4,7 @@ the labels that lie beside them.
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
 from pathlib import Path
@@ -152,7 +153,16 @@ def read(path: str | Path, options: ReadOptions | None = None) -> Asset:
     return replace(asset, notes=(*asset.notes, note)) if note else asset
 
 
-def load(path: str | Path, labels: str | Path | None = None) -> SymbolicMesh:
+Source = str | os.PathLike[str]
+"""What an asset is read from: the path of a file, or of a folder."""
+
+
+def to_mesh(what: SymbolicMesh | Source) -> SymbolicMesh:
+    """A mesh as it is, anything else as `load` reads it."""
+    return what if isinstance(what, SymbolicMesh) else load(what)
+
+
+def load(path: Source, labels: str | Path | None = None) -> SymbolicMesh:
     """The symbolic mesh of a file, with the labels of a labels file; without one, of the file beside it if present.
 
     Raises AssetError: the asset or the labels cannot be read.

@@ -14,6 +14,8 @@ from meshforge.language import syntax
 from meshforge.language import text as program_text
 from meshforge.language.actions import base
 from meshforge.language.actions.basic import ACTIONS
+from meshforge.language.directions import Direction, check_direction
+from meshforge.language.labels import OPERATORS
 from meshforge.language.print import CommentLines, Comments, Rule
 from meshforge.language.text import Node, ProgramText, TreeReader, likely_word, quote_code, subtrees_of, tokens_of
 
@@ -161,14 +163,14 @@ def _build_base(text: TreeReader, tree: Node) -> syntax.BaseExtractor:
     return syntax.All() if tree.data == "all" else syntax.Is(text.read_label(subtrees_of(tree)[0]))
 
 
-def _build_direction(text: TreeReader, token: Token) -> syntax.Direction:
+def _build_direction(text: TreeReader, token: Token) -> Direction:
     try:
-        syntax.check_direction(token)
+        check_direction(token)
     except ProgramError as error:
         like = likely_word(token[1:], ["+X", "+Y", "+Z"])
         hint = f"Did you mean {token[0]}{like[1]}? " if like else ""
         raise text.error_at(token, f"unknown direction `{token}`", f"{hint}{error.remedy}") from None
-    return cast(syntax.Direction, str(token))
+    return cast(Direction, str(token))
 
 
 def collect_headers(text: TreeReader, statements: list[Node]) -> dict[str, Node]:
@@ -220,7 +222,7 @@ def build_action(text: TreeReader, tree: Node) -> base.Action:
 
 def _unknown_action(text: TreeReader, name: Token) -> ProgramError:
     known = f"Actions are {base.join_alternatives(ACTIONS)}."
-    if name in syntax.OPERATORS:
+    if name in OPERATORS:
         return text.error_at(name, f"{name} selects hulls, it is no action", known)
     like = likely_word(name, ACTIONS)
     return text.error_at(name, f"unknown action {quote_code(name)}", f"Did you mean {like}? {known}" if like else known)

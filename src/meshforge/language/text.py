@@ -12,8 +12,8 @@ from typing import TYPE_CHECKING, TypeAlias, TypeVar
 from meshforge.common import ProgramError, nearest_name
 from meshforge.language.actions.base import join_alternatives
 from meshforge.language.actions.basic import ACTIONS
-from meshforge.language.print import RESERVED
-from meshforge.language.syntax import DIRECTIONS, OPERATORS, check_declared, check_label
+from meshforge.language.directions import DIRECTIONS
+from meshforge.language.labels import OPERATORS, RESERVED, check_declared, check_label
 
 if TYPE_CHECKING:  # lark is loaded where a program is parsed
     from lark import Token, Tree
