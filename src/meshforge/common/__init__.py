@@ -1,5 +1,6 @@
 """What every package needs and what knows nothing of meshes: errors, atomic files, words for messages."""
 
+from meshforge.common.extras import import_extra
 from meshforge.common.files import (
     FileStates,
     expand_glob,
@@ -18,6 +19,7 @@ from meshforge.common.messages import (
     AssetError,
     DemonstrationError,
     GeometryError,
+    HullNotFoundError,
     MeshForgeError,
     ProgramError,
     ProjectError,
@@ -38,6 +40,7 @@ __all__ = [
     "DemonstrationError",
     "FileStates",
     "GeometryError",
+    "HullNotFoundError",
     "MeshForgeError",
     "ProgramError",
     "ProjectError",
@@ -49,6 +52,7 @@ __all__ = [
     "file_state",
     "file_states",
     "first_validation_error",
+    "import_extra",
     "is_file",
     "is_link_cycle",
     "join_names",

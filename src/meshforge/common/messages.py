@@ -112,6 +112,10 @@ def first_validation_error(error: ValidationError) -> str:
     return at + first["msg"].replace("valid tuple", "list").replace("valid array", "list") + value
 
 
+class HullNotFoundError(MeshForgeError, KeyError):
+    """A name that no hull of a mesh has."""
+
+
 class AssetError(MeshForgeError):
     """A file that cannot be read or written as an asset."""
 

@@ -23,7 +23,7 @@ from meshforge.formats.sdf.format import SdfFormat
 from meshforge.formats.segmentation.base import is_segmentation
 from meshforge.formats.urdf.format import UrdfFormat
 from meshforge.formats.usd.format import UsdFormat
-from meshforge.symbolic import Asset, SymbolicMesh, read_labels, transfer_labels
+from meshforge.symbolic import Asset, Label, SymbolicMesh, read_labels, transfer_labels
 
 _HEAD = 4096  # bytes by which a format tells its assets from other files of its suffix
 _UNREAD = {".mjb": "is a model compiled for one version of MuJoCo: open the XML it was made from"}
@@ -162,17 +162,31 @@ def to_mesh(what: SymbolicMesh | Source) -> SymbolicMesh:
     return what if isinstance(what, SymbolicMesh) else load(what)
 
 
-def load(path: Source, labels: str | Path | None = None) -> SymbolicMesh:
-    """The symbolic mesh of a file, with the labels of a labels file; without one, of the file beside it if present.
+Labels = str | os.PathLike[str] | Mapping[str, Label | str]
+"""Labels for an asset: the path of a labels file, or the labels by the names of hulls."""
 
-    Raises AssetError: the asset or the labels cannot be read.
+
+def load(path: Source, labels: Labels | None = None) -> SymbolicMesh:
+    """The symbolic mesh of a file.
+
+    labels: a labels file, or labels by the names of hulls; None takes those of the file beside it if present.
+    Raises AssetError: the asset or the labels cannot be read; HullNotFoundError: a label for a hull that is not there.
     """
     path = resolve_asset_path(Path(path))
     mesh = SymbolicMesh.of(read(path))
+    if isinstance(labels, Mapping):
+        return label_hulls(mesh, labels)
     beside = Path(labels) if labels is not None else labels_beside(path)
     if labels is None and not beside.is_file():
         return mesh
     return transfer_labels(read_labels(beside), mesh).mesh
+
+
+def label_hulls(mesh: SymbolicMesh, labels: Mapping[str, Label | str]) -> SymbolicMesh:
+    """The mesh with some labels set. Raises HullNotFoundError: there is no hull of a name."""
+    for name in labels:
+        mesh.hull_of(name)
+    return mesh.with_labels(labels)
 
 
 def load_many(patterns: str | Path | Iterable[str | Path]) -> Iterator[SymbolicMesh]:

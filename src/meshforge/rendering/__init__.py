@@ -9,6 +9,7 @@ from meshforge.rendering.colors import (
     UNLABELLED,
     UNSURE,
     ColorBy,
+    color_hulls,
     label_color,
     label_colors,
 )
@@ -30,6 +31,7 @@ __all__ = [
     "RenderMesh",
     "Up",
     "View",
+    "color_hulls",
     "compare",
     "count_visible_pixels",
     "draw_before_after",

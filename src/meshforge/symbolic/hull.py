@@ -26,6 +26,11 @@ class Label:
     source: LabelSource = "user"
     given: Label | None = None
 
+    @staticmethod
+    def of(value: Label | str) -> Label:
+        """A label as it is; one that is given by its name is a person's, and sure."""
+        return value if isinstance(value, Label) else Label(value)
+
     @property
     def names(self) -> tuple[str, ...]:
         """Its own, and that of the label that it replaced."""
@@ -49,6 +54,11 @@ class Hull:
     shape: Shape
     annotation: Label | None = None
     parent: str | None = None
+
+    def __repr__(self) -> str:
+        kind = type(self.primitive).__name__.lower() if self.primitive else f"{len(self.vertices)} vertices"
+        label = f", label {self.label}" if self.label else ""
+        return f"<Hull {self.name!r}: {kind}, body {self.body}{label}>"
 
     @property
     def label(self) -> str | None:
