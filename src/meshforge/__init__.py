@@ -6,7 +6,7 @@ The names below are the Python interface; each is imported when it is first used
 from __future__ import annotations
 
 from importlib import import_module
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     __version__: str
@@ -91,16 +91,18 @@ _PACKAGES = {
 _HOMES = {name: package for package, names in _PACKAGES.items() for name in names}
 
 
-def __getattr__(name: str) -> Any:
-    if name == "__version__":
-        from importlib.metadata import version  # lazy: reads files
+if not TYPE_CHECKING:  # a type checker that saw it would take every name for one of the interface
 
-        return version("meshforge")
-    if name not in _HOMES:
-        raise AttributeError(f"module 'meshforge' has no attribute {name!r}")
-    value = getattr(import_module(f"meshforge.{_HOMES[name]}"), name)
-    globals()[name] = value
-    return value
+    def __getattr__(name):
+        if name == "__version__":
+            from importlib.metadata import version  # lazy: reads files
+
+            return version("meshforge")
+        if name not in _HOMES:
+            raise AttributeError(f"module 'meshforge' has no attribute {name!r}")
+        value = getattr(import_module(f"meshforge.{_HOMES[name]}"), name)
+        globals()[name] = value
+        return value
 
 
 def __dir__() -> list[str]:
