@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     __version__: str
     from meshforge.common import MeshForgeError
-    from meshforge.formats import convert, decompose, load, load_many, save
+    from meshforge.formats import convert, decompose, from_trimesh, load, load_many, save
     from meshforge.geometry import CoacdSettings, VhacdSettings
     from meshforge.inspection import check, diff, render
     from meshforge.language import (
@@ -68,6 +68,7 @@ __all__ = [
     "convert",
     "decompose",
     "diff",
+    "from_trimesh",
     "load",
     "load_many",
     "render",
@@ -77,7 +78,7 @@ __all__ = [
 
 _PACKAGES = {
     "common": ("MeshForgeError",),
-    "formats": ("convert", "decompose", "load", "load_many", "save"),
+    "formats": ("convert", "decompose", "from_trimesh", "load", "load_many", "save"),
     "geometry": ("CoacdSettings", "VhacdSettings"),
     "inspection": ("check", "diff", "render"),
     "language": (

@@ -1,7 +1,7 @@
 """Files: a reader and a writer for each format, and the door to them all."""
 
 from meshforge.formats.base import Format, Loss, Mass, Output
-from meshforge.formats.convert import convert
+from meshforge.formats.convert import convert, to_mjspec
 from meshforge.formats.decompose import decompose
 from meshforge.formats.engine_names.conventions import EngineName
 from meshforge.formats.mesh_reader import read_triangles, split_into_pieces
@@ -36,6 +36,7 @@ from meshforge.formats.segmentation.base import (
     read_semantics,
 )
 from meshforge.formats.segmentation.reader import attach_own_mesh, read_segmentation
+from meshforge.formats.trimesh_meshes import from_trimesh
 from meshforge.formats.visuals import VisualSurfaces
 
 __all__ = [
@@ -65,6 +66,7 @@ __all__ = [
     "format_obj",
     "format_of",
     "format_with_names",
+    "from_trimesh",
     "is_asset",
     "labels_beside",
     "load",
@@ -79,4 +81,5 @@ __all__ = [
     "save",
     "split_into_pieces",
     "to_mesh",
+    "to_mjspec",
 ]

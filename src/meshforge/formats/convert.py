@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 from meshforge.formats.engine_names.conventions import EngineName
-from meshforge.formats.output_tree import SaveResult, save
+from meshforge.formats.mjcf.spec import build_spec
+from meshforge.formats.output_tree import SaveResult, make_output, save
 from meshforge.formats.registry import Source, labels_beside, to_mesh
 from meshforge.symbolic import SymbolicMesh, write_labels
 
@@ -29,6 +31,11 @@ def convert(
     mesh = to_mesh(asset)
     saved = save(mesh, out, link=link, overwrite=overwrite, names=names)
     return _write_labels(mesh, saved, overwrite) if mesh.labels else saved
+
+
+def to_mjspec(mesh: SymbolicMesh) -> Any:
+    """The mesh as a `mujoco.MjSpec`; see `SymbolicMesh.to_mjspec`."""
+    return build_spec(make_output(mesh, "mjcf", "model.xml"))
 
 
 def _write_labels(mesh: SymbolicMesh, saved: SaveResult, overwrite: bool) -> SaveResult:

@@ -17,12 +17,15 @@ from meshforge.formats.engine_names.conventions import EngineName
 from meshforge.formats.gltf.format import GltfForGodot, GltfFormat, GltfForUnity, GltfForUnreal
 from meshforge.formats.meshfile.surface import FARTHEST
 from meshforge.formats.mjcf.format import MjcfFormat
+from meshforge.formats.mjcf.spec import SpecObject, read_spec, read_text
 from meshforge.formats.plain import folder, obj, ply, stl
 from meshforge.formats.sdf.document import CONFIG, find_main_file
 from meshforge.formats.sdf.format import SdfFormat
 from meshforge.formats.segmentation.base import is_segmentation
 from meshforge.formats.urdf.format import UrdfFormat
+from meshforge.formats.urdf.xacro import XacroFormat
 from meshforge.formats.usd.format import UsdFormat
+from meshforge.formats.usd.live_stage import StageObject, read_stage
 from meshforge.symbolic import Asset, Label, SymbolicMesh, read_labels, transfer_labels
 
 _HEAD = 4096  # bytes by which a format tells its assets from other files of its suffix
@@ -31,6 +34,7 @@ _UNREAD = {".mjb": "is a model compiled for one version of MuJoCo: open the XML 
 FOLDER = folder.FolderFormat((obj.ObjFormat(), stl.StlFormat(), ply.PlyFormat(), stl.WrlFormat()))
 FORMATS: tuple[Format, ...] = (
     UrdfFormat(),
+    XacroFormat(),
     MjcfFormat(),
     SdfFormat(),
     GltfFormat(),
@@ -141,20 +145,33 @@ _LARGE = 50.0  # m: beyond nearly all assets in metres; a mug in millimetres is 
 _SMALL = 1e-3  # m: below nearly all assets in metres
 
 
-def read(path: str | Path, options: ReadOptions | None = None) -> Asset:
-    """The asset in a file, or in a folder: of mesh files, or of a Gazebo model. Raises AssetError.
+Source = str | os.PathLike[str] | SpecObject | StageObject
+"""What an asset is read from: the path of a file or a folder, the text of an MJCF, a `mujoco.MjSpec`, a `Usd.Stage`."""
 
-    options: None takes those of the environment.
+
+def read(source: Source, options: ReadOptions | None = None) -> Asset:
+    """The asset in a file, in a folder (of mesh files, or of a Gazebo model), in text or in an object.
+
+    options: None takes those of the environment. Raises AssetError; UsageError: nothing that can be read.
     """
-    path = resolve_asset_path(Path(path))
-    asset = format_of(path).read(path, options or ReadOptions.from_environment())
+    asset = _read_source(source, options or ReadOptions.from_environment())
     refuse_far(asset)
     note = note_if_odd_size(asset) if asset.geoms or asset.opaque else NO_GEOMETRY
     return replace(asset, notes=(*asset.notes, note)) if note else asset
 
 
-Source = str | os.PathLike[str]
-"""What an asset is read from: the path of a file, or of a folder."""
+def _read_source(source: Source, options: ReadOptions) -> Asset:
+    if isinstance(source, str) and source.lstrip().startswith("<"):
+        return read_text(source)
+    if isinstance(source, str | os.PathLike):
+        path = resolve_asset_path(Path(source))
+        return format_of(path).read(path, options)
+    if isinstance(source, SpecObject):
+        return read_spec(source)
+    if isinstance(source, StageObject):
+        return read_stage(source)
+    remedy = "Give a path, the text of an MJCF, a mujoco.MjSpec or a Usd.Stage; for trimesh there is from_trimesh."
+    raise UsageError(f"a {type(source).__name__} is nothing that an asset is read from", remedy=remedy)
 
 
 def to_mesh(what: SymbolicMesh | Source) -> SymbolicMesh:
@@ -166,20 +183,22 @@ Labels = str | os.PathLike[str] | Mapping[str, Label | str]
 """Labels for an asset: the path of a labels file, or the labels by the names of hulls."""
 
 
-def load(path: Source, labels: Labels | None = None) -> SymbolicMesh:
-    """The symbolic mesh of a file.
+def load(source: Source, labels: Labels | None = None) -> SymbolicMesh:
+    """The symbolic mesh of a file or a folder, of the text of an MJCF, of a `mujoco.MjSpec` or a `Usd.Stage`.
 
     labels: a labels file, or labels by the names of hulls; None takes those of the file beside it if present.
-    Raises AssetError: the asset or the labels cannot be read; HullNotFoundError: a label for a hull that is not there.
+    What is saved of an object in memory is what it said when it was loaded, with the edit; the object does not change.
+    Raises AssetError: the asset or the labels cannot be read; HullNotFoundError: a label for a hull that is not there;
+    UsageError: nothing that can be read.
     """
-    path = resolve_asset_path(Path(path))
-    mesh = SymbolicMesh.of(read(path))
+    mesh = SymbolicMesh.of(read(source))
     if isinstance(labels, Mapping):
         return label_hulls(mesh, labels)
-    beside = Path(labels) if labels is not None else labels_beside(path)
-    if labels is None and not beside.is_file():
-        return mesh
-    return transfer_labels(read_labels(beside), mesh).mesh
+    is_path = isinstance(source, os.PathLike) or (isinstance(source, str) and not source.lstrip().startswith("<"))
+    if labels is None and is_path and mesh.asset:
+        beside = labels_beside(mesh.asset.path)
+        labels = beside if beside.is_file() else None
+    return mesh if labels is None else transfer_labels(read_labels(Path(labels)), mesh).mesh
 
 
 def label_hulls(mesh: SymbolicMesh, labels: Mapping[str, Label | str]) -> SymbolicMesh:

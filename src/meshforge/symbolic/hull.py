@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import Literal, get_args
+from typing import Any, Literal, get_args
 
 from meshforge.geometry import Aabb, Floats, Ints, Pose, Shape
+from meshforge.symbolic.trimesh_export import make_trimesh
 
 LabelSource = Literal["vlm", "propagated", "consensus", "name", "file", "user", "repair", "edit"]
 LABEL_SOURCES: tuple[str, ...] = get_args(LabelSource)
@@ -94,6 +95,13 @@ class Hull:
     def primitive(self) -> Shape | None:
         """The native primitive, or None for a polytope."""
         return self.shape if self.shape.is_primitive else None
+
+    def to_trimesh(self) -> Any:
+        """A `trimesh.Trimesh` of the vertices and faces; `.metadata` has name, body and label.
+
+        Raises MeshForgeError where trimesh is not installed.
+        """
+        return make_trimesh(self.vertices, self.faces, {"name": self.name, "body": self.body, "label": self.label})
 
     def with_label(self, annotation: Label | None) -> Hull:
         return replace(self, annotation=annotation)

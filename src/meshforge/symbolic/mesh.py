@@ -16,6 +16,7 @@ from meshforge.common import HullNotFoundError, MeshForgeError, pluralize, sugge
 from meshforge.geometry import Aabb, Floats, Shape, bounds, close_pairs
 from meshforge.symbolic.asset import Asset, Geom
 from meshforge.symbolic.hull import Hull, Label
+from meshforge.symbolic.trimesh_export import make_scene
 
 EPSILON = 0.002
 """Contact threshold as a share of the diagonal (paper, implementation)."""
@@ -72,6 +73,17 @@ class SymbolicMesh:
         Raises MeshForgeError where viser is not installed: `pip install 'meshforge[viewer]'`.
         """
         return _find_above("inspection.viewer", "show")(self, port=port, browser=browser, wait=wait)
+
+    def to_trimesh(self) -> Any:
+        """A `trimesh.Scene` with a mesh for each hull, under its name. Raises MeshForgeError without trimesh."""
+        return make_scene({hull.name: hull.to_trimesh() for hull in self.hulls})
+
+    def to_mjspec(self) -> Any:
+        """A `mujoco.MjSpec` of the asset with these hulls; of an MJCF, all the rest as the file has it.
+
+        It holds the files it refers to in memory. Raises AssetError where an MJCF cannot hold the hulls.
+        """
+        return _find_above("formats", "to_mjspec")(self)
 
     def __getitem__(self, name: str) -> Hull:
         """The hull of that name. Raises HullNotFoundError, a KeyError, that names the nearest one."""
