@@ -22,7 +22,7 @@ _REMEDY = "Give a trimesh.Trimesh, a trimesh.Scene, a list of these, or a dict w
 
 
 @runtime_checkable
-class TriangleMesh(Protocol):
+class MeshObject(Protocol):
     """A `trimesh.Trimesh`, or what is like one."""
 
     @property
@@ -35,7 +35,7 @@ class TriangleMesh(Protocol):
 
 
 @runtime_checkable
-class TriangleScene(Protocol):
+class SceneObject(Protocol):
     """A `trimesh.Scene`, or what is like one."""
 
     @property
@@ -47,7 +47,7 @@ class TriangleScene(Protocol):
         """Where they are."""
 
 
-TrimeshObject = TriangleMesh | TriangleScene
+TrimeshObject = MeshObject | SceneObject
 
 
 def from_trimesh(
@@ -84,9 +84,9 @@ def from_trimesh(
 
 def list_surfaces(what: Any, name: str | None = None) -> Iterator[RawSurface]:
     """The triangles of meshes and scenes, in the root frame. Raises UsageError."""
-    if isinstance(what, TriangleScene):
+    if isinstance(what, SceneObject):
         yield from _list_nodes(what)
-    elif isinstance(what, TriangleMesh):
+    elif isinstance(what, MeshObject):
         own = name or getattr(what, "metadata", {}).get("name")
         yield RawSurface(own, np.asarray(what.vertices, dtype=np.float64), np.asarray(what.faces, dtype=np.int64))
     elif isinstance(what, Mapping):
@@ -99,12 +99,12 @@ def list_surfaces(what: Any, name: str | None = None) -> Iterator[RawSurface]:
         raise UsageError(f"a {type(what).__name__} is no mesh of trimesh", remedy=_REMEDY)
 
 
-def _list_nodes(scene: TriangleScene) -> Iterator[RawSurface]:
+def _list_nodes(scene: SceneObject) -> Iterator[RawSurface]:
     """The meshes of a scene where its nodes put them; paths and points have no triangles."""
     for node in scene.graph.nodes_geometry:
         matrix, key = scene.graph[node]
         mesh = scene.geometry[key]
-        if not isinstance(mesh, TriangleMesh):
+        if not isinstance(mesh, MeshObject):
             continue
         matrix = np.asarray(matrix, dtype=np.float64)
         vertices = np.asarray(mesh.vertices, dtype=np.float64) @ matrix[:3, :3].T + matrix[:3, 3]
