@@ -28,11 +28,8 @@ LAYERS = (
     (("project", "use cases: demonstrate, learn, ask, review, apply"),),
     (("labels", "from names, files, models, propagation"),),
     (("store", "the project folder on disk"),),
-    (
-        ("batch", "many assets: workers, outputs, report"),
-        ("samples", "bundled families"),
-        ("inspection", "checks, pictures, differences"),
-    ),
+    (("inspection", "checks, pictures and differences of one asset"),),
+    (("batch", "many assets: workers, outputs, report"), ("samples", "bundled families")),
     (
         ("synthesis", "learns programs"),
         ("checks", "legality, limits, fit, physics"),

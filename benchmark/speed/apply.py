@@ -137,7 +137,7 @@ def _run(assets: list[Path], folder: Path, workers: int) -> Usage:
     program.write_text(_PROGRAM, "utf-8")
     shutil.rmtree(out, ignore_errors=True)
     paths = [str(asset) for asset in assets]
-    options = ["--out", str(out), "--labels", str(folder / "labels"), "--workers", str(workers), "--fresh", "--json"]
+    options = ["--out", str(out), "--labels", str(folder / "labels"), "--workers", str(workers), "--again", "--json"]
     return watch_command(["apply", str(program), *paths, *options])
 
 

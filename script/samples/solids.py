@@ -8,7 +8,9 @@ from collections.abc import Sequence
 import numpy as np
 from manifold3d import CrossSection, JoinType, Manifold, OpType
 
-Point = tuple[float, float, float]
+from meshforge.samples import pieces
+
+Point = pieces.Point
 
 
 def box(size: Point, center: Point) -> Manifold:
@@ -48,10 +50,7 @@ def chamfer(width: float, depth: float, cut: float) -> CrossSection:
 
 def superellipse(width: float, depth: float, power: float = 4.0, points: int = 40) -> CrossSection:
     """A rectangle about the origin with softly rounded sides."""
-    turn = (np.arange(points) + 0.5) * 2 * np.pi / points
-    c, s = np.cos(turn), np.sin(turn)
-    outline = [width / 2 * np.sign(c) * abs(c) ** (2 / power), depth / 2 * np.sign(s) * abs(s) ** (2 / power)]
-    return CrossSection([np.stack(outline, axis=1)])
+    return CrossSection([pieces.superellipse(width, depth, power, points)])
 
 
 def revolve(profile: Sequence[tuple[float, float]], segments: int = 12) -> Manifold:
@@ -62,22 +61,12 @@ def revolve(profile: Sequence[tuple[float, float]], segments: int = 12) -> Manif
 
 def taper(low: Point, high: Point, low_size: float, high_size: float, sides: int = 4) -> Manifold:
     """A straight post between two points with level ends, of `sides` sides; sizes are widths [m]."""
-    turn = (np.arange(sides) + 0.5) * 2 * np.pi / sides
-    rim = np.stack([np.cos(turn), np.sin(turn), np.zeros(sides)], axis=1) / (2 * np.cos(np.pi / sides))
-    return Manifold.hull_points(np.concatenate([rim * low_size + low, rim * high_size + high]))
+    return Manifold.hull_points(pieces.post_points(low, high, low_size, high_size, sides))
 
 
 def bar(start: Point, end: Point, width: float, sides: int = 8) -> Manifold:
     """A straight bar between two points with square ends, of `sides` sides."""
-    a, b = np.array(start), np.array(end)
-    along = (b - a) / np.linalg.norm(b - a)
-    helper = np.eye(3)[int(np.argmin(abs(along)))]
-    u = np.cross(along, helper)
-    u /= np.linalg.norm(u)
-    v = np.cross(along, u)
-    turn = (np.arange(sides) + 0.5) * 2 * np.pi / sides
-    rim = (np.outer(np.cos(turn), u) + np.outer(np.sin(turn), v)) * width / 2
-    return Manifold.hull_points(np.concatenate([rim + a, rim + b]))
+    return Manifold.hull_points(pieces.bar_points(start, end, width, sides))
 
 
 def tube(path: Sequence[Point], width: float, sides: int = 8) -> Manifold:

@@ -9,9 +9,19 @@ from pathlib import Path
 README = Path(__file__).resolve().parents[2] / "README.md"
 
 
-def commands(about: str, page: Path = README) -> list[list[str]]:
-    """The words after `meshforge` of every command in a page's shell blocks that has `about` among them."""
-    blocks = re.findall(r"^```sh\n(.*?)^```", page.read_text(encoding="utf-8"), re.DOTALL | re.MULTILINE)
-    lines = "".join(blocks).replace("\\\n", " ").splitlines()
+def read_blocks(language: str, page: Path = README) -> list[str]:
+    """The text of every block of a page that is marked as of a language, `""` for those of none."""
+    found = re.findall(r"^```(\w*)\n(.*?)^```$", page.read_text(encoding="utf-8"), re.DOTALL | re.MULTILINE)
+    return [text for marked, text in found if marked == language]
+
+
+def parse_commands(text: str) -> list[list[str]]:
+    """The words after `meshforge` of every command in lines of a shell."""
+    lines = text.replace("\\\n", " ").splitlines()
     found = [shlex.split(line, comments=True) for line in lines]
-    return [words[1:] for words in found if words[:1] == ["meshforge"] and about in "/".join(words)]
+    return [words[1:] for words in found if words[:1] == ["meshforge"]]
+
+
+def commands(about: str, page: Path) -> list[list[str]]:
+    """The words after `meshforge` of every command in a page's shell blocks that has `about` among them."""
+    return [words for words in parse_commands("".join(read_blocks("sh", page))) if about in "/".join(words)]

@@ -1,7 +1,4 @@
-"""The whole loop on real OBJ bottles: seven files, 1 to 7 hulls each, two demonstrations.
-
-This loop is the one whose every command is a process of its own, as a person runs it.
-"""
+"""The whole loop on real OBJ bottles: seven files, 1 to 7 hulls each, two demonstrations."""
 
 from __future__ import annotations
 
@@ -13,9 +10,9 @@ import pytest
 
 from meshforge.formats import load
 from tests.corpus_path import corpus
-from tests.loop.command import meshforge
+from tests.loop.command import meshforge_here as meshforge
 from tests.loop.labels import write_labels
-from tests.loop.readme import commands
+from tests.loop.readme import parse_commands
 from tests.mesh_engines import Bullet, bounds, mujoco_hull, objects
 
 CAPS = {
@@ -27,6 +24,14 @@ CAPS = {
     "repellent": (1,),
     "shampoo": (),
 }
+COMMANDS = """
+meshforge new bottles 'assets/*.obj' --vocabulary body,cap
+meshforge label bottles --with file
+meshforge demonstrate bottles magic_clean.obj 'convex_[012] => Merge' 'convex_[3456] => Replace(box)'
+meshforge demonstrate bottles cleanser.obj    'convex_0 => Merge'     'convex_[123] => Replace(box)'
+meshforge synthesize bottles
+meshforge apply bottles
+"""
 PROGRAM = """\
 labels body, cap
 
@@ -44,7 +49,7 @@ def bottles(tmp_path_factory: pytest.TempPathFactory) -> Path:
         path = folder / "assets" / f"{name}.obj"
         shutil.copyfile(corpus("soap_bottles", "pybullet-URDF-models", name, "collision.obj"), path)
         write_labels(path, {"cap": cap}, rest="body")
-    for words in commands("bottles") + commands("assets/magic_clean.obj"):
+    for words in parse_commands(COMMANDS):
         meshforge(*words, cwd=folder)
     return folder
 
@@ -63,16 +68,6 @@ def test_a_bottle_of_one_hull_comes_back_byte_for_byte(bottles: Path) -> None:
     for name in ("blue_moon", "conditioner", "shampoo"):
         before, after = bottles / "assets" / f"{name}.obj", bottles / "bottles" / "edited" / f"{name}.obj"
         assert after.read_bytes() == before.read_bytes()
-
-
-def test_check_and_diff_tell_about_the_edit(bottles: Path, tmp_path: Path) -> None:
-    meshforge("check", "bottles/edited", "--engine", "mujoco", cwd=bottles)
-    words = ("diff", "assets/cleanser.obj", "bottles/edited/cleanser.obj", "--json", "-o", tmp_path / "diff.png")
-    changes = meshforge(*words, cwd=bottles).json
-    assert changes["hulls"] == {"before": 4, "after": 2}
-    assert len(changes["removed"]) == 3
-    assert len(changes["made"]) == 1
-    assert (tmp_path / "diff.png").read_bytes().startswith(b"\x89PNG")
 
 
 @pytest.mark.parametrize("name", list(CAPS))

@@ -15,7 +15,7 @@ from tests.corpus_path import corpus
 from tests.gltf_validation import errors
 from tests.loop.command import meshforge_here as meshforge
 from tests.loop.labels import write_labels
-from tests.loop.readme import commands
+from tests.loop.readme import parse_commands
 from tests.urdf_engines import mujoco_model
 
 Parts = dict[str, tuple[int, ...]]
@@ -31,6 +31,14 @@ CHAIRS: dict[str, Parts] = {
     "restaurant/chair_A.glb": ROUND,
     "restaurant/chair_B.glb": ROUND,
 }
+COMMANDS = """
+meshforge new chairs 'assets/**/*.gl*' --vocabulary seat,leg,back
+meshforge label chairs --with file
+meshforge demonstrate chairs furniture/chair_A.gltf 'chair_A#[1234] => Each(Replace(box))' 'chair_A#[5678] => Merge'
+meshforge demonstrate chairs restaurant/chair_B.glb 'chair_B#[0234] => Each(Replace(box))' 'chair_B#[567] => Merge'
+meshforge synthesize chairs
+meshforge apply chairs
+"""
 PROGRAM = """\
 labels seat, leg, back
 
@@ -54,7 +62,7 @@ def chairs(tmp_path_factory: pytest.TempPathFactory) -> Path:
             for beside in (source, source.with_suffix(".bin"), *source.parent.glob("*.png")):
                 shutil.copyfile(beside, target.parent / beside.name)
         write_labels(target, parts, rest="seat")
-    for words in commands("chairs"):
+    for words in parse_commands(COMMANDS):
         meshforge(*words, cwd=folder)
     return folder
 

@@ -5,13 +5,13 @@ from meshforge.batch.apply import apply, inputs_of
 from meshforge.batch.check import CheckJournal, CheckOutcome, CheckTask, check_asset, check_assets, open_journal
 from meshforge.batch.corrections import Correction, replay_corrections
 from meshforge.batch.discovery import OWN_FOLDERS, SETTINGS, STATE, AssetSet, asset_id, expand, find_assets_in
+from meshforge.batch.engine_trial import ENGINES_TO_ASK, examine_file
 from meshforge.batch.execution import execute
 from meshforge.batch.jobs import (
     APPLY_DEFAULTS,
     ApplyOptions,
     ApplyTask,
     AssetJob,
-    describe_absent_labels,
     load_named_templates,
     load_templates,
     make_jobs,
@@ -93,6 +93,7 @@ from meshforge.batch.workers import (
 
 __all__ = [
     "APPLY_DEFAULTS",
+    "ENGINES_TO_ASK",
     "EXECUTION_DEFAULTS",
     "IN_PROCESS",
     "MOST_PICTURED",
@@ -145,8 +146,8 @@ __all__ = [
     "count_processors",
     "cut_hull",
     "decompose_asset",
-    "describe_absent_labels",
     "describe_alarms",
+    "examine_file",
     "execute",
     "expand",
     "file_digest",

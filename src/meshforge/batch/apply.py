@@ -19,9 +19,9 @@ from meshforge.batch.lock import hold_lock
 from meshforge.batch.outcome import AssetOutcome, Edited, Failed, RuleEffect, Unchanged
 from meshforge.batch.preparation.storage import prepare_from_folder, record_digest
 from meshforge.batch.workers import EXECUTION_DEFAULTS, ExecutionOptions, WorkerFailure
-from meshforge.common import UsageError, describe_error, join_names
-from meshforge.formats import format_for, format_with_names, read
-from meshforge.language import Program, Template
+from meshforge.common import Plugin, UsageError, describe_error, join_names
+from meshforge.formats import format_for, format_with_names, plugin_of_suffix, read
+from meshforge.language import Program, Template, plugin_of
 from meshforge.signoff import measure_edit
 from meshforge.symbolic import Asset, LabelFile, LabelTransfer, SymbolicMesh, read_labels, transfer_labels
 
@@ -114,8 +114,14 @@ def inputs_of(task: ApplyTask, job: AssetJob, files: dict[str, str]) -> provenan
         templates=provenance.template_digests(task.templates),
         corrections=corrections_digest(job.corrections),
         settings=f"mass={task.options.mass}{f' to={to}' if to else ''}{f' names={names}' if names else ''}",
-        software=provenance.software_version(),
+        software=provenance.software_version(_plugins_of(task, job)),
     )
+
+
+def _plugins_of(task: ApplyTask, job: AssetJob) -> Iterator[Plugin | None]:
+    """The plug-ins that read, edit and write the asset; None for what is built in."""
+    yield from map(plugin_of_suffix, {job.path.suffix, task.options.to or job.path.suffix})
+    yield from (plugin_of(rule.action) for rule in task.program.rules)
 
 
 def _find_up_to_date(task: ApplyTask, job: AssetJob) -> outputs.WorkerResult | None:
@@ -149,6 +155,7 @@ def _run_program(
         notes=(*asset.notes, *_opaque_notes(asset), *_label_notes(followed), *draft.notes),
         flags=flags,
         measures=measure_edit(source, mesh),
+        labels=tuple(sorted({hull.label for hull in source.hulls if hull.label})),
     )
     if task.options.dry_run:
         return outputs.WorkerResult(outcome)

@@ -14,14 +14,15 @@ from types import MappingProxyType
 from typing import Any, BinaryIO
 
 from meshforge.batch.discovery import asset_id
+from meshforge.batch.engine_trial import engine_version, examine_file
 from meshforge.batch.execution import execute
 from meshforge.batch.jobs import AssetJob
 from meshforge.batch.lock import hold_lock
 from meshforge.batch.provenance import are_unchanged, file_digest, software_version, source_files, text_digest
 from meshforge.batch.workers import ExecutionOptions, WorkerFailure
-from meshforge.checks import CheckOptions, Examination, FixResult, draw_examination, examine_mesh, find_engine, fix
+from meshforge.checks import CHECKS, CheckOptions, Examination, FixResult, draw_examination, find_engine, fix
 from meshforge.common import AssetError, MeshForgeError, UsageError, describe_error, plain_path
-from meshforge.formats import labels_beside, load, output_path_of, save
+from meshforge.formats import labels_beside, load, output_path_of, plugin_of_suffix, save
 from meshforge.rendering import write_png
 from meshforge.symbolic import SymbolicMesh, write_labels
 
@@ -161,14 +162,16 @@ def check_asset(path: Path, base: Path, labels: Path | None, task: CheckTask) ->
             fixed = fix(mesh, engine, task.tolerance)
             before, mesh = before or (mesh if fixed.changes else None), fixed.mesh
             written = write_fixed(mesh, base, task.out, overwrite=task.overwrite)
-        found = examine_mesh(mesh, task.measures, before)
+        found = examine_file(written or path, mesh, task.measures, before)
+        found = found.add_notes(mesh.asset.notes if mesh.asset else ())
         drawn = _draw_pictures(mesh, found, asset_id(path, base), task.pictures)
         read = [part.asset for part in (mesh, before) if part and part.asset]
         files = {file for asset in read for file in (*source_files(asset.path), *asset.files)}
         files |= {file for file in (labels, written, *drawn) if file}
-        return CheckOutcome(
-            path, None, found, fixed, written, drawn, CheckInputs.of(sorted(files), _describe_task(task))
-        )
+        # what an engine does not take may be for want of a file, so it is asked again
+        kept = not (found.trial and (found.trial.refusal or found.trial.untried))
+        inputs = CheckInputs.of(sorted(files), _describe_task(task, path)) if kept else None
+        return CheckOutcome(path, None, found, fixed, written, drawn, inputs)
     except MeshForgeError as problem:
         return CheckOutcome(path, problem.message)
 
@@ -190,14 +193,15 @@ def check_assets(
         yield CheckOutcome(job.path, f"{job.path}: {result.why}") if isinstance(result, WorkerFailure) else result
 
 
-def _describe_task(task: CheckTask) -> str:
-    return f"{task} {software_version()}"
+def _describe_task(task: CheckTask, path: Path) -> str:
+    plugins = [plugin_of_suffix(path.suffix), *map(CHECKS.plugin, task.measures.plugins)]
+    return f"{task} {software_version(plugins)}{engine_version(task.measures.engine)}"
 
 
 def _check_job(task: CheckTask, item: tuple[AssetJob, CheckInputs | None]) -> CheckOutcome | None:
     job, seen = item
     try:
-        if seen and seen.is_current(job, _describe_task(task)):
+        if seen and seen.is_current(job, _describe_task(task, job.path)):
             return None
         return check_asset(job.path, job.base, job.labels, task)
     except UsageError:

@@ -10,7 +10,7 @@ from functools import cached_property
 from pathlib import Path
 
 from meshforge.common import MeshForgeError, UsageError, expand_glob, is_link_cycle, plain_path, relative_name
-from meshforge.formats import DESCRIPTION_SUFFIXES, MESH_SUFFIXES, SUFFIXES, is_asset, read
+from meshforge.formats import MESH_SUFFIXES, all_suffixes, is_asset, is_description, read
 
 STATE = ".meshforge"
 """The folder in an output of `apply` or in a project that holds what MeshForge needs to know about it."""
@@ -83,7 +83,7 @@ def _match_pattern(pattern: str, root: Path) -> list[Path]:
     else:
         raise UsageError("there is no such file or folder", where=pattern)
     if not found:
-        raise UsageError("no assets here", where=pattern, remedy=f"Known suffixes: {', '.join(SUFFIXES)}.")
+        raise UsageError("no assets here", where=pattern, remedy=f"Known suffixes: {', '.join(all_suffixes())}.")
     return found
 
 
@@ -118,7 +118,7 @@ def find_assets_in(folder: Path) -> list[Path]:
     pieces. Folders that MeshForge wrote are passed over.
     """
     files = sorted(_walk_assets(folder, folder))
-    described = [path for path in files if path.suffix.lower() in DESCRIPTION_SUFFIXES]
+    described = [path for path in files if is_description(path)]
     if described:
         return described
     found = [path for path in files if path.suffix.lower() not in MESH_SUFFIXES]

@@ -6,13 +6,13 @@ import logging
 import math
 import sys
 from collections import deque
-from collections.abc import Callable, Generator, Sequence
+from collections.abc import Callable, Generator, Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
 from meshforge.batch import workers as processes
 from meshforge.batch.workers import ExecutionOptions, Item, Result, WorkerFailure, memory_share, run_isolated
-from meshforge.common import MeshForgeError
+from meshforge.common import MeshForgeError, Plugin, PluginKind, adopt_plugins, collect_plugins
 
 ITEMS_A_CHUNK = 32
 """Items for each processor of a chunk: a node that dies costs the work on so many, which another one does again."""
@@ -56,11 +56,13 @@ def run_on_cluster(
         at_once = max(1, min(workers, every) // cores)
         remote = ray.remote(_run_chunk).options(num_cpus=cores, max_retries=_MOST_RETRIES, scheduling_strategy="SPREAD")
         length = max(1, min(ITEMS_A_CHUNK * cores, math.ceil(len(items) / (at_once * _CHUNKS_AHEAD))))
-        starts = iter(range(0, len(items), length))
+        starts, plugins = iter(range(0, len(items), length)), collect_plugins()
         while True:
             while len(waiting) < at_once * _CHUNKS_AHEAD and (start := next(starts, None)) is not None:
                 chunk = list(items[start : start + length])
-                waiting.append((remote.remote(function, chunk, cores, options.timeout, options.memory), len(chunk)))
+                waiting.append(
+                    (remote.remote(function, chunk, cores, options.timeout, options.memory, plugins), len(chunk))
+                )
             if not waiting:
                 break
             task, count = waiting[0]
@@ -105,9 +107,15 @@ def _count_cores(ray: Any) -> tuple[int, int]:
 
 
 def _run_chunk(
-    function: Callable[[Item], Result], items: list[Item], workers: int, timeout: float | None, memory: int | None
+    function: Callable[[Item], Result],
+    items: list[Item],
+    workers: int,
+    timeout: float | None,
+    memory: int | None,
+    plugins: Mapping[PluginKind, tuple[Plugin, ...]],
 ) -> list[Result | WorkerFailure]:
     """Runs on a node, in a process of Ray's; the workers that it starts need not load Ray's main module first."""
+    adopt_plugins(plugins)
     vars(sys.modules["__main__"]).pop("__file__", None)
     return list(run_isolated(function, items, ExecutionOptions(workers, timeout, memory or memory_share(workers))))
 

@@ -13,10 +13,9 @@ from meshforge.batch.corrections import Correction
 from meshforge.batch.discovery import AssetSet, asset_id
 from meshforge.batch.provenance import stamp_path
 from meshforge.batch.workers import GIB, MIB
-from meshforge.common import MeshForgeError, ProgramError, UsageError, pluralize, suggest_aside
+from meshforge.common import ProgramError, UsageError, pluralize
 from meshforge.formats import EngineName, Mass, labels_beside, read
 from meshforge.language import Program, Template
-from meshforge.symbolic import read_labels
 
 
 @dataclass(frozen=True, slots=True)
@@ -93,26 +92,6 @@ def find_labels_file(path: Path, labels: Path | None, base: Path) -> Path | None
     mirrored = labels / asset_id(path, base)
     candidates = (mirrored.with_name(mirrored.name + ".json"), labels_beside(mirrored))
     return next((place for place in candidates if place.is_file()), None)
-
-
-def describe_absent_labels(program: Program, jobs: Iterable[AssetJob]) -> list[str]:
-    """A sentence on each label that a program asks for, no rule gives and no asset has, with the nearest one.
-
-    Labels files are read until all are seen; none is absent where no asset has any label, since all of them fail then.
-    """
-    absent = set(program.labels_asked) - {rule.label for rule in program.rules}
-    present: set[str] = set()
-    for job in jobs:
-        if not absent:
-            return []
-        try:
-            found = read_labels(job.labels).labels.values() if job.labels else ()
-        except MeshForgeError:  # that asset fails, and says why
-            continue
-        present |= {label.name for label in found}
-        absent -= present
-    missing = [label for label in program.labels_asked if present and label in absent]
-    return [f"the program asks for {one!r}, a label that no asset has{suggest_aside(one, present)}" for one in missing]
 
 
 def template_folders(program: Path) -> tuple[Path, ...]:

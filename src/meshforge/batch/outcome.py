@@ -8,7 +8,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, Literal, assert_never
 
-from meshforge.common import pluralize
+from meshforge.common import pluralize, suggest_aside
+from meshforge.language import Program
 from meshforge.signoff import EditMeasures, describe_odd_results
 
 StatusWord = Literal["edited", "unchanged", "failed", "skipped"]
@@ -35,7 +36,7 @@ class RunOutcome:
 
     out: the file that was written, or that would be on a dry run; before, after: numbers of hulls;
     notes: what the format had to write in another form; flags: edits by hand whose hulls are gone;
-    measures: of the edit, None for what an earlier version has written.
+    measures: of the edit; labels: all that its hulls had before it; both None for what an earlier version has written.
     """
 
     asset: str
@@ -47,6 +48,7 @@ class RunOutcome:
     notes: tuple[str, ...] = ()
     flags: tuple[str, ...] = ()
     measures: EditMeasures | None = None
+    labels: tuple[str, ...] | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -145,7 +147,8 @@ def _rule_to_json(line: RuleEffect) -> dict[str, Any]:
 @dataclass(eq=False, slots=True)
 class RunSummary:
     """counts: by status; before, after: hulls of all that ran; failed, ran: the first outcomes of either kind;
-    measures: of all edits, by asset; held: those that were held back.
+    measures: of all edits, by asset; labels: all that hulls had before, None where that is not known of some asset that
+    ran; held: those that were held back.
     """
 
     counts: Counter[StatusWord] = field(default_factory=Counter)
@@ -154,6 +157,7 @@ class RunSummary:
     failed: list[Failed] = field(default_factory=list)
     ran: list[Edited | Unchanged | Skipped] = field(default_factory=list)
     measures: dict[str, EditMeasures] = field(default_factory=dict)
+    labels: set[str] | None = field(default_factory=set)
     held: Sequence[Held] = ()
 
     def add(self, outcome: AssetOutcome) -> None:
@@ -167,6 +171,8 @@ class RunSummary:
         self.after += outcome.after
         if outcome.measures:
             self.measures[outcome.asset] = outcome.measures
+        if self.labels is not None:
+            self.labels = None if outcome.labels is None else self.labels.union(outcome.labels)
         if len(self.ran) < MOST_SHOWN:
             self.ran.append(outcome)
 
@@ -178,6 +184,17 @@ class RunSummary:
     def find_alarms(self) -> dict[str, tuple[str, ...]]:
         """Sentences about the results that stand out of all so far, the weightiest first, by asset."""
         return describe_odd_results(self.measures)
+
+    def describe_absent_labels(self, program: Program) -> list[str]:
+        """A sentence on each label that a program asks for, no rule gives and no asset that ran has.
+
+        None is absent where no asset that ran has any label, nor where labels are not known of all of them.
+        """
+        made, present = {rule.label for rule in program.rules}, self.labels or set()
+        absent = [label for label in program.labels_asked if present and label not in present | made]
+        those = " that was edited" if self.counts["failed"] or self.held else ""
+        problem = f"a label that no asset{those} has"
+        return [f"the program asks for {one!r}, {problem}{suggest_aside(one, present)}" for one in absent]
 
     @property
     def outcomes_to_show(self) -> tuple[AssetOutcome, ...]:

@@ -14,7 +14,7 @@ from pydantic import BaseModel, ConfigDict, ValidationError
 
 from meshforge.batch.discovery import STATE
 from meshforge.batch.outcome import Edited, Failed, RuleEffect, Skipped, Unchanged
-from meshforge.common import relative_name, write_atomically
+from meshforge.common import Plugin, relative_name, write_atomically
 from meshforge.formats import MESH_SUFFIXES
 from meshforge.geometry import digest as shape_digest
 from meshforge.language import Comments, HeaderComments, Program, Template
@@ -45,7 +45,7 @@ class Stamp(BaseModel):
 
     outputs: the digest of every file, by its path in the output folder; out: the main one of them.
     labels: of its hulls, in the order that the main file has them; empty where they are not known.
-    measures: of the edit; None in stamps of earlier versions.
+    measures: of the edit; labels_before: all that its hulls had before it; both None in stamps of earlier versions.
     """
 
     model_config = ConfigDict(frozen=True)
@@ -63,6 +63,7 @@ class Stamp(BaseModel):
     flags: tuple[str, ...] = ()
     error: str | None = None
     measures: EditMeasures | None = None
+    labels_before: tuple[str, ...] | None = None
 
     @staticmethod
     def of(outcome: Edited | Unchanged, inputs: OutputInputs, draft: OutputDraft) -> Stamp:
@@ -80,6 +81,7 @@ class Stamp(BaseModel):
             notes=outcome.notes,
             flags=outcome.flags,
             measures=outcome.measures,
+            labels_before=outcome.labels,
         )
 
     @staticmethod
@@ -90,7 +92,18 @@ class Stamp(BaseModel):
     def to_skipped(self, folder: Path) -> Skipped:
         """The outcome of finding this output up to date."""
         out = str(folder / self.out)
-        return Skipped(self.asset, out, self.rules, self.before, self.after, 0.0, self.notes, self.flags, self.measures)
+        return Skipped(
+            self.asset,
+            out,
+            self.rules,
+            self.before,
+            self.after,
+            0.0,
+            self.notes,
+            self.flags,
+            self.measures,
+            self.labels_before,
+        )
 
     def is_whole(self, folder: Path) -> bool:
         """Whether all files of this output are there, as they were written."""
@@ -174,9 +187,10 @@ def source_files(path: Path) -> list[Path]:
     return sorted(file for file in files if file.suffix.lower() in MESH_SUFFIXES)
 
 
-def software_version() -> str:
-    """The version of this program, since another one may write other files."""
-    return version("meshforge")
+def software_version(plugins: Iterable[Plugin | None] = ()) -> str:
+    """The version of this program and of the plug-ins that are used, since others may write other files."""
+    own = sorted({f"{plugin.package} {plugin.version}" for plugin in plugins if plugin})
+    return ", ".join([version("meshforge"), *own])
 
 
 def _new_hash(data: bytes = b"") -> hashlib.blake2b:

@@ -6,7 +6,7 @@ import os
 import signal
 import sys
 from collections import deque
-from collections.abc import Callable, Generator, Sequence
+from collections.abc import Callable, Generator, Mapping, Sequence
 from concurrent.futures import Future, TimeoutError, wait
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import suppress
@@ -15,7 +15,7 @@ from multiprocessing import get_context
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, TypeVar
 
-from meshforge.common import MeshForgeError, StoppedError
+from meshforge.common import MeshForgeError, Plugin, PluginKind, StoppedError, adopt_plugins, collect_plugins
 
 if TYPE_CHECKING:
     from pebble import ProcessPool
@@ -107,7 +107,10 @@ def _run_pool(
 
     progress, stop = options.progress, options.stop
     pool = ProcessPool(
-        workers, initializer=_begin_worker, initargs=[function, options.memory], context=worker_context()
+        workers,
+        initializer=_begin_worker,
+        initargs=[function, options.memory, collect_plugins()],
+        context=worker_context(),
     )
     waiting: deque[Future[Result]] = deque()
     rest = iter(items)
@@ -129,8 +132,11 @@ def _run_pool(
         pool.join()
 
 
-def _begin_worker(function: Callable[[Any], Any], memory: int | None) -> None:
+def _begin_worker(
+    function: Callable[[Any], Any], memory: int | None, plugins: Mapping[PluginKind, tuple[Plugin, ...]]
+) -> None:
     """What each worker does first: the function comes once, not with every item, for it may hold much."""
+    adopt_plugins(plugins)
     global _function, _memory
     _function, _memory = function, memory
 

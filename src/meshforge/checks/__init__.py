@@ -1,13 +1,20 @@
 """Whether hulls are legal, within the limits of an engine, fit, leave free what is free, and rest; and fixes."""
 
+from meshforge.checks.engine_trial import EngineTrial
 from meshforge.checks.engines import ENGINES, find_engine
 from meshforge.checks.examination import CheckOptions, Examination, check, draw_examination, examine_mesh
 from meshforge.checks.fix import FixResult, fix
 from meshforge.checks.legality import Finding, Severity
+from meshforge.checks.limit_notes import ENGINES_OF_FORMATS, note_limits
+from meshforge.checks.registry import CHECKS, Check
 
 __all__ = [
+    "CHECKS",
     "ENGINES",
+    "ENGINES_OF_FORMATS",
+    "Check",
     "CheckOptions",
+    "EngineTrial",
     "Examination",
     "Finding",
     "FixResult",
@@ -17,4 +24,5 @@ __all__ = [
     "examine_mesh",
     "find_engine",
     "fix",
+    "note_limits",
 ]

@@ -3,18 +3,21 @@ and pictures of what was measured."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from meshforge.checks.clearance import Clearance, measure_clearance
-from meshforge.checks.engines import find_engine
+from meshforge.checks.engine_trial import EngineTrial
+from meshforge.checks.engines import ENGINES, find_engine
 from meshforge.checks.fit import LEAST_GAP_SHARE, FitGroup, MeshFit, measure_fit
 from meshforge.checks.legality import Finding, check_legality, find_oddities
 from meshforge.checks.limits import check_limits
 from meshforge.checks.physics.simulation import Physics, simulate
+from meshforge.checks.registry import CHECKS, MEASURES, run_checks
+from meshforge.common import UsageError, suggest_among
 from meshforge.geometry import Floats, Ints
 from meshforge.rendering import draw_heat_map, draw_volumes
 from meshforge.symbolic import Surface, SymbolicMesh
@@ -23,23 +26,51 @@ if TYPE_CHECKING:
     from PIL.Image import Image
 
 
+REFUSED = "MuJoCo refuses this file"
+"""How a note begins on an MJCF that was read for its collision geometry only."""
 NO_VISUAL_MESH = "nothing is shown (no visual mesh), so clearance and fit have nothing to be measured against"
 
 
 @dataclass(frozen=True, slots=True)
 class CheckOptions:
-    """What is measured besides legality; engine: whose limits; cell: of the grids of clearance and fit [m]."""
+    """What is measured besides legality; engine: whose limits; cell: of the grids of clearance and fit [m].
+
+    plugins: names of checks of plug-ins.
+    """
 
     engine: str | None = None
     fit: bool = False
     clearance: bool = False
     physics: bool = False
     cell: float | None = None
+    plugins: tuple[str, ...] = ()
 
     @property
     def is_costly(self) -> bool:
         """Whether anything is measured that takes its time."""
-        return self.fit or self.clearance or self.physics
+        return self.fit or self.clearance or self.physics or bool(self.plugins)
+
+    def with_checks(self, names: Iterable[str]) -> CheckOptions:
+        """The same and further checks, by the names of measurements, of one engine, and of plug-ins.
+
+        Raises UsageError for a name that is not known, or a second engine; PluginError for a plug-in that cannot be
+        loaded.
+        """
+        options = self
+        for name in dict.fromkeys(names):
+            if name in MEASURES:
+                chosen: dict[str, Any] = {name: True}
+                options = replace(options, **chosen)
+            elif name in ENGINES:
+                if options.engine not in (None, name):
+                    raise UsageError(f"two engines: {options.engine}, {name}", remedy="Choose one of them.")
+                options = replace(options, engine=name)
+            elif CHECKS.get(name):
+                options = replace(options, plugins=tuple(dict.fromkeys([*options.plugins, name])))
+            else:
+                known = (*MEASURES, *ENGINES, *CHECKS)
+                raise UsageError(f"there is no check {name!r}", remedy=suggest_among(name, known, "There are"))
+        return options
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -47,6 +78,7 @@ class Examination:
     """What was measured of a mesh, None for what was not asked for or could not be.
 
     changed: what its hulls closed and opened of the space between the hulls before; earlier: physics of those.
+    trial: what the hulls were held against, where the limits of an engine were asked for.
     """
 
     findings: tuple[Finding, ...]
@@ -56,6 +88,17 @@ class Examination:
     physics: Physics | None = None
     earlier: Physics | None = None
     notes: tuple[str, ...] = ()
+    trial: EngineTrial | None = None
+
+    def add_trial(self, trial: EngineTrial) -> Examination:
+        """The same with what an engine itself said."""
+        return replace(self, findings=(*trial.findings, *self.findings), trial=trial)
+
+    def add_notes(self, notes: Iterable[str]) -> Examination:
+        """The same with more notes, but for what its trial has said in a finding."""
+        refused = self.trial is not None and self.trial.refusal is not None
+        more = (note for note in notes if not (refused and note.startswith(REFUSED)))
+        return replace(self, notes=(*self.notes, *more))
 
     @property
     def has_failed(self) -> bool:
@@ -63,8 +106,11 @@ class Examination:
         return any(finding.severity == "error" for finding in self.findings)
 
     def __str__(self) -> str:
-        """What was measured and what is wrong, line by line; `legal` where there is nothing to say."""
-        return "\n".join([*self.descriptions, *map(str, self.findings)]) or "legal"
+        """What was measured and what is wrong, line by line; `legal` where there is nothing else to say."""
+        lines = [*self.descriptions, *map(str, self.findings)]
+        if not self.findings and len(lines) == bool(self.trial):
+            return f"legal{f' ({self.trial.description})' if self.trial else ''}"
+        return "\n".join(lines)
 
     @property
     def descriptions(self) -> tuple[str, ...]:
@@ -73,6 +119,7 @@ class Examination:
         found += [f"clearance: {c.description}" for c in (self.clearance, self.changed) if c]
         found += [f"physics: {self.physics.description}"] if self.physics else []
         found += [f"physics before: {self.earlier.description}"] if self.earlier else []
+        found += [f"engine: {self.trial.description}"] if self.trial and self.trial.description else []
         return (*found, *(f"note: {note}" for note in self.notes))
 
     def to_json(self) -> dict[str, Any]:
@@ -85,7 +132,8 @@ class Examination:
             "physics_before": self.earlier,
         }
         notes = {"notes": list(self.notes)} if self.notes else {}
-        return {name: part.to_json() for name, part in parts.items() if part is not None} | notes
+        trial = {"engine": self.trial.to_json()} if self.trial else {}
+        return trial | {name: part.to_json() for name, part in parts.items() if part is not None} | notes
 
 
 def examine_mesh(mesh: SymbolicMesh, wanted: CheckOptions, before: SymbolicMesh | None = None) -> Examination:
@@ -96,6 +144,7 @@ def examine_mesh(mesh: SymbolicMesh, wanted: CheckOptions, before: SymbolicMesh 
     findings = list(check(mesh, wanted.engine))
     if not wanted.is_costly:
         return Examination(tuple(findings))
+    findings += run_checks(wanted.plugins, mesh, before)
     sound = _without_illegal_hulls(_with_visuals_of(mesh, before))
     was = _without_illegal_hulls(before) if before else None
     notes = []

@@ -3,7 +3,7 @@ oblong hulls, hulls inside of others, pairs that overlap or gape."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Literal
 
@@ -14,8 +14,6 @@ from meshforge.common import join_names, pluralize
 from meshforge.symbolic import Hull, SymbolicMesh
 
 Severity = Literal["error", "warning"]
-
-_CONVEXITY = 1e-6  # relative to the hull's size; single precision leaves 1e-7
 
 _REHULL = "Merge the hull by itself, which makes it anew, or delete it."
 
@@ -42,59 +40,29 @@ class Finding:
 class HullRule:
     """A rule for one hull; problem completes `<names>: `."""
 
-    name: str
+    name: geometry.HullFault
     problem: str
     remedy: str
-    is_broken: Callable[[geometry.Shape], bool]
 
 
 HULL_RULES = (
-    HullRule(
-        "finite",
-        "coordinates that are not finite numbers",
-        "Fix the file's vertices.",
-        lambda shape: not (np.isfinite(shape.vertices).all() and np.isfinite(shape.volume)),
-    ),
-    HullRule("solid", "too few vertices for a volume", "Delete the hull.", lambda shape: len(shape.vertices) < 4),
-    HullRule(
-        "flat",
-        "no thickness",
-        "Give it a thickness, replace it by a box, or delete it.",
-        lambda shape: not geometry.spans_volume(shape.vertices),
-    ),
-    HullRule(
-        "closed",
-        "not closed",
-        _REHULL,
-        lambda shape: isinstance(shape, geometry.Polytope) and not geometry.is_closed(shape.faces),
-    ),
-    HullRule("volume", "no positive volume (inside out, or empty)", _REHULL, lambda shape: shape.volume <= 0),
-    HullRule(
-        "convex",
-        "not convex",
-        "Decompose it, or merge the hull by itself, which fills its hollows.",
-        lambda shape: (
-            isinstance(shape, geometry.Polytope) and not geometry.is_convex(shape.vertices, shape.faces, _CONVEXITY)
-        ),
-    ),
-    HullRule(
-        "outward",
-        "faces that look inwards",
-        _REHULL,
-        lambda shape: isinstance(shape, geometry.Polytope) and not geometry.is_outward(shape.vertices, shape.faces),
-    ),
+    HullRule("finite", "coordinates that are not finite numbers", "Fix the file's vertices."),
+    HullRule("solid", "too few vertices for a volume", "Delete the hull."),
+    HullRule("flat", "no thickness", "Give it a thickness, replace it by a box, or delete it."),
+    HullRule("closed", "not closed", _REHULL),
+    HullRule("volume", "no positive volume (inside out, or empty)", _REHULL),
+    HullRule("convex", "not convex", "Decompose it, or merge the hull by itself, which fills its hollows."),
+    HullRule("outward", "faces that look inwards", _REHULL),
 )
-"""In this order: of a hull that breaks several, only the first is reported, since the others follow from it."""
+"""Of a hull that breaks several, only the first is reported, since the others follow from it."""
 
 
 def check_legality(mesh: SymbolicMesh) -> tuple[frozenset[str], tuple[Finding, ...]]:
     """The names of the hulls that are no hulls, and everything found."""
-    faults: dict[str, list[str]] = {rule.name: [] for rule in HULL_RULES}
+    faults: dict[geometry.HullFault, list[str]] = {rule.name: [] for rule in HULL_RULES}
     for hull in mesh.hulls:
-        with np.errstate(all="ignore"):
-            rule = next((rule for rule in HULL_RULES if rule.is_broken(hull.shape)), None)
-        if rule:
-            faults[rule.name].append(hull.name)
+        if fault := geometry.find_fault(hull.shape):
+            faults[fault].append(hull.name)
     findings = [
         Finding(rule.name, "error", tuple(names), f"{join_names(names)}: {rule.problem}", rule.remedy)
         for rule in HULL_RULES

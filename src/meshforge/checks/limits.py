@@ -100,14 +100,15 @@ def check_limits(engine: Engine, mesh: SymbolicMesh, faulty: frozenset[str]) -> 
     """What is beyond the limits of an engine; `faulty` hulls are left out."""
     hulls = [h for h in mesh.hulls if h.name not in faulty]
     return (
-        *(finding for limit in engine.limits if (finding := _check_limit(engine, limit, hulls))),
-        *_check_primitives(engine, hulls),
+        *(finding for limit in engine.limits if (finding := check_limit(engine, limit, hulls))),
+        *check_primitives(engine, hulls),
         *_check_hull_counts(engine, mesh),
         *_check_one_hull_a_file(engine, mesh),
     )
 
 
-def _check_limit(engine: Engine, limit: Limit, hulls: list[Hull]) -> Finding | None:
+def check_limit(engine: Engine, limit: Limit, hulls: list[Hull]) -> Finding | None:
+    """The hulls that are meshes and beyond a limit; None where there are none."""
     values = {h.name: limit.measure(h.shape) for h in hulls if isinstance(h.shape, Polytope)}
     over = {name: value for name, value in values.items() if limit.is_broken(value)}
     if not over:
@@ -118,7 +119,7 @@ def _check_limit(engine: Engine, limit: Limit, hulls: list[Hull]) -> Finding | N
     return Finding(f"{engine.name}-{limit.rule}", limit.severity, tuple(over), message, limit.remedy)
 
 
-def _check_primitives(engine: Engine, hulls: list[Hull]) -> Iterator[Finding]:
+def check_primitives(engine: Engine, hulls: list[Hull]) -> Iterator[Finding]:
     """Native shapes that the engine lacks."""
     names = tuple(h.name for h in hulls if h.shape.is_primitive and h.shape.kind not in engine.primitives)
     if names:

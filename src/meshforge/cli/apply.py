@@ -15,7 +15,7 @@ import typer
 
 from meshforge import batch
 from meshforge.batch import apply as run_program
-from meshforge.checks import ENGINES, CheckOptions
+from meshforge.checks import CheckOptions
 from meshforge.cli import options
 from meshforge.cli.console import progress
 from meshforge.cli.report import (
@@ -52,13 +52,14 @@ class ApplyArguments:
     ] = "keep"
     link: Annotated[bool, typer.Option("--link", help="Hard-link files that are only copied.")] = False
     dry_run: options.DryRun = False
-    fresh: Annotated[bool, typer.Option("--fresh", help="Do again what an earlier run has done.")] = False
+    again: Annotated[bool, typer.Option("--again", help="Do again what an earlier run has done.")] = False
     report: options.ReportPath = None
     check: Annotated[
         list[str] | None,
         typer.Option(
             "--check",
-            help="fit, clearance, physics or an engine: checks for the report, of what it shows. May be repeated.",
+            help="fit, clearance, physics, an engine or a check of a plug-in: checks for the report, of what it shows. "
+            "May be repeated.",
         ),
     ] = None
     sure: Annotated[
@@ -81,7 +82,7 @@ def apply(given: ApplyArguments) -> None:
     A run that was stopped or killed goes on where it was: the same command again. Exit code 1 when some assets failed
     or were held: they are named, and the others are done.
     """
-    measures = _parse_measures(given.check) if given.check else None
+    measures = CheckOptions().with_checks(given.check) if given.check else None
     if measures and not given.report:
         raise UsageError("--check says nothing without --report", remedy="Give it too, or: meshforge check OUT")
     if given.report and given.dry_run:
@@ -89,10 +90,8 @@ def apply(given: ApplyArguments) -> None:
     work = _work_of_project(given) if given.program.is_dir() else _work_of_program(given)
     if len(work.jobs) > 1:
         remark(str(batch.plan_run(work.jobs, work.out)))
-    for text in batch.describe_absent_labels(work.program, work.jobs):
-        remark(text)
     summary, started, done = batch.RunSummary(), perf_counter(), list[batch.AssetOutcome]()
-    run_options = batch.ApplyOptions(given.mass, given.link, given.dry_run, resume=not given.fresh)
+    run_options = batch.ApplyOptions(given.mass, given.link, given.dry_run, resume=not given.again)
     try:
         with progress(len(work.jobs), "editing") as advance:
             execution = replace(given.execution.to_options(), progress=advance)
@@ -119,6 +118,8 @@ def apply(given: ApplyArguments) -> None:
         typer.echo(f"{summary}{NOTHING_WRITTEN if given.dry_run else ''}")
         if alarms:
             typer.echo(batch.describe_alarms(alarms))
+    for text in summary.describe_absent_labels(work.program):
+        remark(text)
     if given.report:
         _write_report(given.report, work, summary, perf_counter() - started, measures)
     raise typer.Exit(int(summary.counts["failed"] > 0 or bool(work.held)))
@@ -131,16 +132,6 @@ def _print_lines(
     for outcome in done:
         line = batch.to_json_line(outcome, alarms.get(outcome.asset, ()))
         print_json({**line, **standings.get(outcome.asset, {})}, compact=True)
-
-
-def _parse_measures(names: Sequence[str]) -> CheckOptions:
-    known = ("fit", "clearance", "physics", *ENGINES)
-    if odd := [name for name in names if name not in known]:
-        raise UsageError(f"there is no check {odd[0]!r}", remedy=f"There are {', '.join(known)}.")
-    engines = [name for name in names if name in ENGINES]
-    if len(engines) > 1:
-        raise UsageError(f"two engines for one report: {', '.join(engines)}", remedy="Choose one of them.")
-    return CheckOptions(next(iter(engines), None), "fit" in names, "clearance" in names, "physics" in names)
 
 
 Alarms = Mapping[str, Sequence[str]]

@@ -27,7 +27,13 @@ class CheckArguments:
     """What is typed after `meshforge check`."""
 
     assets: options.AssetFiles
-    engine: Annotated[EngineName | None, typer.Option("--engine", help="Also check the limits of this engine.")] = None
+    engine: Annotated[
+        EngineName | None,
+        typer.Option(
+            "--engine",
+            help="Also check the limits of this engine, and ask it itself: MuJoCo, or Bullet if pybullet is installed.",
+        ),
+    ] = None
     fit: Annotated[
         bool, typer.Option("--fit", help="Measure how far hulls stick out of the visual mesh, and what lies bare.")
     ] = False
@@ -35,6 +41,10 @@ class CheckArguments:
         bool, typer.Option("--clearance", help="Measure what hulls close and open of the space that can be reached.")
     ] = False
     physics: Annotated[bool, typer.Option("--physics", help="Rest each asset on a plane in MuJoCo.")] = False
+    check: Annotated[
+        list[str] | None,
+        typer.Option("--check", help="A check of a plug-in, or one of those above by its name. May be repeated."),
+    ] = None
     against: Annotated[
         Path | None, typer.Option("--against", help="The asset before an edit, or a folder that mirrors the assets'.")
     ] = None
@@ -81,15 +91,17 @@ def check(given: CheckArguments) -> None:
     --fit, --clearance and --physics measure more, in seconds an asset. Exit code 1 when a check does not hold or a
     file cannot be read.
     """
-    _refuse_stray_options(given)
-    measures = CheckOptions(given.engine, given.fit, given.clearance, given.physics, given.cell)
+    asked = CheckOptions(given.engine, given.fit, given.clearance, given.physics, given.cell)
+    measures = asked.with_checks(given.check or ())
+    _refuse_stray_options(given, measures)
     task = batch.CheckTask(measures, given.out, given.tolerance, given.overwrite, given.against, given.pictures)
     jobs = batch.make_jobs(batch.expand(given.assets), given.labels)
     if len(jobs) > _FEW:
         remark(str(batch.plan_run(jobs, given.out)))
     # of one asset, starting a process would take longer than the work
+    isolated = measures.is_costly or given.engine in batch.ENGINES_TO_ASK  # an engine may crash
     is_bounded = given.execution.timeout is not None or given.execution.memory is not None
-    in_process = len(jobs) == 1 and not measures.is_costly and not is_bounded
+    in_process = len(jobs) == 1 and not isolated and not is_bounded
     execution = (replace(given.execution, workers=0) if in_process else given.execution).to_options()
     failed, page, started = 0, CheckReport() if given.report else None, perf_counter()
     journal_file = batch.open_journal(given.journal) if given.journal else nullcontext()
@@ -113,15 +125,17 @@ def check(given: CheckArguments) -> None:
     raise typer.Exit(int(failed > 0))
 
 
-def _refuse_stray_options(given: CheckArguments) -> None:
+def _refuse_stray_options(given: CheckArguments, measures: CheckOptions) -> None:
     """Raise UsageError for an option that was given without the one that it belongs to."""
-    if given.fix and not (given.engine and given.out):
+    if given.fix and not (measures.engine and given.out):
         remedy = "meshforge check ASSETS... --engine NAME --fix --out DIR"
         raise UsageError("--fix needs --engine and --out", remedy=remedy)
     overwrite = given.overwrite or None
     _refuse({"--out": given.out, "--tolerance": given.tolerance, "--overwrite": overwrite}, given.fix, "--fix")
-    _refuse({"--cell": given.cell, "--pictures": given.pictures}, given.fit or given.clearance, "--fit or --clearance")
-    _refuse({"--against": given.against}, given.clearance or given.physics, "--clearance or --physics")
+    on_grid = measures.fit or measures.clearance
+    _refuse({"--cell": given.cell, "--pictures": given.pictures}, on_grid, "--fit or --clearance")
+    against = measures.clearance or measures.physics or bool(measures.plugins)
+    _refuse({"--against": given.against}, against, "--clearance or --physics")
 
 
 def _refuse(values: dict[str, object], is_allowed: bool, without: str) -> None:
@@ -151,8 +165,10 @@ def _describe_check(outcome: batch.CheckOutcome) -> str:
     if found is None:
         return f"{path}: cannot be read\n  " + (outcome.error or "").replace("\n", "\n  ")
     lines = [*_describe_work(outcome)]
+    if not found.findings and len(lines) == bool(found.trial):  # nothing else to say
+        return f"{path}: legal{f' ({found.trial.description})' if found.trial else ''}"
     lines += [line for finding in found.findings for line in str(finding).split("\n")]
-    return "\n  ".join([f"{path}:", *lines]) if lines else f"{path}: legal"
+    return "\n  ".join([f"{path}:", *lines])
 
 
 def _describe_work(outcome: batch.CheckOutcome) -> tuple[str, ...]:

@@ -17,7 +17,7 @@ from meshforge.common import pluralize
 def decompose(
     mesh: Annotated[Path, typer.Argument(help="A mesh file: OBJ, STL, PLY, DAE, GLB.")],
     out: Annotated[Path, typer.Option("-o", "--out", help="The file of hulls to write; its suffix names the format.")],
-    method: Annotated[EngineMethod, typer.Option("--method", help="The engine.")] = EngineMethod.COACD,
+    method: Annotated[EngineMethod, typer.Option("--decompose", help="The engine.")] = EngineMethod.COACD,
     option: EngineOptions = None,
     hollow: Hollow = False,
     timeout: Seconds = None,

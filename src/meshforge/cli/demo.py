@@ -20,7 +20,7 @@ from meshforge.cli.review_text import format_status
 from meshforge.cli.terminal import remark
 from meshforge.common import UsageError
 from meshforge.project import Project
-from meshforge.samples import TABLES
+from meshforge.samples import TABLES, family_of, write_family
 
 _OUT, _STUDIO = Path("meshforge-demo"), Path("meshforge-demo-studio")
 
@@ -28,7 +28,7 @@ DEMO_MARK = ".meshforge-demo"
 """The mark of a folder that an earlier demo made, and that the next one may therefore replace."""
 STUDIO_MARK = ".meshforge-demo-studio"
 """The mark of a folder that a demo in the studio made; what a person did there stays."""
-TABLE_LABELS, TABLE_ORIENT = ("panel", "leg", "handle", "drawer", "misc"), "+Z: Is(leg) -> Is(panel)"
+TABLE_ORIENT = "+Z: Is(leg) -> Is(panel)"
 
 
 def demo(
@@ -150,11 +150,10 @@ def _empty_folder(out: Path, mark: str) -> None:
 
 
 def _create_project(out: Path) -> Project:
-    (out / "assets").mkdir()
-    for source in sorted(TABLES.glob("table_*")):
-        shutil.copyfile(source, out / "assets" / source.name)
-    pattern = out / "assets" / "*.obj"
-    project = Project.create(out / "project", [pattern], name="tables", vocabulary=TABLE_LABELS, orient=TABLE_ORIENT)
+    tables = family_of("tables")
+    write_family(tables, out / "assets")
+    labels, pattern = tables.vocabulary, out / "assets" / tables.pattern
+    project = Project.create(out / "project", [pattern], name=tables.name, vocabulary=labels, orient=TABLE_ORIENT)
     shutil.copytree(TABLES / "templates", project.folder / "templates")
     project.label_from_files()
     return project

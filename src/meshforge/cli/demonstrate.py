@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import partial
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
+from meshforge.cli.extractors import is_extractor, labels_of_project, select_hulls
 from meshforge.cli.hulls import find_hulls
 from meshforge.cli.options import asset_id
 from meshforge.cli.terminal import remark
@@ -22,14 +24,18 @@ def demonstrate(
     asset: Annotated[str, typer.Argument(help="The id of an asset, as `status` lists it, or its file.")],
     steps: Annotated[
         list[str] | None,
-        typer.Argument(help="One for each rule: 'HULLS => ACTION', hulls by name or pattern, with commas between."),
+        typer.Argument(
+            help="One for each rule: 'HULLS => ACTION', hulls by name, number (#5) or pattern, with commas between, or "
+            "by an extractor."
+        ),
     ] = None,
     clear: Annotated[bool, typer.Option("--clear", help="Take the demonstration of this asset away.")] = False,
 ) -> None:
     """Record the steps of a demonstration; without steps, show those that are recorded.
 
-    HULLS are names as `info` lists them (patterns as in a shell: 'leg_*'), or `nothing` where this asset has nothing to
-    select, or `open` where it says nothing about that rule. Step by step, what earlier steps made can be named, too.
+    HULLS are names or numbers as `info` lists them (patterns as in a shell: 'leg_*'), or an extractor, 'Is(leg)', which
+    stands for what it selects on this asset; or `nothing` where this asset has nothing to select, or `open` where it
+    says nothing about that rule. Step by step, what earlier steps made can be named, too.
     """
     opened = Project.open(project)
     asset = asset_id(asset, opened)
@@ -49,12 +55,12 @@ def demonstrate(
 
 def _record_steps(project: Project, asset: str, texts: Sequence[str]) -> list[Step]:
     mesh = to_canonical_frame(project.mesh(asset), project.orientation, project.settings.thresholds.contact)[0]
-    recorded, used = [], frozenset[str]()
+    numbered, recorded, used = tuple(mesh.index), [], frozenset[str]()
     for number, text in enumerate(texts, 1):
         hulls, _, done_to_them = text.partition("=>")
         (rule,) = Program.parse(f"All => {done_to_them.strip()}", f"step {number}").rules
         action, label = rule.action, rule.label
-        select = _parse_hulls(hulls, mesh, number)
+        select = _parse_hulls(hulls.strip(), mesh, f"step {number}", numbered, project)
         recorded.append(Step(number, select, action, label))
         if select:
             templates = project.templates(action.templates)
@@ -64,12 +70,16 @@ def _record_steps(project: Project, asset: str, texts: Sequence[str]) -> list[St
     return recorded
 
 
-def _parse_hulls(text: str, mesh: SymbolicMesh, number: int) -> frozenset[str] | None:
-    """The hulls that the left side of a step names; None for `open`."""
-    text = text.strip()
+def _parse_hulls(
+    text: str, mesh: SymbolicMesh, where: str, numbered: Sequence[str], project: Project
+) -> frozenset[str] | None:
+    """The hulls that the left side of a step names; None for `open`. numbered: names in the order of their numbers."""
     if text in ("open", "nothing"):
         return None if text == "open" else frozenset()
-    return find_hulls(text, mesh.index, f"step {number}")
+    if text not in mesh.index and is_extractor(text, mesh.index):
+        known, extremity = partial(labels_of_project, project), project.settings.thresholds.extremity
+        return select_hulls(text, mesh, known, where, extremity)
+    return find_hulls(text, mesh.index, where, numbered=numbered)
 
 
 def _format_selection(step: Step) -> str:

@@ -15,7 +15,9 @@ from meshforge.cli.terminal import print_json, remark
 def diff(
     before: Annotated[Path, typer.Argument(help="The asset as it was.")],
     after: Annotated[Path, typer.Argument(help="The asset as it is now.")],
-    out: Annotated[Path | None, typer.Option("-o", "--out", help="A PNG: before beside after.")] = None,
+    out: Annotated[
+        Path | None, typer.Option("-o", "--out", help="A picture: before beside after, with what changed marked.")
+    ] = None,
     json: Json = False,
 ) -> None:
     """Compare two assets hull by hull: removed, made, changed, kept, with counts and volumes."""

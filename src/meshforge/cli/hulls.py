@@ -1,26 +1,57 @@
-"""Hulls as people type them: names and patterns with commas between."""
+"""Hulls as people type them: names, patterns and numbers with commas between."""
 
 from __future__ import annotations
 
-from collections.abc import Collection
+import re
+from collections.abc import Collection, Sequence
 from fnmatch import fnmatchcase
 
 from meshforge.common import UsageError, suggest_name
 
+LISTING = "meshforge info ASSET"
+"""The command that lists the names and numbers of hulls."""
 
-def find_hulls(text: str, hulls: Collection[str], where: str, listing: str = "meshforge info ASSET") -> frozenset[str]:
-    """The hulls that names, or patterns as in a shell, with commas between, stand for; names count before patterns.
 
-    hulls: the names of all; where: the argument that an error is about; listing: the command that lists the names.
-    Raises UsageError for a part that is no hull's name and matches none.
+def find_hulls(
+    text: str, hulls: Collection[str], where: str, listing: str = LISTING, numbered: Sequence[str] | None = None
+) -> frozenset[str]:
+    """The hulls that names, numbers as `#5`, or patterns as in a shell, with commas between, stand for.
+
+    A name counts before a number, and both before a pattern. hulls: the names of all; where: the argument that an error
+    is about; listing: the command that lists them; numbered: their names in the order of that list, where that is not
+    the order of `hulls`. Raises UsageError for a part that is no hull's name or number and matches none.
     """
     if text in hulls:  # names may have commas
         return frozenset((text,))
     found: set[str] = set()
-    for pattern in (part.strip() for part in text.split(",")):
-        hits = {pattern}.intersection(hulls) or {name for name in hulls if fnmatchcase(name, pattern)}
-        if not hits:
-            remedy = suggest_name(pattern, hulls, f"See the names with: {listing}")
-            raise UsageError(f"{where}: no hull is named {pattern!r}", remedy=remedy)
-        found |= hits
+    for part in (part.strip() for part in text.split(",")):
+        found |= _find_part(part, hulls, where, listing, tuple(hulls) if numbered is None else numbered)
     return frozenset(found)
+
+
+def is_number(text: str) -> bool:
+    """Whether a text is the number of a hull, `#5`; a hull may have that name."""
+    return re.fullmatch("#[0-9]+", text) is not None
+
+
+def _find_part(part: str, hulls: Collection[str], where: str, listing: str, numbered: Sequence[str]) -> set[str]:
+    if part in hulls:
+        return {part}
+    if is_number(part):
+        return {_find_number(part, hulls, where, listing, numbered)}
+    hits = {name for name in hulls if fnmatchcase(name, part)}
+    if not hits:
+        remedy = suggest_name(part, hulls, f"See the names with: {listing}")
+        raise UsageError(f"{where}: no hull is named {part!r}", remedy=remedy)
+    return hits
+
+
+def _find_number(part: str, hulls: Collection[str], where: str, listing: str, numbered: Sequence[str]) -> str:
+    """The name of the hull of a number, which is its place in the list, from 0."""
+    place = int(part[1:])
+    if place >= len(numbered):
+        count = f"Hulls have the numbers #0 to #{len(numbered) - 1}" if numbered else "There are no hulls"
+        raise UsageError(f"{where}: no hull has the number {part}", remedy=f"{count}: {listing}")
+    if numbered[place] not in hulls:
+        raise UsageError(f"{where}: {part} is {numbered[place]}, which an earlier step took away")
+    return numbered[place]

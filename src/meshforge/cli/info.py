@@ -103,13 +103,13 @@ def _print_asset(mesh: SymbolicMesh, asset: str) -> None:
     if mesh.hulls:
         typer.echo()
         rows = (
-            (h.name, h.body, h.label, h.shape.kind, len(h.vertices), f"{h.volume:.3g}", len(mesh.neighbours(k)))
+            (k, h.name, h.body, h.label, h.shape.kind, len(h.vertices), f"{h.volume:.3g}", len(mesh.neighbours(k)))
             for k, h in enumerate(mesh.hulls)
         )
         from meshforge.cli.console import print_table  # lazy: 50 modules of rich that --json does not need
 
-        columns = ("hull", "body", "label", "kind", "vertices", "volume", "touches")
-        print_table(columns, rows, right=("vertices", "volume", "touches"))
+        columns = ("#", "hull", "body", "label", "kind", "vertices", "volume", "touches")
+        print_table(columns, rows, right=("#", "vertices", "volume", "touches"))
     if opaque:
         typer.echo("\nNon-convex (never selected, written back untouched; `meshforge prepare` makes hulls of it):")
         for piece in opaque:

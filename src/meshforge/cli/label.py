@@ -15,6 +15,7 @@ from meshforge.cli.label_report import LabelPrinter, LabelReport
 from meshforge.cli.label_sources import SourceOptions, label_from_sources, preview
 from meshforge.cli.label_vlm import VLM, VlmOptions, forecast, label_with_vlm
 from meshforge.common import UsageError
+from meshforge.labels import check_labeler
 from meshforge.project import Project
 
 
@@ -32,18 +33,19 @@ class LabelArguments:
         list[str] | None,
         typer.Argument(
             metavar="HULLS=LABEL",
-            help="Labels by hand: hulls by name or pattern, with commas between, and their label; no label takes it "
-            "away, and the last one counts: '*=panel' 'geom9,geom10=handle'.",
+            help="Labels by hand: hulls by name, number (#5) or pattern, with commas between, and their label; no "
+            "label takes it away, and the last one counts: '*=panel' 'geom9,#10=handle'.",
         ),
     ] = None
     source: Annotated[
-        Literal["file", "names", "propagate", "vlm", "consensus", "sources"],
+        str,
         typer.Option(
             "--with",
+            metavar="[file|names|propagate|vlm|consensus|sources|PLUGIN]",
             help="Where labels come from: file takes over labels files, names reads them off the names of hulls and "
             "bodies, propagate takes those of a few assets to all others, vlm asks a vision-language model; consensus "
             "weighs all that these and people said against hulls that look alike, sources takes back what consensus "
-            "and propagate made of it.",
+            "and propagate made of it; the name of a plug-in's labeller asks that.",
         ),
     ] = "file"
     labels: Annotated[
@@ -113,6 +115,7 @@ def label(given: LabelArguments) -> None:
         refuse_sources(given.context)
         label_by_hand(Project.open(given.project), given.asset, given.hulls or (), words, json=given.json)
         return
+    check_labeler(source)
     if given.labels and source != "file":
         raise UsageError(f"--labels names labels files, which --with {source} does not read", remedy="Leave one out.")
     if source != "vlm" and given.vlm.first_option:

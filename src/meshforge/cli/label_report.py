@@ -43,6 +43,7 @@ _SOURCE_WORDS = {
     "consensus": "consensus",
     "vlm": "a model",
     "edit": "edits",
+    "plugin": "plug-ins",
 }
 
 
@@ -51,7 +52,7 @@ class LabelReport:
 
     def __init__(self, path: Path, source: str) -> None:
         self._path, self._started = path, perf_counter()
-        self._about = [_ABOUT[source]]
+        self._about = [_ABOUT.get(source, f"Labels by the plug-in {source}.")]
         self._outcomes: dict[str, LabelOutcome] = {}
         self._problems: dict[str, Sequence[str]] = {}
         self._notes: dict[str, Sequence[str]] = {}

@@ -1,4 +1,5 @@
-"""`meshforge label` from files, names and a few labelled assets: its options, the preview of a dry run, and the run."""
+"""`meshforge label` from files, names, a few labelled assets and plug-ins: its options, the preview of a dry run, and
+the run."""
 
 from __future__ import annotations
 
@@ -80,8 +81,10 @@ def preview(
             found = project.propose_consensus(vocabulary, execution=execution, stage=progress)
         case "sources":
             found = project.propose_sources(execution=execution)
-        case _:
+        case "file":
             found = project.propose_from_files(options.labels, options.file_options, vocabulary, execution=execution)
+        case plugin:
+            found = project.propose_by_plugin(plugin, vocabulary, execution=execution)
     if json:
         print_json(_to_json(found))
     else:
@@ -144,6 +147,9 @@ def _run_source(project: Project, options: SourceOptions, execution: ExecutionOp
 
         if options.source == "names":
             project.label_from_names(options.meanings, execution=execution, report=report)
+            return ""
+        if options.source != "file":
+            project.label_by_plugin(options.source, execution=execution, report=report)
             return ""
         read = project.label_from_files(options.labels, options.file_options, execution=execution, report=report)
     bare = count - len(read)

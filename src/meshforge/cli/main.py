@@ -16,6 +16,7 @@ import meshforge
 
 COMMANDS = {
     "demo": "The whole loop on the bundled tables",
+    "samples": "Write a family of assets to try things on, with labels beside them",
     "new": "Make a project folder",
     "prepare": "Decompose non-convex pieces, and what bodies without collision geometry show, into convex hulls",
     "split": "Split a hull",
@@ -29,10 +30,11 @@ COMMANDS = {
     "check": "Check that every hull is convex, closed and solid, and keeps to the limits of an engine",
     "info": "Show hulls, labels, bodies, contacts and near misses of an asset, in the frame it comes in",
     "select": "List the hulls that an extractor selects, in the frame the asset comes in",
-    "render": "Draw an asset as a PNG, one colour a hull or a label",
+    "render": "Draw an asset as a PNG or JPEG, one colour a hull or a label",
     "diff": "Compare two assets hull by hull",
     "decompose": "Decompose a mesh into convex hulls by CoACD or V-HACD",
     "convert": "Write an asset in another format, or unchanged in its own",
+    "plugins": "List the plug-ins that are installed",
     "fmt": "Print a program in its canonical form, comments kept",
 }
 """Every command with the line that the list of commands shows: the function of its name in the module of its name."""
@@ -59,9 +61,11 @@ class CommandGroup(TyperGroup):
 
 def load_command(name: str) -> TyperCommand:
     """The command of a name, from its module."""
+    from meshforge.cli.command import Command  # lazy: the list of commands needs none
+
     app = typer.Typer(add_completion=False, pretty_exceptions_enable=False, rich_markup_mode=None)
     function: Callable[..., None] = getattr(import_module(f"meshforge.cli.{name}"), name)
-    app.command(name, context_settings=_HELP_OPTIONS)(function)
+    app.command(name, cls=Command, context_settings=_HELP_OPTIONS)(function)
     return cast(TyperCommand, typer.main.get_command(app))
 
 

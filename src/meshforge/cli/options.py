@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Iterator
 from dataclasses import MISSING, Field, dataclass, fields, is_dataclass
 from enum import StrEnum
-from functools import wraps
+from functools import partial, wraps
 from inspect import Parameter, Signature
 from pathlib import Path, PurePath
 from typing import TYPE_CHECKING, Annotated, Any, Literal, TypeVar, get_type_hints
@@ -212,7 +212,8 @@ def open_asset(asset: Path, labels: Path | None, project: Path | None) -> Symbol
 def asset_id(asset: str | Path, project: Project) -> str:
     """The id of an asset of a project, given by its file, by that id, or by a part of it that no other asset has.
 
-    Raises UsageError, naming them, where several have that part; ProjectError, naming the nearest, where none has.
+    A path that is no file is taken by its last name, where one asset has it. Raises UsageError, naming them, where
+    several are meant; ProjectError, naming the nearest, where none is.
     """
     ids, path = project.found.ids, Path(asset)
     by_path = {plain_path(file): key for key, file in ids.items()}
@@ -222,12 +223,23 @@ def asset_id(asset: str | Path, project: Project) -> str:
     if path.exists():  # another file is no asset of the project, whatever its name
         alike = [key for file, key in by_path.items() if file.is_relative_to(place)]
     else:
-        alike = [key for key in ids if _is_part(text, key)]
+        alike = [key for key in ids if _is_part(text, key)] or [key for key in ids if path.name in _last_names(key)]
     if len(alike) > 1:
-        remedy = f"Say which: {join_names(alike)}."
+        remedy = f"Say which: {join_names(sorted(alike, key=partial(_count_other_parts, text)))}."
         raise UsageError(f"{text!r} may be any of {len(alike)} assets", where=str(project.folder), remedy=remedy)
     project.path(alike[0] if alike else text)
     return alike[0]
+
+
+def _last_names(asset: str) -> tuple[str, str]:
+    """The file name of an asset, with its suffix and without."""
+    path = PurePath(asset)
+    return path.name, path.stem
+
+
+def _count_other_parts(typed: str, asset: str) -> int:
+    """How many parts of a path are not those of an id."""
+    return len(set(PurePath(typed).parts) ^ set(PurePath(asset).parts))
 
 
 def _is_part(typed: str, asset: str) -> bool:

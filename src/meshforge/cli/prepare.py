@@ -24,7 +24,10 @@ class PrepareArguments:
 
     context: typer.Context
     project: Annotated[Path, typer.Argument(help="A project folder.")]
-    assets: Annotated[list[str] | None, typer.Argument(help="Ids of assets, as `status` lists them; all.")] = None
+    assets: Annotated[
+        list[str] | None,
+        typer.Argument(help="Assets by their ids, as `status` lists them, or their files; default all."),
+    ] = None
     method: Annotated[
         options.EngineMethod | None, typer.Option("--decompose", help="Make hulls of what has none, by this engine.")
     ] = None
@@ -60,10 +63,11 @@ def prepare(given: PrepareArguments) -> None:
         results = _undo_preparation(project, _select_assets(project, given.assets), everything=given.remove)
         raise typer.Exit(print_results(results, given.json))
     settings = options.parse_engine_settings(given.method, given.option)
+    assets = [options.asset_id(asset, project) for asset in given.assets or ()]
     raise typer.Exit(
         decompose_assets(
             project,
-            given.assets or project.assets(),
+            assets or project.assets(),
             settings,
             only=given.only or (),
             again=given.again,
@@ -123,10 +127,8 @@ def _select_assets(project: Project, assets: list[str] | None) -> tuple[str, ...
     Raises ProjectError for a name that nothing has.
     """
     kept = project.layout.ids_with_preparation()
-    for asset in assets or ():
-        if asset not in kept:
-            project.path(asset)
-    return tuple(dict.fromkeys(assets or kept))
+    named = [asset if asset in kept else options.asset_id(asset, project) for asset in assets or ()]
+    return tuple(dict.fromkeys(named or kept))
 
 
 def _undo_preparation(project: Project, assets: Iterable[str], *, everything: bool) -> Iterator[PreparationResult]:

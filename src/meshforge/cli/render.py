@@ -13,7 +13,15 @@ from meshforge import inspection
 from meshforge.cli.options import AssetFile, InProject, LabelsPath, open_asset, takes
 from meshforge.cli.terminal import remark
 from meshforge.common import UsageError, pluralize
-from meshforge.rendering import VIEWS, View, draw_labeling_pictures, make_contact_sheet, write_png
+from meshforge.rendering import (
+    VIEWS,
+    View,
+    check_picture_path,
+    draw_labeling_pictures,
+    make_contact_sheet,
+    write_picture,
+    write_png,
+)
 from meshforge.symbolic import SymbolicMesh
 
 _LABELLING = "labelling"
@@ -27,7 +35,7 @@ class RenderArguments:
 
     asset: AssetFile
     out: Annotated[
-        Path, typer.Option("-o", "--out", help="The PNG to write; for `--views labelling` it may be a folder.")
+        Path, typer.Option("-o", "--out", help="The PNG or JPEG to write; for `--views labelling` it may be a folder.")
     ]
     labels: LabelsPath = None
     project: InProject = None
@@ -49,18 +57,24 @@ class RenderArguments:
         typer.Option("--size", help="Pixels of the picture, by default 900x700; for labelling of each, 1024x1024."),
     ] = None
     ghost: Annotated[bool, typer.Option("--ghost", help="Show the visual mesh as a ghost.")] = False
-    names: Annotated[bool, typer.Option("--names", help="Number the hulls.")] = False
+    names: Annotated[
+        bool,
+        typer.Option("--names", help="Write the names of hulls on them, or their numbers and a list of names below."),
+    ] = False
 
 
 @takes(RenderArguments)
 def render(given: RenderArguments) -> None:
-    """Draw an asset as a PNG, one colour a hull or a label; needs no display."""
+    """Draw an asset as a PNG or JPEG, one colour a hull or a label; needs no display."""
     if given.views.strip() == _LABELLING:
         _refuse_looks(given)
+        if _is_sheet(given.out):
+            check_picture_path(given.out)
         side = _parse_side(given.size or "1024x1024")
         mesh = open_asset(given.asset, given.labels, given.project)
         remark(f"wrote {write_part_pictures(mesh, given.out, side)}")
         return
+    check_picture_path(given.out)  # before the asset is read, which may take its time
     mesh = open_asset(given.asset, given.labels, given.project)
     views, size = _parse_views(given.views), _parse_pixels(given.size or "900x700")
     inspection.render(
@@ -103,6 +117,11 @@ def _parse_pixels(text: str) -> tuple[int, int]:
     return int(width), int(height)
 
 
+def _is_sheet(out: Path) -> bool:
+    """Whether all pictures for labelling go on one sheet, not each into a file of a folder."""
+    return bool(out.suffix) and not out.is_dir()
+
+
 def write_part_pictures(mesh: SymbolicMesh, out: Path, size: int) -> str:
     """Writes what `shots` shows, on one sheet, or one by one where `out` is a folder or has no suffix.
 
@@ -114,8 +133,8 @@ def write_part_pictures(mesh: SymbolicMesh, out: Path, size: int) -> str:
         raise UsageError(
             "there are no hulls to be named", remedy="`meshforge decompose` makes hulls, and `new --decompose` too."
         )
-    if out.suffix and not out.is_dir():
-        write_png(
+    if _is_sheet(out):
+        write_picture(
             out,
             make_contact_sheet(
                 [image for shot in taken for image in (shot.marked, shot.plain)], columns=_SHEET_COLUMNS

@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from meshforge import batch
-from meshforge.checks import CheckOptions, Examination, Finding, Severity, examine_mesh
+from meshforge.checks import CheckOptions, Examination, Finding, Severity
 from meshforge.cli.console import progress
 from meshforge.cli.review_text import format_standing
 from meshforge.cli.terminal import remark
@@ -56,7 +56,11 @@ def compare_outcomes(
     made = [None if isinstance(outcome, batch.Failed) else partial(load, outcome.out) for outcome in outcomes]
     meshes = batch.read_again([*readers, *made])
     pairs = list(zip(outcomes, meshes[: len(made)], meshes[len(made) :], strict=True))
-    todo = [(after, measures, before) for _, before, after in pairs if before and after] if measures else []
+    todo = [
+        (Path(outcome.out), after, measures, before)
+        for outcome, before, after in pairs
+        if measures and before and after and not isinstance(outcome, batch.Failed)
+    ]
     found = batch.execute(_examine, todo, batch.ExecutionOptions(timeout=batch.READ_TIMEOUT))
     for outcome, was, now in pairs:
         name, is_shown = outcome.asset, outcome.asset in demonstrated
@@ -108,9 +112,9 @@ def _split_checks(found: Examination | batch.WorkerFailure) -> tuple[Examination
     return found, ()
 
 
-def _examine(work: tuple[SymbolicMesh, CheckOptions, SymbolicMesh | None]) -> Examination:
+def _examine(work: tuple[Path, SymbolicMesh, CheckOptions, SymbolicMesh | None]) -> Examination:
     """In a process of its own, since MuJoCo may crash."""
-    return examine_mesh(*work)
+    return batch.examine_file(*work)
 
 
 def describe_failure(outcome: batch.Failed) -> str:
@@ -214,4 +218,5 @@ def _describe_measures(measures: CheckOptions) -> str:
     parts = ["legality"]
     parts += [f"limits of {measures.engine}"] if measures.engine else []
     parts += [name for name in ("fit", "clearance", "physics") if getattr(measures, name)]
+    parts += measures.plugins
     return f"Checked: {', '.join(parts)}."

@@ -19,32 +19,40 @@ _FORM = (
 
 
 def read_replies(path: Path) -> list[ReviewReply]:
-    """Replies from a file. Raises UsageError where it is not what it should be."""
+    """Replies from a file. Raises UsageError, naming the entry and the field, where it is not what it should be."""
     try:
         rows = json.loads(path.read_text("utf-8-sig"))
-        return [_to_reply(row) for row in rows]
     except (OSError, UnicodeDecodeError) as error:
         raise UsageError("the replies cannot be read", where=str(path)) from error
-    except (ValueError, TypeError, KeyError, AttributeError) as error:
-        raise UsageError("these are no replies", where=str(path), remedy=_FORM) from error
+    except (ValueError, RecursionError) as error:
+        raise UsageError("this is no JSON", where=str(path), remedy=_FORM) from error
+    if not isinstance(rows, list):
+        raise UsageError("this is no list of replies", where=str(path), remedy=_FORM)
+    try:
+        return [_to_reply(number, row) for number, row in enumerate(rows, 1)]
+    except ValueError as error:
+        raise UsageError(str(error), where=str(path), remedy=_FORM) from error
 
 
-def _to_reply(row: dict[str, Any]) -> ReviewReply:
-    """One entry; a ValueError, TypeError, KeyError or AttributeError where it is none."""
+def _to_reply(number: int, row: Any) -> ReviewReply:
+    """One entry, of this number in the file. Raises ValueError that says what of it is wrong."""
+    if not isinstance(row, dict) or "id" not in row:
+        raise ValueError(f"reply {number} has no id")
     if odd := row.keys() - {"id", "choice", "exceptions", "later"}:
-        raise ValueError(odd)
-    exceptions = {}
-    for place, label in row.get("exceptions", {}).items():
-        asset, mark, hull = str(place).rpartition("#")
-        if not mark or not isinstance(label, str):
-            raise ValueError(place)
-        exceptions[HullPlace(asset, hull)] = label
-    choice, later = row.get("choice"), row.get("later", False)
-    if not isinstance(later, bool) or (
-        choice is not None and (isinstance(choice, bool) or not isinstance(choice, int))
-    ):
-        raise ValueError(choice)
-    return ReviewReply(str(row["id"]), choice, exceptions, later=later)
+        raise ValueError(f"reply {number} has a field {min(odd)!r}, which is none of a reply")
+    choice, later, exceptions = row.get("choice"), row.get("later", False), row.get("exceptions", {})
+    if choice is not None and (isinstance(choice, bool) or not isinstance(choice, int)):
+        raise ValueError(f"reply {number}: the choice {choice!r} is no number from 0")
+    if not isinstance(later, bool):
+        raise ValueError(f"reply {number}: {later!r} for later is not true or false")
+    if not isinstance(exceptions, dict):
+        raise ValueError(f"reply {number}: its exceptions are no labels by ASSET#HULL")
+    for place, label in exceptions.items():
+        if "#" not in place or not isinstance(label, str):
+            raise ValueError(f"reply {number}: the exception {place!r} is no label of an ASSET#HULL")
+    places = ((place.rpartition("#"), label) for place, label in exceptions.items())
+    hulls = {HullPlace(asset, hull): label for (asset, _, hull), label in places}
+    return ReviewReply(str(row["id"]), choice, hulls, later=later)
 
 
 def parse_reply(line: str, question: ReviewQuestion) -> ReviewReply:

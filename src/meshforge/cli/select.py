@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
+from functools import partial
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
+from meshforge.cli.extractors import find_absent_labels, labels_of_project
 from meshforge.cli.options import AssetFile, InProject, Json, LabelsPath, open_asset
 from meshforge.cli.terminal import print_json, remark
-from meshforge.common import suggest_among
-from meshforge.language import labels_of, parse_extractor
+from meshforge.formats import labels_beside, resolve_asset_path
+from meshforge.language import parse_extractor
+from meshforge.symbolic import read_labels
 
 
 def select(
@@ -19,24 +23,35 @@ def select(
     labels: LabelsPath = None,
     project: InProject = None,
     json: Json = False,
-    picture: Annotated[Path | None, typer.Option("-o", "--out", help="A PNG with the selection lit.")] = None,
+    picture: Annotated[Path | None, typer.Option("-o", "--out", help="A picture with the selection lit.")] = None,
 ) -> None:
     """List the hulls that an extractor selects, in the frame the asset comes in."""
+    if picture:
+        from meshforge.rendering import check_picture_path, render, write_picture  # lazy: 40 modules of a picture
+
+        check_picture_path(picture)
     mesh = open_asset(asset, labels, project)
     extractor = parse_extractor(expression)
-    here = sorted({hull.label for hull in mesh.hulls if hull.label})
-    for label in labels_of(extractor):
-        if label not in here:  # an asset need not have every label of its family, so this is no error
-            remark(f"no hull here is labelled {label!r}. {suggest_among(label, here, 'Labels here:')}")
+    absent = find_absent_labels(extractor, mesh, partial(_read_known_labels, asset, labels, project), str(asset))
     chosen = sorted(extractor.select(mesh))
     names = [mesh.hulls[k].name for k in chosen]
     if picture:
-        from meshforge.rendering import render, write_png  # lazy: 40 modules that only a picture needs
-
-        write_png(picture, render(mesh, highlight=frozenset(names)))
+        write_picture(picture, render(mesh, highlight=frozenset(names)))
     if json:
         print_json({"hulls": names})
     else:
         for name in names:
             typer.echo(name)
         remark(f"{len(names)} of {len(mesh.hulls)} hulls")
+    for label in absent:
+        remark(f"no hull here is labelled {label!r}")
+
+
+def _read_known_labels(asset: Path, labels: Path | None, project: Path | None) -> Collection[str]:
+    """The labels that the family of an asset has: of its project, or as its labels file says."""
+    if project:
+        from meshforge.project import Project  # lazy: 500 modules that only --project needs
+
+        return labels_of_project(Project.open(project))
+    path = labels or labels_beside(resolve_asset_path(asset))
+    return read_labels(path).vocabulary if path.is_file() else ()

@@ -10,6 +10,7 @@ from typing import Annotated
 import typer
 
 from meshforge.cli import options
+from meshforge.cli.hulls import find_hulls, is_number
 from meshforge.cli.prepare import print_results
 from meshforge.common import UsageError
 from meshforge.project import Project
@@ -22,7 +23,9 @@ class SplitArguments:
     context: typer.Context
     project: Annotated[Path, typer.Argument(help="A project folder.")]
     asset: Annotated[str, typer.Argument(help="The id of an asset, as `status` lists it.")]
-    hull: Annotated[str, typer.Argument(help="The name of a hull, as `info ASSET --project PROJECT` lists it.")]
+    hull: Annotated[
+        str, typer.Argument(help="A hull by its name or number (#5), as `info ASSET --project PROJECT` lists it.")
+    ]
     at: Annotated[
         str, typer.Option("--at", metavar="X,Y,Z", help="A point of the cutting plane [m], in the asset's own frame.")
     ] = ""
@@ -48,12 +51,16 @@ def split(given: SplitArguments) -> None:
     if bool(at or across) == (method is not None) or bool(at) != bool(across):
         raise UsageError("say how: --at X,Y,Z --across X,Y,Z, or --decompose METHOD")
     project = Project.open(given.project)
+    asset = options.asset_id(given.asset, project)
+    hull = given.hull
+    if is_number(hull):
+        (hull,) = find_hulls(hull, project.mesh(asset).index, "HULL")
     if method is None:
         options.refuse_options(given.context, ("option", "hollow"), "--decompose METHOD")
-        result = project.cut(given.asset, given.hull, _parse_vector(at, "--at"), _parse_direction(across, "--across"))
+        result = project.cut(asset, hull, _parse_vector(at, "--at"), _parse_direction(across, "--across"))
     else:
         settings = options.parse_engine_settings(method, given.option)
-        result = project.split(given.asset, given.hull, settings, hollow=given.hollow)
+        result = project.split(asset, hull, settings, hollow=given.hollow)
     print_results([result], given.json)
 
 

@@ -9,6 +9,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
+from types import NoneType
 from typing import Any
 
 from meshforge.cli.mesh_pictures import MeshPictures
@@ -136,8 +137,28 @@ def read_answers(path: Path, project: Project) -> ScriptAnswers:
                 project.path(asset)
                 direct.append(Answer(rule, asset, select))
             case _:
-                raise _entry_error(path, number, "it has not the right form")
+                raise _entry_error(path, number, _describe_misfit(entry))
     return ScriptAnswers(tuple(direct), choices)
+
+
+def _describe_misfit(entry: Any) -> str:
+    """What of an entry has not the right form, as far as that is plain."""
+    if not isinstance(entry, dict):
+        return "it is no object {...}"
+    direct = "question" not in entry
+    fields: dict[str, type | tuple[type, ...]] = (
+        {"rule": int, "asset": str, "select": (list, NoneType)}
+        if direct
+        else {"question": str, "choice": (int, NoneType)}
+    )
+    for name, kind in fields.items():
+        if name not in entry:
+            return f"it has no field {name!r}"
+        if not isinstance(entry[name], kind):
+            return f"the field {name!r} cannot be {entry[name]!r}"
+    if odd := entry.keys() - fields.keys() - ({"id", "action", "refused"} if direct else set()):
+        return f"it has a field {min(odd)!r}, which is none of an answer"
+    return "its hulls are not all names"
 
 
 def _read_entries(path: Path) -> list[Any]:

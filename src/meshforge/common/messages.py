@@ -6,10 +6,7 @@ from __future__ import annotations
 
 import difflib
 from collections.abc import Collection, Iterable, Sequence
-from typing import TYPE_CHECKING, Any
-
-if TYPE_CHECKING:
-    from pydantic import ValidationError  # only its name: pydantic is slow to import
+from typing import Any
 
 
 def pluralize(number: int, one: str, many: str | None = None) -> str:
@@ -103,15 +100,6 @@ def describe_error(error: Exception, where: str | None = None, fault: str = "ple
             return f"{head}{type(error).__name__}: {error}\n  This is a fault of MeshForge; {fault}."
 
 
-def first_validation_error(error: ValidationError) -> str:
-    """The complaint about the first field of a JSON file that does not fit, in one line."""
-    first = error.errors(include_url=False)[0]
-    field = ".".join(str(step) for step in first["loc"])
-    value = "" if first["type"] in ("missing", "json_invalid") else f" (given: {str(first['input'])[:60]!r})"
-    at = f"the field {field}: " if field else ""
-    return at + first["msg"].replace("valid tuple", "list").replace("valid array", "list") + value
-
-
 class HullNotFoundError(MeshForgeError, KeyError):
     """A name that no hull of a mesh has."""
 
@@ -138,6 +126,10 @@ class ProjectError(MeshForgeError):
 
 class UsageError(MeshForgeError):
     """Arguments that do not fit together."""
+
+
+class PluginError(MeshForgeError):
+    """What a plug-in of another package does wrong, or that it cannot be loaded."""
 
 
 class StoppedError(MeshForgeError):

@@ -1,11 +1,12 @@
 """Files: a reader and a writer for each format, and the door to them all."""
 
-from meshforge.formats.base import Format, Loss, Mass, Output
+from meshforge.formats.base import Format, Loss, Mass, Output, ReadOptions
 from meshforge.formats.convert import convert, to_mjspec
 from meshforge.formats.decompose import decompose
 from meshforge.formats.engine_names.conventions import EngineName
 from meshforge.formats.mesh_reader import read_triangles, split_into_pieces
 from meshforge.formats.meshfile.surface import RawSurface
+from meshforge.formats.mjcf.trial import MujocoTrial, try_in_mujoco
 from meshforge.formats.output_tree import SaveResult, output_path_of, save
 from meshforge.formats.plain.obj_text import format_obj
 from meshforge.formats.plain.parts import MeshPart
@@ -15,16 +16,22 @@ from meshforge.formats.registry import (
     FORMATS,
     MESH_SUFFIXES,
     NO_GEOMETRY,
+    PLUGIN_FORMATS,
     SUFFIXES,
     Source,
+    all_suffixes,
     format_for,
     format_of,
     format_with_names,
     is_asset,
+    is_description,
     labels_beside,
     load,
     load_many,
+    path_of,
+    plugin_of_suffix,
     read,
+    resolve_asset_path,
     to_mesh,
 )
 from meshforge.formats.segmentation.base import (
@@ -45,6 +52,7 @@ __all__ = [
     "FORMATS",
     "MESH_SUFFIXES",
     "NO_GEOMETRY",
+    "PLUGIN_FORMATS",
     "POINTS_SUFFIXES",
     "SEMANTICS_FILE",
     "SUFFIXES",
@@ -53,12 +61,15 @@ __all__ = [
     "Loss",
     "Mass",
     "MeshPart",
+    "MujocoTrial",
     "Output",
     "RawSurface",
+    "ReadOptions",
     "SaveResult",
     "Segmentation",
     "Source",
     "VisualSurfaces",
+    "all_suffixes",
     "attach_own_mesh",
     "convert",
     "decompose",
@@ -68,18 +79,23 @@ __all__ = [
     "format_with_names",
     "from_trimesh",
     "is_asset",
+    "is_description",
     "labels_beside",
     "load",
     "load_many",
     "output_path_of",
+    "path_of",
+    "plugin_of_suffix",
     "points_beside",
     "read",
     "read_class_names",
     "read_segmentation",
     "read_semantics",
     "read_triangles",
+    "resolve_asset_path",
     "save",
     "split_into_pieces",
     "to_mesh",
     "to_mjspec",
+    "try_in_mujoco",
 ]

@@ -16,7 +16,7 @@ from meshforge.common import AssetError, plain_path, replace_atomically, write_a
 from meshforge.formats.base import Format, Mass, Output
 from meshforge.formats.conversion import ConversionReport, report_conversion, turn_upright
 from meshforge.formats.engine_names.conventions import EngineName
-from meshforge.formats.registry import FOLDER, FORMATS, SUFFIXES, format_for, format_with_names
+from meshforge.formats.registry import FOLDER, SUFFIXES, format_for, format_named, format_with_names
 from meshforge.geometry import Pose
 from meshforge.symbolic import Asset, Body, Document, Geom, SymbolicMesh
 
@@ -81,7 +81,8 @@ def save(
 
 def make_output(mesh: SymbolicMesh, kind: str, name: str) -> Output:
     """The files of a mesh in the format of a name, main file named `name`, without writing them. Raises AssetError."""
-    known = next(own for own in FORMATS if own.name == kind)
+    known = format_named(kind)
+    assert known is not None
     return _make_output(_to_asset(mesh), known, name, "keep")[0]
 
 
@@ -94,7 +95,7 @@ def _make_output(asset: Asset, known: Format, name: str, mass: Mass) -> tuple[Ou
     if known.can_write_back(asset):
         output = known.write(asset, name, mass)
         return output, ConversionReport(remarks=output.notes)
-    source = next((own for own in FORMATS if own.name == asset.format), None)
+    source = format_named(asset.format)
     upright, remarks = turn_upright(asset, source, known)
     output = known.create(upright, name)
     return output, report_conversion(upright, source, known, output, remarks)
@@ -193,7 +194,8 @@ def output_path_of(asset: Asset, base: Path, out_dir: Path) -> Path:
     if path.suffix.lower() in SUFFIXES:
         path = path.with_name(format_for(path, asset.format).output_name(path.name))
     folders = [path.parent, *(plain_path(file).parent for file in asset.files)]
-    folders += [plain_path(known.top(asset)) for known in FORMATS if known.name == asset.format]
+    known = format_named(asset.format)
+    folders += [plain_path(known.top(asset))] if known else []
     if not all(folder.is_relative_to(base) for folder in folders):
         base = Path(os.path.commonpath(folders))
     return out_dir / path.relative_to(base)

@@ -1,6 +1,5 @@
-"""The formats MeshForge knows, one line each, and which of them a file is of; assets read by them, alone or many, with
-the labels that lie beside them.
-"""
+"""The formats MeshForge knows, one line each, those of plug-ins, and which of them a file is of; assets read by them,
+alone or many, with the labels that lie beside them."""
 
 from __future__ import annotations
 
@@ -11,7 +10,7 @@ from pathlib import Path
 
 import numpy as np
 
-from meshforge.common import AssetError, UsageError, expand_glob, nearest_name
+from meshforge.common import AssetError, Plugin, PluginError, Registry, UsageError, expand_glob, nearest_name
 from meshforge.formats.base import Format, ReadOptions
 from meshforge.formats.engine_names.conventions import EngineName
 from meshforge.formats.gltf.format import GltfForGodot, GltfFormat, GltfForUnity, GltfForUnreal
@@ -19,6 +18,7 @@ from meshforge.formats.meshfile.surface import FARTHEST
 from meshforge.formats.mjcf.format import MjcfFormat
 from meshforge.formats.mjcf.spec import SpecObject, read_spec, read_text
 from meshforge.formats.plain import folder, obj, ply, stl
+from meshforge.formats.plugin_format import guard_format
 from meshforge.formats.sdf.document import CONFIG, find_main_file
 from meshforge.formats.sdf.format import SdfFormat
 from meshforge.formats.segmentation.base import is_segmentation
@@ -49,11 +49,47 @@ ENGINE_FORMATS: Mapping[EngineName, tuple[Format, ...]] = {
 }
 """The formats that can be written with the names by which an engine knows collision."""
 SUFFIXES: tuple[str, ...] = tuple(dict.fromkeys(s for f in FORMATS for s in f.suffixes))
-"""The suffixes of all files that can be read, lower case, with the dot; folders have none."""
+"""The suffixes of all files that can be read without plug-ins, lower case, with the dot; folders have none."""
+PLUGIN_FORMATS: Registry[Format] = Registry(
+    "formats",
+    {},
+    lambda plugin, kind: guard_format(plugin, kind, [known.name for known in FORMATS]),
+    reserved=[suffix.removeprefix(".") for suffix in SUFFIXES],
+)
+"""The formats of plug-ins by suffix, without the dot: files of a plug-in that cannot be loaded are assets as well."""
 MESH_SUFFIXES: tuple[str, ...] = tuple(s for f in FOLDER.members for s in f.suffixes)
 """The suffixes of plain mesh files, which may be pieces of a folder."""
 DESCRIPTION_SUFFIXES: tuple[str, ...] = tuple(s for f in FORMATS if f.is_description for s in f.suffixes)
-"""The suffixes of files that name mesh files as their parts."""
+"""The suffixes of files that name mesh files as their parts, but for those of plug-ins."""
+
+
+def all_suffixes() -> tuple[str, ...]:
+    """The suffixes of all files that can be read, those of plug-ins last; no plug-in is loaded for that."""
+    return (*SUFFIXES, *(f".{name}" for name in PLUGIN_FORMATS.plugin_names))
+
+
+def is_description(path: Path) -> bool:
+    """Whether a file is of a format whose files name mesh files as their parts."""
+    if path.suffix.lower() in DESCRIPTION_SUFFIXES:
+        return True
+    try:
+        return any(known.is_description for known in _formats_of_suffix(path))
+    except PluginError:
+        return False
+
+
+def format_named(name: str) -> Format | None:
+    """The format of a name, those of plug-ins last; None where there is none."""
+    built_in = next((known for known in FORMATS if known.name == name), None)
+    return built_in or next((known for known in PLUGIN_FORMATS.loadable().values() if known.name == name), None)
+
+
+def plugin_of_suffix(suffix: str) -> Plugin | None:
+    """The plug-in that reads files of a suffix, None where it is built in, unknown, or several plug-ins have it."""
+    try:
+        return PLUGIN_FORMATS.plugin(suffix.lower().removeprefix("."))
+    except PluginError:
+        return None
 
 
 def resolve_asset_path(path: Path) -> Path:
@@ -68,7 +104,8 @@ def resolve_asset_path(path: Path) -> Path:
 def format_of(path: Path) -> Format:
     """The format of a file or folder that is to be read.
 
-    Raises AssetError: there is no such file, or it is of no known format.
+    Raises AssetError: there is no such file, or it is of no known format. Raises PluginError: it is of a plug-in that
+    cannot be loaded.
     """
     if path.is_dir():
         return FOLDER
@@ -90,7 +127,11 @@ def is_asset(path: Path) -> bool:
     """
     if not path.is_file() or is_segmentation(path):
         return False
-    return any(known.matches_head(_read_head(path)) and known.is_main(path) for known in _formats_of_suffix(path))
+    try:
+        formats = _formats_of_suffix(path)
+    except PluginError:  # its reading says why
+        return True
+    return any(known.matches_head(_read_head(path)) and known.is_main(path) for known in formats)
 
 
 def format_for(path: Path, own: str) -> Format:
@@ -117,8 +158,14 @@ def format_with_names(known: Format, names: EngineName) -> Format:
 
 
 def _formats_of_suffix(path: Path) -> list[Format]:
+    """The formats of a suffix. Raises PluginError about the path where a plug-in has it that cannot be loaded."""
     suffix = path.suffix.lower()
-    return [known for known in FORMATS if suffix in known.suffixes]
+    found = [known for known in FORMATS if suffix in known.suffixes]
+    try:
+        more = None if found else PLUGIN_FORMATS.get(suffix.removeprefix("."))
+    except PluginError as error:
+        raise error.at(str(path)) from error.__cause__
+    return [more] if more else found
 
 
 def _read_head(path: Path) -> bytes:
@@ -133,8 +180,8 @@ def _read_head(path: Path) -> bytes:
 def _unknown_format_error(path: Path) -> AssetError:
     if reason := _UNREAD.get(path.suffix.lower()):
         return AssetError(reason, where=str(path))
-    guess = nearest_name(path.suffix.lower(), SUFFIXES)
-    remedy = f"Known suffixes: {', '.join(SUFFIXES)}" + (f"; did you mean {guess}?" if guess else ".")
+    guess = nearest_name(path.suffix.lower(), all_suffixes())
+    remedy = f"Known suffixes: {', '.join(all_suffixes())}" + (f"; did you mean {guess}?" if guess else ".")
     return AssetError(f"{path.suffix or path.name} is no format that MeshForge knows", where=str(path), remedy=remedy)
 
 
@@ -161,17 +208,22 @@ def read(source: Source, options: ReadOptions | None = None) -> Asset:
 
 
 def _read_source(source: Source, options: ReadOptions) -> Asset:
-    if isinstance(source, str) and source.lstrip().startswith("<"):
-        return read_text(source)
-    if isinstance(source, str | os.PathLike):
-        path = resolve_asset_path(Path(source))
+    if path := path_of(source):
         return format_of(path).read(path, options)
+    if isinstance(source, str):
+        return read_text(source)
     if isinstance(source, SpecObject):
         return read_spec(source)
     if isinstance(source, StageObject):
         return read_stage(source)
     remedy = "Give a path, the text of an MJCF, a mujoco.MjSpec or a Usd.Stage; for trimesh there is from_trimesh."
     raise UsageError(f"a {type(source).__name__} is nothing that an asset is read from", remedy=remedy)
+
+
+def path_of(source: SymbolicMesh | Source) -> Path | None:
+    """The file or folder that is meant, None for text and for objects. Raises AssetError as `resolve_asset_path`."""
+    is_text = isinstance(source, str) and source.lstrip().startswith("<")
+    return resolve_asset_path(Path(source)) if isinstance(source, str | os.PathLike) and not is_text else None
 
 
 def to_mesh(what: SymbolicMesh | Source) -> SymbolicMesh:
@@ -194,9 +246,8 @@ def load(source: Source, labels: Labels | None = None) -> SymbolicMesh:
     mesh = SymbolicMesh.of(read(source))
     if isinstance(labels, Mapping):
         return label_hulls(mesh, labels)
-    is_path = isinstance(source, os.PathLike) or (isinstance(source, str) and not source.lstrip().startswith("<"))
-    if labels is None and is_path and mesh.asset:
-        beside = labels_beside(mesh.asset.path)
+    if labels is None and (path := path_of(source)):
+        beside = labels_beside(path)
         labels = beside if beside.is_file() else None
     return mesh if labels is None else transfer_labels(read_labels(Path(labels)), mesh).mesh
 
@@ -220,7 +271,9 @@ def load_many(patterns: str | Path | Iterable[str | Path]) -> Iterator[SymbolicM
 
 def labels_beside(path: Path) -> Path:
     """Where the labels of an asset lie: beside it, `table.labels.json` for table.urdf and for a folder `table`."""
-    stem = path.name if path.is_dir() or path.suffix.lower() not in SUFFIXES else path.stem
+    suffix = path.suffix.lower()
+    is_file = not path.is_dir() and (suffix in SUFFIXES or suffix.removeprefix(".") in PLUGIN_FORMATS)
+    stem = path.stem if is_file else path.name
     return path.with_name(f"{stem}.labels.json")
 
 
@@ -231,7 +284,7 @@ def _match_pattern(pattern: str) -> list[Path]:
     known = [p for p in found if is_asset(p)]
     if not known:
         problem = "no file matches" if not found else "none of the files it matches is an asset"
-        raise AssetError(problem, where=pattern, remedy=f"Known suffixes: {', '.join(SUFFIXES)}.")
+        raise AssetError(problem, where=pattern, remedy=f"Known suffixes: {', '.join(all_suffixes())}.")
     return known
 
 

@@ -6,6 +6,7 @@ from meshforge.geometry.decomposition.engines import CoacdSettings, DecomposeSet
 from meshforge.geometry.decomposition.run import cache_folder, decompose
 from meshforge.geometry.decomposition.triangles import is_line, is_sheet, sheet_hulls, volume_inside
 from meshforge.geometry.distance import close_pairs, distance
+from meshforge.geometry.faults import HullFault, describe_fault, find_fault
 from meshforge.geometry.fill import aabb_box, aabb_capsule, aabb_cylinder, aabb_sphere, longest_axis, map_to_box
 from meshforge.geometry.fit import tight_box, tight_capsule, tight_cylinder
 from meshforge.geometry.native import native_capsule, native_cylinder, native_sphere
@@ -49,6 +50,7 @@ __all__ = [
     "EngineControl",
     "Floats",
     "HullBudget",
+    "HullFault",
     "Ints",
     "Piece",
     "Polytope",
@@ -66,9 +68,11 @@ __all__ = [
     "convex_hull",
     "cut",
     "decompose",
+    "describe_fault",
     "digest",
     "distance",
     "enclose",
+    "find_fault",
     "freeze_floats",
     "freeze_ints",
     "inertia",

@@ -58,14 +58,16 @@ _COUNTS = ("hulls", "vertices", "volume")
 def diff(before: SymbolicMesh | Source, after: SymbolicMesh | Source, out: str | Path | None = None) -> Difference:
     """Compare two assets hull by hull: which hulls were removed, made and changed.
 
-    before, after: meshes, or what `load` reads. out: a picture to write, before beside after.
+    before, after: meshes, or what `load` reads. out: a PNG or JPEG to write: before beside after, what changed marked.
     Raises AssetError for a file that cannot be read, UsageError for a picture that cannot be written.
     """
-    found = compare_meshes(to_mesh(before), to_mesh(after))
-    if out is not None:
-        from meshforge.rendering import draw_before_after, write_png  # lazy: 40 modules that only a picture needs
+    if out is None:
+        return compare_meshes(to_mesh(before), to_mesh(after))
+    from meshforge.rendering import check_picture_path, draw_changes, write_picture  # lazy: 40 modules of a picture
 
-        write_png(Path(out), draw_before_after(found.before, found.after))
+    check_picture_path(Path(out))
+    found = compare_meshes(to_mesh(before), to_mesh(after))
+    write_picture(Path(out), draw_changes(found.before, found.after, found.changed))
     return found
 
 

@@ -28,15 +28,18 @@ def render(
 ) -> Image:
     """Draw an asset, one colour a hull or a label; the same input gives the same picture. It needs no display.
 
-    asset: a mesh, or what `load` reads. out: a PNG to write. views: one, or several that share the picture: `iso`,
-    `front`, `left`, `top`, `front-right-above` and so on. color_by: `hull`, `label`, `body` or `confidence`, by default
-    the label where there are labels, else the hull. size: width and height [px]. highlight: names of hulls to show in a
-    strong colour. ghost: show the visual mesh, too. names: mark each hull.
+    asset: a mesh, or what `load` reads. out: a PNG or JPEG to write. views: one, or several that share the picture:
+    `iso`, `front`, `left`, `top`, `front-right-above` and so on. color_by: `hull`, `label`, `body` or `confidence`, by
+    default the label where there are labels, else the hull. size: width and height [px]. highlight: names of hulls to
+    show in a strong colour. ghost: show the visual mesh, too. names: write the names of hulls on them, or numbers with
+    a list of names below.
     Raises AssetError for a file that cannot be read, UsageError for an unknown view or colouring, an impossible size,
     or a picture that cannot be written.
     """
     from meshforge import rendering  # lazy: 40 modules that checks and differences do not need
 
+    if out is not None:
+        rendering.check_picture_path(Path(out))
     mesh = to_mesh(asset)
     image = rendering.render(
         mesh,
@@ -45,8 +48,8 @@ def render(
         size=size,
         highlight=None if highlight is None else frozenset(highlight),
         ghost=tuple(mesh.asset.visuals) if ghost and mesh.asset else None,
-        labels=names,
+        names=names,
     )
     if out is not None:
-        rendering.write_png(Path(out), image)
+        rendering.write_picture(Path(out), image)
     return image

@@ -6,6 +6,7 @@ from meshforge.labels.from_files.points import PointsOptions
 from meshforge.labels.from_files.read import LabelFileOptions, label_file_beside
 from meshforge.labels.from_files.segments import PointAlignment
 from meshforge.labels.label_by_consensus import ConsensusResult, LabelChange, SourceRestoration
+from meshforge.labels.label_by_plugin import LABELERS, AssetLabeler, check_labeler
 from meshforge.labels.label_by_propagation import PropagationResult
 from meshforge.labels.label_store import LabelStore
 from meshforge.labels.merge import LabelOutcome, label_new_hulls
@@ -16,6 +17,8 @@ from meshforge.labels.vlm.label_by_vlm import VlmForecast, VlmResult, check_vlm_
 from meshforge.labels.vlm.limits import Usage
 
 __all__ = [
+    "LABELERS",
+    "AssetLabeler",
     "ConsensusResult",
     "LabelChange",
     "LabelFileOptions",
@@ -33,6 +36,7 @@ __all__ = [
     "Usage",
     "VlmForecast",
     "VlmResult",
+    "check_labeler",
     "check_vlm_settings",
     "endpoint_of",
     "label_command",

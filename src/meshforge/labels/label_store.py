@@ -13,6 +13,7 @@ from meshforge.labels.family_comparison import Stage, WriteBlock, ignore_stage
 from meshforge.labels.from_files.label_by_files import label_from_files, propose_from_files
 from meshforge.labels.from_files.read import LabelFileOptions
 from meshforge.labels.label_by_consensus import ConsensusResult, SourceRestoration
+from meshforge.labels.label_by_plugin import label_by_plugin, propose_by_plugin
 from meshforge.labels.label_by_propagation import PropagationResult
 from meshforge.labels.merge import LabelOutcome, OutcomeCallback, ignore_report, set_labels
 from meshforge.labels.names.label_by_names import PatternPairs, label_from_names, propose_from_names
@@ -179,6 +180,22 @@ class LabelStore(Store):
     def propose_sources(self, *, execution: ExecutionOptions = IN_PROCESS) -> Proposals:
         """What `restore_sources` would put back, with nothing written."""
         return label_by_consensus.propose_sources(self, execution)
+
+    def label_by_plugin(
+        self, name: str, *, execution: ExecutionOptions = IN_PROCESS, report: OutcomeCallback = ignore_report
+    ) -> tuple[LabelOutcome, ...]:
+        """Take the labels of a plug-in's labeller; labels of people and files stay, and of machines the surer ones.
+
+        report: called with the outcome of each asset, in their order; what the plug-in does wrong is a problem in it.
+        Raises ProjectError: no vocabulary; UsageError: no such labeller; PluginError: it cannot be loaded.
+        """
+        return label_by_plugin(self, name, execution, report)
+
+    def propose_by_plugin(
+        self, name: str, vocabulary: Sequence[str] | None = None, *, execution: ExecutionOptions = IN_PROCESS
+    ) -> Proposals:
+        """What `label_by_plugin` would take, with nothing written; vocabulary: one to try instead."""
+        return propose_by_plugin(self, name, vocabulary, execution)
 
     def label_with_vlm(
         self,

@@ -11,8 +11,9 @@ from meshforge.language.actions.base import (
     PrimitiveOrFileArgument,
     WordArgument,
 )
-from meshforge.language.actions.basic import ACTIONS, Add, Delete, Each, Merge, Replace, Scale
-from meshforge.language.actions.edit import Template
+from meshforge.language.actions.basic import Add, Delete, Each, Merge, Replace, Scale
+from meshforge.language.actions.edit import GroupEdit, HullGroup, NewShape, Template
+from meshforge.language.actions.registry import ACTIONS, make_action, plugin_of
 from meshforge.language.apply import (
     ActionResult,
     RuleTrace,
@@ -21,8 +22,7 @@ from meshforge.language.apply import (
     from_canonical_frame,
     to_canonical_frame,
 )
-from meshforge.language.directions import DIRECTIONS, Direction
-from meshforge.language.labels import OPERATORS, check_declared, show_label
+from meshforge.language.labels import check_declared, show_label
 from meshforge.language.orient import find_rotation, orient_mesh
 from meshforge.language.parse import parse_action, parse_extractor, parse_orient
 from meshforge.language.print import Comments, Rule, explain, show
@@ -50,6 +50,7 @@ from meshforge.language.syntax import (
     select_mask,
     size_of,
 )
+from meshforge.language.words import DIRECTIONS, OPERATORS, Direction
 
 __all__ = [
     "ACTIONS",
@@ -76,11 +77,14 @@ __all__ = [
     "FileArgument",
     "FlagArgument",
     "Geo",
+    "GroupEdit",
     "HeaderComments",
+    "HullGroup",
     "Intersect",
     "Is",
     "LandmarkPair",
     "Merge",
+    "NewShape",
     "Orient",
     "PrimitiveOrFileArgument",
     "Program",
@@ -101,10 +105,12 @@ __all__ = [
     "from_canonical_frame",
     "geo_mask",
     "labels_of",
+    "make_action",
     "orient_mesh",
     "parse_action",
     "parse_extractor",
     "parse_orient",
+    "plugin_of",
     "reference_length",
     "rename_in_orient",
     "rename_in_program",

@@ -11,9 +11,10 @@ from typing import Any
 import numpy as np
 
 from meshforge import geometry
-from meshforge.common import join_names
+from meshforge.common import Plugin, blame, join_names
 from meshforge.language.actions.base import Action
 from meshforge.language.actions.edit import GroupEdit, HullGroup, NewShape, Template, check_templates
+from meshforge.language.actions.registry import plugin_of
 from meshforge.language.orient import orient_mesh
 from meshforge.language.print import Rule
 from meshforge.language.syntax import EXTREMITY, Orient, reference_length, select_mask
@@ -50,17 +51,22 @@ def apply_action(
 
     label: for what is made, None takes over that of the largest hull; used: in a run of several actions, the names
     that the result before has. Kept hulls stay the same objects, made ones follow after them.
-    Raises ProgramError for a missing template, GeometryError where no sound shape can be made.
+    Raises ProgramError for a missing template, GeometryError where no sound shape can be made, PluginError for what a
+    plug-in does wrong.
     """
     templates = templates or {}
     check_templates(action.templates, templates)
     if not selected_mask:
         return ActionResult(mesh, note="nothing selected", used=used)
-    groups = [
-        HullGroup(tuple(mesh.hulls[index] for index in sorted(bits_of(part))), reference_length(mesh), templates)
-        for part in action.groups(mesh, selected_mask)
-    ]
-    edits = [action.edit(group) for group in groups]
+    plugin = plugin_of(action)
+    with blame(plugin):
+        groups = [
+            HullGroup(tuple(mesh.hulls[index] for index in sorted(bits_of(part))), reference_length(mesh), templates)
+            for part in action.groups(mesh, selected_mask)
+        ]
+        edits = [action.edit(group) for group in groups]
+        if plugin:
+            _verify_edits(plugin, groups, edits)
     taken = set(used | names_in_use(mesh))
     made = [
         (hull, m) for edit in edits for m in edit.made for hull in [_make_hull(m, label, taken, reference_length(mesh))]
@@ -76,6 +82,18 @@ def apply_action(
         tuple(tuple(source.name for source in m.sources) for _, m in made),
         frozenset(taken),
     )
+
+
+def _verify_edits(plugin: Plugin, groups: list[HullGroup], edits: list[GroupEdit]) -> None:
+    """Raise PluginError for what a plug-in must not make of hulls: what is built in is trusted."""
+    for group, edit in zip(groups, edits, strict=True):
+        for made in edit.made:
+            fault = geometry.find_fault(made.shape)
+            if fault:
+                what = f"made a hull of {join_names([hull.name for hull in made.sources], 3)} that"
+                raise plugin.error(f"{what} {geometry.describe_fault(fault)}")
+            if not {made.heir.name, *(hull.name for hull in made.sources)} <= {hull.name for hull in group.hulls}:
+                raise plugin.error("named hulls that it was not given as the sources of one that it made")
 
 
 def names_in_use(mesh: SymbolicMesh) -> frozenset[str]:
@@ -132,25 +150,8 @@ def ensure_valid(shape: geometry.Shape, name: str, thickness: float) -> geometry
 
     Raises GeometryError naming `name` where no sound shape can be made of it.
     """
-    return shape if is_valid(shape) else geometry.convex_hull(shape.vertices, name=name, thicken=thickness)
-
-
-def is_valid(shape: geometry.Shape) -> bool:
-    """Whether a shape is finite, closed, convex, and spans a volume."""
-    with np.errstate(all="ignore"):
-        vertices, volume = shape.vertices, shape.volume
-    if not np.isfinite(vertices).all() or not (np.isfinite(volume) and volume > 0):
-        return False
-    return geometry.spans_volume(vertices) and (not isinstance(shape, geometry.Polytope) or _is_valid_polytope(shape))
-
-
-def _is_valid_polytope(shape: geometry.Polytope) -> bool:
-    vertices, faces = shape.vertices, shape.faces
-    return (
-        geometry.is_closed(faces)
-        and geometry.is_outward(vertices, faces)
-        and geometry.is_convex(vertices, faces, _CONVEXITY)
-    )
+    is_sound = geometry.find_fault(shape, _CONVEXITY) is None
+    return shape if is_sound else geometry.convex_hull(shape.vertices, name=name, thicken=thickness)
 
 
 @dataclass(frozen=True, slots=True)

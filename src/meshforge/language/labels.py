@@ -6,11 +6,12 @@ import json
 import re
 
 from meshforge.common import ProgramError, suggest_among
-from meshforge.language.actions.basic import ACTIONS
+from meshforge.language.actions.registry import ACTIONS
+from meshforge.language.words import OPERATORS
 
-OPERATORS = ("All", "Is", "Attach", "Geo", "Union", "Intersect", "Diff")
 WORD = re.compile(r"[^\W\d]\w*")
-RESERVED = frozenset(OPERATORS) | frozenset(ACTIONS)
+RESERVED = frozenset(OPERATORS) | frozenset(ACTIONS.built_in)
+"""Words that labels are quoted for, whatever plug-ins are installed."""
 
 
 def check_label(label: str) -> None:

@@ -13,11 +13,10 @@ from meshforge.common import ProgramError
 from meshforge.language import syntax
 from meshforge.language import text as program_text
 from meshforge.language.actions import base
-from meshforge.language.actions.basic import ACTIONS
-from meshforge.language.directions import Direction, check_direction
-from meshforge.language.labels import OPERATORS
+from meshforge.language.actions.registry import ACTIONS, make_action
 from meshforge.language.print import CommentLines, Comments, Rule
 from meshforge.language.text import Node, ProgramText, TreeReader, likely_word, quote_code, subtrees_of, tokens_of
+from meshforge.language.words import OPERATORS, Direction, check_direction
 
 if TYPE_CHECKING:  # lark is loaded where a program is parsed
     from lark import Lark, Token
@@ -208,7 +207,7 @@ def build_action(text: TreeReader, tree: Node) -> base.Action:
     """The action of an `action` node. Raises ProgramError at its name or at the argument that does not fit."""
     (name,) = tokens_of(tree)[:1]
     parts = [part for part in tree.children[1:] if part is not None]
-    kind = ACTIONS.get(name)
+    kind = text.locate_errors(name, lambda: ACTIONS.get(name))
     if kind is None:
         raise _unknown_action(text, name)
     takes = list(kind.arguments().values())
@@ -217,7 +216,7 @@ def build_action(text: TreeReader, tree: Node) -> base.Action:
     if len(parts) < kind.min_arguments():
         raise text.error_at(name, f"{name} lacks an argument", f"Write {kind.usage()}.")
     values = [_build_argument(text, kind, argument, part) for argument, part in zip(takes, parts, strict=False)]
-    return text.locate_errors(tree, lambda: kind(*values))
+    return text.locate_errors(tree, lambda: make_action(kind, values))
 
 
 def _unknown_action(text: TreeReader, name: Token) -> ProgramError:

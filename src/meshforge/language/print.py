@@ -169,7 +169,7 @@ def _action_phrase(action: Action, whose: str) -> str:
             where = "in every direction" if action.axis == "all" else f"along {action.axis}"
             return f"scaled by {show_number(action.factor)} {where}, about {whose} common centre"
         case _:
-            raise TypeError(f"no words for {type(action).__name__}")
+            return f"edited by {action}"  # of a plug-in
 
 
 def _substitute_phrase(action: Replace, whose: str) -> str:

@@ -10,8 +10,8 @@ from typing import assert_never
 
 from meshforge.common import ProgramError
 from meshforge.geometry import Aabb
-from meshforge.language.directions import Direction, check_direction
 from meshforge.language.labels import check_label, show_label
+from meshforge.language.words import Direction, check_direction
 from meshforge.symbolic import SymbolicMesh, bits_of, mask_of
 
 EXTREMITY = 0.05

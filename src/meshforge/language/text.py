@@ -9,11 +9,11 @@ from collections.abc import Callable, Iterable, Set
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, TypeAlias, TypeVar
 
-from meshforge.common import ProgramError, nearest_name
+from meshforge.common import PluginError, ProgramError, nearest_name
 from meshforge.language.actions.base import join_alternatives
-from meshforge.language.actions.basic import ACTIONS
-from meshforge.language.directions import DIRECTIONS
-from meshforge.language.labels import OPERATORS, RESERVED, check_declared, check_label
+from meshforge.language.actions.registry import ACTIONS
+from meshforge.language.labels import RESERVED, check_declared, check_label
+from meshforge.language.words import DIRECTIONS, OPERATORS
 
 if TYPE_CHECKING:  # lark is loaded where a program is parsed
     from lark import Token, Tree
@@ -86,7 +86,7 @@ class TreeReader:
         """What is made; an error on the way is given its place in the text."""
         try:
             return make()
-        except ProgramError as error:
+        except (ProgramError, PluginError) as error:
             raise self.source.error_at(start_of(at), error.problem, error.remedy, width) from None
 
     def error_at(self, at: Node | Token, problem: str, remedy: str | None) -> ProgramError:

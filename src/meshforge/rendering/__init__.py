@@ -2,7 +2,14 @@
 needed."""
 
 from meshforge.rendering.camera import VIEWS, Up, View
-from meshforge.rendering.canvas import encode_png, encode_webp, make_contact_sheet, write_png
+from meshforge.rendering.canvas import (
+    check_picture_path,
+    encode_png,
+    encode_webp,
+    make_contact_sheet,
+    write_picture,
+    write_png,
+)
 from meshforge.rendering.colors import (
     DIFFERENCE_COLORS,
     SELECTED,
@@ -13,7 +20,14 @@ from meshforge.rendering.colors import (
     label_color,
     label_colors,
 )
-from meshforge.rendering.compare import compare, draw_before_after, draw_difference, draw_heat_map, draw_volumes
+from meshforge.rendering.compare import (
+    compare,
+    draw_before_after,
+    draw_changes,
+    draw_difference,
+    draw_heat_map,
+    draw_volumes,
+)
 from meshforge.rendering.id_buffer import count_visible_pixels, render_id_buffer, render_thumbnail
 from meshforge.rendering.labeling.picture import LabelingPicture
 from meshforge.rendering.labeling.series import draw_labeling_pictures, hull_numbers
@@ -31,10 +45,12 @@ __all__ = [
     "RenderMesh",
     "Up",
     "View",
+    "check_picture_path",
     "color_hulls",
     "compare",
     "count_visible_pixels",
     "draw_before_after",
+    "draw_changes",
     "draw_difference",
     "draw_heat_map",
     "draw_labeling_pictures",
@@ -50,5 +66,6 @@ __all__ = [
     "render_thumbnail",
     "to_render_mesh",
     "up_axis",
+    "write_picture",
     "write_png",
 ]

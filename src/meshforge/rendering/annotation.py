@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping
+from collections.abc import Collection
 from dataclasses import dataclass
 from functools import cache
 from typing import Any
@@ -25,7 +25,6 @@ _PULL = 0.03  # room that is given up for each pixel nearer the centre
 
 PixelBox = tuple[float, float, float, float]
 """Left, top, right, bottom [px]."""
-_LEAST = 10  # pixels of a hull that must be seen for it to be marked
 
 
 @cache
@@ -184,22 +183,3 @@ def _find_anchor(part: Ints, item: int, where: tuple[slice, slice]) -> LabelAnch
     depth = room[cells]
     best = int(np.argmax(depth - _PULL * aside))
     return LabelAnchor(where[1].start + int(columns[best]), where[0].start + int(rows[best]), float(depth[best]))
-
-
-def draw_marks(
-    draw: Any, items: Ints, marks: Mapping[int, str], corner: tuple[int, int], size: tuple[int, int]
-) -> None:
-    """Writes the marks of items on a picture; items: (h, w), what each pixel shows; corner: where that part lies.
-
-    Items with the most room come first; a mark that would cover another is written smaller, or left out.
-    """
-    taken: list[PixelBox] = []
-    for item, middle in find_label_anchors(items, marks, _LEAST).items():
-        for height in (round(14 * text_scale(size)), round(10 * text_scale(size))):
-            at, height = (corner[0] + middle.column, corner[1] + middle.row), max(8, height)
-            halo = max(1, height // 5)
-            left, top, right, bottom = box = draw.textbbox(at, marks[item], font(height), "mm", stroke_width=halo)
-            if not any(a < right and left < c and b < bottom and top < d for a, b, c, d in taken):
-                draw.text(at, marks[item], INK, font(height), "mm", stroke_width=halo, stroke_fill="white")
-                taken.append(box)
-                break

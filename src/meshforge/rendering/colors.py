@@ -20,7 +20,7 @@ LABEL_COLORS = (
 """Colours of labels, in the order of the vocabulary: Okabe and Ito's, without their black; after these, each the
 farthest from those before it, as seen by normal, deuteranopic and protanopic eyes, grey kept free."""
 UNLABELLED = "#B4B9C0"
-REMOVED, MADE, KEPT = "#D5401A", "#0FA47A", "#C9CED6"
+REMOVED, MADE, CHANGED, KEPT = "#D5401A", "#0FA47A", "#8A3FD1", "#C9CED6"
 DIFFERENCE_COLORS = {"removed": REMOVED, "made": MADE, "kept": KEPT}
 """Of the hulls in a picture of differences."""
 SELECTED, PALE = "#E8760A", "#D9DDE3"

@@ -4,8 +4,9 @@ parts of space within pale hulls."""
 from __future__ import annotations
 
 import itertools
-from collections.abc import Callable, Sequence
-from dataclasses import replace
+from collections import Counter
+from collections.abc import Callable, Collection, Container, Sequence
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -16,7 +17,7 @@ from meshforge.rendering import colors as palette
 from meshforge.rendering import picture
 from meshforge.rendering.camera import Up, View
 from meshforge.rendering.canvas import Canvas, make_contact_sheet
-from meshforge.rendering.colors import ColorBy, HullColors, LegendEntry, color_hulls, rgb
+from meshforge.rendering.colors import ColorBy, HullColors, LegendEntry, color_hulls, label_colors, rgb
 from meshforge.rendering.picture import Subject, build_subject, draw_on_canvas, points_to_frame
 from meshforge.rendering.raycast import DrawLayer
 from meshforge.rendering.scene import to_render_mesh
@@ -24,6 +25,10 @@ from meshforge.symbolic import Hull, Surface, SymbolicMesh
 
 if TYPE_CHECKING:
     from PIL.Image import Image
+
+
+MARKS = {"removed": palette.REMOVED, "made": palette.MADE, "changed": palette.CHANGED}
+"""The colour of each kind of change."""
 
 
 def compare(
@@ -62,6 +67,69 @@ def draw_before_after(
     pair = compare(before, after, view=view, color_by=color_by, size=size, vocabulary=vocabulary, up=up)
     titles = (f"before: {pluralize(len(before.hulls), 'hull')}", f"after: {pluralize(len(after.hulls), 'hull')}")
     return make_contact_sheet(pair, columns=2, titles=titles)
+
+
+def draw_changes(
+    before: SymbolicMesh,
+    after: SymbolicMesh,
+    changed: Collection[str],
+    *,
+    view: View = "iso",
+    size: tuple[int, int] = (640, 480),
+) -> Image:
+    """Both pictures side by side, each of `size`, under one camera: what an edit changed is marked, the rest as it was.
+
+    Hulls that only one of them has are removed or made; changed: names of hulls of both that have another shape. These
+    have a colour and an outline of their own, all but the made ones stripes, and a legend below says what each is. All
+    others have in both pictures the colours that `render` gives them in the first: by label where there are labels,
+    else by hull.
+    """
+    color_by: ColorBy = "label" if before.labels or after.labels else "hull"
+    words = [*sorted(_labels_in(before)), *sorted(_labels_in(after) - _labels_in(before))]
+    first = color_hulls(before, color_by, words)
+    known = {hull.name: color for hull, color in zip(before.hulls, first.colors, strict=True)}
+    kinds = _ChangeKinds(before.index, after.index, frozenset(changed))
+    bounds, pictures = joint_bounds(before, after), []
+    for mesh in (before, after):
+        marks = {k: kind for k, hull in enumerate(mesh.hulls) if (kind := kinds.of(hull.name))}
+        own = [rgb(MARKS[marks[k]]) if k in marks else known[hull.name] for k, hull in enumerate(mesh.hulls)]
+        striped = frozenset(k for k, kind in marks.items() if kind != "made")
+        coloring = HullColors(np.array(own).reshape(-1, 3), hatched=striped)
+        canvas = Canvas(size, "light", None, None, HullColors(coloring.colors))
+        items = draw_on_canvas(canvas, build_subject(mesh, coloring), bounds, view)
+        if not mesh.hulls:
+            canvas.write_message("no hulls", canvas.room)
+        canvas.outline_items(items, {k: MARKS[kind] for k, kind in marks.items()})
+        pictures.append(canvas.image)
+    names = [*before.index, *(name for name in after.index if name not in before.index)]
+    counts = Counter(kinds.of(name) for name in names)
+    legend = {f"{kind} {counts[kind]}": color for kind, color in MARKS.items() if counts[kind]}
+    legend |= {f"unchanged {counts[None]}, in their own colours": ""} if counts[None] else {}
+    kept = {hull.label for hull in before.hulls if not kinds.of(hull.name)} if color_by == "label" else ()
+    legend |= {word: color for word, color in label_colors(words).items() if word in kept}
+    titles = (f"before: {pluralize(len(before.hulls), 'hull')}", f"after: {pluralize(len(after.hulls), 'hull')}")
+    return make_contact_sheet(pictures, columns=2, titles=titles, colors=legend)
+
+
+@dataclass(frozen=True, slots=True)
+class _ChangeKinds:
+    """What became of each hull of two meshes, by the names that each has; changed: of both, with another shape."""
+
+    before: Container[str]
+    after: Container[str]
+    changed: frozenset[str]
+
+    def of(self, name: str) -> str | None:
+        """`removed`, `made` or `changed`, None for a hull that is as it was."""
+        if name not in self.before:
+            return "made"
+        if name not in self.after:
+            return "removed"
+        return "changed" if name in self.changed else None
+
+
+def _labels_in(mesh: SymbolicMesh) -> set[str]:
+    return {hull.label for hull in mesh.hulls if hull.label}
 
 
 def draw_difference(

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -14,6 +14,7 @@ from meshforge.geometry import Aabb, Floats, Ints
 from meshforge.rendering.camera import VIEWS, Up, View, aim_camera
 from meshforge.rendering.canvas import Canvas
 from meshforge.rendering.colors import COLOR_BY, UNLABELLED, ColorBy, HullColors, color_hulls, highlight_hulls, rgb
+from meshforge.rendering.hull_names import write_hull_names
 from meshforge.rendering.paint import Raster, paint
 from meshforge.rendering.raycast import DrawLayer, ViewFrame, up_vector
 from meshforge.rendering.scene import RenderMesh, to_render_mesh
@@ -41,7 +42,7 @@ def render(
     title: str | None = None,
     caption: str | None = None,
     background: str | None = "light",
-    labels: bool | Mapping[str, str] = False,
+    names: bool = False,
     bounds: Aabb | None = None,
     vocabulary: Sequence[str] = (),
     up: Up | None = None,
@@ -52,8 +53,7 @@ def render(
     ghost: surfaces shown as grey shells; None shows the asset's opaque pieces.
     legend: names of colours and counts of hulls; without it the picture fills the whole size, but for a title.
     background: `light`, a colour `#rrggbb`, or None for transparent.
-    labels: the number of each hull on it, counted from 0, or other short texts by hull name; what would cover
-    another, or a hull that is hardly seen, is left out.
+    names: the name of each hull on it, or numbers with a legend below the picture, as `write_hull_names` has it.
     bounds: the box that the camera is framed on, to compare pictures; None frames the mesh.
     vocabulary: the order in which labels take their colours.
     up: the axis that points up in the picture, by default that of the mesh's file, or Z.
@@ -66,9 +66,11 @@ def render(
     if caption is None and legend:
         caption = _describe_count(mesh, highlight)
     canvas = Canvas(size, background, title, caption, coloring if legend else HullColors(coloring.colors))
-    names = _marks_of(mesh, labels)
+    drawn = []
     for view, box in zip(views, _split_room(canvas.room, len(views)), strict=True):
-        _draw_view(canvas, what, bounds, view, box, names, named=len(views) > 1)
+        drawn.append((_draw_view(canvas, what, bounds, view, box, named=len(views) > 1), box[:2]))
+    if names and mesh.hulls:
+        return write_hull_names(canvas.image, drawn, tuple(mesh.index), coloring.colors)
     return canvas.image
 
 
@@ -78,15 +80,15 @@ def _draw_view(
     bounds: Aabb | None,
     view: View,
     box: tuple[int, int, int, int],
-    marks: Mapping[int, str],
     named: bool,
-) -> None:
+) -> Ints:
+    """Draws one view into a box; what each of its pixels (h, w) shows. named: whether its name stands there."""
     items = draw_on_canvas(canvas, what, bounds, view, box)
     if not what.layers[0].render_meshes:
         canvas.write_message("no hulls", box)
-    canvas.write_marks(items, marks, box[:2])
     if named:
         canvas.write_view_name(view, box[:2])
+    return items
 
 
 def draw_on_canvas(
@@ -126,12 +128,6 @@ def _describe_count(mesh: SymbolicMesh, highlight: frozenset[str] | None) -> str
         return f"{sum(h.name in highlight for h in mesh.hulls)} of {count} selected"
     opaque = len(mesh.asset.opaque) if mesh.asset else 0
     return f"{count}, {pluralize(opaque, 'piece')} that cannot be edited" if opaque else count
-
-
-def _marks_of(mesh: SymbolicMesh, labels: bool | Mapping[str, str]) -> dict[int, str]:
-    if isinstance(labels, bool):
-        return {k: str(k) for k in range(len(mesh.hulls))} if labels else {}
-    return {k: labels[h.name] for k, h in enumerate(mesh.hulls) if h.name in labels}
 
 
 def _split_room(room: tuple[int, int, int, int], count: int) -> list[tuple[int, int, int, int]]:

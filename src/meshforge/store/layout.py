@@ -154,8 +154,8 @@ def json_text(content: BaseModel) -> str:
     return content.model_dump_json(indent=2, by_alias=True) + "\n"
 
 
-def invalid_file(path: Path, error: ValidationError) -> ProjectError:
+def invalid_file(
+    path: Path, error: ValidationError, remedy: str = "Correct the file by hand, or remove it."
+) -> ProjectError:
     """The error that names the first field that does not fit."""
-    return ProjectError(
-        first_validation_error(error), where=str(path), remedy="Correct the file by hand, or remove it."
-    )
+    return ProjectError(first_validation_error(error), where=str(path), remedy=remedy)

@@ -14,7 +14,7 @@ from pydantic import BaseModel, ConfigDict, ValidationError
 
 from meshforge import batch, symbolic
 from meshforge.common import describe_error, relative_name, write_atomically
-from meshforge.formats import read
+from meshforge.formats import plugin_of_suffix, read
 from meshforge.geometry import digest
 from meshforge.store.layout import Layout
 
@@ -106,7 +106,8 @@ class _FactsMemory:
 
     def __init__(self, file: Path, ids: Collection[str]) -> None:
         self._file, self._ids = file, ids
-        kept = _read_memory(file)
+        self._software = batch.software_version(map(plugin_of_suffix, {Path(key).suffix for key in ids}))
+        kept = _read_memory(file, self._software)
         self.facts = {key: kept[key] for key in ids if key in kept}
         self._has_news = len(self.facts) < len(kept)
         self._kept_at, self._pause = monotonic(), _OFTEN
@@ -124,9 +125,7 @@ class _FactsMemory:
             return
         began = monotonic()
         every = {key: self.facts[key] for key in self._ids if key in self.facts and not self.facts[key].error}
-        write_atomically(
-            self._file, _SurveyFile(form=3, software=batch.software_version(), assets=every).model_dump_json()
-        )
+        write_atomically(self._file, _SurveyFile(form=3, software=self._software, assets=every).model_dump_json())
         self._has_news, self._kept_at = False, monotonic()
         self._pause = max(_OFTEN, (self._kept_at - began) * _SHARE)
 
@@ -136,13 +135,13 @@ def geometry_digest(hulls: Mapping[str, str]) -> str:
     return batch.text_digest("\n".join(f"{name} {known}" for name, known in hulls.items()))
 
 
-def _read_memory(memory: Path) -> dict[str, AssetFacts]:
+def _read_memory(memory: Path, software: str) -> dict[str, AssetFacts]:
     """The facts that were kept; none of them where the file is damaged or from another version."""
     try:
         kept = _SurveyFile.model_validate_json(memory.read_bytes())
     except (OSError, ValidationError):
         return {}
-    return kept.assets if kept.software == batch.software_version() else {}
+    return kept.assets if kept.software == software else {}
 
 
 @dataclass(frozen=True, slots=True)

@@ -16,7 +16,7 @@ from tomlkit.items import InlineTable
 
 from meshforge.batch import SETTINGS, AssetSet, expand
 from meshforge.common import MeshForgeError, ProjectError, UsageError, plain_path, write_atomically
-from meshforge.formats import SUFFIXES, is_asset
+from meshforge.formats import all_suffixes, is_asset
 from meshforge.language import Orient, Program, show
 from meshforge.store.layout import invalid_file
 
@@ -94,7 +94,7 @@ def read_settings(folder: Path) -> Settings:
     except tomllib.TOMLDecodeError as error:
         raise ProjectError(f"this is no TOML: {error}", where=str(path), remedy="Correct the file by hand.") from error
     except ValidationError as error:
-        raise invalid_file(path, error) from error
+        raise invalid_file(path, error, "Correct the file by hand.") from error
 
 
 def write_settings(folder: Path, settings: Settings) -> None:
@@ -272,6 +272,6 @@ def _check_path(base: Path, path: Path) -> Path:
         remedy = "Put it there, or make another project for it."
         raise ProjectError(f"it lies outside of {base}, the folder that ids count from", where=str(path), remedy=remedy)
     if not is_asset(path):
-        remedy = f"Known suffixes: {', '.join(SUFFIXES)}."
+        remedy = f"Known suffixes: {', '.join(all_suffixes())}."
         raise ProjectError("this is no asset that can be read", where=str(path), remedy=remedy)
     return path

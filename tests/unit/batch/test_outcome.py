@@ -5,8 +5,18 @@ import pickle
 
 import pytest
 
-from meshforge.batch import AssetOutcome, Failed, RuleEffect, Skipped, describe_alarms, status_of, to_json_line
+from meshforge.batch import (
+    AssetOutcome,
+    Failed,
+    RuleEffect,
+    RunSummary,
+    Skipped,
+    describe_alarms,
+    status_of,
+    to_json_line,
+)
 from meshforge.batch.outcome import Edited, Unchanged
+from meshforge.language import Program
 
 RULES = (RuleEffect(1, ("a", "b"), ("a~1",), "two pieces"), RuleEffect(2, ()))
 OUTCOMES: list[tuple[str, AssetOutcome]] = [
@@ -58,3 +68,35 @@ def test_the_json_line_of_a_failed_asset_has_the_message_and_no_output() -> None
     line = to_json_line(OUTCOMES[3][1])
     assert line["error"] == "x/t.urdf: no labels"
     assert line["out"] is None and line["rules"] == [] and line["hulls"] == {"before": None, "after": None}
+
+
+PROGRAM = Program.parse("Is(legs) => Delete\nIs(top) => Merge as slab\nIs(slab) => Delete\n")
+
+
+def summary_of(*outcomes: AssetOutcome) -> RunSummary:
+    summary = RunSummary()
+    for outcome in outcomes:
+        summary.add(outcome)
+    return summary
+
+
+def ran(*labels: str) -> Edited:
+    return Edited("t.obj", "out/t.obj", (), 2, 1, 0.1, labels=labels)
+
+
+def test_a_label_that_no_asset_of_a_run_has_is_named_with_the_nearest() -> None:
+    said = "the program asks for 'legs', a label that no asset has; did you mean 'leg'?"
+    assert summary_of(ran("leg"), ran("top")).describe_absent_labels(PROGRAM) == [said]
+    assert summary_of(ran("leg"), ran("top"), ran("legs")).describe_absent_labels(PROGRAM) == []
+
+
+def test_labels_of_assets_that_failed_are_not_claimed_to_be_absent() -> None:
+    (said,) = summary_of(ran("leg", "top"), Failed("f.obj", "no labels", 0.1)).describe_absent_labels(PROGRAM)
+    assert said.startswith("the program asks for 'legs', a label that no asset that was edited has")
+
+
+def test_nothing_is_said_of_labels_that_are_not_known() -> None:
+    """Where no asset has any, or stamps of an earlier version do not say."""
+    assert summary_of().describe_absent_labels(PROGRAM) == summary_of(ran()).describe_absent_labels(PROGRAM) == []
+    old = Skipped("o.obj", "out/o.obj", (), 2, 1, 0.0)
+    assert summary_of(ran("leg"), old, ran("top")).describe_absent_labels(PROGRAM) == []

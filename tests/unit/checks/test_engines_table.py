@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from meshforge.checks import ENGINES
+from meshforge.checks import ENGINES, ENGINES_OF_FORMATS
 from meshforge.checks.limits import Engine
 
 PAGE = Path(__file__).parents[3] / "docs" / "engines.md"
@@ -38,3 +38,13 @@ def test_the_page_shows_each_limit_with_its_source(engine: Engine) -> None:
 def test_every_number_has_a_source(engine: Engine) -> None:
     assert all(limit.source and limit.problem for limit in engine.limits)
     assert engine.primitives_source and (engine.hulls is None or engine.hulls_source)
+
+
+def test_the_page_names_the_engines_that_each_format_is_written_for() -> None:
+    text = PAGE.read_text("utf-8")
+    titles = {"mjcf": "MJCF", "urdf": "URDF", "sdf": "SDF", "usd": "USD"}
+    assert titles.keys() == ENGINES_OF_FORMATS.keys()
+    for form, names in ENGINES_OF_FORMATS.items():
+        listed = ", ".join(ENGINES[name].title.split(" (")[0] for name in names)
+        listed = listed.replace("PhysX on the CPU, PhysX on the GPU", "PhysX on the CPU and on the GPU")
+        assert f"| {titles[form]} | {listed} |" in text

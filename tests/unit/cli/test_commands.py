@@ -131,11 +131,20 @@ def test_select_lists_names_and_as_json(run: Run) -> None:
     assert run("select", "Geo(All, +X)", "row.obj", "--json").json == {"hulls": ["far"]}
 
 
-def test_select_of_a_label_that_no_hull_has_says_so(run: Run) -> None:
+def test_select_of_a_label_that_no_hull_has_names_the_nearest(run: Run) -> None:
     told = run("select", "Is(pannel)", "row.obj")
-    assert told.code == 0
-    assert "no hull here is labelled 'pannel'" in told.err
-    assert "panel" in told.err
+    assert (told.code, told.out) == (2, "")
+    assert told.err == "error: row.obj: no hull is labelled 'pannel'\n  Did you mean 'panel'? Labels are leg, panel.\n"
+    Path("row.labels.json").unlink()
+    said = "no hull is labelled 'panel'\n  Give labels: meshforge label, or --labels."
+    assert run("select", "Is(panel)", "row.obj").err == f"error: row.obj: {said}\n"
+
+
+def test_a_label_of_the_family_need_not_be_on_the_asset(run: Run) -> None:
+    Path("row.labels.json").write_text('{"vocabulary": ["leg", "door"], "hulls": {"left": "leg"}}')
+    told = run("select", "Is(door)", "row.obj")
+    assert (told.code, told.out) == (0, "")
+    assert told.err == "0 of 3 hulls\nno hull here is labelled 'door'\n"
 
 
 def test_render_writes_a_picture_of_the_size_asked_for(run: Run) -> None:
@@ -144,9 +153,27 @@ def test_render_writes_a_picture_of_the_size_asked_for(run: Run) -> None:
         assert picture.size == (300, 200)
 
 
+@pytest.mark.parametrize(
+    "words",
+    [
+        ("render", "row.obj", "-o"),
+        ("render", "row.obj", "--views", "labelling", "--size", "256x256", "-o"),
+        ("select", "Is(leg)", "row.obj", "-o"),
+        ("diff", "row.obj", "row.obj", "-o"),
+    ],
+)
+def test_a_picture_is_a_jpeg_or_png_as_its_suffix_says(run: Run, words: tuple[str, ...]) -> None:
+    assert run(*words, "a.jpg").code == 0
+    with Image.open("a.jpg") as picture:
+        assert picture.format == "JPEG"
+    refused = run(*words, "a.gif")
+    said = "a.gif: .gif is no picture that can be written\n  Pictures end in .png, .jpg, .jpeg."
+    assert (refused.code, refused.out, refused.err) == (2, "", f"error: {said}\n")
+
+
 def test_decompose_makes_hulls_that_info_reads(run: Run) -> None:
     Path("bar.obj").write_text(CUBE.format(*range(1, 9), name="bar", x=0, x1=3))
-    assert run("decompose", "bar.obj", "-o", "hulls.obj", "--no-cache", "--method", "vhacd").code == 0
+    assert run("decompose", "bar.obj", "-o", "hulls.obj", "--no-cache", "--decompose", "vhacd").code == 0
     assert len(run("info", "hulls.obj", "--json").json["hulls"]) >= 1
 
 
@@ -308,7 +335,9 @@ def test_a_check_that_was_killed_goes_on_where_it_was(run: Run) -> None:
     assert run(*words).out == whole.out.replace("0/model.obj: legal", "0/model.obj: kept!").replace(
         "2/model.obj: legal", "2/model.obj: kept!"
     )
-    assert run(*words[:3], "unity", *words[4:]).out == whole.out  # another question: all are asked again
+    assert run(*words[:3], "unity", *words[4:]).out == whole.out.replace(
+        "Unreal", "Unity"
+    )  # another question: all are asked again
 
 
 @pytest.mark.parametrize("text", [b"solid x", b"v 0 0 0\n", b'{"hulls": {}}\n', b"[" * 100_000])
@@ -363,7 +392,7 @@ def test_apply_writes_a_report_with_checks_failures_first(run: Run) -> None:
         (("--check", "fit"), "--check says nothing without --report"),
         (("--report", "r.html", "--dry-run"), "with --dry-run there is nothing to show"),
         (("--report", "r.html", "--check", "fits"), "there is no check 'fits'"),
-        (("--report", "r.html", "--check", "unity", "--check", "bullet"), "two engines for one report: unity, bullet"),
+        (("--report", "r.html", "--check", "unity", "--check", "bullet"), "two engines: unity, bullet"),
         (("--memory", "much"), "'much' is no number of GiB above 0"),
     ],
 )

@@ -176,11 +176,46 @@ def test_a_label_that_no_asset_has_is_named_with_the_nearest(run: Run, tmp_path:
     words = ("apply", "p.mf", f"assets/{FIRST}", "--out", "out", "--labels", f"p/labels/{FIRST}.json", "--workers", "1")
     said = "the program asks for 'legs', a label that no asset has; did you mean 'leg'?\n"
     assert run(*words).err == said
-    selected = run("select", "Is(legs)", FIRST, "--project", "p").err
-    assert selected.startswith("no hull here is labelled 'legs'. Did you mean 'leg'? Labels here: leg, top.\n")
+    assert run(*words).err == said  # that is up to date, and says so again
+    selected = run("select", "Is(legs)", FIRST, "--project", "p")
+    assert (selected.code, selected.out) == (2, "")
+    said = "no hull is labelled 'legs'\n  Did you mean 'leg'? Labels are crumb, leg, top."
+    assert selected.err == f"error: {FIRST}: {said}\n"
+    selected = run("select", "Is(crumb)", FIRST, "--project", "p")  # a label of the family that this asset lacks
+    assert (selected.code, selected.out) == (0, "")
+    assert selected.err == "0 of 6 hulls\nno hull here is labelled 'crumb'\n"
     shown = run("demonstrate", "p", FIRST, "top => Merge as tpo").err
     said = "rule 1: the label 'tpo' is not in the vocabulary\n  Did you mean 'top'? The vocabulary is top, leg, crumb."
     assert shown == f"error: {FIRST}: {said}\n"
     assert not Path("p/demonstrations").exists()
     Project.open("p").set_vocabulary(())  # then it is what the steps and the hulls say
     assert run("demonstrate", "p", FIRST, "top => Merge as tpo").code == 0
+
+
+def test_a_hull_is_known_by_its_number_in_the_list_of_info(run: Run) -> None:
+    listed = run("info", FIRST, "--project", "p").out.splitlines()
+    numbers = {words[1]: words[0] for words in map(str.split, listed) if words and words[0].isdecimal()}
+    assert list(numbers.values()) == [str(k) for k in range(6)]
+    assert run("label", "p", FIRST, f"#{numbers['top']}, #{numbers['crumb']}=top").code == 0
+    assert set(labels_of()) == {"top", "crumb"}
+    refused = run("label", "p", FIRST, "#6=top")
+    assert refused.code == 2
+    assert refused.err.startswith("error: #6=top: no hull has the number #6\n  Hulls have the numbers #0 to #5: ")
+
+
+def test_a_name_counts_before_a_number(run: Run) -> None:
+    path = Path("assets") / FIRST
+    path.write_text(path.read_text().replace("o crumb", "o #0"))
+    assert run("label", "p", FIRST, "#0=crumb").code == 0
+    assert set(labels_of()) == {"#0"}
+
+
+@pytest.mark.parametrize("typed", ["b/t0.obj", "far/t0", "assets/x/t0.obj", "/nowhere/t0.obj"])
+def test_a_path_that_is_not_there_is_taken_by_its_file_name(run: Run, typed: str) -> None:
+    assert run("label", "p", typed, "top=top").out.startswith(f"{FIRST}: ")
+    assert set(labels_of()) == {"top"}
+
+
+def test_of_several_assets_of_a_file_name_the_nearest_path_is_offered_first(run: Run, tmp_path: Path) -> None:
+    refused = run("label", "p", "b/far/t1.obj", "top=top").err
+    assert refused.endswith("'b/far/t1.obj' may be any of 2 assets\n  Say which: b/t1.obj, a/t1.obj.\n")

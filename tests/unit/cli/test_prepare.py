@@ -176,7 +176,7 @@ def test_a_damaged_record_is_taken_back_and_a_folder_in_its_place_is_told(run: R
     record = Path("p/prepared/row.obj/preparation.json")
     record.parent.mkdir(parents=True)
     record.write_text("[" * 100_000)
-    assert "this preparation is damaged: Invalid JSON" in run("status", project).out
+    assert "this preparation is damaged: this JSON is nested too deeply" in run("status", project).out
     told = run("prepare", project, "row.obj", "--remove")
     assert told.code == 0 and told.out == "row.obj: taken back\n    what was kept, which was damaged\n"
     record.mkdir(parents=True)

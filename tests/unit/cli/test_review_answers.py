@@ -71,12 +71,32 @@ def test_replies_are_read_from_a_file(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    "row", [{"choice": 0}, {"id": "a", "choice": True}, {"id": "a", "later": "yes"}, {"id": "a", "pick": 1}, "a", 3]
+    ("row", "problem"),
+    [
+        ({"choice": 0}, "reply 2 has no id"),
+        ("a", "reply 2 has no id"),
+        ({"id": "a", "choice": True}, "reply 2: the choice True is no number from 0"),
+        ({"id": "a", "choice": "x"}, "reply 2: the choice 'x' is no number from 0"),
+        ({"id": "a", "later": "yes"}, "reply 2: 'yes' for later is not true or false"),
+        ({"id": "a", "pick": 1}, "reply 2 has a field 'pick', which is none of a reply"),
+        ({"id": "a", "exceptions": ["b"]}, "reply 2: its exceptions are no labels by ASSET#HULL"),
+        ({"id": "a", "exceptions": {"b": "c"}}, "reply 2: the exception 'b' is no label of an ASSET#HULL"),
+        ({"id": "a", "exceptions": {"b#c": 1}}, "reply 2: the exception 'b#c' is no label of an ASSET#HULL"),
+    ],
 )
-def test_a_file_of_another_form_is_refused(tmp_path: Path, row: object) -> None:
+def test_an_entry_of_another_form_is_named_with_what_is_wrong(tmp_path: Path, row: object, problem: str) -> None:
     path = tmp_path / "said.json"
-    path.write_text(json.dumps([row]))
-    with pytest.raises(UsageError, match="these are no replies"):
+    path.write_text(json.dumps([{"id": "x"}, row]))
+    with pytest.raises(UsageError) as raised:
+        read_replies(path)
+    assert (raised.value.where, raised.value.problem) == (str(path), problem)
+
+
+@pytest.mark.parametrize(("text", "problem"), [("{", "this is no JSON"), ("{}", "this is no list"), ("3", "no list")])
+def test_a_file_of_another_form_is_refused(tmp_path: Path, text: str, problem: str) -> None:
+    path = tmp_path / "said.json"
+    path.write_text(text)
+    with pytest.raises(UsageError, match=problem):
         read_replies(path)
 
 

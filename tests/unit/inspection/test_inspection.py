@@ -27,8 +27,25 @@ def read_pixels(path: Path) -> npt.NDArray[np.uint8]:
 def test_check_says_what_is_beyond_an_engine(path: Path) -> None:
     assert str(mf.check(path)) == "legal" and not mf.check(path).has_failed
     assert mf.check(mf.load(path), "unity").findings == mf.check(str(path), "unity").findings
+    assert str(mf.check(path, "unity")) == "legal (by the limits of Unity, which was not asked itself)"
     with pytest.raises(mf.MeshForgeError, match="untiy"):
         mf.check(path, "untiy")
+
+
+def test_an_engine_that_is_here_is_asked_itself(path: Path) -> None:
+    asked = mf.check(path, "mujoco").trial
+    assert asked and asked.given == "file" and asked.refusal is None
+    edited = mf.Program.parse("Is(leg) => Merge").run(mf.load(path), {}).mesh
+    asked = mf.check(edited, "mujoco").trial  # what no file is of yet is written for it
+    assert asked and asked.given == "conversion" and asked.refusal is None
+    path.write_text(path.read_text().replace("</robot>", '<joint name="j" type="fixed"/></robot>'))
+    with pytest.raises(mf.MeshForgeError, match="table"):
+        mf.check(path, "mujoco")
+
+
+def test_a_check_of_no_plugin_is_refused(path: Path) -> None:
+    with pytest.raises(mf.MeshForgeError, match="there is no check 'absent'"):
+        mf.check(path, checks=["absent"])
 
 
 def test_check_prints_each_finding_with_its_remedy() -> None:

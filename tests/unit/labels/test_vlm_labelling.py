@@ -342,7 +342,7 @@ def test_the_settings_of_the_project_say_whom_to_ask(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("lines", "message"),
     [
-        ('modell = "x"', "the field vlm.modell: Extra inputs are not permitted"),
+        ('modell = "x"', "there is no such field as vlm.modell"),
         ('mode = "thorough"', "the field vlm.mode"),
         ("concurrency = 0", "the field vlm.concurrency"),
         ("input_price = -1", "the field vlm.input_price"),

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from unittest.mock import patch
+
 import numpy as np
 import pytest
 from PIL import Image
@@ -10,12 +12,15 @@ from meshforge.common import UsageError
 from meshforge.rendering import (
     compare,
     draw_before_after,
+    draw_changes,
     draw_difference,
     encode_png,
+    label_colors,
     make_contact_sheet,
+    render,
     render_id_buffer,
 )
-from meshforge.rendering.colors import KEPT, MADE, REMOVED, rgb
+from meshforge.rendering.colors import CHANGED, KEPT, MADE, REMOVED, rgb
 from meshforge.rendering.compare import joint_bounds
 from meshforge.symbolic import SymbolicMesh
 from tests.unit.rendering.scenes import box, edited, hull, near, pixels, table
@@ -44,6 +49,57 @@ def test_before_and_after_stand_side_by_side_with_words_below() -> None:
     assert image.width > 2 * SIZE[0]
     assert image.height > SIZE[1]
     assert pixels(image)[-20:].min() < 0.4
+
+
+def row() -> SymbolicMesh:
+    """Three cubes side by side."""
+    return SymbolicMesh(tuple(hull(name, box((x, 0, 0), (1, 1, 1))) for name, x in (("a", -2), ("b", 0), ("c", 2))))
+
+
+def test_what_is_unchanged_keeps_the_colour_of_render_and_each_change_is_marked() -> None:
+    before = row()
+    wider = hull("b", box((0, 0, 0), (1.4, 1, 1)))
+    after = SymbolicMesh((hull("new", box((-2, 0, 0), (1, 1, 1))), wider, before.hulls[2]))
+    size = (300, 120)
+    sheet = draw_changes(before, after, ["b"], view="front", size=size)
+    gap = (sheet.width - 2 * size[0]) // 3
+    first, second = (pixels(sheet.crop((x, gap, x + size[0], gap + size[1]))) for x in (gap, 2 * gap + size[0]))
+    drawn = pixels(render(before, views=("front",), size=size, legend=False, bounds=joint_bounds(before, after)))
+    items = render_id_buffer(before, view="front", size=size, bounds=joint_bounds(before, after))
+    inner = (np.arange(size[0]) > 225)[None] & (items == 2)
+    assert inner.sum() > 1000
+    assert np.abs(first - drawn)[inner].max() < 0.02
+    assert np.abs(second - drawn)[inner].max() < 0.02
+    assert near(second[60, 60], rgb(MADE))
+    for panel, column, color in ((first, 60, REMOVED), (first, 150, CHANGED), (second, 150, CHANGED)):
+        stripes = panel[45:75, column - 15 : column + 15].reshape(-1, 3)
+        share = np.mean([near(one, rgb(color)) for one in stripes])
+        assert 0.2 < share < 0.9, "stripes of the colour of the change"
+
+
+def test_an_outline_surrounds_what_changed() -> None:
+    before, after = row(), SymbolicMesh(row().hulls[1:])
+    plain = draw_changes(before, before, [], size=SIZE, view="front")
+    assert encode_png(plain) == encode_png(draw_changes(before, before, [], size=SIZE, view="front"))
+    marked = pixels(draw_changes(before, after, [], size=SIZE, view="front"))
+    outside = render_id_buffer(before, view="front", size=SIZE) < 0
+    gap = (plain.width - 2 * SIZE[0]) // 3
+    panel = marked[gap : gap + SIZE[1], gap : gap + SIZE[0]]
+    red = (panel[..., 0] - panel[..., 2] > 0.5) & outside
+    assert red.sum() > 60
+
+
+def test_the_legend_of_changes_has_only_what_there_is() -> None:
+    with patch("meshforge.rendering.compare.make_contact_sheet") as made:
+        draw_changes(table(), edited(), [], size=SIZE)
+    legend = made.call_args.kwargs["colors"]
+    colors = label_colors(["leg", "panel"])
+    assert legend == {
+        "removed 2": REMOVED,
+        "made 1": MADE,
+        "unchanged 3, in their own colours": "",
+        "leg": colors["leg"],
+    }
 
 
 def test_made_hulls_are_green_kept_ones_grey_and_removed_ones_red() -> None:

@@ -18,10 +18,10 @@ from meshforge.rendering import LabelingPicture, draw_labeling_pictures, encode_
 from meshforge.rendering.camera import Camera
 from meshforge.rendering.labeling.page import head_height
 from meshforge.rendering.labeling.picture import LabelingCanvas
-from meshforge.rendering.labeling.placement import LEAST_PIXELS
 from meshforge.rendering.labeling.series import propose_arrangements
 from meshforge.rendering.labeling.subject import Arrangement, LabelingSubject
 from meshforge.rendering.labeling.viewpoints import VIEW_PREFERENCES, VIEW_WORDS
+from meshforge.rendering.placement import LEAST_PIXELS
 from meshforge.symbolic import Asset, Document, Opaque, Surface, SymbolicMesh
 from tests.corpus_path import corpus
 from tests.examples import examples

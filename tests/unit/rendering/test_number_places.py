@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 
 from meshforge.geometry import Floats, Ints
 from meshforge.rendering.annotation import LabelAnchor
-from meshforge.rendering.labeling.placement import (
+from meshforge.rendering.placement import (
     LEAST_PIXELS,
     NumberPlace,
     find_box_crossings,

@@ -36,6 +36,7 @@ const SOURCES: Readonly<Record<string, string>> = {
   consensus: "by consensus",
   vlm: "by a model",
   edit: "by an edit",
+  plugin: "by a plug-in",
 };
 
 /** The name of an asset without the folders it lies in. */

@@ -62,10 +62,10 @@ def compile_text(tree: MjcfTree, flat: FlatText) -> EngineModel:
 
 def parse_text(tree: MjcfTree, flat: FlatText, warnings: list[str] | None = None) -> mujoco.MjSpec:
     """The spec of a tree's text, assets not yet read; warnings: gets those of MuJoCo. Raises AssetError."""
-    with _collect_warnings([] if warnings is None else warnings), _provide_files(tree, flat) as vfs:
+    with collect_warnings([] if warnings is None else warnings), _provide_files(tree, flat) as vfs:
         try:
             return mujoco.MjSpec.from_file(str(tree.main.path), vfs=vfs)
-        except _failure_types() as error:
+        except failure_types() as error:
             raise _error_of(str(error), tree, flat) from None
 
 
@@ -75,10 +75,10 @@ def compile_spec(tree: MjcfTree, flat: FlatText, spec: mujoco.MjSpec, warnings: 
     geoms = geoms_of(bodies)
     _refuse_bad_poses(tree, flat, bodies, geoms)
     heard = list(warnings)
-    with _collect_warnings(heard), _provide_files(tree, flat) as vfs:
+    with collect_warnings(heard), _provide_files(tree, flat) as vfs:
         try:
             model = spec.compile(vfs=vfs)
-        except _failure_types() as error:
+        except failure_types() as error:
             raise _error_of(str(error), tree, flat) from None
     messages = tuple(dict.fromkeys(_clean_message(warning) for warning in heard))
     in_order = tuple(sorted(bodies, key=lambda body: body.id)), tuple(sorted(geoms, key=lambda geom: geom.id))
@@ -111,7 +111,8 @@ def _describe_bad_pose(thing: mujoco.MjsBody | mujoco.MjsGeom) -> str | None:
     return None
 
 
-def _failure_types() -> tuple[type[Exception], ...]:
+def failure_types() -> tuple[type[Exception], ...]:
+    """What MuJoCo raises."""
     return (ValueError, RuntimeError, mujoco.FatalError, mujoco.UnexpectedError)
 
 
@@ -128,7 +129,7 @@ def _provide_files(tree: MjcfTree, flat: FlatText) -> Iterator[mujoco.MjVfs]:
 
 
 @contextmanager
-def _collect_warnings(warnings: list[str]) -> Iterator[None]:
+def collect_warnings(warnings: list[str]) -> Iterator[None]:
     """Warnings go into a list, neither to the console nor to a MUJOCO_LOG.TXT in the current folder."""
     with _LOCK, python_warnings.catch_warnings(record=True) as raised:
         python_warnings.simplefilter("always")

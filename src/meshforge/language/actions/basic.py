@@ -1,4 +1,4 @@
-"""The actions: Replace and Add, which insert shapes; Delete, Merge, Scale and Each; and the registry of all by name."""
+"""The actions: Replace and Add, which insert shapes; Delete, Merge, Scale and Each."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from meshforge.language.actions.base import (
     join_alternatives,
 )
 from meshforge.language.actions.edit import GroupEdit, HullGroup, NewShape
-from meshforge.language.directions import Direction
+from meshforge.language.words import Direction
 from meshforge.symbolic import SymbolicMesh, split_by_contact
 
 _FILL_SHAPES: Mapping[str, Callable[[Aabb], Shape]] = {
@@ -228,6 +228,3 @@ class Each(Action):
     @property
     def makes_hulls(self) -> bool:
         return self.action.makes_hulls
-
-
-ACTIONS: Mapping[str, type[Action]] = {kind.__name__: kind for kind in (Delete, Replace, Add, Merge, Scale, Each)}

@@ -13,9 +13,9 @@ from meshforge.geometry import Floats
 from meshforge.rendering.annotation import INK, font, shorten, text_width
 from meshforge.rendering.camera import Camera
 from meshforge.rendering.colors import hexadecimal
-from meshforge.rendering.labeling.placement import NumberPlace, TextSize
 from meshforge.rendering.light import shade
 from meshforge.rendering.paint import BORDER, CREASE, LineStrengths, trace_lines
+from meshforge.rendering.placement import TextSize
 from meshforge.rendering.raycast import RayHits, ViewFrame, neighbour_slices
 
 if TYPE_CHECKING:
@@ -123,28 +123,6 @@ def _draw_up_arrow(draw: Any, camera: Camera, upright: Floats, at: tuple[float, 
         for turn in (0.6, -0.6):
             draw.line((x - 0.6 * arm, y - turn * arm, x + 0.6 * arm, y + turn * arm), INK, wide)
     draw.text((x - 1.6 * arm, y), "up, towards you" if towards else "up, away from you", INK, font(small), "rm")
-
-
-def draw_numbers(draw: Any, places: Sequence[NumberPlace], texts: Mapping[int, str], colors: Floats, top: int) -> None:
-    """Writes numbers at their places in a drawing that lies `top` pixels below the upper edge; colors: (n, 3)."""
-    for place in places:
-        if place.spot:
-            x, y = place.spot[0], place.spot[1] + top
-            middle = place.center[0], place.center[1] + top
-            draw.line((x, y, *middle), "white", 5)
-            draw.line((x, y, *middle), INK, 2)
-    for place in places:
-        left, above, right, below = place.box
-        middle = place.center[0], place.center[1] + top
-        text, type_ = texts[place.item], font(place.height)
-        if place.spot:
-            x, y, dot = place.spot[0], place.spot[1] + top, max(3, place.height // 7)
-            draw.ellipse((x - dot, y - dot, x + dot, y + dot), INK, "white", 1)
-            edge = hexadecimal(colors[place.item] * 0.8)
-            draw.rounded_rectangle((left, above + top, right, below + top), place.height // 4, "white", edge, 2)
-            draw.text(middle, text, INK, type_, "mm")
-        else:
-            draw.text(middle, text, INK, type_, "mm", stroke_width=max(2, place.height // 6), stroke_fill="white")
 
 
 class NumberLegend:

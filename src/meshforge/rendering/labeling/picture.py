@@ -16,9 +16,9 @@ from meshforge.rendering.camera import Camera, View
 from meshforge.rendering.colors import PALE, rgb
 from meshforge.rendering.labeling import page
 from meshforge.rendering.labeling.page import PagePixels, draw_surfaces, lay_ink, to_square_image, trace_ink
-from meshforge.rendering.labeling.placement import LEAST_PIXELS, TextSize, place_numbers
 from meshforge.rendering.labeling.subject import NEUTRAL, Arrangement, LabelingSubject
 from meshforge.rendering.paint import LineStrengths
+from meshforge.rendering.placement import LEAST_PIXELS, TextSize, draw_texts, place_numbers
 from meshforge.rendering.raycast import RayHits
 
 if TYPE_CHECKING:
@@ -159,7 +159,7 @@ class LabelingCanvas:
             column, row = ((first + last) / 2).round().astype(int).tolist()
             known[alone] = LabelAnchor(column, row, 0.0)
         places = place_numbers(items, self._number_sizes, known, taken)
-        page.draw_numbers(draw, places, self.subject.number_texts, self.subject.colors, top)
+        draw_texts(draw, places, self.subject.number_texts, self.subject.colors, (0, top))
         return sorted(place.item for place in places)
 
 

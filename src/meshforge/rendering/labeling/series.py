@@ -10,10 +10,10 @@ from meshforge.common import UsageError, suggest_name
 from meshforge.geometry import Aabb, Floats
 from meshforge.rendering.camera import Up, View
 from meshforge.rendering.labeling.picture import LabelingCanvas, LabelingPicture
-from meshforge.rendering.labeling.placement import LEAST_PIXELS
 from meshforge.rendering.labeling.subject import PREVIEW_SIZE, Arrangement, LabelingSubject
 from meshforge.rendering.labeling.viewpoints import VIEW_PREFERENCES, choose_views
 from meshforge.rendering.picture import up_axis
+from meshforge.rendering.placement import LEAST_PIXELS
 from meshforge.symbolic import SymbolicMesh
 
 LABELING_SIZES = range(256, 4097)

@@ -25,7 +25,7 @@ from starlette.staticfiles import StaticFiles
 from starlette.types import ASGIApp, Scope
 
 from meshforge.batch import STATE, hold_lock
-from meshforge.common import MeshForgeError, ProjectError, UsageError
+from meshforge.common import MeshForgeError, ProjectError, UsageError, describe_invalid_field
 from meshforge.project import Project
 from meshforge.studio.api import connection, routes
 from meshforge.studio.api.connection import Guard
@@ -167,9 +167,7 @@ def _handle_fault(_: Request, error: Exception) -> JSONResponse:
 
 def _handle_invalid(_: Request, error: Exception) -> JSONResponse:
     assert isinstance(error, RequestValidationError)
-    first = error.errors()[0]
-    field = ".".join(str(step) for step in first["loc"])
-    return _respond(Problem(message=f"{field}: {first['msg']}"), 400)
+    return _respond(Problem(message=describe_invalid_field(error.errors()[0])), 400)
 
 
 def _handle_http(_: Request, error: Exception) -> JSONResponse:

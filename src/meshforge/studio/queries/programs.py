@@ -93,16 +93,32 @@ def mark_error(error: MeshForgeError, line: int = 0, column: int = 0) -> wire.Ma
 
 def build_language_view() -> wire.LanguageView:
     """Actions, operators and directions; `Each` is no form of its own."""
-    forms = tuple(_action_form(name, kind) for name, kind in language.ACTIONS.items() if kind is not language.Each)
+    forms = (_try_action_form(name, kind) for name, kind in language.ACTIONS.loadable().items())
     return wire.LanguageView(
-        actions=forms, operators=tuple(map(_operator_view, language.OPERATORS)), directions=language.DIRECTIONS
+        actions=tuple(form for form in forms if form),
+        operators=tuple(map(_operator_view, language.OPERATORS)),
+        directions=language.DIRECTIONS,
     )
+
+
+def _try_action_form(name: str, kind: type[language.Action]) -> wire.ActionForm | None:
+    """The form of an action; None for `Each`, and for one of a plug-in whose arguments the page has no fields for."""
+    if kind is language.Each or (name not in language.ACTIONS.built_in and not _has_fields(kind)):
+        return None
+    try:
+        return _action_form(name, kind)
+    except MeshForgeError:  # a plug-in's, whose arguments do not go together so
+        return None
+
+
+def _has_fields(kind: type[language.Action]) -> bool:
+    return all(type(argument) in _KINDS for argument in kind.arguments().values())
 
 
 def _action_form(name: str, kind: type[language.Action]) -> wire.ActionForm:
     given = kind.arguments()
     required = list(given)[: kind.min_arguments()]
-    example = kind(*(_example_value(given[one]) for one in required))
+    example = language.make_action(kind, [_example_value(given[one]) for one in required])
     return wire.ActionForm(
         name=name,
         summary=kind.summary(),

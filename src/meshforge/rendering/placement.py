@@ -1,4 +1,4 @@
-"""Where the numbers of hulls go: onto what is seen of each, or beside it with a line that leads there."""
+"""Where the numbers or names of hulls go: onto what is seen of each, or beside it with a line that leads there."""
 
 from __future__ import annotations
 
@@ -9,7 +9,8 @@ from typing import Any
 import numpy as np
 
 from meshforge.geometry import Floats, Ints
-from meshforge.rendering.annotation import LabelAnchor, PixelBox, count_pixels, find_label_anchors
+from meshforge.rendering.annotation import INK, LabelAnchor, PixelBox, count_pixels, find_label_anchors, font
+from meshforge.rendering.colors import hexadecimal
 
 LEAST_PIXELS = 24
 """Pixels of a hull that must be seen for it to be numbered."""
@@ -149,6 +150,32 @@ class _FreeSpace:
         inside = summed[bottom, right] - summed[top, right] - summed[bottom, left] + summed[top, left]
         shares: Floats = inside / np.maximum((right - left) * (bottom - top), 1)
         return shares
+
+
+def draw_texts(
+    draw: Any, places: Sequence[NumberPlace], texts: Mapping[int, str], colors: Floats, corner: tuple[int, int]
+) -> None:
+    """Writes the texts of hulls at their places in a drawing; colors: (n, 3); corner: where the drawing lies [px]."""
+    right, down = corner
+    for place in places:
+        if place.spot:
+            ends = [(x + right, y + down) for x, y in (place.spot, place.center)]
+            draw.line(ends, "white", 5)
+            draw.line(ends, INK, 2)
+    for place in places:
+        (left, above, beyond, below), (x, y) = place.box, place.center
+        text, type_, middle = texts[place.item], font(place.height), (x + right, y + down)
+        if place.spot:
+            x, y, dot = place.spot[0] + right, place.spot[1] + down, max(3, place.height // 7)
+            draw.ellipse((x - dot, y - dot, x + dot, y + dot), INK, "white", 1)
+            box, edge = (
+                (left + right, above + down, beyond + right, below + down),
+                hexadecimal(colors[place.item] * 0.8),
+            )
+            draw.rounded_rectangle(box, place.height // 4, "white", edge, 2)
+            draw.text(middle, text, INK, type_, "mm")
+        else:
+            draw.text(middle, text, INK, type_, "mm", stroke_width=max(2, place.height // 6), stroke_fill="white")
 
 
 def _integral_image(mask: Any) -> Ints:

@@ -1,4 +1,4 @@
-"""The six directions along the axes."""
+"""The words of the language besides actions and labels: operators and directions."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ from typing import Literal, get_args
 
 from meshforge.common import ProgramError
 
+OPERATORS = ("All", "Is", "Attach", "Geo", "Union", "Intersect", "Diff")
 Direction = Literal["+X", "-X", "+Y", "-Y", "+Z", "-Z"]
 DIRECTIONS: tuple[Direction, ...] = get_args(Direction)
 

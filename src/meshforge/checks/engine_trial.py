@@ -1,0 +1,72 @@
+"""What an asset was held against where an engine was named: our table of its limits alone, or the engine itself."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Any, Literal
+
+from meshforge.checks.engines import find_engine
+from meshforge.checks.legality import Finding
+
+Given = Literal["file", "conversion"]
+"""The file itself, or what `meshforge convert` makes of it for the engine."""
+
+
+@dataclass(frozen=True, slots=True)
+class EngineTrial:
+    """What an engine says of an asset, besides our table of its limits.
+
+    engine, file: names; asked: the program and version that was run, None where none was; given: what it was given;
+    refusal, warnings: in its own words; untried: why an engine that can be asked was not, empty for one that cannot;
+    remedy: for a refusal, or for one that was not tried.
+    """
+
+    engine: str
+    file: str = ""
+    asked: str | None = None
+    given: Given | None = None
+    refusal: str | None = None
+    warnings: tuple[str, ...] = ()
+    untried: str = ""
+    remedy: str = ""
+
+    @property
+    def description(self) -> str | None:
+        """What was asked, in a sentence; None where findings say all."""
+        title = find_engine(self.engine).title
+        if self.refusal or self.untried:
+            return None
+        return (
+            f"{self.asked} takes {self._subject}"
+            if self.asked
+            else f"by the limits of {title}, which was not asked itself"
+        )
+
+    @property
+    def findings(self) -> Iterator[Finding]:
+        """What the engine said against the asset, or that it was not asked though it can be."""
+        if self.untried:
+            message = f"not tried in {find_engine(self.engine).title}: {self.untried}"
+            yield Finding(f"{self.engine}-untried", "warning", (), message, self.remedy)
+        if self.refusal:
+            message = f"{self.asked} refuses {self._subject}: {self.refusal}"
+            yield Finding(f"{self.engine}-refused", "error", (), message, self.remedy or "Fix what the message names.")
+        for warning in self.warnings:
+            yield Finding(f"{self.engine}-warned", "warning", (), f"{self.asked} warns: {warning}", "")
+
+    def to_json(self) -> dict[str, Any]:
+        """The trial as JSON-able data; `against` is `engine` where the engine itself was asked, else `limits`."""
+        return {
+            "name": self.engine,
+            "against": "engine" if self.asked else "limits",
+            "asked": self.asked,
+            "given": self.given,
+            "refused": self.refusal,
+            "warnings": list(self.warnings),
+            "untried": self.untried or None,
+        }
+
+    @property
+    def _subject(self) -> str:
+        return self.file if self.given == "file" else f"what `meshforge convert` makes of {self.file}"

@@ -1,0 +1,29 @@
+"""One command of the command line, which knows other spellings of its options: each is an error that names the one."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from typer.core import TyperCommand
+
+from meshforge.common import UsageError
+
+OTHER_SPELLINGS = {
+    "--again": ("--fresh", "--redo", "--rerun", "--force"),
+    "--decompose": ("--method", "--engine", "--decomposer"),
+}
+"""What options were called once, or are called elsewhere, by what they are called here."""
+
+
+class Command(TyperCommand):
+    """Raises UsageError for another spelling of an option that the command has."""
+
+    def parse_args(self, ctx: Any, args: list[str]) -> list[str]:  # ctx: Typer hides its type
+        known = {spelling for parameter in self.params for spelling in parameter.opts}
+        typed = {word.partition("=")[0] for word in (args[: args.index("--")] if "--" in args else args)}
+        for name in known & OTHER_SPELLINGS.keys():
+            for other in OTHER_SPELLINGS[name]:
+                if other in typed - known:
+                    remedy = f"All options: meshforge {self.name} --help"
+                    raise UsageError(f"meshforge {self.name} has no {other}: it is {name}", remedy=remedy)
+        return super().parse_args(ctx, args)

@@ -1,0 +1,60 @@
+"""`meshforge plugins`: what other packages add, and whether it loads."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import typer
+
+from meshforge.checks import CHECKS
+from meshforge.cli import options
+from meshforge.cli.console import print_table
+from meshforge.cli.terminal import print_json
+from meshforge.common import PLUGIN_KINDS, Plugin, PluginKind, Registry, find_plugins
+from meshforge.formats import PLUGIN_FORMATS
+from meshforge.labels import LABELERS
+from meshforge.language import ACTIONS
+
+_REGISTRIES: dict[PluginKind, Registry[Any]] = {
+    "formats": PLUGIN_FORMATS,
+    "actions": ACTIONS,
+    "labelers": LABELERS,
+    "checks": CHECKS,
+}
+
+
+@dataclass(frozen=True, slots=True)
+class PluginsArguments:
+    """What is typed after `meshforge plugins`."""
+
+    json: options.Json = False
+
+
+@options.takes(PluginsArguments)
+def plugins(given: PluginsArguments) -> None:
+    """List the plug-ins that are installed: kind, name, package, version, and whether each loads.
+
+    Exit code 1 when one does not; the reason is beside it.
+    """
+    found = [plugin for kind in PLUGIN_KINDS for plugin in find_plugins(kind)]
+    rows = [(plugin, _REGISTRIES[plugin.kind].find_problem(plugin)) for plugin in found]
+    if given.json:
+        print_json([_to_row(plugin, problem) for plugin, problem in rows])
+    elif rows:
+        cells = [(one.kind, one.name, one.package, one.version, problem or "yes") for one, problem in rows]
+        print_table(("kind", "name", "package", "version", "loads"), cells)
+    else:
+        typer.echo("There are no plug-ins. docs/plugins.md shows how to write one.")
+    raise typer.Exit(int(any(problem for _, problem in rows)))
+
+
+def _to_row(plugin: Plugin, problem: str | None) -> dict[str, Any]:
+    return {
+        "kind": plugin.kind,
+        "name": plugin.name,
+        "package": plugin.package,
+        "version": plugin.version,
+        "loads": problem is None,
+        "reason": problem,
+    }

@@ -1,0 +1,241 @@
+"""Plug-ins: what other packages add by entry points. They are found without loading them, loaded when first asked for,
+and named in every error that they cause."""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Callable, Collection, Iterator, Mapping
+from contextlib import contextmanager, suppress
+from dataclasses import dataclass
+from functools import cache
+from importlib import import_module
+from pathlib import Path
+from typing import Any, Generic, Literal, TypeVar, get_args
+
+from meshforge.common.messages import MeshForgeError, PluginError
+
+PluginKind = Literal["formats", "actions", "labelers", "checks"]
+PLUGIN_KINDS: tuple[PluginKind, ...] = get_args(PluginKind)
+_WORDS = {"formats": "format .", "actions": "action ", "labelers": "labeller ", "checks": "check "}
+_GROUP = "meshforge."
+
+T = TypeVar("T")
+
+
+@dataclass(frozen=True, slots=True)
+class Plugin:
+    """One entry point of an installed package; target: what it loads, `module:attribute`."""
+
+    kind: PluginKind
+    name: str
+    package: str
+    version: str
+    target: str
+
+    def __str__(self) -> str:
+        return f"the {_WORDS[self.kind]}{self.name} of the package {self.package} {self.version}"
+
+    def error(self, problem: str, where: str | None = None, remedy: str | None = None) -> PluginError:
+        """The error that this plug-in `problem`, such as `makes a hull that is not convex`."""
+        return PluginError(f"{self} {problem}", where=where, remedy=remedy or f"Update or uninstall {self.package}.")
+
+    def load(self) -> Any:
+        """What the entry point names. Raises PluginError where it cannot be imported."""
+        module, _, attribute = self.target.partition(":")
+        try:
+            found: Any = import_module(module)
+            for step in attribute.split("."):
+                found = getattr(found, step)
+            return found
+        except ModuleNotFoundError as error:
+            if error.name and f"{module}.".startswith(f"{error.name}."):
+                remedy = f"Install {self.package} {self.version} here, as where the work was started."
+                raise self.error(f"is not installed here (no module {error.name!r})", remedy=remedy) from error
+            raise self.error(f"cannot be loaded: {error}") from error
+        except (Exception, SystemExit) as error:
+            raise self.error(f"cannot be loaded: {_describe(error)}") from error
+
+
+def _describe(error: BaseException) -> str:
+    return f"{type(error).__name__}: {error}".removesuffix(": ")
+
+
+@contextmanager
+def blame(plugin: Plugin | None, where: str | None = None) -> Iterator[None]:
+    """Turn whatever is raised meanwhile into a PluginError about `where`; None: it is no plug-in's work.
+
+    Errors that say what is wrong (MeshForgeError) stay as they are.
+    """
+    try:
+        yield
+    except MeshForgeError as error:
+        if plugin is None or where is None or error.where:
+            raise
+        raise error.at(where) from error
+    except MemoryError:
+        raise
+    except (Exception, SystemExit) as error:
+        if plugin is None:
+            raise
+        remedy = f"Report it to the authors of {plugin.package}."
+        raise plugin.error(f"failed: {_describe(error)}", where, remedy) from error
+
+
+_adopted: dict[PluginKind, tuple[Plugin, ...]] = {}
+
+
+def find_plugins(kind: PluginKind) -> tuple[Plugin, ...]:
+    """The plug-ins of a kind that are installed, by name and package; looked for once in a process."""
+    return _adopted[kind] if kind in _adopted else _find(kind)
+
+
+def collect_plugins() -> dict[PluginKind, tuple[Plugin, ...]]:
+    """The plug-ins of all kinds, for another process to adopt."""
+    return {kind: find_plugins(kind) for kind in PLUGIN_KINDS}
+
+
+def adopt_plugins(known: Mapping[PluginKind, tuple[Plugin, ...]]) -> None:
+    """Take the plug-ins that the process has which gave this one its work, so that what is missing here has a name."""
+    _adopted.update(known)
+
+
+def forget_plugins() -> None:
+    """Look for plug-ins anew, as after a package was installed."""
+    _adopted.clear()
+    _find.cache_clear()
+    _read_mentions.cache_clear()
+
+
+@cache
+def _find(kind: PluginKind) -> tuple[Plugin, ...]:
+    if f"[{_GROUP}{kind}]" not in _read_mentions():
+        return ()
+    from importlib.metadata import entry_points  # lazy: it takes 0.02 s, and most people have no plug-in
+
+    found = {
+        Plugin(kind, point.name, point.dist.name, point.dist.version, point.value.partition("[")[0].strip())
+        for point in entry_points(group=f"{_GROUP}{kind}")
+        if point.dist
+    }
+    return tuple(sorted(found, key=lambda one: (one.name, one.package)))
+
+
+@cache
+def _read_mentions() -> frozenset[str]:
+    """The groups of plug-ins that entry points of any package name, read ten times as fast as by importlib.metadata.
+
+    A path that is no folder, such as a zip file, may hold all of them.
+    """
+    groups = {f"[{_GROUP}{kind}]" for kind in PLUGIN_KINDS}
+    found = set[str]()
+    for base in dict.fromkeys(sys.path):
+        if Path(base).is_file():
+            return frozenset(groups)
+        with suppress(OSError), os.scandir(base or ".") as entries:
+            for entry in entries:
+                if entry.name.endswith((".dist-info", ".egg-info", ".egg")):
+                    text = _read_entry_points(entry.path)
+                    found |= {group for group in groups if group in text} if _GROUP in text else set()
+    return frozenset(found)
+
+
+def _read_entry_points(folder: str) -> str:
+    for name in ("entry_points.txt", "EGG-INFO/entry_points.txt"):
+        with suppress(OSError):
+            return Path(folder, name).read_text(encoding="utf-8", errors="replace")
+    return ""
+
+
+class Registry(Mapping[str, T], Generic[T]):
+    """Things of one kind by name: those that are built in, then those of plug-ins, each loaded when first asked for.
+
+    adopt: makes of what a plug-in has loaded what this registry holds; raises PluginError where it does not fit.
+    reserved: names that no plug-in may take, besides those built in. A name that is built in always stays that.
+    """
+
+    def __init__(
+        self,
+        kind: PluginKind,
+        built_in: Mapping[str, T],
+        adopt: Callable[[Plugin, Any], T],
+        reserved: Collection[str] = (),
+    ) -> None:
+        self.kind, self.built_in, self._adopt, self._reserved = kind, built_in, adopt, reserved
+        self._loaded: dict[Plugin, T | PluginError] = {}
+
+    def __getitem__(self, name: str) -> T:
+        """The thing of a name. Raises KeyError where there is none, PluginError where a plug-in fails."""
+        if name in self.built_in:
+            return self.built_in[name]
+        plugin = self.plugin(name)
+        if plugin is None:
+            raise KeyError(name)
+        return self.load(plugin)
+
+    def __contains__(self, name: object) -> bool:
+        return name in self.built_in or (isinstance(name, str) and bool(self._claims(name)))
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(dict.fromkeys([*self.built_in, *self.plugin_names]))
+
+    def __len__(self) -> int:
+        return len(list(iter(self)))
+
+    @property
+    def plugin_names(self) -> tuple[str, ...]:
+        """The names that plug-ins have, without loading these."""
+        names = dict.fromkeys(plugin.name for plugin in find_plugins(self.kind))
+        return tuple(name for name in names if not self._is_taken(name))
+
+    def plugin(self, name: str) -> Plugin | None:
+        """The plug-in of a name, None where there is none. Raises PluginError where two packages have it."""
+        claims = self._claims(name)
+        if len(claims) > 1:
+            raise _clash(claims)
+        return claims[0] if claims else None
+
+    def load(self, plugin: Plugin) -> T:
+        """What a plug-in adds. Raises PluginError where it cannot be loaded, or does not fit."""
+        if plugin not in self._loaded:
+            try:
+                self._loaded[plugin] = self._adopt(plugin, plugin.load())
+            except PluginError as error:
+                self._loaded[plugin] = error
+        found = self._loaded[plugin]
+        if isinstance(found, PluginError):
+            raise type(found)(found.problem, where=found.where, remedy=found.remedy)
+        return found
+
+    def find_problem(self, plugin: Plugin) -> str | None:
+        """Why a plug-in cannot be used, None where it can."""
+        if self._is_taken(plugin.name):
+            return f"{plugin}: MeshForge itself has this name. Rename it in {plugin.package}."
+        try:
+            self.plugin(plugin.name)
+            self.load(plugin)
+        except PluginError as error:
+            return error.sentence
+        return None
+
+    def loadable(self) -> dict[str, T]:
+        """All that is built in, and all plug-ins that can be used."""
+        found = dict(self.built_in)
+        for name in self.plugin_names:
+            with suppress(PluginError):
+                found[name] = self[name]
+        return found
+
+    def _is_taken(self, name: str) -> bool:
+        return name in self.built_in or name in self._reserved
+
+    def _claims(self, name: str) -> list[Plugin]:
+        if not name or self._is_taken(name):
+            return []
+        return [plugin for plugin in find_plugins(self.kind) if plugin.name == name]
+
+
+def _clash(claims: list[Plugin]) -> PluginError:
+    packages = " and ".join(f"{plugin.package} {plugin.version}" for plugin in claims)
+    what = f"the {_WORDS[claims[0].kind]}{claims[0].name}"
+    return PluginError(f"{what} is in several packages: {packages}", remedy="Uninstall all but one of them.")

@@ -1,0 +1,112 @@
+"""The families by name, and writing one into a folder without touching what a user has there."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+from meshforge.common import UsageError, suggest_among, write_atomically
+from meshforge.samples.bottles import build_bottles
+from meshforge.samples.chairs import build_chairs
+from meshforge.samples.cups import build_cups
+from meshforge.samples.parts import Files
+
+TABLES = Path(__file__).parent / "tables"
+"""Fourteen tables as OBJ files with their labels beside them; `tables.mf`, `templates/` and `demonstrations/`."""
+
+
+def _read_tables() -> Files:
+    """The bundled tables with their labels."""
+    return {path.name: path.read_bytes() for path in sorted(TABLES.glob("table_*"))}
+
+
+@dataclass(frozen=True, slots=True)
+class SampleFamily:
+    """A family of assets that MeshForge writes.
+
+    about: what they are, in a line; pattern: a glob that finds them in their folder; vocabulary: of their labels;
+    build: makes what the files hold.
+    """
+
+    name: str
+    about: str
+    pattern: str
+    vocabulary: tuple[str, ...]
+    build: Callable[[], Files]
+
+
+FAMILIES = (
+    SampleFamily(
+        "bottles",
+        "12 bottles as OBJ, 1 to 17 hulls each: bodies in slices, caps, a pump, a trigger",
+        "*.obj",
+        ("body", "cap"),
+        build_bottles,
+    ),
+    SampleFamily(
+        "cups",
+        "12 cups as URDF, 10 to 41 hulls each: walls of tiles, none to three handles",
+        "**/*.urdf",
+        ("base", "wall", "handle", "lid"),
+        build_cups,
+    ),
+    SampleFamily(
+        "chairs",
+        "10 chairs as GLB and glTF, 6 to 25 hulls each: colliders as KHR, Unreal, Godot and Unity have them",
+        "*.gl*",
+        ("seat", "leg", "back", "arm", "rail"),
+        build_chairs,
+    ),
+    SampleFamily(
+        "tables",
+        "14 tables as OBJ, 26 to 66 hulls each, decomposed by CoACD: those of `meshforge demo`",
+        "*.obj",
+        ("panel", "leg", "handle", "drawer", "misc"),
+        _read_tables,
+    ),
+)
+"""Every family, with its assets in the order of their names."""
+
+
+def family_of(name: str) -> SampleFamily:
+    """The family of a name. Raises UsageError, naming the nearest."""
+    known = {family.name: family for family in FAMILIES}
+    if name not in known:
+        raise UsageError(f"there is no family {name!r}", remedy=suggest_among(name, known, "There are"))
+    return known[name]
+
+
+def write_family(family: SampleFamily, folder: Path) -> int:
+    """Write the files of a family below a folder; how many were missing there.
+
+    A folder that holds all of them already is left as it is, whatever else it holds.
+    Raises UsageError: a file of another content would be replaced, or files are missing where others are.
+    """
+    if folder.exists() and not folder.is_dir():
+        raise UsageError("this is a file", where=str(folder), remedy="Name a folder.")
+    files = family.build()
+    missing = []
+    for path, content in files.items():
+        target = folder / path
+        if not (target.exists() or target.is_symlink()):
+            missing.append(path)
+        elif not target.is_file() or target.read_bytes() != content:
+            raise _refuse(family, folder, path)
+    if missing and (other := _find_other(folder, files)):
+        raise _refuse(family, folder, other)
+    for path in missing:
+        write_atomically(folder / path, files[path])
+    return len(missing)
+
+
+def _find_other(folder: Path, files: Files) -> str | None:
+    """A file below a folder that is none of a family."""
+    below = sorted(path for path in folder.rglob("*") if not path.is_dir())
+    return next((name for path in below if (name := path.relative_to(folder).as_posix()) not in files), None)
+
+
+def _refuse(family: SampleFamily, folder: Path, other: str) -> UsageError:
+    problem = f"this folder holds something else: {other}"
+    remedy = f"Nothing was written; name an empty folder: meshforge samples {family.name} DIR"
+    return UsageError(problem, where=str(folder), remedy=remedy)

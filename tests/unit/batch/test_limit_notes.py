@@ -1,0 +1,92 @@
+"""What `check --engine` would refuse is never written without a note: each action, each format with engines."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from meshforge.batch import IN_PROCESS, ApplyOptions, AssetJob, Failed, apply, load_named_templates
+from meshforge.checks import ENGINES, ENGINES_OF_FORMATS, check
+from meshforge.formats import load, save
+from meshforge.geometry import Aabb, Box, convex_hull
+from meshforge.language import Program
+from meshforge.symbolic import Hull, Label, SymbolicMesh, write_labels
+from tests.unit.cli.in_process import Run, runner
+
+SUFFIXES = {"mjcf": ".xml", "urdf": ".urdf", "sdf": ".sdf", "usd": ".usda"}
+ACTIONS = (
+    *("Merge", "Replace(cylinder)", "Replace(cylinder, native)", "Replace(capsule, native)"),
+    *("Replace(sphere, native)", "Scale(all, 0.00001)", 'Each(Replace("ball.obj"))', 'Add(+Z, "ball.obj")'),
+)
+
+
+def ball(vertices: int) -> SymbolicMesh:
+    points = np.random.default_rng(0).normal(size=(vertices, 3))
+    return SymbolicMesh((Hull("ball", "body", convex_hull(points / np.linalg.norm(points, axis=1, keepdims=True))),))
+
+
+def table() -> SymbolicMesh:
+    top = Box.of_bounds(Aabb([0, 0, 1], [2, 1, 1.1])).tessellate()
+    leg = Box.of_bounds(Aabb([0, 0, 0], [0.1, 0.2, 1])).tessellate()
+    return SymbolicMesh((Hull("top", "body", top, Label("top")), Hull("leg", "body", leg, Label("leg"))))
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("form", ENGINES_OF_FORMATS)
+@pytest.mark.parametrize("action", ACTIONS)
+def test_each_hull_that_an_engine_of_the_format_refuses_or_lacks_is_in_a_note(
+    form: str, action: str, tmp_path: Path
+) -> None:
+    saved = save(table(), tmp_path / f"in/table{SUFFIXES[form]}")
+    labels = tmp_path / "labels.json"
+    mesh = load(saved.path)
+    names = {hull.name: hull.name.split("/")[-1] for hull in mesh.hulls}
+    write_labels(
+        labels, mesh.with_hulls(Hull(h.name, h.body, h.shape, Label(names[h.name])) for h in mesh.hulls), ("top", "leg")
+    )
+    save(ball(300), tmp_path / "ball.obj")
+    program = Program.parse(f"labels top, leg\nIs(leg) => {action}\n")
+    (outcome,) = apply(
+        program,
+        [AssetJob(saved.path.name, saved.path, saved.path.parent, labels)],
+        tmp_path / "out",
+        templates=load_named_templates(program.templates, [tmp_path]),
+        execution=IN_PROCESS,
+    )
+    assert not isinstance(outcome, Failed), outcome.error
+    written = load(outcome.out)
+    for engine in ENGINES_OF_FORMATS[form]:
+        title = ENGINES[engine].title
+        notes = [note for note in outcome.notes if title in note.partition(":")[0]]
+        for finding in check(written, engine):
+            if finding.severity == "error" or finding.rule.endswith("-primitives"):
+                about = [note for note in notes if all(name in note for name in finding.hulls)]
+                assert about, (finding, outcome.notes)
+                assert finding.remedy.split(" that ")[0] in about[0]
+
+
+def test_what_nobody_made_is_not_noted_again_in_its_own_format(tmp_path: Path) -> None:
+    path = save(ball(300), tmp_path / "in/ball.usda").path
+    job = AssetJob("ball.usda", path, path.parent)
+    (same,) = apply(Program(), [job], tmp_path / "out", execution=IN_PROCESS)
+    assert not isinstance(same, Failed) and not any("PhysX" in note for note in same.notes)
+    (other,) = apply(Program(), [job], tmp_path / "to", options=ApplyOptions(to=".usda"), execution=IN_PROCESS)
+    assert not isinstance(other, Failed) and any("PhysX on the GPU" in note for note in other.notes)
+
+
+def test_a_conversion_notes_what_the_engine_of_its_format_refuses(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    run: Run = runner(monkeypatch, capsys)
+    save(ball(300), "ball.obj")
+    said = "PhysX on the CPU: ball (300): more than 255 vertices; PhysX makes a coarser hull of it. Reduce it"
+    assert f"note: {said}" in run("convert", "ball.obj", "ball.usda").err
+    assert any(note.startswith(said) for note in run("convert", "ball.obj", "b.usda", "--json").json["notes"])
+    godot = run("convert", "ball.obj", "ball.glb", "--names", "godot").err
+    assert "note: Godot with Jolt: ball (300): more than 256 vertices; Jolt leaves part of the hull out" in godot
+    unity = run("convert", "ball.obj", "u.glb", "--names", "unity").err
+    assert unity.count("more than 255 vertices") == 1
+    assert "more than" not in run("convert", "ball.obj", "ball.ply").err

@@ -1,0 +1,51 @@
+"""One spelling for each thing on the command line: another one is an error that names it."""
+
+from __future__ import annotations
+
+from itertools import chain
+
+import pytest
+
+from meshforge.cli.command import OTHER_SPELLINGS
+from meshforge.cli.main import COMMANDS, load_command
+from tests.unit.cli.in_process import Run, runner
+
+
+@pytest.fixture
+def run(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> Run:
+    return runner(monkeypatch, capsys)
+
+
+@pytest.mark.parametrize(
+    ("words", "old", "new"),
+    [
+        (("apply", "p", "--fresh"), "--fresh", "--again"),
+        (("apply", "p", "--force", "--out", "o"), "--force", "--again"),
+        (("review", "p", "--redo"), "--redo", "--again"),
+        (("prepare", "p", "--engine", "coacd"), "--engine", "--decompose"),
+        (("new", "p", "a.obj", "--method=vhacd"), "--method", "--decompose"),
+        (("decompose", "a.obj", "-o", "b.obj", "--method", "vhacd"), "--method", "--decompose"),
+        (("split", "p", "a.obj", "hull", "--engine", "vhacd"), "--engine", "--decompose"),
+    ],
+)
+def test_another_spelling_is_an_error_that_names_the_one(run: Run, words: tuple[str, ...], old: str, new: str) -> None:
+    told = run(*words)
+    assert told.code == 2
+    assert told.err == (
+        f"error: meshforge {words[0]} has no {old}: it is {new}\n  All options: meshforge {words[0]} --help\n"
+    )
+
+
+@pytest.mark.parametrize(
+    "words", [("check", "nope.obj", "--engine", "unreal"), ("apply", "p", "--out", "o", "--", "--fresh")]
+)
+def test_what_means_something_else_is_left_alone(run: Run, words: tuple[str, ...]) -> None:
+    assert ": it is --" not in run(*words).err
+
+
+@pytest.mark.parametrize("command", COMMANDS)
+def test_no_command_has_two_spellings(command: str) -> None:
+    options = set(chain.from_iterable(parameter.opts for parameter in load_command(command).params))
+    for name in options & OTHER_SPELLINGS.keys():
+        assert not options.intersection(OTHER_SPELLINGS[name])
+    assert not options & {"--fresh", "--redo", "--force", "--method"}

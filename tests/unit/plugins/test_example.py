@@ -1,0 +1,91 @@
+"""The package of docs/plugins.md, installed as one of its own: every command of the page, in processes of their own."""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from tests.loop.command import Done, meshforge
+from tests.plugin_packages import build_example, page_commands, page_files, unpack
+from tests.unit.batch.families import write_table
+
+
+@pytest.fixture
+def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A folder with `table.obj`, its labels and `shrink.mf`; the example is on the path of what is started in it."""
+    site = unpack(build_example(tmp_path / "wheels"), tmp_path / "site")
+    put_on_path(site, monkeypatch)
+    work = tmp_path / "work"
+    write_table(work / "table.obj")
+    (work / "shrink.mf").write_text(page_files()["shrink.mf"].replace("top, leg", "top, leg, misc"))
+    return work
+
+
+def put_on_path(site: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    known = os.environ.get("PYTHONPATH", "").split(os.pathsep)
+    source = Path(__file__).parents[3] / "src"
+    monkeypatch.setenv("PYTHONPATH", os.pathsep.join([str(site), str(source), *filter(None, known)]))
+
+
+@pytest.mark.slow
+def test_every_command_of_the_page_runs(folder: Path) -> None:
+    done = {words: run_line(words, folder) for words in page_commands()}
+    info = json.loads(meshforge("info", "table.hulls", "--json", cwd=folder).out)
+    assert (info["format"], len(info["hulls"])) == ("hull list", 6)
+    edited = json.loads((folder / "edited" / "table.hulls").read_text())["hulls"]
+    before = json.loads((folder / "table.hulls").read_text())["hulls"]
+    assert set(edited) == {
+        "top",
+        "crumb",
+        *(f"{side}_{part}~1" for side in ("left", "right") for part in ("low", "high")),
+    }
+    assert edited["top"] == before["top"]
+    labelled = json.loads((folder / "tables" / "labels" / "table.obj.json").read_text())["hulls"]
+    assert (labelled["top"]["label"], labelled["top"]["source"], labelled["top"]["confidence"]) == (
+        "top",
+        "plugin",
+        0.8,
+    )
+    assert "body has 6 hulls, more than 4" in (folder / "page.html").read_text()
+    assert "body has 6 hulls, more than 4" in done["meshforge check table.obj --check few-hulls"].out
+
+
+def run_line(words: str, folder: Path) -> Done:
+    """A command of the page; tables have more than four hulls, which its check finds."""
+    code = 1 if words.startswith("meshforge check ") else 0
+    return meshforge(*words.split()[1:], cwd=folder, code=code)
+
+
+@pytest.mark.slow
+def test_a_plug_ins_action_is_demonstrated_learned_and_run_in_workers(folder: Path) -> None:
+    write_table(folder / "two" / "table.obj", 1.5)
+    meshforge("new", "home", "table.obj", "two/table.obj", cwd=folder)
+    meshforge("label", "home", "--vocabulary", "top,leg,misc", cwd=folder)
+    legs = "left_low,left_high,right_low,right_high"
+    meshforge("demonstrate", "home", "table.obj", f"{legs} => Shrink(0.5)", cwd=folder)
+    learned = meshforge("synthesize", "home", cwd=folder)
+    assert "Is(leg) => Shrink(0.5)" in (folder / "home" / "program.mf").read_text(), learned
+    rows = meshforge("apply", "home", "--workers", "2", "--json", cwd=folder).lines
+    assert [row["status"] for row in rows] == ["edited", "edited"]
+    assert all(len(row["rules"][0]["made"]) == 4 for row in rows)
+
+
+@pytest.mark.slow
+def test_pip_installs_the_package_and_the_list_names_it(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    wheel, site = build_example(tmp_path / "wheels"), tmp_path / "site"
+    words = ["install", "--quiet", "--no-deps", "--no-index", "--disable-pip-version-check", "--target", site, wheel]
+    subprocess.run([sys.executable, "-m", "pip", *map(str, words)], check=True, cwd=tmp_path)
+    put_on_path(site, monkeypatch)
+    rows = meshforge("plugins", "--json", cwd=tmp_path).json
+    assert [(row["kind"], row["name"]) for row in rows] == [
+        ("formats", "hulls"),
+        ("actions", "Shrink"),
+        ("labelers", "flat"),
+        ("checks", "few-hulls"),
+    ]
+    assert all((r["package"], r["version"], r["loads"]) == ("meshforge-example", "1.0", True) for r in rows)

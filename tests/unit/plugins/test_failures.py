@@ -1,0 +1,405 @@
+"""What plug-ins do wrong: one clear message that names the package, the asset fails by name, the rest goes on."""
+
+from __future__ import annotations
+
+import json
+import pickle
+from collections.abc import Callable, Iterator
+from itertools import count
+from pathlib import Path
+
+import pytest
+
+from meshforge.batch import (
+    IN_PROCESS,
+    CheckTask,
+    Failed,
+    apply,
+    check_assets,
+    expand,
+    make_jobs,
+    read_stamp,
+)
+from meshforge.checks import CheckOptions, check, examine_mesh
+from meshforge.common import PluginError, ProgramError, UsageError, forget_plugins
+from meshforge.formats import is_asset, labels_beside, load, read
+from meshforge.language import All, Each, Program, Rule, parse_action, show_label
+from meshforge.project import Project
+from tests.plugin_packages import build_wheel, unpack
+from tests.unit.batch.families import write_table
+from tests.unit.cli.in_process import Run, runner
+from tests.unit.plugins import broken
+
+Install = Callable[..., str]
+_numbers = count()
+_TARGETS = {"formats": "Cubes", "labelers": "Namer", "checks": "Look"}
+FAULTS = {
+    "convex": "is not convex",
+    "closed": "is not closed",
+    "finite": "has coordinates that are not finite numbers",
+    "volume": "has no positive volume",
+}
+
+
+@pytest.fixture
+def run(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], tmp_path: Path) -> Run:
+    """Runs the command line in a folder with a table and its labels."""
+    work = tmp_path / "work"
+    write_table(work / "table.obj")
+    monkeypatch.chdir(work)
+    return runner(monkeypatch, capsys)
+
+
+@pytest.fixture
+def install(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Install]:
+    """Installs a package of one module with one plug-in."""
+
+    def put(kind: str, name: str, code: str, package: str = "mf-broken", target: str = "") -> str:
+        number = next(_numbers)  # a module of one name is imported once in a process
+        module = f"mf_plug_{number}"
+        points = {f"meshforge.{kind}": {name: f"{module}:{target or _TARGETS.get(kind, name)}"}}
+        wheel = build_wheel(tmp_path / "wheels", package, f"1.{number}", {f"{module}.py": code}, points)
+        monkeypatch.syspath_prepend(unpack(wheel, tmp_path / f"site{number}"))
+        forget_plugins()
+        return f"{package} 1.{number}"
+
+    yield put
+    monkeypatch.undo()
+    forget_plugins()
+
+
+def format_code(body: str) -> str:
+    return broken.HEAD + broken.FORMAT.format(body=body)
+
+
+def action_code(body: str, name: str = "Spoil") -> str:
+    return broken.HEAD + broken.ACTION.format(name=name, body=body)
+
+
+def asset_code(shape: str) -> str:
+    return f"return {broken.CUBE_ASSET.format(shape=shape)}"
+
+
+MADE = "return GroupEdit((NewShape(cube_of({fault!r}), group.hulls[0], group.hulls),))"
+
+
+# A plug-in that cannot be imported
+
+
+@pytest.mark.slow
+def test_files_of_a_format_that_cannot_be_imported_fail_by_name(run: Run, install: Install) -> None:
+    package = install("formats", "cube", "raise RuntimeError('no licence')")
+    Path("a.cube").write_text("")
+    done = run("check", "a.cube", "table.obj", "--workers", "1")
+    assert done.code == 1
+    assert "table.obj: legal" in done.out
+    assert f"a.cube: the format .cube of the package {package} cannot be loaded: RuntimeError: no licence" in done.out
+    assert "Update or uninstall mf-broken." in done.out
+
+
+def test_a_program_with_an_action_that_cannot_be_imported_says_so_at_its_place(run: Run, install: Install) -> None:
+    package = install("actions", "Spoil", "import mf_library_that_is_not_there")
+    Path("p.mf").write_text("All => Spoil\n")
+    done = run("apply", "p.mf", "table.obj", "--out", "out")
+    assert done.code == 2
+    assert f"p.mf:1:8: the action Spoil of the package {package} cannot be loaded: No module named" in done.err
+    assert not Path("out").exists()
+    assert run("fmt", "p.mf").code == 2
+
+
+@pytest.mark.parametrize("kind", ["labelers", "checks"])
+def test_a_name_that_cannot_be_imported_is_said_before_the_work(run: Run, install: Install, kind: str) -> None:
+    package = install(kind, "odd", "1 / 0")
+    assert run("new", "home", "table.obj").code == 0
+    words = ("check", "table.obj", "--check", "odd") if kind == "checks" else ("label", "home", "--with", "odd")
+    done = run(*words)
+    assert done.code == 2
+    assert f"odd of the package {package} cannot be loaded: ZeroDivisionError: division by zero" in done.err
+
+
+@pytest.mark.parametrize(
+    ("kind", "code", "why"),
+    [
+        ("formats", "class Cubes: pass", "it is no subclass of meshforge.formats.Format"),
+        (
+            "formats",
+            format_code("pass").replace("(.cube", "(.box").replace('".cube"', '".box"'),
+            "none of its suffixes",
+        ),
+        ("formats", format_code("pass").replace('"cubes"', '"obj"'), "MeshForge has a format named 'obj'"),
+        ("actions", "class Spoil: pass", "it is no subclass of meshforge.language.Action"),
+        ("actions", action_code("pass").replace("frozen=True, ", ""), "it is no frozen dataclass"),
+        (
+            "actions",
+            action_code("pass").replace("def edit", "x: float = 1.0\n    def edit"),
+            "its field x lacks metadata",
+        ),
+        ("labelers", broken.HEAD + "class Namer(AssetLabeler): pass", "it has no method label"),
+        ("checks", broken.HEAD + "class Look(Check): pass", "it has no method examine"),
+        ("checks", "", "cannot be loaded: AttributeError"),
+    ],
+)
+def test_the_list_says_why_a_plug_in_does_not_fit(run: Run, install: Install, kind: str, code: str, why: str) -> None:
+    package = install(kind, {"formats": "cube", "actions": "Spoil"}.get(kind, "odd"), code)
+    done = run("plugins", "--json")
+    (row,) = done.json
+    assert done.code == 1
+    assert (row["kind"], f"{row['package']} {row['version']}", row["loads"]) == (kind, package, False)
+    assert why in row["reason"]
+    assert why.split(" ")[0] in run("plugins").out
+
+
+# Missing in a worker
+
+
+@pytest.mark.slow
+def test_assets_whose_format_is_missing_in_a_worker_fail_by_name(run: Run, install: Install) -> None:
+    package = install("formats", "cube", broken.IN_WORKER + format_code(asset_code("CUBE")))
+    Path("a.cube").write_text("")
+    done = run("check", "a.cube", "table.obj", "--workers", "1")
+    assert done.code == 1
+    assert f"a.cube: the format .cube of the package {package} is not installed here" in done.out
+    assert "table.obj: legal" in done.out
+    assert "  Install mf-broken" in done.out
+
+
+@pytest.mark.slow
+def test_assets_whose_action_is_missing_in_a_worker_fail_by_name(run: Run, install: Install) -> None:
+    package = install("actions", "Spoil", broken.IN_WORKER + action_code("return GroupEdit()"))
+    write_table(Path("b.obj"))
+    Path("b.labels.json").write_text(json.dumps({"hulls": {"top": "top"}}))
+    Path("p.mf").write_text("Is(leg) => Each(Spoil)\n")
+    done = run("apply", "p.mf", "table.obj", "b.obj", "--out", "out", "--workers", "1", "--json")
+    b, table = done.lines
+    assert (done.code, b["status"], table["status"]) == (1, "unchanged", "failed")
+    assert f"table.obj: the action Spoil of the package {package} is not installed here" in table["error"]
+    assert not Path("out/table.obj").exists()
+
+
+@pytest.mark.slow
+def test_a_check_that_is_missing_in_a_worker_is_a_finding_of_each_asset(run: Run, install: Install) -> None:
+    package = install("checks", "odd", broken.IN_WORKER + broken.HEAD + broken.CHECK.format(body="return []"))
+    done = run("check", "table.obj", "--check", "odd", "--workers", "1", "--json")
+    (finding,) = done.lines[0]["findings"]
+    assert (done.code, finding["severity"]) == (1, "error")
+    assert finding["message"].startswith(f"the check odd of the package {package} is not installed here")
+
+
+def test_an_action_keeps_its_text_where_its_package_is_missing(
+    install: Install, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    install("actions", "Spoil", action_code("return GroupEdit()").replace("slots=True)", "slots=True)"))
+    kept = pickle.dumps(Each(parse_action("Spoil")))
+    assert pickle.loads(kept) == Each(parse_action("Spoil"))
+    monkeypatch.setattr("meshforge.common.plugins.import_module", _no_module)
+    monkeypatch.setattr("meshforge.language.actions.registry.ACTIONS._loaded", {})
+    found = pickle.loads(kept)
+    assert str(Rule(All(), found)) == "All => Each(Spoil)"
+    assert str(pickle.loads(pickle.dumps(found))) == "Each(Spoil)"
+
+
+def _no_module(name: str) -> None:
+    raise ModuleNotFoundError(f"No module named {name!r}", name=name)
+
+
+# A name that is taken
+
+
+def test_names_of_meshforge_stay_its_own(run: Run, install: Install) -> None:
+    packages = [
+        install("formats", "obj", "1 / 0"),
+        install("actions", "Merge", "1 / 0"),
+        install("labelers", "names", "1 / 0"),
+        install("checks", "fit", "1 / 0"),
+    ]
+    Path("p.mf").write_text("Is(leg) => Merge\n")
+    (edited,) = apply(Program.read("p.mf"), make_jobs(expand(["table.obj"])), Path("out"), execution=IN_PROCESS)
+    assert not isinstance(edited, Failed)
+    assert CheckOptions().with_checks(["fit"]) == CheckOptions(fit=True)
+    rows = run("plugins", "--json").json
+    assert len(rows) == 1  # one package of this name counts, the last that was installed
+    assert packages[-1] in rows[0]["reason"] and "MeshForge itself has this name" in rows[0]["reason"]
+
+
+@pytest.mark.parametrize("kind", ["formats", "actions", "labelers", "checks"])
+def test_a_name_of_two_packages_is_refused_naming_both(run: Run, install: Install, kind: str) -> None:
+    name = {"formats": "cube", "actions": "Spoil"}.get(kind, "odd")
+    first, second = (install(kind, name, "", package=package) for package in ("mf-first", "mf-second"))
+    Path("p.mf").write_text("All => Spoil\n")
+    Path("a.cube").write_text("")
+    assert run("new", "home", "table.obj").code == 0
+    done = run(
+        *{
+            "formats": ("check", "a.cube"),
+            "actions": ("fmt", "p.mf"),
+            "labelers": ("label", "home", "--with", name),
+            "checks": ("check", "table.obj", "--check", name),
+        }[kind]
+    )
+    assert done.code == (1 if kind == "formats" else 2)
+    assert f"is in several packages: {first} and {second}" in done.out + done.err
+    assert "Uninstall all but one of them." in done.out + done.err
+    assert [row["loads"] for row in run("plugins", "--json").json] == [False, False]
+
+
+# A hull that is none
+
+
+@pytest.mark.parametrize("fault", FAULTS)
+def test_an_asset_fails_when_an_action_makes_a_hull_that_is_none(run: Run, install: Install, fault: str) -> None:
+    package = install("actions", "Spoil", action_code(MADE.format(fault=fault)))
+    program = Program.parse("Is(misc) => Spoil\n")
+    with pytest.raises(PluginError) as caught:
+        program.run(load("table.obj"))
+    wanted = f"the action Spoil of the package {package} made a hull of crumb that {FAULTS[fault]}"
+    assert caught.value.message.startswith(f"table.obj: {wanted}")
+
+
+def test_the_other_assets_go_on_when_an_action_makes_a_hull_that_is_none(run: Run, install: Install) -> None:
+    package = install("actions", "Spoil", action_code(MADE.format(fault="convex")))
+    write_table(Path("b.obj"))
+    Path("b.labels.json").write_text(json.dumps({"hulls": {"top": "top"}}))
+    Path("p.mf").write_text("Is(misc) => Spoil\n")
+    jobs = make_jobs(expand(["table.obj", "b.obj"]))
+    b, table = apply(Program.read("p.mf"), jobs, Path("out"), execution=IN_PROCESS)
+    assert isinstance(table, Failed) and not isinstance(b, Failed)
+    assert f"table.obj: the action Spoil of the package {package} made a hull" in table.error
+    assert not Path("out/table.obj").exists()
+
+
+def test_a_hull_that_only_rounding_keeps_from_being_convex_is_made_anew(run: Run, install: Install) -> None:
+    install("actions", "Spoil", action_code(MADE.format(fault="rounding")))
+    made = Program.parse("Is(misc) => Spoil\n").run(load("table.obj")).mesh
+    assert check(made) == ()
+
+
+@pytest.mark.parametrize("fault", FAULTS)
+def test_an_asset_fails_when_a_format_reads_a_hull_that_is_none(run: Run, install: Install, fault: str) -> None:
+    package = install("formats", "cube", format_code(asset_code(f"cube_of({fault!r})")))
+    Path("a.cube").write_text("")
+    wanted = f"a.cube: the format .cube of the package {package} read the hull 'one', which {FAULTS[fault]}"
+    with pytest.raises(PluginError) as caught:
+        read("a.cube")
+    assert caught.value.message.startswith(wanted)
+
+
+# Anything else
+
+
+RAISES = ["raise KeyError('x')", "sys.exit(3)", "return None"]
+
+
+@pytest.mark.parametrize("body", RAISES)
+def test_an_asset_fails_when_a_format_raises(run: Run, install: Install, body: str) -> None:
+    package = install("formats", "cube", format_code(body))
+    Path("a.cube").write_text("")
+    cube, table = check_assets(make_jobs(expand(["a.cube", "table.obj"])), CheckTask(CheckOptions()), IN_PROCESS)
+    assert cube and cube.error and table and not table.has_failed
+    assert f"a.cube: the format .cube of the package {package} " in cube.error
+    assert "fault of MeshForge" not in cube.error
+
+
+@pytest.mark.parametrize("body", RAISES)
+def test_an_asset_fails_when_an_action_raises(run: Run, install: Install, body: str) -> None:
+    package = install("actions", "Spoil", action_code(body))
+    jobs, program = make_jobs(expand(["table.obj"])), Program.parse("All => Spoil\n")
+    (failed,) = apply(program, jobs, Path("out"), execution=IN_PROCESS)
+    assert isinstance(failed, Failed)
+    assert f"table.obj: the action Spoil of the package {package} failed: " in failed.error
+    assert "fault of MeshForge" not in failed.error
+    assert not Path("out/table.obj").exists()
+
+
+@pytest.mark.parametrize(
+    ("body", "why"),
+    [
+        ("raise KeyError('x')", "failed: KeyError: 'x'"),
+        ("return {'top': 'top'}", "gave the hull 'top' a str, not a Label"),
+        ("return {'top': Label('top', 2.0)}", "gave the hull 'top' the label 'top' with the confidence 2.0"),
+        ("return {'topp': Label('top')}", "there is no hull 'topp'; did you mean 'top'?"),
+        ("return {'top': Label('roof')}", "top: the label 'roof' is not in the vocabulary"),
+    ],
+)
+def test_an_asset_gets_no_label_of_a_labeller_that_fails(run: Run, install: Install, body: str, why: str) -> None:
+    install("labelers", "odd", broken.HEAD + broken.LABELER.format(body=body))
+    project = Project.create("home", ["table.obj"], vocabulary=["top", "leg"])
+    (outcome,) = project.label_by_plugin("odd")
+    assert why in outcome.problems[0]
+    assert why in project.propose_by_plugin("odd").problems[0]
+    assert not Path("home/labels/table.obj.json").exists()
+
+
+def test_a_labeller_that_fails_on_one_asset_labels_the_others(run: Run, install: Install) -> None:
+    write_table(Path("two/b.obj"), 1.5)
+    body = "return {'top': Label('top', 0.7 / bool(mesh.hull_of('top').aabb.max[2] < 1.3))}"
+    package = install("labelers", "odd", broken.HEAD + broken.LABELER.format(body=body))
+    project = Project.create("home", ["table.obj", "two/b.obj"], vocabulary=["top", "leg"])
+    table, b = project.label_by_plugin("odd")
+    assert (table.taken, table.problems, b.taken) == (1, (), 0)
+    assert f"b.obj: the labeller odd of the package {package} failed: ZeroDivisionError" in b.problems[0]
+    assert project.mesh("table.obj").hull_of("top").source == "plugin"
+
+
+@pytest.mark.parametrize("body", [*RAISES, "return ['odd']"])
+def test_a_check_that_fails_is_an_error_among_the_findings(run: Run, install: Install, body: str) -> None:
+    package = install("checks", "odd", broken.HEAD + broken.CHECK.format(body=body))
+    (finding,) = examine_mesh(load("table.obj"), CheckOptions().with_checks(["odd"])).findings
+    assert (finding.rule, finding.severity) == ("odd", "error")
+    assert finding.message.startswith(f"the check odd of the package {package} ")
+
+
+# Besides
+
+
+def test_a_name_that_no_plug_in_has_is_an_error_that_lists_those_there_are(install: Install) -> None:
+    install("actions", "Spoil", action_code("return GroupEdit()"))
+    install("checks", "odd", broken.HEAD + broken.CHECK.format(body="return []"), package="mf-checks")
+    with pytest.raises(ProgramError, match="Did you mean Spoil"):
+        parse_action("Spoill")
+    with pytest.raises(UsageError, match="Did you mean 'odd'"):
+        CheckOptions().with_checks(["oddd"])
+
+
+def test_a_label_is_written_alike_whatever_plug_ins_there_are(install: Install) -> None:
+    before = show_label("Spoil")
+    install("actions", "Spoil", action_code("return GroupEdit()"))
+    assert (before, show_label("Spoil")) == ("Spoil", "Spoil")
+
+
+def test_files_of_a_plug_in_have_labels_beside_them_like_others(install: Install, tmp_path: Path) -> None:
+    install("formats", "cube", format_code(asset_code("CUBE")))
+    path = tmp_path / "a.cube"
+    path.write_text("")
+    assert is_asset(path)
+    assert labels_beside(path).name == "a.labels.json"
+
+
+def test_outputs_are_made_again_after_an_update_of_the_plug_in(run: Run, install: Install) -> None:
+    def edit() -> str:
+        jobs, program = make_jobs(expand(["table.obj"])), Program.parse("Is(misc) => Spoil\n")
+        (outcome,) = apply(program, jobs, Path("out"), execution=IN_PROCESS)
+        return type(outcome).__name__
+
+    install("actions", "Spoil", action_code("return GroupEdit()"))
+    assert [edit(), edit()] == ["Edited", "Skipped"]
+    package = install("actions", "Spoil", action_code("return GroupEdit()"))
+    assert edit() == "Edited"
+    stamp = read_stamp(Path("out"), "table.obj")
+    assert stamp and stamp.inputs and package in stamp.inputs.software
+
+
+def test_nothing_is_looked_for_where_only_built_in_names_are_used(
+    run: Run, install: Install, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def refuse() -> frozenset[str]:
+        raise AssertionError("plug-ins were looked for")
+
+    forget_plugins()
+    monkeypatch.setattr("meshforge.common.plugins._read_mentions", refuse)
+    Path("p.mf").write_text("Is(leg) => Merge\n")
+    assert run("info", "table.obj").code == 0
+    assert run("fmt", "p.mf").code == 0
+    assert run("select", "Is(leg)", "table.obj").code == 0
+    assert run("check", "table.obj", "--engine", "bullet").code == 0
+    assert run("convert", "table.obj", "table.stl").code == 0
+    monkeypatch.undo()

@@ -1,0 +1,115 @@
+"""The families that `meshforge samples` writes: whole, legal, the same each time; one program is right for each."""
+
+from __future__ import annotations
+
+import re
+import subprocess
+import sys
+from functools import cache
+from pathlib import Path
+
+import pytest
+
+from meshforge.checks import check
+from meshforge.formats import load
+from meshforge.language import Program
+from meshforge.samples import FAMILIES, family_of, write_family
+from meshforge.samples.cups import list_cups
+from meshforge.symbolic import SymbolicMesh
+
+pytestmark = pytest.mark.slow
+BUILT = ("bottles", "cups", "chairs")
+NAMES = tuple(family.name for family in FAMILIES)
+CUPS = Program.parse(
+    "labels base, wall, handle, lid\n\n"
+    "Is(base) => Merge\n"
+    "Diff(Is(handle), Attach(Is(handle), Is(wall))) => Each(Replace(capsule, tight))\n"
+)
+LEGS = Program.parse("labels seat, leg, back, arm, rail\n\nIs(leg) => Each(Merge)\n")
+LEG_COUNTS = {"stool": 3, "bench": 6}
+"""Other chairs have four."""
+
+
+@pytest.fixture(scope="module")
+def root(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A folder with a folder of each family."""
+    root = tmp_path_factory.mktemp("families")
+    for family in FAMILIES:
+        write_family(family, root / family.name)
+    return root
+
+
+@cache
+def meshes(root: Path, name: str) -> dict[str, SymbolicMesh]:
+    """The assets of a family by their names."""
+    paths = sorted((root / name).glob(family_of(name).pattern))
+    return {path.parent.name if path.stem == "model" else path.stem: load(path) for path in paths}
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_a_family_is_what_its_line_says(root: Path, name: str) -> None:
+    found = meshes(root, name)
+    hulls = [len(mesh.hulls) for mesh in found.values()]
+    said = [int(number) for number in re.findall(r"\d+", family_of(name).about)]
+    assert said == [len(found), min(hulls), max(hulls)]
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_every_hull_is_labelled_and_nothing_is_left_out(root: Path, name: str) -> None:
+    for mesh in meshes(root, name).values():
+        assert mesh.asset is not None and mesh.asset.opaque == ()
+        assert {hull.source for hull in mesh.hulls} == {"file"}
+    used = {hull.label for mesh in meshes(root, name).values() for hull in mesh.hulls}
+    assert used == set(family_of(name).vocabulary)
+
+
+@pytest.mark.parametrize("name", BUILT)
+def test_every_hull_is_legal(root: Path, name: str) -> None:
+    for mesh in meshes(root, name).values():
+        assert [finding for finding in check(mesh) if finding.severity == "error"] == []
+
+
+@pytest.mark.parametrize("name", BUILT)
+def test_an_asset_is_in_one_piece(root: Path, name: str) -> None:
+    for own, mesh in meshes(root, name).items():
+        reached, waiting = {0}, [0]
+        while waiting:
+            new = mesh.neighbours(waiting.pop()) - reached
+            reached |= new
+            waiting += new
+        assert len(reached) == len(mesh.hulls), own
+
+
+def test_the_program_selects_of_each_handle_what_is_between_its_ends(root: Path) -> None:
+    for cup in list_cups():
+        mesh = meshes(root, "cups")[cup.name]
+        handle = iter([hull.name for hull in mesh.hulls if hull.label == "handle"])
+        pieces = [[next(handle) for _ in range(ear.pieces)] for ear in cup.ears]
+        grips = [own[1:] if ear.low is None else own[1:-1] for ear, own in zip(cup.ears, pieces, strict=True)]
+        assert next(handle, None) is None
+        base, grip = CUPS.run(mesh).trace
+        assert list(base.selected) == [hull.name for hull in mesh.hulls if hull.label == "base"]
+        assert sorted(grip.selected) == sorted(name for own in grips for name in own)
+        assert len(grip.made) == sum(bool(own) for own in grips)
+
+
+def test_every_leg_is_a_body_of_its_own(root: Path) -> None:
+    for name, mesh in meshes(root, "chairs").items():
+        after = LEGS.run(mesh).mesh
+        assert sum(hull.label == "leg" for hull in after.hulls) == LEG_COUNTS.get(name, 4), name
+
+
+def test_families_differ_in_counts_names_and_orders(root: Path) -> None:
+    for name in BUILT:
+        found = meshes(root, name).values()
+        assert len({len(mesh.hulls) for mesh in found}) >= 7
+        assert len({next(iter(mesh.hulls)).label for mesh in found}) >= 2
+        assert len({re.sub(r"\d+", "", next(iter(mesh.hulls)).name) for mesh in found}) >= 4
+
+
+@pytest.mark.parametrize("name", BUILT)
+def test_another_process_writes_the_same_bytes(name: str, tmp_path: Path) -> None:
+    code = "import sys; from meshforge.cli import main; main()"
+    subprocess.run([sys.executable, "-c", code, "samples", name, str(tmp_path)], check=True, capture_output=True)
+    written = {path.relative_to(tmp_path).as_posix(): path for path in tmp_path.rglob("*") if path.is_file()}
+    assert {path: file.read_bytes() for path, file in written.items()} == family_of(name).build()

@@ -1,0 +1,59 @@
+"""Writing a family into a folder: nothing of the user's is replaced, and nothing is added to it."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from meshforge.common import UsageError
+from meshforge.samples import family_of, write_family
+
+TABLES = family_of("tables")
+
+
+def test_files_that_are_missing_are_written_again(tmp_path: Path) -> None:
+    assert write_family(TABLES, tmp_path / "new" / "tables") == len(TABLES.build())
+    assert write_family(TABLES, tmp_path / "new" / "tables") == 0
+    (tmp_path / "new" / "tables" / "table_05.obj").unlink()
+    assert write_family(TABLES, tmp_path / "new" / "tables") == 1
+    assert (tmp_path / "new" / "tables" / "table_05.obj").read_bytes() == TABLES.build()["table_05.obj"]
+
+
+def test_a_file_of_the_user_is_never_replaced(tmp_path: Path) -> None:
+    (tmp_path / "table_05.obj").write_text("mine")
+    with pytest.raises(UsageError, match=r"something else: table_05\.obj"):
+        write_family(TABLES, tmp_path)
+    assert [path.name for path in tmp_path.iterdir()] == ["table_05.obj"]
+    assert (tmp_path / "table_05.obj").read_text() == "mine"
+
+
+def test_a_folder_of_the_user_gets_nothing_added(tmp_path: Path) -> None:
+    (tmp_path / "deep").mkdir()
+    (tmp_path / "deep" / "thesis.txt").write_text("mine")
+    with pytest.raises(UsageError, match=r"something else: deep/thesis\.txt"):
+        write_family(TABLES, tmp_path)
+    assert [path.name for path in tmp_path.iterdir()] == ["deep"]
+
+
+def test_what_a_user_added_beside_all_files_stays(tmp_path: Path) -> None:
+    write_family(TABLES, tmp_path)
+    (tmp_path / "notes.txt").write_text("mine")
+    assert write_family(TABLES, tmp_path) == 0
+    assert (tmp_path / "notes.txt").read_text() == "mine"
+
+
+def test_links_that_lead_nowhere_and_folders_in_place_of_files_are_refused(tmp_path: Path) -> None:
+    (tmp_path / "links").mkdir()
+    (tmp_path / "links" / "table_01.obj").symlink_to(tmp_path / "gone.obj")
+    (tmp_path / "folders" / "table_01.obj").mkdir(parents=True)
+    for folder in ("links", "folders"):
+        with pytest.raises(UsageError, match=r"something else: table_01\.obj"):
+            write_family(TABLES, tmp_path / folder)
+    assert not (tmp_path / "gone.obj").exists()
+
+
+def test_a_file_in_place_of_the_folder_is_refused(tmp_path: Path) -> None:
+    (tmp_path / "tables").write_text("mine")
+    with pytest.raises(UsageError, match="this is a file"):
+        write_family(TABLES, tmp_path / "tables")
