@@ -32,7 +32,7 @@ _NETWORK = re.compile(r"error sending request|failed to fetch|dns error|timed ou
 
 @dataclass(frozen=True)
 class Row:
-    """A group of dependencies on one platform; lacking: the requirements that do not resolve, each with the reason."""
+    """A group of dependencies on one platform; lacking: requirements that do not resolve, and why."""
 
     platform: str
     python: str
@@ -67,13 +67,24 @@ def shorten(text: str) -> str:
 
 
 def check_group(group: str, requirements: Sequence[str], platform: str, python: str) -> Row:
-    """One group; where it does not resolve as a whole, each requirement by itself says which is to blame."""
-    count, why = resolve(requirements, platform, python)
-    if not why:
-        return Row(platform, python, group, count, {})
-    each = {one: resolve([one], platform, python)[1] for one in requirements}
-    lacking = {one: problem for one, problem in each.items() if problem}
-    return Row(platform, python, group, count, lacking or {"all together": why})
+    """One group; requirements that the reason names, and that do not resolve by themselves, are left out in turn."""
+    rest, lacking = list(requirements), dict[str, str]()
+    count, why = resolve(rest, platform, python)
+    while why:
+        named = [one for one in rest if name_of(one).lower() in why.lower()]
+        bad = {one: problem for one in named if (problem := resolve([one], platform, python)[1])}
+        if not bad:
+            return Row(platform, python, group, 0, lacking | {"all together": why})
+        lacking |= bad
+        rest = [one for one in rest if one not in bad]
+        count, why = resolve(rest, platform, python)
+    return Row(platform, python, group, count, lacking)
+
+
+def name_of(requirement: str) -> str:
+    """The name of a package out of what is required of it."""
+    found = re.match(r"[\w.-]+", requirement)
+    return found.group() if found else requirement
 
 
 def make_rows(only: str) -> Iterator[Row]:
@@ -97,7 +108,8 @@ def main() -> None:
         if given.json:
             print(json.dumps(asdict(row)), flush=True)
             continue
-        state = "no wheel" if row.lacking else f"{row.packages} packages"
+        without = f", without {', '.join(map(name_of, row.lacking))}" if row.lacking else ""
+        state = f"{row.packages} packages{without}"
         print(f"{row.platform:16} {row.python:5} {row.group:10} {state}", flush=True)
         for one, why in row.lacking.items():
             print(f"    {one}: {why}", flush=True)

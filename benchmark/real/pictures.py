@@ -15,7 +15,9 @@ from meshforge.rendering import RenderMesh, View, label_colors, write_png
 from meshforge.rendering.annotation import font, shorten
 from meshforge.rendering.canvas import Canvas
 from meshforge.rendering.colors import HullColors, candidate_colors, rgb
+from meshforge.rendering.hull_names import place_texts
 from meshforge.rendering.picture import Subject, draw_on_canvas
+from meshforge.rendering.placement import draw_texts
 from meshforge.rendering.raycast import DrawLayer
 
 VIEWS: tuple[View, ...] = ("iso", "iso-back", "front-left-below", "front")
@@ -93,7 +95,7 @@ def _write(
         left, top = k % 2 * _SIDE, canvas.room[1] + k // 2 * _SIDE
         box = (left, top, left + _SIDE, min(top + _SIDE, canvas.room[3]))
         items = draw_on_canvas(canvas, what, None, view, box)
-        canvas.write_marks(items, marks, box[:2])
+        draw_texts(ImageDraw.Draw(canvas.image), place_texts(items, marks, canvas.size), marks, colors, box[:2])
         canvas.write_view_name(view, box[:2])
     page = Image.new("RGB", (2 * _SIDE + _LIST, canvas.image.height), "#ffffff")
     page.paste(canvas.image, (0, 0))

@@ -238,7 +238,11 @@ def _write_report(
     title, figures, text, found = work.out.resolve().name, batch.RunFigures.of_run(summary), None, None
     if work.project:
         found = work.project.status()
-        title, text, standings = found.name, format_status(found), Counter(map(word_of, found.assets))
+        title, text, standings = (
+            found.name,
+            format_status(found, work.project.folder),
+            Counter(map(word_of, found.assets)),
+        )
         figures = replace(figures, first="those that failed or are held", standings=standings)
     back = [held.asset for held in work.held]
     with TemporaryDirectory() as folder:

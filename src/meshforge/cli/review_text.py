@@ -4,18 +4,20 @@ from __future__ import annotations
 
 import json
 import shlex
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from meshforge.common import join_names, pluralize
+from meshforge.common import join_names, pluralize, quote_path
 from meshforge.signoff import AssetConfidence, ReviewQuestion
+from meshforge.signoff.assessment import NO_LOOK
 
 if TYPE_CHECKING:
     from meshforge.project import AssetStatus, ProjectReview, Status
 
 MOST_HELD = 12
-"""Held assets that are named."""
+"""Lines on assets that are held, one for each reason."""
 
 
 def format_counts(signed_off: int, total: int, held: int, aside: int, bar: float) -> str:
@@ -31,12 +33,11 @@ def format_counts(signed_off: int, total: int, held: int, aside: int, bar: float
 
 
 def format_review(found: ProjectReview, folder: Path, held: int = MOST_HELD) -> str:
-    """How the family stands: the counts, then the assets that are held, the least probable first."""
+    """How the family stands: the counts, then why assets are held, the least probable first; held: lines at most."""
     one = found.assessment
     names = one.held
     lines = [format_counts(len(one.signed_off), len(one.assets), len(names), len(one.aside), one.bar)]
-    lines += [f"  {format_asset(one.assets[name])}" for name in names[:held]]
-    lines += [f"  and {len(names) - held} more (all with --json)"] if len(names) > held else []
+    lines += _format_held([_hold(one.assets[name]) for name in names], folder, held, " (all with --json)")
     if names and one.question is None:
         lines.append(
             "Nothing is left to ask: show the edit on one of these (meshforge demonstrate), or mend its result."
@@ -44,7 +45,7 @@ def format_review(found: ProjectReview, folder: Path, held: int = MOST_HELD) -> 
     return "\n".join(lines)
 
 
-def format_status(found: Status) -> str:
+def format_status(found: Status, folder: Path) -> str:
     """How far a project is signed off by its last review, and what is not, the least sure first."""
     waits = found.count(lambda asset: asset.sign_off == "sure")
     done = waits + found.count(lambda asset: asset.sign_off == "signed off")
@@ -52,13 +53,49 @@ def format_status(found: Status) -> str:
     lines = [format_counts(done, len(found.assets), len(found.open_assets), aside, found.bar)]
     if waits:
         lines.append(f"  {waits} of them will be signed off when their outputs are up to date (meshforge apply)")
-    for asset in found.open_assets[:MOST_HELD]:
-        if asset.probability is None or asset.void:
-            lines.append(f"  {asset.id}: {format_standing(asset)}")
-        else:
-            lines.append(f"  {format_asset(AssetConfidence(asset.id, asset.probability, asset.doubts))}")
-    more = len(found.open_assets) - MOST_HELD
-    return "\n".join([*lines, *([f"  and {more} more"] if more > 0 else [])])
+    lines += _format_held([_hold_of_status(asset) for asset in found.open_assets], folder, MOST_HELD)
+    return "\n".join(lines)
+
+
+@dataclass(frozen=True, slots=True)
+class _AssetDoubt:
+    """An asset that is held, and its weightiest doubt; probability: that its edit is right, None where not known."""
+
+    name: str
+    probability: float | None
+    reason: str
+
+
+def _hold(one: AssetConfidence) -> _AssetDoubt:
+    return _AssetDoubt(one.asset, one.probability, one.doubts[0].text if one.doubts else "")
+
+
+def _hold_of_status(asset: AssetStatus) -> _AssetDoubt:
+    if asset.probability is None or asset.void:
+        return _AssetDoubt(asset.id, None, format_standing(asset))
+    return _hold(AssetConfidence(asset.id, asset.probability, asset.doubts))
+
+
+def _format_held(held: Sequence[_AssetDoubt], folder: Path, most: int, rest: str = "") -> Iterator[str]:
+    """A line for each reason with the assets held for it, in the order given; most: lines; rest: after the others."""
+    reasons: dict[str, list[_AssetDoubt]] = {}
+    for one in held:
+        reasons.setdefault(one.reason, []).append(one)
+    for reason, some in list(reasons.items())[:most]:
+        shares = [one.probability for one in some if one.probability is not None]
+        share = f" ({_format_range(shares)})" if shares else ""
+        yield f"  {join_names([one.name for one in some])}{share}{': ' if reason else ''}{reason}"
+        if reason == NO_LOOK:
+            freed = "it" if len(some) == 1 else "most of them"
+            yield f"    One look at a result frees {freed}: meshforge review {quote_path(folder)}"
+    more = sum(map(len, list(reasons.values())[most:]))
+    if more:
+        yield f"  and {more} more{rest}"
+
+
+def _format_range(shares: Sequence[float]) -> str:
+    """The least and the most of some probabilities."""
+    return " to ".join(dict.fromkeys(map(format_share, (min(shares), max(shares)))))
 
 
 def format_standing(asset: AssetStatus) -> str:
@@ -72,12 +109,6 @@ def format_standing(asset: AssetStatus) -> str:
         return f"{share}signed off when its output is up to date (meshforge apply)"
     who = {"tool": " by MeshForge", "person": " by a person", None: ""}[asset.signed_by]
     return f"{share}{asset.sign_off}{who}"
-
-
-def format_asset(one: AssetConfidence) -> str:
-    """One asset with its weightiest doubt."""
-    doubt = f": {one.doubts[0].text}" if one.doubts else ""
-    return f"{one.asset} ({format_share(one.probability)}){doubt}"
 
 
 def format_share(share: float) -> str:

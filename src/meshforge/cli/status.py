@@ -32,12 +32,12 @@ def status(
     if json:
         print_json(found.to_json())
     else:
-        _print_status(found)
+        _print_status(found, opened.folder)
     if signed_off and not found.is_signed_off:
         raise typer.Exit(1)
 
 
-def _print_status(found: Status) -> None:
+def _print_status(found: Status, folder: Path) -> None:
     rules = "no program yet" if found.rules is None else f"a program of {pluralize(found.rules, 'rule')}"
     typer.echo(f"{found.name}: {pluralize(len(found.assets), 'asset')}, {rules}{' (outdated)' * found.outdated}")
     typer.echo(f"vocabulary: {', '.join(found.vocabulary) or 'none'}\n")
@@ -49,7 +49,7 @@ def _print_status(found: Status) -> None:
     for asset in found.lost:
         typer.echo(f"kept for an asset that is not there: {asset}")
     if found.rules is not None:
-        typer.echo(f"\n{format_status(found)}")
+        typer.echo(f"\n{format_status(found, folder)}")
     typer.echo(f"\nNext: {found.next.say}" + (f"\n  {found.next.command}" if found.next.command else ""))
 
 

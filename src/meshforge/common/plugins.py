@@ -10,7 +10,6 @@ from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from functools import cache
 from importlib import import_module
-from pathlib import Path
 from typing import Any, Generic, Literal, TypeVar, get_args
 
 from meshforge.common.messages import MeshForgeError, PluginError
@@ -19,6 +18,12 @@ PluginKind = Literal["formats", "actions", "labelers", "checks"]
 PLUGIN_KINDS: tuple[PluginKind, ...] = get_args(PluginKind)
 _WORDS = {"formats": "format .", "actions": "action ", "labelers": "labeller ", "checks": "check "}
 _GROUP = "meshforge."
+_ENTRY_POINTS = {
+    "dist-info": "entry_points.txt",
+    "egg-info": "entry_points.txt",
+    "egg": "EGG-INFO/entry_points.txt",
+}
+"""Where packages name their entry points, by the suffix of their folders."""
 
 T = TypeVar("T")
 
@@ -130,21 +135,22 @@ def _read_mentions() -> frozenset[str]:
     groups = {f"[{_GROUP}{kind}]" for kind in PLUGIN_KINDS}
     found = set[str]()
     for base in dict.fromkeys(sys.path):
-        if Path(base).is_file():
+        if os.path.isfile(base):  # noqa: PTH113 (of a hundred packages, pathlib takes most of the time)
             return frozenset(groups)
-        with suppress(OSError), os.scandir(base or ".") as entries:
-            for entry in entries:
-                if entry.name.endswith((".dist-info", ".egg-info", ".egg")):
-                    text = _read_entry_points(entry.path)
+        with suppress(OSError):
+            for name in os.listdir(base or "."):  # noqa: PTH208 (as above)
+                if place := _ENTRY_POINTS.get(name.rpartition(".")[2]):
+                    text = _read_text(f"{base or '.'}/{name}/{place}")
                     found |= {group for group in groups if group in text} if _GROUP in text else set()
     return frozenset(found)
 
 
-def _read_entry_points(folder: str) -> str:
-    for name in ("entry_points.txt", "EGG-INFO/entry_points.txt"):
-        with suppress(OSError):
-            return Path(folder, name).read_text(encoding="utf-8", errors="replace")
-    return ""
+def _read_text(path: str) -> str:
+    try:
+        with open(path, encoding="utf-8", errors="replace") as stream:  # noqa: PTH123 (as above)
+            return stream.read()
+    except OSError:
+        return ""
 
 
 class Registry(Mapping[str, T], Generic[T]):

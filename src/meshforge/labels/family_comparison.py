@@ -82,9 +82,6 @@ def compare_assets(
     speak: what the label of a hull, or none, says to others; words outside of the vocabulary say nothing.
     Raises ProjectError: no vocabulary, or nothing is said at all.
     """
-    if not vocabulary:
-        remedy = "Say first what hulls can be: --vocabulary a,b,c."
-        raise ProjectError("the vocabulary is empty", where=str(store.folder), remedy=remedy)
     with stage(len(store.assets()), "reading") as advance:
         facts = survey(store.found, store.layout, execution=execution, progress=advance)
     lost = {asset: own.error for asset, own in facts.items() if own.error}
@@ -94,6 +91,9 @@ def compare_assets(
             current |= {asset: match_labels(store.labels(asset), own.hulls).labels} if asset not in lost else {}
         except AssetError as error:
             lost[asset] = error.message
+    if not vocabulary and any(current.values()):
+        remedy = "Say first what hulls can be: --vocabulary a,b,c."
+        raise ProjectError("the vocabulary is empty", where=str(store.folder), remedy=remedy)
     hulls = {asset: facts[asset].hulls for asset in current}
     cache = DescriptorCache(store, {asset: facts[asset] for asset in current}, execution)
     del facts
@@ -106,12 +106,17 @@ def compare_assets(
     table = _set_upright(cache, assets, table, seen, lost, execution.stop, stage)
     compared = FamilyComparison(hulls, current, lost, assets, said, _compute_isolated(table, seen, execution.stop))
     if not compared.found.seen.labels:
-        best, remedy = compared.next, "Decompose the assets first."
+        best, remedy = compared.next, "Decompose the assets first." if any(current) else _describe_lost(lost)
         if best:
             command = label_command(store.folder, best, next(iter(hulls[best])), vocabulary)
             remedy = f"Label the hulls of one asset first, best {best}. In the studio, or: {command}"
         raise ProjectError("there is no label that others could be taken from", where=str(store.folder), remedy=remedy)
     return compared
+
+
+def _describe_lost(lost: Mapping[str, str]) -> str:
+    """Why nothing can be labelled where no asset can be read."""
+    return f"No asset can be read; the first problem: {next(iter(lost.values()))}" if lost else "There is no asset."
 
 
 def _describe(

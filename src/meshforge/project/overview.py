@@ -9,12 +9,13 @@ from meshforge.batch import ApplyTask, AssetJob, ExecutionOptions, Stamp, inputs
 from meshforge.common import MeshForgeError
 from meshforge.labels import OfferCache
 from meshforge.language import Program
+from meshforge.project.advice import Adviser
 from meshforge.project.demonstrations import find_unknown_hulls
 from meshforge.project.learn import program_state_of, suggest_first_demonstration
 from meshforge.project.run import build_jobs, build_task, output_digest
 from meshforge.project.sign_offs import digest_lesson
 from meshforge.project.standings import Standings
-from meshforge.project.status import Adviser, AssetStatus, Status
+from meshforge.project.status import AssetStatus, Status
 from meshforge.signoff import BAR
 from meshforge.store import AssetFacts, Review, Store, geometry_digest, survey
 from meshforge.symbolic import LabelFile, match_labels
@@ -52,7 +53,8 @@ def compute_status(
     every = [known[asset] for asset in ids if asset in known]
     first = partial(suggest_first_demonstration, store) if only is None else lambda assets: None
     count_names = partial(_count_names, store) if only is None else lambda: 0
-    adviser = Adviser(store.folder, ids, every, settings.vocabulary, rules, state, problem, first, count_names)
+    asks = bool(program and program.labels_asked)
+    adviser = Adviser(store.folder, ids, every, settings.vocabulary, rules, asks, state, problem, first, count_names)
     return Status(
         settings.name,
         assets,

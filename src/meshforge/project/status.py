@@ -1,16 +1,11 @@
-"""How far a project is: each asset, the program, what is stale; and the next sensible step, as a sentence and a
-command."""
+"""How far a project is: each asset, the program, what is stale, and the next sensible step."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any, Literal
 
-from meshforge.common import pluralize, quote_path
-from meshforge.labels import label_command, label_file_beside
-from meshforge.project.learn import ProgramState
 from meshforge.signoff import BAR, Doubt
 from meshforge.symbolic import Label
 
@@ -156,125 +151,3 @@ class Advice:
 
     say: str
     command: str | None = None
-
-
-@dataclass(frozen=True, slots=True)
-class Adviser:
-    """Finds what to do next in a project. paths: of the assets by id; rules: of the program, None where there is none.
-
-    problem: why the program cannot be applied; first: which of some assets, by id, is to be demonstrated first;
-    count_names: how many hulls without a label have names that say one.
-    """
-
-    folder: Path
-    paths: Mapping[str, Path]
-    assets: Sequence[AssetStatus]
-    vocabulary: Sequence[str]
-    rules: int | None
-    state: ProgramState
-    problem: str | None
-    first: Callable[[Sequence[str]], str | None]
-    count_names: Callable[[], int]
-
-    def advise(self) -> Advice:
-        """The first thing that is missing on the way from assets to edited assets."""
-        if self.problem:
-            return Advice(f"The program cannot be applied: {self.problem}")
-        return (
-            self._advise_hulls()
-            or (self._advise_before_learning() if self.rules is None else None)
-            or self._advise_program()
-            or self._advise_output()
-            or self._advise_review()
-        )
-
-    def _advise_hulls(self) -> Advice | None:
-        bare = [asset for asset in self.assets if asset.hulls == 0 and asset.sources]
-        if not bare:
-            return None
-        return Advice(
-            f"{_name_assets(bare)} no hulls: decompose what has none.", self._type("prepare --decompose coacd")
-        )
-
-    def _advise_before_learning(self) -> Advice | None:
-        """Labels, then a demonstration."""
-        shown = any(asset.demonstrated for asset in self.assets)
-        if not shown and not any(asset.labelled for asset in self.assets):
-            command = self._type("label --with file")
-            if any(map(label_file_beside, self.paths.values())):
-                return Advice("No hull has a label yet: take over the labels files beside the assets.", command)
-            return self._advise_label_source()
-        bare = [asset for asset in self.assets if asset.hulls and not asset.labelled]
-        if bare and any(asset.hulls and asset.labelled == asset.hulls for asset in self.assets):
-            say = f"{_name_assets(bare)} no label: propagate those of the labelled assets."
-            return Advice(say, self._type("label --with propagate"))
-        return None if shown else self._advise_demonstration()
-
-    def _advise_label_source(self) -> Advice:
-        """Names where they say something, else by hand."""
-        if count := self.count_names():
-            say = f"No hull has a label yet: the names of {pluralize(count, 'hull')} say what they are."
-            return Advice(say, self._type("label --with names"))
-        counts = sorted(len(asset.names) for asset in self.assets if asset.names)
-        if not counts:
-            return Advice("No asset has hulls that can be read: see the remarks.")
-        usual = next(asset for asset in self.assets if len(asset.names) == counts[(len(counts) - 1) // 2])
-        say = (
-            f"No hull has a label yet: label those of an asset by hand, best first {usual.id}, here or in the studio. "
-            f"The names of hulls: meshforge info {quote_path(Path(usual.id))} --project {quote_path(self.folder)}"
-        )
-        return Advice(say, label_command(self.folder, usual.id, usual.names[0], self.vocabulary))
-
-    def _advise_demonstration(self) -> Advice:
-        labelled = [asset.id for asset in self.assets if asset.labelled]
-        example = self.first(labelled) or next(iter(labelled or self.paths))
-        quoted = quote_path(Path(example))
-        return Advice(
-            f"Nothing is demonstrated yet: show the steps of the edit on an asset or two, best first on {example}. "
-            f"The names of hulls: meshforge info {quoted} --project {quote_path(self.folder)}",
-            self._type(f"demonstrate {quoted} 'HULLS => ACTION' ..."),
-        )
-
-    def _advise_program(self) -> Advice | None:
-        if self.rules is None:
-            return Advice("Learn the program from the demonstrations.", self._type("synthesize"))
-        if self.state.outdated:
-            say = "Labels, demonstrations or settings changed since the program was learned: learn it again."
-            return Advice(say, self._type("synthesize"))
-        if self.state.question and self._behind:  # nobody is asked who has applied the program as it is
-            rule, _, asset = self.state.question.partition(":")
-            say = f"It is open what rule {rule} does on {asset}: answer the question, or apply the program as it is."
-            return Advice(say, self._type("synthesize"))
-        return None
-
-    @property
-    def _behind(self) -> list[AssetStatus]:
-        """The assets whose output is not up to date."""
-        return [asset for asset in self.assets if not asset.is_done and (asset.output != "failed" or asset.stale)]
-
-    def _advise_output(self) -> Advice | None:
-        if behind := self._behind:
-            who = f"{behind[0].id} is" if len(behind) == 1 else f"{len(behind)} assets are"
-            return Advice(f"Apply the program: {who} not up to date.", self._type("apply"))
-        failed = [asset for asset in self.assets if asset.output == "failed"]
-        if not failed:
-            return None
-        some = f"{len(failed)} of {len(self.assets)} assets, first on {failed[0].id}"
-        return Advice(f"The program fails on {some}: fix what is named, then apply it again.", self._type("apply"))
-
-    def _advise_review(self) -> Advice:
-        odd = [asset.id for asset in self.assets if asset.flags or asset.review == "flagged"]
-        if odd:
-            return Advice(f"All assets are edited; {len(odd)} of them want a look, first {odd[0]}.")
-        edited = quote_path(self.folder / "edited")
-        return Advice("All assets are edited and up to date: check them.", f"meshforge check {edited}")
-
-    def _type(self, words: str) -> str:
-        """A command on the project as one types it here; words: its name, and what follows the project."""
-        command, *more = words.split(" ", 1)
-        return " ".join(["meshforge", command, quote_path(self.folder), *more])
-
-
-def _name_assets(assets: Sequence[AssetStatus]) -> str:
-    first = assets[0].id
-    return f"{first} has" if len(assets) == 1 else f"{len(assets)} assets, first {first}, have"

@@ -32,11 +32,11 @@ def write_hull_names(image: Image, views: Sequence[DrawnView], names: Sequence[s
     from PIL import ImageDraw  # lazy: 0.01 s, only pictures need it
 
     draw, texts = ImageDraw.Draw(image), dict(enumerate(names))
-    placed = [_place_texts(items, texts, image.size) for items, _ in views]
+    placed = [place_texts(items, texts, image.size) for items, _ in views]
     is_named = all(_is_readable(places, items) for places, (items, _) in zip(placed, views, strict=True))
     if not is_named:
         texts = {k: str(k) for k in texts}
-        placed = [_place_texts(items, texts, image.size) for items, _ in views]
+        placed = [place_texts(items, texts, image.size) for items, _ in views]
     for places, (_, corner) in zip(placed, views, strict=True):
         draw_texts(draw, places, texts, colors, corner)
     shown = {place.item for places in placed for place in places}
@@ -49,7 +49,8 @@ def write_hull_names(image: Image, views: Sequence[DrawnView], names: Sequence[s
     return _add_legend(image, " ".join(notes), {k: f"#{k}  {names[k]}" for k in listed}, colors, set(hidden))
 
 
-def _place_texts(items: Ints, texts: Mapping[int, str], size: tuple[int, int]) -> list[NumberPlace]:
+def place_texts(items: Ints, texts: Mapping[int, str], size: tuple[int, int]) -> list[NumberPlace]:
+    """Where texts go in a drawing, none over another; items: (h, w), what each pixel shows; size: of the picture."""
     u = text_scale(size)
     heights = [max(11, round(share * u)) for share in (14, 11)]
     sizes: dict[int, dict[int, TextSize]] = {
@@ -77,7 +78,7 @@ def _share_covered(place: NumberPlace, items: Ints) -> float:
 def _add_legend(image: Image, note: str, entries: Mapping[int, str], colors: Floats, hidden: Collection[int]) -> Image:
     """The picture, made higher by a list of hulls in columns, those that are hidden in grey."""
     from PIL import Image as Images  # lazy: 0.01 s, only pictures need it
-    from PIL import ImageDraw
+    from PIL import ImageDraw  # lazy: 0.01 s, only pictures need it
 
     u = text_scale(image.size)
     small, edge = max(11, round(13 * u)), round(16 * u)

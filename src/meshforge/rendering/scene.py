@@ -9,6 +9,7 @@ from typing import Any, assert_never
 
 import numpy as np
 
+from meshforge.common import MeshForgeError
 from meshforge.geometry import Box, Capsule, Cylinder, Ellipsoid, Floats, Ints, Polytope, Pose, Shape, Sphere
 from meshforge.rendering.camera import Camera, Floats32
 from meshforge.symbolic import Surface
@@ -162,9 +163,14 @@ def prepare_for_rays(scene: RayScene, towards: Floats | None) -> RayScene:
     """The scene, ready for rays from one side; towards: (3,), of unit length.
 
     None makes it ready for all sides: things in one place then differ a little in size, not in depth.
+    Raises MeshForgeError where embreex, which casts the rays, is not installed: it has no wheel for Linux on ARM.
     """
-    from embreex.mesh_construction import TriangleMesh  # lazy: only pictures need it
-    from embreex.rtcore_scene import EmbreeScene  # lazy: only pictures need it
+    try:
+        from embreex.mesh_construction import TriangleMesh  # lazy: only pictures need it
+        from embreex.rtcore_scene import EmbreeScene  # lazy: only pictures need it
+    except ImportError as error:
+        remedy = "There is no wheel of embreex for Linux on ARM: build it, or draw elsewhere. All but pictures works."
+        raise MeshForgeError("pictures need embreex, which is not installed", remedy=remedy) from error
 
     order = (scene.item % _BIAS_STEPS)[:, None, None]
     away = _SWELL * (scene.corners - _item_centers(scene)[:, None]) if towards is None else _BIAS * towards

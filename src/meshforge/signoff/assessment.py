@@ -10,6 +10,8 @@ from meshforge.signoff.question import ReviewQuestion
 
 BAR = 0.95
 """The probability from which on an asset is signed off without being looked at."""
+NO_LOOK = "nobody has looked at a result of this program yet"
+"""The doubt of all edits by a program of which no result was looked at."""
 
 _DIGITS = 4
 

@@ -13,7 +13,7 @@ import numpy as np
 from meshforge.geometry import Floats
 from meshforge.label_model import FamilyPosterior
 from meshforge.language import EXTREMITY, Program, show
-from meshforge.signoff.assessment import AssetConfidence, Doubt, DoubtKind
+from meshforge.signoff.assessment import NO_LOOK, AssetConfidence, Doubt, DoubtKind
 from meshforge.signoff.confidence import NO_EDIT, AssetEvidence
 from meshforge.signoff.question import ReviewState
 from meshforge.signoff.readings import RuleReadings, compare_readings
@@ -28,7 +28,6 @@ _PROGRAM_RIGHT, _RESULT_RIGHT, _RESULT_WRONG = 2.5, 1.3, 2.2
 """What speaks for a program as such [nats], and how each result that was found right, or wrong, changes that: no other
 is at the bar before one was looked at, and each wrong one takes about two more that are right."""
 _MOST_MISTRUST = 0.03  # in a program, above which it is told
-_NO_LOOK = "nobody has looked at a result of this program yet"
 _UNLIKE = 1.5  # what is so much farther than usual, as a logarithm, is unlike the rest
 
 
@@ -146,7 +145,7 @@ class FamilyTrial:
         share = 1 - self.trust_in_program()
         wrong = len(self.state.mended)
         every = wrong + len(self.state.accepted)
-        text = f"{wrong} of the {every} results that were looked at were wrong" if wrong else _NO_LOOK
+        text = f"{wrong} of the {every} results that were looked at were wrong" if wrong else NO_LOOK
         return (Doubt("reading", text, share=share),) if share > _MOST_MISTRUST else ()
 
     def _reading_doubts(self, place: int) -> list[Doubt]:

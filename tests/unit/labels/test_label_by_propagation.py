@@ -86,6 +86,7 @@ def test_without_a_label_or_a_vocabulary_it_says_what_to_do(tmp_path: Path) -> N
     project = family(tmp_path)
     with pytest.raises(ProjectError, match=r"no label that others could be taken from\n  Label .* best t\d\.obj"):
         project.propagate_labels()
+    project.set_labels("t0.obj", {NAMES[0]: label_of(NAMES[0])})
     project.set_vocabulary(())
     with pytest.raises(ProjectError, match="the vocabulary is empty"):
         project.propagate_labels()

@@ -40,7 +40,7 @@ def test_nobody_is_asked_who_applied_the_program_as_it_is(tmp_path: Path) -> Non
     project.synthesize()
     list(project.apply(execution=IN_PROCESS))
     status = project.status(workers=0)
-    assert status.question and (status.next.command or "").startswith("meshforge check")
+    assert status.question and (status.next.command or "").startswith("meshforge review")
 
 
 def test_an_answer_taken_back_is_asked_for_again(tmp_path: Path) -> None:

@@ -34,7 +34,7 @@ def test_the_next_step_leads_from_assets_to_checked_outputs(tmp_path: Path) -> N
         ["meshforge", "demonstrate"],
         ["meshforge", "synthesize"],
         ["meshforge", "apply"],
-        ["meshforge", "check"],
+        ["meshforge", "review"],
     ]
 
 
@@ -147,7 +147,16 @@ def test_a_failure_is_told_with_its_message(tmp_path: Path) -> None:
     list(project.apply(execution=IN_PROCESS))
     found = asset(project, THIRD)
     assert found.output == "failed" and found.error and "no labels" in found.error
-    assert "fails on 1 of 3 assets, first on table2/model.obj" in of(project).next.say
+    assert of(project).next.say.startswith("table2/model.obj has no label")
+    project.accept(Program.parse('labels top\nIs(top) => Replace("bar.obj")\n'))
+    write_table(project.folder / "templates/bar.obj")
+    project.set_labels(THIRD, {"crumb": "misc"})
+    (tmp_path / "assets" / THIRD).write_text("nothing of use")
+    list(project.apply(execution=IN_PROCESS))
+    say = of(project).next.say
+    assert (
+        say == "The program fails on 1 of 3 assets, first on table2/model.obj: fix what is named, then apply it again."
+    )
 
 
 def test_an_asset_that_cannot_be_read_is_told_and_does_not_hide_the_others(tmp_path: Path) -> None:
@@ -181,7 +190,9 @@ def test_a_review_counts_until_the_output_changes(tmp_path: Path) -> None:
     project.set_verdict(FIRST, "accepted")
     project.set_verdict(SECOND, "flagged", "left leg")
     assert [a.review for a in of(project).assets] == ["accepted", "flagged", None]
+    project.set_verdict(THIRD, "accepted")
     assert "first table1/model.obj" in of(project).next.say
+    project.set_verdict(THIRD, None)
     kept = json.loads((project.folder / "review.json").read_text())["assets"]
     assert kept[SECOND]["verdict"] == "flagged" and kept[SECOND]["note"] == "left leg"
     project.set_labels(FIRST, {"crumb": "leg"})
@@ -232,7 +243,7 @@ def test_the_status_of_some_assets_is_theirs_in_the_status_of_all(tmp_path: Path
 def test_the_next_step_for_some_assets_alone_counts_these(tmp_path: Path) -> None:
     project = applied(tmp_path)
     project.set_labels(THIRD, {"crumb": "leg"})
-    assert (project.status([FIRST], workers=0).next.command or "").startswith("meshforge check")
+    assert (project.status([FIRST], workers=0).next.command or "").startswith("meshforge review")
     assert (project.status([THIRD], workers=0).next.command or "").startswith("meshforge apply")
     assert (of(project).next.command or "").startswith("meshforge apply")
 
@@ -352,7 +363,7 @@ def test_the_status_is_plain_data_for_scripts(tmp_path: Path) -> None:
         "probability": None,
         "doubts": [],
     }
-    assert data["next"]["command"].startswith("meshforge check")
+    assert data["next"]["command"].startswith("meshforge review")
 
 
 def test_an_open_step_counts_as_demonstrated(tmp_path: Path) -> None:

@@ -1,0 +1,231 @@
+"""What `status` proposes next is typed word for word, in each state of a project; it has to work, and to lead on."""
+
+from __future__ import annotations
+
+import shlex
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from meshforge.batch import IN_PROCESS
+from meshforge.language import Program
+from meshforge.project import Project, Status
+from tests.unit.batch.families import label_of, obj, table_boxes, write_table, write_tables
+from tests.unit.cli.in_process import Run, runner
+from tests.unit.project.shelves import ambiguous
+from tests.unit.project.tables import FIRST, SECOND, STEPS, THIRD, applied, demonstrated, fresh, labelled, learned
+
+LABELS = {name: label_of(name) for name in table_boxes()}
+CORNERS = ((0, 0), (2, 0), (2, 1), (1, 1), (1, 2), (0, 2))
+FLOOR = ((0, 1, 2), (0, 2, 3), (0, 3, 5), (3, 4, 5))
+SIDES = [f"f {k + 1} {(k + 1) % 6 + 1} {(k + 1) % 6 + 7} {k + 7}" for k in range(6)]
+ANGLE = "\n".join(
+    [
+        *("o angle", *(f"v {x} {y} {z}" for z in (0, 1) for x, y in CORNERS), *SIDES),
+        *(f"f {c + 1} {b + 1} {a + 1}\nf {a + 7} {b + 7} {c + 7}" for a, b, c in FLOOR),
+    ]
+)
+"""A closed piece that is not convex."""
+
+
+@pytest.fixture
+def run(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], tmp_path: Path) -> Run:
+    monkeypatch.chdir(tmp_path)
+    return runner(monkeypatch, capsys)
+
+
+def of(project: Project) -> Status:
+    return Project.open(project.folder).status(workers=0)
+
+
+def bare(folder: Path) -> Project:
+    """Three tables with no label anywhere."""
+    for name in ("a", "b", "c"):
+        write_table(folder / f"assets/{name}.obj", labels=False)
+    return Project.create(folder / "tables", [folder / "assets"], vocabulary=["top", "leg", "misc"])
+
+
+def one_labelled(folder: Path) -> Project:
+    project = bare(folder)
+    project.set_labels("a.obj", LABELS)
+    return project
+
+
+def partly_labelled(folder: Path) -> Project:
+    project = bare(folder)
+    project.set_labels("a.obj", {"top": "top", "crumb": "misc"})
+    return project
+
+
+def one_named(folder: Path) -> Project:
+    """Names that say what hulls are."""
+    project = bare(folder)
+    project.set_vocabulary(("top", "left", "right", "crumb"))
+    return project
+
+
+def new_asset(folder: Path) -> Project:
+    project = applied(folder)
+    write_table(folder / "assets/new/model.obj", 1.7, labels=False)
+    return project
+
+
+def new_asset_with_labels(folder: Path) -> Project:
+    project = applied(folder)
+    write_table(folder / "assets/new/model.obj", 1.7)
+    return project
+
+
+def changed_asset(folder: Path) -> Project:
+    project = applied(folder)
+    write_table(folder / "assets" / THIRD, 4.0)
+    return project
+
+
+def changed_labels(folder: Path) -> Project:
+    project = applied(folder)
+    project.set_labels(THIRD, {"crumb": "leg"})
+    return project
+
+
+def changed_program(folder: Path) -> Project:
+    project = applied(folder)
+    project.accept(Program.parse("labels top, leg, misc\nIs(misc) => Delete\n"))
+    return project
+
+
+def demonstrated_anew(folder: Path) -> Project:
+    project = learned(folder)
+    project.demonstrate(THIRD, STEPS[:1])
+    return project
+
+
+def without_hulls(folder: Path) -> Project:
+    """A piece that is not convex and has to be decomposed."""
+    (folder / "assets").mkdir(parents=True)
+    (folder / "assets/angle.obj").write_text(ANGLE)
+    return Project.create(folder / "tables", [folder / "assets"], vocabulary=["top"])
+
+
+def signed_off(folder: Path) -> Project:
+    project = applied(folder)
+    project.set_verdict([FIRST, SECOND, THIRD], "accepted")
+    return project
+
+
+STATES: dict[str, tuple[Callable[[Path], Project], str, tuple[int, ...]]] = {
+    "labels files beside the assets": (fresh, "label tables --with file", (0,)),
+    "names that say labels": (one_named, "label tables --with names", (0,)),
+    "one asset labelled": (one_labelled, "label tables --with propagate", (0,)),
+    "demonstrated": (demonstrated, "synthesize tables", (0,)),
+    "an open question": (ambiguous, "synthesize {0}", (0, 1)),
+    "learned": (learned, "apply tables", (0,)),
+    "demonstrated anew": (demonstrated_anew, "synthesize tables", (0, 1)),
+    "applied": (applied, "review tables", (0, 1)),
+    "signed off": (signed_off, "check tables/edited", (0,)),
+    "an asset changed": (changed_asset, "apply tables", (0,)),
+    "labels changed": (changed_labels, "apply tables", (0,)),
+    "the program changed": (changed_program, "apply tables", (0,)),
+    "a new asset": (new_asset, "label tables --with propagate", (0,)),
+    "a new asset with a labels file": (new_asset_with_labels, "label tables --with file", (0,)),
+    "pieces to be decomposed": (without_hulls, "prepare tables --decompose coacd", (0,)),
+}
+"""How each is made, the command that is proposed, and the exit codes that mean it did what it should."""
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("state", STATES)
+def test_what_is_proposed_works_and_something_else_is_proposed_then(state: str, tmp_path: Path, run: Run) -> None:
+    make, command, codes = STATES[state]
+    project = make(tmp_path)
+    advice = of(project).next
+    assert advice.command == f"meshforge {command.format(project.folder.name)}", advice
+    shown = run("status", project.folder.name).out
+    assert f"\nNext: {advice.say}\n  {advice.command}\n" in shown
+    done = run(*shlex.split(advice.command)[1:])
+    assert done.code in codes, (done.out, done.err)
+    if state not in ("an open question", "applied", "signed off"):  # which a person has to answer, or are the end
+        assert of(project).next != advice
+
+
+@pytest.mark.parametrize(("make", "hull"), [(bare, "top"), (partly_labelled, "left_low")])
+def test_by_hand_the_proposed_command_needs_but_the_label(
+    make: Callable[[Path], Project], hull: str, tmp_path: Path, run: Run
+) -> None:
+    project = make(tmp_path)
+    project.set_vocabulary(("panel", "leg", "misc", "top") if make is partly_labelled else ("panel", "leg", "misc"))
+    command = of(project).next.command
+    assert command == f"meshforge label tables a.obj '{hull}=LABEL'"
+    before = sum(asset.labelled for asset in of(project).assets)
+    assert run(*shlex.split(command.replace("LABEL", "leg"))[1:]).code == 0
+    assert sum(asset.labelled for asset in of(project).assets) == before + 1
+
+
+def test_to_demonstrate_the_proposed_command_needs_but_the_steps(tmp_path: Path, run: Run) -> None:
+    project = labelled(tmp_path)
+    command = of(project).next.command or ""
+    assert command.startswith("meshforge demonstrate tables ") and command.endswith(" 'HULLS => ACTION' ...")
+    assert run(*shlex.split(command.replace("'HULLS => ACTION' ...", "'crumb => Delete'"))[1:]).code == 0
+    assert of(project).next.command == "meshforge synthesize tables"
+
+
+@pytest.mark.parametrize("words", ["", "top,leg,misc"])
+def test_propagation_of_nothing_shows_how_to_label_the_advised_asset(words: str, tmp_path: Path, run: Run) -> None:
+    project = bare(tmp_path)
+    project.set_vocabulary(tuple(words.split(",")) if words else ())
+    told = run("label", "tables", "--with", "propagate")
+    assert told.code == 2 and "there is no label that others could be taken from" in told.err
+    shown = told.err.partition("studio, or: ")[2].splitlines()[0]
+    assert shown.startswith("meshforge label tables ") and ("--vocabulary a,b,c" in shown) == (not words)
+    typed = shown.replace("LABEL", "leg").replace("a,b,c", "top,leg,misc")
+    assert run(*shlex.split(typed)[1:]).code == 0
+
+
+def test_assets_that_are_gone_or_cannot_be_read_are_to_be_mended_by_hand(tmp_path: Path, run: Run) -> None:
+    project = labelled(tmp_path)
+    for name in (FIRST, SECOND, THIRD):
+        (tmp_path / "assets" / name).write_text("nothing of use")
+        (project.folder / "labels" / f"{name}.json").unlink()
+    advice = of(project).next
+    assert advice.command is None or "label" in advice.command
+    told = run("label", "tables", "--with", "propagate")
+    assert told.code == 2 and "No asset can be read" in told.err
+    for name in (FIRST, SECOND, THIRD):
+        (tmp_path / "assets" / name).unlink()
+    assert run("status", "tables").code in (0, 2)
+
+
+def test_an_unreadable_asset_is_named_and_not_only_applied_to_again(tmp_path: Path) -> None:
+    project = signed_off(tmp_path)
+    (tmp_path / "assets" / THIRD).write_text("nothing of use")
+    say = of(project).next.say
+    assert (
+        say == "The program fails on 1 of 3 assets, first on table2/model.obj: fix what is named, then apply it again."
+    )
+    list(Project.open(project.folder).apply(execution=IN_PROCESS))
+    assert of(project).next.say == say
+
+
+def test_without_any_demonstration_left_one_is_to_be_shown(tmp_path: Path) -> None:
+    project = learned(tmp_path)
+    for name in (FIRST, SECOND):
+        project.demonstrate(name, ())
+    assert "meshforge demonstrate" in str(of(project).next.command)
+
+
+def test_flagged_results_are_opened_in_the_studio_once_the_others_are_signed_off(tmp_path: Path) -> None:
+    project = signed_off(tmp_path)
+    project.set_verdict(SECOND, "flagged")
+    advice = of(project).next
+    assert advice.command == f"meshforge studio {project.folder}"
+    assert advice.say == f"All assets are edited; 1 of them want a look, first {SECOND}: edit them by hand."
+
+
+def test_a_program_without_labels_asks_for_none(tmp_path: Path) -> None:
+    write_tables(tmp_path / "assets", 2)
+    (tmp_path / "assets/plain.obj").write_text(obj(table_boxes()))
+    project = Project.create(tmp_path / "tables", [tmp_path / "assets"])
+    project.label_from_files()
+    project.accept(Program.parse("labels top\nAll => Merge\n"))
+    assert of(project).next.command == f"meshforge apply {project.folder}"
