@@ -28,6 +28,7 @@ LAYERS = (
     (("project", "use cases: demonstrate, learn, ask, review, apply"),),
     (("labels", "from names, files, models, propagation"),),
     (("store", "the project folder on disk"),),
+    (("inspection", "checks, pictures and differences of one asset"),),
     (("batch", "many assets: workers, outputs, report"), ("samples", "bundled families")),
     (
         ("synthesis", "learns programs"),

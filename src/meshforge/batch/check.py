@@ -130,7 +130,7 @@ class CheckOutcome:
     @property
     def has_failed(self) -> bool:
         """Whether there is an error."""
-        return self.examination is None or any(f.severity == "error" for f in self.examination.findings)
+        return self.examination is None or self.examination.has_failed
 
     def to_json(self) -> dict[str, Any]:
         """The examination as JSON-able data; in SI units, volumes in litres."""

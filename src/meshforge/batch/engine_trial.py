@@ -30,16 +30,23 @@ sys.exit(0 if pybullet.loadURDF(sys.argv[1]) >= 0 else 3)
 _BULLET_HEAD = re.compile(r"b3(?:Warning|Error|Printf)\[[^\]]*\]:\n")
 
 
-def examine_file(path: Path, mesh: SymbolicMesh, wanted: CheckOptions, before: SymbolicMesh | None) -> Examination:
+def examine_file(
+    path: Path | None, mesh: SymbolicMesh, wanted: CheckOptions, before: SymbolicMesh | None
+) -> Examination:
     """The examination of a mesh, and what the engine whose limits are asked for says of its file.
 
-    path: of the file as it is now; before: the mesh that it was edited from. Raises UsageError for an unknown engine.
+    path: of the file as it is now, None for a mesh that no file is of; before: the mesh that it was edited from.
+    Raises UsageError for an unknown engine.
     """
     found = examine_mesh(mesh, wanted, before)
     if (engine := wanted.engine) is None:
         return found
     ask = ENGINES_TO_ASK.get(engine)
-    return found.add_trial(ask(engine, path, mesh) if ask else EngineTrial(engine, path.name))
+    return found.add_trial(ask(engine, path, mesh) if ask else EngineTrial(engine, _name_of(path)))
+
+
+def _name_of(path: Path | None) -> str:
+    return path.name if path else "this mesh"
 
 
 def engine_version(engine: str | None) -> str:
@@ -48,30 +55,30 @@ def engine_version(engine: str | None) -> str:
     return f" {program} {version(program)}" if program and find_spec(program) else ""
 
 
-def try_mujoco(engine: str, path: Path, mesh: SymbolicMesh) -> EngineTrial:
+def try_mujoco(engine: str, path: Path | None, mesh: SymbolicMesh) -> EngineTrial:
     """What MuJoCo says: of an MJCF or a URDF as it is, of any other file as `meshforge convert` writes it as MJCF."""
-    form = format_of(path).name
-    own = form in _OWN_FORMATS["mujoco"]
+    form = format_of(path).name if path else ""
+    own = path is not None and form in _OWN_FORMATS["mujoco"]
     try:
-        found = try_in_mujoco(path) if own else _try_converted(mesh)
+        found = try_in_mujoco(path) if path and own else _try_converted(mesh)
     except ImportError:
         return _describe_absence(engine, path)
     except MeshForgeError as error:
-        return EngineTrial(engine, path.name, untried=f"it cannot be made an MJCF: {error.message}")
+        return EngineTrial(engine, _name_of(path), untried=f"it cannot be made an MJCF: {error.message}")
     remedy = ""
-    if found.refusal and own and form != "mjcf" and _is_taken_converted(mesh):
+    if found.refusal and path and own and form != "mjcf" and _is_taken_converted(mesh):
         command = f"meshforge convert {quote_path(path)} {quote_path(path.with_suffix('.xml'))}"
         remedy = f"Fix what the message names; or give MuJoCo an MJCF, which it takes: {command}"
     given: Given = "file" if own else "conversion"
     return EngineTrial(
-        engine, path.name, f"MuJoCo {found.version}", given, found.refusal, found.warnings, remedy=remedy
+        engine, _name_of(path), f"MuJoCo {found.version}", given, found.refusal, found.warnings, remedy=remedy
     )
 
 
-def _describe_absence(engine: str, path: Path) -> EngineTrial:
+def _describe_absence(engine: str, path: Path | None) -> EngineTrial:
     program = _PROGRAMS[engine]
     return EngineTrial(
-        engine, path.name, untried=f"{program} is not installed", remedy=f"Install it: pip install {program}"
+        engine, _name_of(path), untried=f"{program} is not installed", remedy=f"Install it: pip install {program}"
     )
 
 
@@ -87,10 +94,10 @@ def _is_taken_converted(mesh: SymbolicMesh) -> bool:
         return False
 
 
-def try_bullet(engine: str, path: Path, mesh: SymbolicMesh) -> EngineTrial:
+def try_bullet(engine: str, path: Path | None, mesh: SymbolicMesh) -> EngineTrial:
     """What PyBullet says of a URDF, in a process of its own, since it may crash; of other files nothing."""
-    if format_of(path).name not in _OWN_FORMATS["bullet"]:
-        return EngineTrial(engine, path.name)
+    if path is None or format_of(path).name not in _OWN_FORMATS["bullet"]:
+        return EngineTrial(engine, _name_of(path))
     if find_spec("pybullet") is None:
         return _describe_absence(engine, path)
     command = [sys.executable, "-c", _LOAD_IN_BULLET, str(path.absolute())]
@@ -114,7 +121,7 @@ def _read_bullet_words(printed: str) -> str:
     return said
 
 
-ENGINES_TO_ASK: MappingProxyType[str, Callable[[str, Path, SymbolicMesh], EngineTrial]] = MappingProxyType(
+ENGINES_TO_ASK: MappingProxyType[str, Callable[[str, Path | None, SymbolicMesh], EngineTrial]] = MappingProxyType(
     {"mujoco": try_mujoco, "bullet": try_bullet}
 )
 """How an engine itself is asked, by its name; of the others only the tables of limits are known."""

@@ -101,6 +101,18 @@ class Examination:
         return replace(self, notes=(*self.notes, *more))
 
     @property
+    def has_failed(self) -> bool:
+        """Whether a finding is an error."""
+        return any(finding.severity == "error" for finding in self.findings)
+
+    def __str__(self) -> str:
+        """What was measured and what is wrong, line by line; `legal` where there is nothing else to say."""
+        lines = [*self.descriptions, *map(str, self.findings)]
+        if not self.findings and len(lines) == bool(self.trial):
+            return f"legal{f' ({self.trial.description})' if self.trial else ''}"
+        return "\n".join(lines)
+
+    @property
     def descriptions(self) -> tuple[str, ...]:
         """What was measured, a sentence each."""
         found = [f"fit: {self.fit.description}"] if self.fit and self.fit.hulls else []

@@ -31,6 +31,10 @@ class Finding:
     message: str
     remedy: str
 
+    def __str__(self) -> str:
+        """What is wrong, and on a line of its own, the remedy."""
+        return f"{self.severity}: {self.message}" + (f"\n  {self.remedy}" if self.remedy else "")
+
 
 @dataclass(frozen=True, slots=True)
 class HullRule:

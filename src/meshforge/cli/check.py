@@ -167,9 +167,7 @@ def _describe_check(outcome: batch.CheckOutcome) -> str:
     lines = [*_describe_work(outcome)]
     if not found.findings and len(lines) == bool(found.trial):  # nothing else to say
         return f"{path}: legal{f' ({found.trial.description})' if found.trial else ''}"
-    for finding in found.findings:
-        lines.append(f"{finding.severity}: {finding.message}")
-        lines += [f"  {finding.remedy}"] if finding.remedy else []
+    lines += [line for finding in found.findings for line in str(finding).split("\n")]
     return "\n  ".join([f"{path}:", *lines])
 
 

@@ -3,28 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
 import typer
 
+from meshforge import formats
 from meshforge.cli import options
 from meshforge.cli.terminal import print_json, remark
 from meshforge.common import UsageError, pluralize
-from meshforge.formats import (
-    FORMATS,
-    PLUGIN_FORMATS,
-    EngineName,
-    Loss,
-    SaveResult,
-    format_for,
-    format_with_names,
-    labels_beside,
-    load,
-    save,
-)
-from meshforge.symbolic import Feature, SymbolicMesh, write_labels
+from meshforge.formats import FORMATS, PLUGIN_FORMATS, EngineName, Loss, SaveResult, format_for, format_with_names
+from meshforge.symbolic import Feature, SymbolicMesh
 
 
 @dataclass(frozen=True, slots=True)
@@ -101,12 +91,10 @@ def _parse_suffix(to: str) -> str:
 
 
 def _convert_one(source: Path, out: Path, given: ConvertArguments) -> None:
-    mesh = load(source, labels=given.labels)
-    saved = save(mesh, out, link=given.link, overwrite=given.overwrite, names=given.names)
+    mesh = formats.load(source, labels=given.labels)
+    saved = formats.convert(mesh, out, link=given.link, overwrite=given.overwrite, names=given.names)
     read_notes = mesh.asset.notes if mesh.asset else ()
     limit_notes = _note_limits(mesh, saved, given.names)
-    if mesh.labels:
-        _write_labels(mesh, saved, given.overwrite)
     if given.json:
         print_json(_to_json(source, saved, len(mesh.hulls), read_notes, limit_notes))
         return
@@ -142,12 +130,3 @@ def _to_json(
 
 def _to_row(thing: Feature | Loss) -> dict[str, Any]:
     return {"what": thing.kind.many, "count": thing.count, "names": list(thing.names)}
-
-
-def _write_labels(mesh: SymbolicMesh, saved: SaveResult, overwrite: bool) -> None:
-    path = labels_beside(saved.path)
-    if path.exists() and not overwrite:
-        remark(f"note: {path} is there already and was left as it is")
-        return
-    renamed = mesh.with_hulls(replace(hull, name=saved.names.get(hull.name, hull.name)) for hull in mesh.hulls)
-    write_labels(path, renamed, ())

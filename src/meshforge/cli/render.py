@@ -9,6 +9,7 @@ from typing import Annotated, Literal
 
 import typer
 
+from meshforge import inspection
 from meshforge.cli.options import AssetFile, InProject, LabelsPath, open_asset, takes
 from meshforge.cli.terminal import remark
 from meshforge.common import UsageError, pluralize
@@ -21,7 +22,6 @@ from meshforge.rendering import (
     write_picture,
     write_png,
 )
-from meshforge.rendering import render as draw
 from meshforge.symbolic import SymbolicMesh
 
 _LABELLING = "labelling"
@@ -74,17 +74,12 @@ def render(given: RenderArguments) -> None:
         mesh = open_asset(given.asset, given.labels, given.project)
         remark(f"wrote {write_part_pictures(mesh, given.out, side)}")
         return
-    check_picture_path(given.out)
+    check_picture_path(given.out)  # before the asset is read, which may take its time
     mesh = open_asset(given.asset, given.labels, given.project)
-    image = draw(
-        mesh,
-        views=_parse_views(given.views),
-        color_by=given.color_by or ("label" if mesh.labels else "hull"),
-        size=_parse_pixels(given.size or "900x700"),
-        ghost=tuple(mesh.asset.visuals) if given.ghost and mesh.asset else None,
-        names=given.names,
+    views, size = _parse_views(given.views), _parse_pixels(given.size or "900x700")
+    inspection.render(
+        mesh, given.out, views=views, color_by=given.color_by, size=size, ghost=given.ghost, names=given.names
     )
-    write_picture(given.out, image)
     remark(f"wrote {given.out}")
 
 

@@ -1,5 +1,6 @@
 """What every package needs and what knows nothing of meshes: errors, atomic files, words for messages."""
 
+from meshforge.common.extras import import_extra
 from meshforge.common.files import (
     FileStates,
     expand_glob,
@@ -18,6 +19,7 @@ from meshforge.common.messages import (
     AssetError,
     DemonstrationError,
     GeometryError,
+    HullNotFoundError,
     MeshForgeError,
     PluginError,
     ProgramError,
@@ -51,6 +53,7 @@ __all__ = [
     "DemonstrationError",
     "FileStates",
     "GeometryError",
+    "HullNotFoundError",
     "MeshForgeError",
     "Plugin",
     "PluginError",
@@ -72,6 +75,7 @@ __all__ = [
     "find_plugins",
     "first_validation_error",
     "forget_plugins",
+    "import_extra",
     "is_file",
     "is_link_cycle",
     "join_names",

@@ -100,6 +100,10 @@ def describe_error(error: Exception, where: str | None = None, fault: str = "ple
             return f"{head}{type(error).__name__}: {error}\n  This is a fault of MeshForge; {fault}."
 
 
+class HullNotFoundError(MeshForgeError, KeyError):
+    """A name that no hull of a mesh has."""
+
+
 class AssetError(MeshForgeError):
     """A file that cannot be read or written as an asset."""
 

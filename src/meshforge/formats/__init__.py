@@ -1,6 +1,8 @@
 """Files: a reader and a writer for each format, and the door to them all."""
 
 from meshforge.formats.base import Format, Loss, Mass, Output, ReadOptions
+from meshforge.formats.convert import convert, to_mjspec
+from meshforge.formats.decompose import decompose
 from meshforge.formats.engine_names.conventions import EngineName
 from meshforge.formats.mesh_reader import read_triangles, split_into_pieces
 from meshforge.formats.meshfile.surface import RawSurface
@@ -16,6 +18,7 @@ from meshforge.formats.registry import (
     NO_GEOMETRY,
     PLUGIN_FORMATS,
     SUFFIXES,
+    Source,
     all_suffixes,
     format_for,
     format_of,
@@ -25,9 +28,11 @@ from meshforge.formats.registry import (
     labels_beside,
     load,
     load_many,
+    path_of,
     plugin_of_suffix,
     read,
     resolve_asset_path,
+    to_mesh,
 )
 from meshforge.formats.segmentation.base import (
     POINTS_SUFFIXES,
@@ -38,6 +43,7 @@ from meshforge.formats.segmentation.base import (
     read_semantics,
 )
 from meshforge.formats.segmentation.reader import attach_own_mesh, read_segmentation
+from meshforge.formats.trimesh_meshes import from_trimesh
 from meshforge.formats.visuals import VisualSurfaces
 
 __all__ = [
@@ -61,19 +67,24 @@ __all__ = [
     "ReadOptions",
     "SaveResult",
     "Segmentation",
+    "Source",
     "VisualSurfaces",
     "all_suffixes",
     "attach_own_mesh",
+    "convert",
+    "decompose",
     "format_for",
     "format_obj",
     "format_of",
     "format_with_names",
+    "from_trimesh",
     "is_asset",
     "is_description",
     "labels_beside",
     "load",
     "load_many",
     "output_path_of",
+    "path_of",
     "plugin_of_suffix",
     "points_beside",
     "read",
@@ -84,5 +95,7 @@ __all__ = [
     "resolve_asset_path",
     "save",
     "split_into_pieces",
+    "to_mesh",
+    "to_mjspec",
     "try_in_mujoco",
 ]

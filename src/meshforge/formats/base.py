@@ -141,6 +141,10 @@ class Format(ABC):
     def _creation_error(self, asset: Asset) -> Exception:
         return AssetError(f"{self.name} files cannot be made from {asset.format} files", where=str(asset.path))
 
+    def output_name(self, name: str) -> str:
+        """The name of the file that an edited asset is written to, by that of the file it was read from."""
+        return name
+
     def features(self, asset: Asset) -> Iterable[Feature]:
         """What the document of an asset of this format holds that the asset itself does not tell."""
         return ()

@@ -62,7 +62,7 @@ def save(
     Raises AssetError: the format cannot hold the hulls, or a file of the input, or another one that exists, would be
     overwritten. Raises UsageError: the engine knows no collision by name in files of this format.
     """
-    asset = what if isinstance(what, Asset) else what.to_asset() if what.asset else _asset_of_mesh(what)
+    asset = _to_asset(what)
     out = Path(os.path.normpath(out))
     known = format_for(out, asset.format)
     known = format_with_names(known, names) if names else known
@@ -77,6 +77,17 @@ def save(
     for path in extra:
         path.unlink()
     return SaveResult(out, tuple(plan), report.sentences, output.names, report)
+
+
+def make_output(mesh: SymbolicMesh, kind: str, name: str) -> Output:
+    """The files of a mesh in the format of a name, main file named `name`, without writing them. Raises AssetError."""
+    known = format_named(kind)
+    assert known is not None
+    return _make_output(_to_asset(mesh), known, name, "keep")[0]
+
+
+def _to_asset(what: SymbolicMesh | Asset) -> Asset:
+    return what if isinstance(what, Asset) else what.to_asset() if what.asset else _asset_of_mesh(what)
 
 
 def _make_output(asset: Asset, known: Format, name: str, mass: Mass) -> tuple[Output, ConversionReport]:
@@ -180,6 +191,8 @@ def output_path_of(asset: Asset, base: Path, out_dir: Path) -> Path:
     end within `out_dir`.
     """
     path, base = plain_path(asset.path), plain_path(base)
+    if path.suffix.lower() in SUFFIXES:
+        path = path.with_name(format_for(path, asset.format).output_name(path.name))
     folders = [path.parent, *(plain_path(file).parent for file in asset.files)]
     known = format_named(asset.format)
     folders += [plain_path(known.top(asset))] if known else []

@@ -48,6 +48,10 @@ class Resolver:
         """Where the file of a reference goes in an output: `placement`."""
         return placement(reference)
 
+    def find_package(self, package: str) -> Path | None:
+        """The folder of a package, None where it is not there."""
+        return next((home for home in self._homes(package) if home.is_dir()), None)
+
     def _homes(self, package: str) -> Iterator[Path]:
         """Where a package may be, in the given roots, then upwards: by a folder's name, or by its package.xml."""
         for root in (*self.roots, self.folder, *self.folder.parents):

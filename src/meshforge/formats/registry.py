@@ -3,6 +3,7 @@ alone or many, with the labels that lie beside them."""
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
 from pathlib import Path
@@ -15,14 +16,17 @@ from meshforge.formats.engine_names.conventions import EngineName
 from meshforge.formats.gltf.format import GltfForGodot, GltfFormat, GltfForUnity, GltfForUnreal
 from meshforge.formats.meshfile.surface import FARTHEST
 from meshforge.formats.mjcf.format import MjcfFormat
+from meshforge.formats.mjcf.spec import SpecObject, read_spec, read_text
 from meshforge.formats.plain import folder, obj, ply, stl
 from meshforge.formats.plugin_format import guard_format
 from meshforge.formats.sdf.document import CONFIG, find_main_file
 from meshforge.formats.sdf.format import SdfFormat
 from meshforge.formats.segmentation.base import is_segmentation
 from meshforge.formats.urdf.format import UrdfFormat
+from meshforge.formats.urdf.xacro import XacroFormat
 from meshforge.formats.usd.format import UsdFormat
-from meshforge.symbolic import Asset, SymbolicMesh, read_labels, transfer_labels
+from meshforge.formats.usd.live_stage import StageObject, read_stage
+from meshforge.symbolic import Asset, Label, SymbolicMesh, read_labels, transfer_labels
 
 _HEAD = 4096  # bytes by which a format tells its assets from other files of its suffix
 _UNREAD = {".mjb": "is a model compiled for one version of MuJoCo: open the XML it was made from"}
@@ -30,6 +34,7 @@ _UNREAD = {".mjb": "is a model compiled for one version of MuJoCo: open the XML 
 FOLDER = folder.FolderFormat((obj.ObjFormat(), stl.StlFormat(), ply.PlyFormat(), stl.WrlFormat()))
 FORMATS: tuple[Format, ...] = (
     UrdfFormat(),
+    XacroFormat(),
     MjcfFormat(),
     SdfFormat(),
     GltfFormat(),
@@ -187,29 +192,71 @@ _LARGE = 50.0  # m: beyond nearly all assets in metres; a mug in millimetres is 
 _SMALL = 1e-3  # m: below nearly all assets in metres
 
 
-def read(path: str | Path, options: ReadOptions | None = None) -> Asset:
-    """The asset in a file, or in a folder: of mesh files, or of a Gazebo model. Raises AssetError.
+Source = str | os.PathLike[str] | SpecObject | StageObject
+"""What an asset is read from: the path of a file or a folder, the text of an MJCF, a `mujoco.MjSpec`, a `Usd.Stage`."""
 
-    options: None takes those of the environment.
+
+def read(source: Source, options: ReadOptions | None = None) -> Asset:
+    """The asset in a file, in a folder (of mesh files, or of a Gazebo model), in text or in an object.
+
+    options: None takes those of the environment. Raises AssetError; UsageError: nothing that can be read.
     """
-    path = resolve_asset_path(Path(path))
-    asset = format_of(path).read(path, options or ReadOptions.from_environment())
+    asset = _read_source(source, options or ReadOptions.from_environment())
     refuse_far(asset)
     note = note_if_odd_size(asset) if asset.geoms or asset.opaque else NO_GEOMETRY
     return replace(asset, notes=(*asset.notes, note)) if note else asset
 
 
-def load(path: str | Path, labels: str | Path | None = None) -> SymbolicMesh:
-    """The symbolic mesh of a file, with the labels of a labels file; without one, of the file beside it if present.
+def _read_source(source: Source, options: ReadOptions) -> Asset:
+    if path := path_of(source):
+        return format_of(path).read(path, options)
+    if isinstance(source, str):
+        return read_text(source)
+    if isinstance(source, SpecObject):
+        return read_spec(source)
+    if isinstance(source, StageObject):
+        return read_stage(source)
+    remedy = "Give a path, the text of an MJCF, a mujoco.MjSpec or a Usd.Stage; for trimesh there is from_trimesh."
+    raise UsageError(f"a {type(source).__name__} is nothing that an asset is read from", remedy=remedy)
 
-    Raises AssetError: the asset or the labels cannot be read.
+
+def path_of(source: SymbolicMesh | Source) -> Path | None:
+    """The file or folder that is meant, None for text and for objects. Raises AssetError as `resolve_asset_path`."""
+    is_text = isinstance(source, str) and source.lstrip().startswith("<")
+    return resolve_asset_path(Path(source)) if isinstance(source, str | os.PathLike) and not is_text else None
+
+
+def to_mesh(what: SymbolicMesh | Source) -> SymbolicMesh:
+    """A mesh as it is, anything else as `load` reads it."""
+    return what if isinstance(what, SymbolicMesh) else load(what)
+
+
+Labels = str | os.PathLike[str] | Mapping[str, Label | str]
+"""Labels for an asset: the path of a labels file, or the labels by the names of hulls."""
+
+
+def load(source: Source, labels: Labels | None = None) -> SymbolicMesh:
+    """The symbolic mesh of a file or a folder, of the text of an MJCF, of a `mujoco.MjSpec` or a `Usd.Stage`.
+
+    labels: a labels file, or labels by the names of hulls; None takes those of the file beside it if present.
+    What is saved of an object in memory is what it said when it was loaded, with the edit; the object does not change.
+    Raises AssetError: the asset or the labels cannot be read; HullNotFoundError: a label for a hull that is not there;
+    UsageError: nothing that can be read.
     """
-    path = resolve_asset_path(Path(path))
-    mesh = SymbolicMesh.of(read(path))
-    beside = Path(labels) if labels is not None else labels_beside(path)
-    if labels is None and not beside.is_file():
-        return mesh
-    return transfer_labels(read_labels(beside), mesh).mesh
+    mesh = SymbolicMesh.of(read(source))
+    if isinstance(labels, Mapping):
+        return label_hulls(mesh, labels)
+    if labels is None and (path := path_of(source)):
+        beside = labels_beside(path)
+        labels = beside if beside.is_file() else None
+    return mesh if labels is None else transfer_labels(read_labels(Path(labels)), mesh).mesh
+
+
+def label_hulls(mesh: SymbolicMesh, labels: Mapping[str, Label | str]) -> SymbolicMesh:
+    """The mesh with some labels set. Raises HullNotFoundError: there is no hull of a name."""
+    for name in labels:
+        mesh.hull_of(name)
+    return mesh.with_labels(labels)
 
 
 def load_many(patterns: str | Path | Iterable[str | Path]) -> Iterator[SymbolicMesh]:

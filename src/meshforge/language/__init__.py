@@ -22,20 +22,18 @@ from meshforge.language.apply import (
     from_canonical_frame,
     to_canonical_frame,
 )
+from meshforge.language.labels import check_declared, show_label
 from meshforge.language.orient import find_rotation, orient_mesh
 from meshforge.language.parse import parse_action, parse_extractor, parse_orient
-from meshforge.language.print import Comments, Rule, explain, show, show_label
+from meshforge.language.print import Comments, Rule, explain, show
 from meshforge.language.program import HeaderComments, Program, RunResult, rename_in_program
 from meshforge.language.syntax import (
-    DIRECTIONS,
     EXTREMITY,
-    OPERATORS,
     SLACK,
     All,
     Attach,
     BaseExtractor,
     Diff,
-    Direction,
     Extractor,
     Geo,
     Intersect,
@@ -44,7 +42,6 @@ from meshforge.language.syntax import (
     Orient,
     Union,
     attach_mask,
-    check_declared,
     geo_mask,
     labels_of,
     reference_length,
@@ -53,6 +50,7 @@ from meshforge.language.syntax import (
     select_mask,
     size_of,
 )
+from meshforge.language.words import DIRECTIONS, OPERATORS, Direction
 
 __all__ = [
     "ACTIONS",

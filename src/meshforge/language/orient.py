@@ -10,7 +10,8 @@ from meshforge import geometry
 from meshforge.common import ProgramError, join_names
 from meshforge.geometry import Floats, Pose
 from meshforge.language.print import show
-from meshforge.language.syntax import SLACK, BaseExtractor, Direction, LandmarkPair, Orient, select_mask
+from meshforge.language.syntax import SLACK, BaseExtractor, LandmarkPair, Orient, select_mask
+from meshforge.language.words import Direction
 from meshforge.symbolic import SymbolicMesh, bits_of
 
 _PARALLEL = 1e-6  # sine of the angle below which two pairs count as giving one direction

@@ -16,6 +16,7 @@ from meshforge.language.actions import base
 from meshforge.language.actions.registry import ACTIONS, make_action
 from meshforge.language.print import CommentLines, Comments, Rule
 from meshforge.language.text import Node, ProgramText, TreeReader, likely_word, quote_code, subtrees_of, tokens_of
+from meshforge.language.words import OPERATORS, Direction, check_direction
 
 if TYPE_CHECKING:  # lark is loaded where a program is parsed
     from lark import Lark, Token
@@ -161,14 +162,14 @@ def _build_base(text: TreeReader, tree: Node) -> syntax.BaseExtractor:
     return syntax.All() if tree.data == "all" else syntax.Is(text.read_label(subtrees_of(tree)[0]))
 
 
-def _build_direction(text: TreeReader, token: Token) -> syntax.Direction:
+def _build_direction(text: TreeReader, token: Token) -> Direction:
     try:
-        syntax.check_direction(token)
+        check_direction(token)
     except ProgramError as error:
         like = likely_word(token[1:], ["+X", "+Y", "+Z"])
         hint = f"Did you mean {token[0]}{like[1]}? " if like else ""
         raise text.error_at(token, f"unknown direction `{token}`", f"{hint}{error.remedy}") from None
-    return cast(syntax.Direction, str(token))
+    return cast(Direction, str(token))
 
 
 def collect_headers(text: TreeReader, statements: list[Node]) -> dict[str, Node]:
@@ -220,7 +221,7 @@ def build_action(text: TreeReader, tree: Node) -> base.Action:
 
 def _unknown_action(text: TreeReader, name: Token) -> ProgramError:
     known = f"Actions are {base.join_alternatives(ACTIONS)}."
-    if name in syntax.OPERATORS:
+    if name in OPERATORS:
         return text.error_at(name, f"{name} selects hulls, it is no action", known)
     like = likely_word(name, ACTIONS)
     return text.error_at(name, f"unknown action {quote_code(name)}", f"Did you mean {like}? {known}" if like else known)

@@ -3,8 +3,6 @@ plain sentences for people who do not read the language."""
 
 from __future__ import annotations
 
-import json
-import re
 from dataclasses import dataclass, field
 from typing import assert_never
 
@@ -12,12 +10,8 @@ from meshforge.common import ProgramError
 from meshforge.language import syntax
 from meshforge.language.actions.base import PRIMITIVES, Action, show_number
 from meshforge.language.actions.basic import Add, Delete, Each, Merge, Replace, Scale
-from meshforge.language.actions.registry import ACTIONS
+from meshforge.language.labels import WORD, check_label, show_label
 from meshforge.language.syntax import All, Attach, BaseExtractor, Diff, Extractor, Geo, Intersect, Is, Orient, Union
-
-WORD = re.compile(r"[^\W\d]\w*")
-RESERVED = frozenset(syntax.OPERATORS) | frozenset(ACTIONS.built_in)
-"""Words that labels are quoted for, whatever plug-ins are installed."""
 
 CommentLines = tuple[str | None, ...]
 """Comment lines without their `#`; None is an empty line."""
@@ -46,7 +40,7 @@ class Rule:
     def __post_init__(self) -> None:
         if self.label is None:
             return
-        syntax.check_label(self.label)
+        check_label(self.label)
         if not self.action.makes_hulls:
             raise ProgramError(f"{self.action} makes no hull that could take the label {self.label!r}")
 
@@ -60,19 +54,8 @@ SyntaxNode = syntax.Extractor | Action | syntax.LandmarkPair | syntax.Orient | R
 def show(node: SyntaxNode) -> str:
     """A node as program text."""
     match node:
-        case syntax.All():
-            return "All"
-        case syntax.Is(label):
-            return f"Is({show_label(label)})"
-        case syntax.Geo(base, direction):
-            return f"Geo({show(base)}, {direction})"
-        case (
-            syntax.Attach(left, right)
-            | syntax.Union(left, right)
-            | syntax.Intersect(left, right)
-            | syntax.Diff(left, right)
-        ):
-            return f"{type(node).__name__}({show(left)}, {show(right)})"
+        case All() | Is() | Geo() | Attach() | Union() | Intersect() | Diff():
+            return str(node)
         case Action():
             return str(node)
         case syntax.LandmarkPair(axis, start, end):
@@ -83,12 +66,6 @@ def show(node: SyntaxNode) -> str:
             return show_rule(node, 0)
         case _:
             assert_never(node)
-
-
-def show_label(label: str) -> str:
-    """A label as it is written: bare where it is a word and no operator, else quoted."""
-    plain = WORD.fullmatch(label) and label not in RESERVED
-    return label if plain else json.dumps(label, ensure_ascii=False)
 
 
 def show_rule(rule: Rule, width: int) -> str:

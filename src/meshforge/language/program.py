@@ -12,7 +12,8 @@ from meshforge.language import parse, syntax
 from meshforge.language.actions.base import show_number
 from meshforge.language.actions.edit import Template, check_templates
 from meshforge.language.apply import RuleTrace, apply_rule, from_canonical_frame, to_canonical_frame
-from meshforge.language.print import CommentLines, Comments, Rule, show, show_label, show_rule
+from meshforge.language.labels import check_declared, check_label, show_label
+from meshforge.language.print import CommentLines, Comments, Rule, show, show_rule
 from meshforge.language.text import Node, ProgramText, TreeReader, subtrees_of
 from meshforge.symbolic import SymbolicMesh
 
@@ -57,11 +58,11 @@ class Program:
         object.__setattr__(self, "labels", tuple(self.labels) or self.labels_in_use)
         object.__setattr__(self, "rules", tuple(self.rules))
         for label in self.labels:
-            syntax.check_label(label)
+            check_label(label)
             if self.labels.count(label) > 1:
                 raise ProgramError(f"the label {label!r} is declared twice")
         for label in self.labels_in_use:
-            syntax.check_declared(label, self.labels)
+            check_declared(label, self.labels)
         syntax.check_threshold("contact", self.contact)
         syntax.check_threshold("extremity", self.extremity)
 

@@ -5,16 +5,15 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
-from typing import Literal, assert_never, get_args
+from dataclasses import dataclass, fields, replace
+from typing import assert_never
 
-from meshforge.common import ProgramError, suggest_among
+from meshforge.common import ProgramError
 from meshforge.geometry import Aabb
+from meshforge.language.labels import check_label, show_label
+from meshforge.language.words import Direction, check_direction
 from meshforge.symbolic import SymbolicMesh, bits_of, mask_of
 
-Direction = Literal["+X", "-X", "+Y", "-Y", "+Z", "-Z"]
-DIRECTIONS: tuple[Direction, ...] = get_args(Direction)
-OPERATORS = ("All", "Is", "Attach", "Geo", "Union", "Intersect", "Diff")
 EXTREMITY = 0.05
 """delta: how near the boundary counts as extreme, as a share of the base selection's diagonal (paper)."""
 SLACK = 1e-9
@@ -22,19 +21,35 @@ SLACK = 1e-9
 
 
 class _Selector:
-    """Lets every extractor be asked for its selection."""
+    """Lets every extractor be asked for its selection, be printed, and be combined by `&`, `|` and `-`."""
 
     __slots__ = ()
 
+    def __and__(self, other: Extractor) -> Intersect:
+        return Intersect(_as_extractor(self), other)
+
+    def __or__(self, other: Extractor) -> Union:
+        return Union(_as_extractor(self), other)
+
+    def __sub__(self, other: Extractor) -> Diff:
+        return Diff(_as_extractor(self), other)
+
+    def __str__(self) -> str:
+        """The extractor as program text."""
+        operands = ", ".join(str(getattr(self, field.name)) for field in fields(_as_extractor(self)))
+        return f"{type(self).__name__}({operands})"
+
     def select(self, mesh: SymbolicMesh, extremity: float = EXTREMITY) -> frozenset[int]:
         """Indices of the hulls selected in the mesh, in the frame it is in."""
-        assert isinstance(self, All | Is | Attach | Geo | Union | Intersect | Diff)
-        return select(self, mesh, extremity)
+        return select(_as_extractor(self), mesh, extremity)
 
 
 @dataclass(frozen=True, slots=True)
 class All(_Selector):
     """Every hull."""
+
+    def __str__(self) -> str:
+        return "All"
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,6 +60,9 @@ class Is(_Selector):
 
     def __post_init__(self) -> None:
         check_label(self.label)
+
+    def __str__(self) -> str:
+        return f"Is({show_label(self.label)})"
 
 
 BaseExtractor = All | Is
@@ -81,7 +99,8 @@ class _SetOperator(_Selector):
     def __post_init__(self) -> None:
         for operand in (self.left, self.right):
             if not isinstance(operand, All | Is | Attach | Geo | Union | Intersect | Diff):
-                raise ProgramError(f"{type(self).__name__} takes extractors, not {operand!r}")
+                remedy = f"Write {operand.__name__}()." if operand in (All, Is) else None
+                raise ProgramError(f"{type(self).__name__} takes extractors, not {operand!r}", remedy=remedy)
 
 
 @dataclass(frozen=True, slots=True)
@@ -100,6 +119,11 @@ class Diff(_SetOperator):
 
 
 Extractor = All | Is | Attach | Geo | Union | Intersect | Diff
+
+
+def _as_extractor(node: _Selector) -> Extractor:
+    assert isinstance(node, All | Is | Attach | Geo | Union | Intersect | Diff)
+    return node
 
 
 @dataclass(frozen=True, slots=True)
@@ -129,18 +153,6 @@ class Orient:
         if len({axis[1] for axis in axes}) != len(axes):
             problem = f"orient names the axis {axes[0][1]} twice"
             raise ProgramError(problem, remedy="Give the second pair another axis than the first.")
-
-
-def check_label(label: str) -> None:
-    """Raises ProgramError for what cannot be a label."""
-    if not isinstance(label, str) or not label:
-        raise ProgramError(f"a label is a text of at least one character, not {label!r}")
-
-
-def check_direction(direction: str) -> None:
-    """Raises ProgramError for what is no direction."""
-    if direction not in DIRECTIONS:
-        raise ProgramError(f"unknown direction {direction!r}", remedy=f"Directions are {', '.join(DIRECTIONS)}.")
 
 
 def _check_base(node: object, *operands: object) -> None:
@@ -268,12 +280,6 @@ def rename_in_extractor(node: Extractor, old: str, new: str) -> Extractor:
             return type(node)(rename_in_extractor(left, old, new), rename_in_extractor(right, old, new))
         case _:
             assert_never(node)
-
-
-def check_declared(label: str, declared: tuple[str, ...]) -> None:
-    """Raises ProgramError for a label that is not among those declared."""
-    if label not in declared:
-        raise ProgramError(f"unknown label {label!r}", remedy=suggest_among(label, declared, "Declared labels:"))
 
 
 def check_threshold(name: str, value: float | None) -> None:

@@ -12,8 +12,8 @@ from typing import TYPE_CHECKING, TypeAlias, TypeVar
 from meshforge.common import PluginError, ProgramError, nearest_name
 from meshforge.language.actions.base import join_alternatives
 from meshforge.language.actions.registry import ACTIONS
-from meshforge.language.print import RESERVED
-from meshforge.language.syntax import DIRECTIONS, OPERATORS, check_declared, check_label
+from meshforge.language.labels import RESERVED, check_declared, check_label
+from meshforge.language.words import DIRECTIONS, OPERATORS
 
 if TYPE_CHECKING:  # lark is loaded where a program is parsed
     from lark import Token, Tree

@@ -16,6 +16,7 @@ from meshforge.rendering.colors import (
     UNLABELLED,
     UNSURE,
     ColorBy,
+    color_hulls,
     label_color,
     label_colors,
 )
@@ -45,6 +46,7 @@ __all__ = [
     "Up",
     "View",
     "check_picture_path",
+    "color_hulls",
     "compare",
     "count_visible_pixels",
     "draw_before_after",

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import Literal, get_args
+from typing import Any, Literal, get_args
 
 from meshforge.geometry import Aabb, Floats, Ints, Pose, Shape
+from meshforge.symbolic.trimesh_export import make_trimesh
 
 LabelSource = Literal["vlm", "propagated", "consensus", "name", "file", "user", "repair", "edit", "plugin"]
 LABEL_SOURCES: tuple[str, ...] = get_args(LabelSource)
@@ -25,6 +26,11 @@ class Label:
     confidence: float = 1.0
     source: LabelSource = "user"
     given: Label | None = None
+
+    @staticmethod
+    def of(value: Label | str) -> Label:
+        """A label as it is; one that is given by its name is a person's, and sure."""
+        return value if isinstance(value, Label) else Label(value)
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -49,6 +55,11 @@ class Hull:
     shape: Shape
     annotation: Label | None = None
     parent: str | None = None
+
+    def __repr__(self) -> str:
+        kind = type(self.primitive).__name__.lower() if self.primitive else f"{len(self.vertices)} vertices"
+        label = f", label {self.label}" if self.label else ""
+        return f"<Hull {self.name!r}: {kind}, body {self.body}{label}>"
 
     @property
     def label(self) -> str | None:
@@ -84,6 +95,13 @@ class Hull:
     def primitive(self) -> Shape | None:
         """The native primitive, or None for a polytope."""
         return self.shape if self.shape.is_primitive else None
+
+    def to_trimesh(self) -> Any:
+        """A `trimesh.Trimesh` of the vertices and faces; `.metadata` has name, body and label.
+
+        Raises MeshForgeError where trimesh is not installed.
+        """
+        return make_trimesh(self.vertices, self.faces, {"name": self.name, "body": self.body, "label": self.label})
 
     def with_label(self, annotation: Label | None) -> Hull:
         return replace(self, annotation=annotation)

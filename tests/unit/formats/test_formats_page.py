@@ -18,7 +18,7 @@ ROOT = Path(__file__).parents[3]
 PAGE = ROOT / "docs" / "formats.md"
 _START, _END = "<!-- {}: made by tests/unit/formats/test_formats_page.py -->\n", "<!-- end of {} -->"
 _MATRICES = {
-    "matrix": [known for known in FORMATS if known.name != "wrl"],
+    "matrix": [known for known in FORMATS if known.writable],
     "named matrix": [known for formats in ENGINE_FORMATS.values() for known in formats],
 }
 

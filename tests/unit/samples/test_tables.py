@@ -10,6 +10,7 @@ import pytest
 
 from meshforge.formats import load, read
 from meshforge.language import (
+    DIRECTIONS,
     All,
     Attach,
     BaseExtractor,
@@ -28,7 +29,6 @@ from meshforge.language import (
     size_of,
     to_canonical_frame,
 )
-from meshforge.language.syntax import DIRECTIONS
 from meshforge.samples import TABLES
 from meshforge.symbolic import Asset, SymbolicMesh, mask_of
 from script.samples.__main__ import make_table, write_common

@@ -4,6 +4,7 @@ an asset with its visuals."""
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from contextlib import suppress
 from pathlib import Path
 
@@ -37,18 +38,19 @@ _FINEST = 1000  # parameter of a built-in mesh, of which some have the square of
 _SHOWN_GROUPS = 3  # MuJoCo's viewers show the groups 0, 1 and 2
 
 
-def read_mjcf(path: Path) -> Asset:
-    """The asset in an MJCF, its includes and collision meshes taken in.
+def read_mjcf(path: Path, files: Mapping[Path, bytes] | None = None) -> Asset:
+    """The asset in an MJCF, its includes and collision meshes taken in; files: contents that count instead of those on
+    disk, of the main file and of includes.
 
     Raises AssetError naming file and line: text that is not understood, an include or a collision mesh that is not
     there, a model whose collision geometry MuJoCo refuses too.
     """
-    tree = gather_model(path)
+    tree = gather_model(path, files)
     refuse_excess(tree)
     flat, made, stand_ins, refusal = _compile_or_reduce(tree)
     reading = MjcfModel(tree, flat, made)
     geoms, opaque = reading.read_pieces()
-    files, missing = references.find_files(tree)
+    found, missing = references.find_files(tree)
     return Asset(
         path=path,
         format="mjcf",
@@ -57,7 +59,7 @@ def read_mjcf(path: Path) -> Asset:
         document=MjcfDocument(tree.sources, reading.geom_records(), reading.bodies, refusal),
         opaque=opaque,
         visuals=read_visuals(reading, made.spec, stand_ins),
-        files=files,
+        files=found,
         missing=missing,
         notes=_collect_notes(tree, made, refusal),
         mechanism=read_mechanism(reading),
@@ -86,11 +88,13 @@ def _collect_notes(tree: MjcfTree, made: EngineModel, refusal: str) -> tuple[str
     return tuple(notes)
 
 
-def gather_model(path: Path) -> MjcfTree:
+def gather_model(path: Path, files: Mapping[Path, bytes] | None = None) -> MjcfTree:
     """The tree of a file that is a model. Raises AssetError; for a fragment, one that names what to open instead."""
     try:
-        tree = read_tree(path)
+        tree = read_tree(path, files)
     except AssetError:  # an include of a fragment is found from the folder of the model
+        if files:
+            raise
         _refuse_fragment(plain_path(path), parse_xml(XmlText.of(read_content(path)).data, str(path)))
         raise
     _refuse_fragment(tree.main.path, tree.root.element)

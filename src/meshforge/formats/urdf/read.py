@@ -89,14 +89,14 @@ def read_parts(
 LinkCollisions = Sequence[tuple[str, Element]]  # of each `<collision>` the name of its link, and the element
 
 
-def read_urdf(path: Path, options: base.ReadOptions) -> Asset:
-    """The asset in a URDF file, its collision meshes included.
+def read_urdf(path: Path, options: base.ReadOptions, source: bytes | None = None) -> Asset:
+    """The asset in a URDF file, its collision meshes included; source: what counts instead of what the file holds.
 
     Raises AssetError naming file, line, link and element: text that is not understood, links and joints that make no
     tree, a collision mesh that is not there.
     """
     where = str(path)
-    source = mesh_reader.read_content(path)
+    source = mesh_reader.read_content(path) if source is None else source
     robot = document.parse_robot(XmlText.of(source).data, where)
     links = read_links(robot, where)
     resolver = Resolver(plain_path(path).parent, tuple(map(plain_path, options.package_roots)))

@@ -12,7 +12,7 @@ from typing import Any, ClassVar, Literal, cast, get_args
 
 from meshforge.common import ProgramError
 from meshforge.language.actions.edit import GroupEdit, HullGroup
-from meshforge.language.syntax import DIRECTIONS
+from meshforge.language.words import DIRECTIONS
 from meshforge.symbolic import SymbolicMesh, split_by_body
 
 TokenKind = Literal["word", "text", "number", "direction"]

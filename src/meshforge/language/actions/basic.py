@@ -21,7 +21,7 @@ from meshforge.language.actions.base import (
     join_alternatives,
 )
 from meshforge.language.actions.edit import GroupEdit, HullGroup, NewShape
-from meshforge.language.syntax import Direction
+from meshforge.language.words import Direction
 from meshforge.symbolic import SymbolicMesh, split_by_contact
 
 _FILL_SHAPES: Mapping[str, Callable[[Aabb], Shape]] = {

@@ -15,7 +15,7 @@ from meshforge.common import Plugin, PluginError, Registry, blame
 from meshforge.language.actions.base import Action, ArgumentType
 from meshforge.language.actions.basic import Add, Delete, Each, Merge, Replace, Scale
 from meshforge.language.actions.edit import GroupEdit, HullGroup
-from meshforge.language.syntax import OPERATORS
+from meshforge.language.words import OPERATORS
 
 _WORD = re.compile(r"[^\W\d]\w*")
 _owners: dict[type[Action], Plugin] = {}

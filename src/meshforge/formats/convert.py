@@ -1,0 +1,49 @@
+"""An asset with its labels into another file: in another format, or unedited in its own."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+from meshforge.formats.engine_names.conventions import EngineName
+from meshforge.formats.mjcf.spec import build_spec
+from meshforge.formats.output_tree import SaveResult, make_output, save
+from meshforge.formats.registry import Source, labels_beside, to_mesh
+from meshforge.symbolic import SymbolicMesh, write_labels
+
+
+def convert(
+    asset: SymbolicMesh | Source,
+    out: str | Path,
+    *,
+    link: bool = False,
+    overwrite: bool = False,
+    names: EngineName | None = None,
+) -> SaveResult:
+    """Write an asset in the format that the suffix of `out` names, or unchanged in its own; its labels beside it.
+
+    asset: a mesh, or what `load` reads. link: files that are only copied become hard links; overwrite: existing files
+    may be replaced; names: an engine (`unreal`, `godot`, `unity`), by whose names for collision the file is made.
+    The result says what the format cannot hold, in `.notes` and `.report`. Labels keep the names that hulls have there.
+    Raises AssetError and UsageError as `load` and `save` do.
+    """
+    mesh = to_mesh(asset)
+    saved = save(mesh, out, link=link, overwrite=overwrite, names=names)
+    return _write_labels(mesh, saved, overwrite) if mesh.labels else saved
+
+
+def to_mjspec(mesh: SymbolicMesh) -> Any:
+    """The mesh as a `mujoco.MjSpec`; see `SymbolicMesh.to_mjspec`."""
+    return build_spec(make_output(mesh, "mjcf", "model.xml"))
+
+
+def _write_labels(mesh: SymbolicMesh, saved: SaveResult, overwrite: bool) -> SaveResult:
+    path = labels_beside(saved.path)
+    if path.exists() and not overwrite:
+        note = f"{path} is there already and was left as it is"
+        report = replace(saved.report, remarks=(*saved.report.remarks, note))
+        return replace(saved, notes=(*saved.notes, note), report=report)
+    renamed = mesh.with_hulls(replace(hull, name=saved.names.get(hull.name, hull.name)) for hull in mesh.hulls)
+    write_labels(path, renamed, ())
+    return saved

@@ -1,0 +1,7 @@
+"""Looking at one asset, given as a mesh or as a file: checks, pictures, and the difference that an edit made."""
+
+from meshforge.inspection.difference import Difference, diff
+from meshforge.inspection.findings import check
+from meshforge.inspection.picture import render
+
+__all__ = ["Difference", "check", "diff", "render"]
