@@ -78,7 +78,7 @@ def _share_covered(place: NumberPlace, items: Ints) -> float:
 def _add_legend(image: Image, note: str, entries: Mapping[int, str], colors: Floats, hidden: Collection[int]) -> Image:
     """The picture, made higher by a list of hulls in columns, those that are hidden in grey."""
     from PIL import Image as Images  # lazy: 0.01 s, only pictures need it
-    from PIL import ImageDraw
+    from PIL import ImageDraw  # lazy: 0.01 s, only pictures need it
 
     u = text_scale(image.size)
     small, edge = max(11, round(13 * u)), round(16 * u)
