@@ -101,6 +101,6 @@ def connected(mesh: SymbolicMesh, part: frozenset[int]) -> bool:
 @given(extractors(max_leaves=6))
 @examples(100)
 def test_the_size_counts_the_words_of_the_printed_extractor(extractor: Extractor) -> None:
-    text = str(extractor)  # the dataclass form names every node once
+    text = repr(extractor)  # the dataclass form names every node once
     nodes = sum(text.count(f"{word}(") for word in ("All", "Is", "Attach", "Geo", "Union", "Intersect", "Diff"))
     assert size_of(extractor) == nodes
