@@ -11,7 +11,7 @@ import numpy as np
 from meshforge.checks.legality import Finding, check_legality
 from meshforge.checks.physics.mechanism import ContactRules, JointTree, check_masses
 from meshforge.checks.physics.model import FLOOR, STEP, compile_model
-from meshforge.common import join_names, pluralize
+from meshforge.common import join_names, pluralize, require_mujoco
 from meshforge.geometry import Floats
 from meshforge.symbolic import SymbolicMesh
 
@@ -90,8 +90,9 @@ def simulate(mesh: SymbolicMesh) -> Physics:
 
     The lowest point is put on the plane; roots may fall, joints move within their limits, damped. What an MJCF says of
     friction and contact bits is kept, and the pairs of bodies that an MJCF or a USD keeps apart. Deterministic: six
-    seconds of simulation at most, and no clock.
+    seconds of simulation at most, and no clock. Raises MeshForgeError where MuJoCo is not installed.
     """
+    require_mujoco("the check of physics")
     faulty, _ = check_legality(mesh)
     doubts = tuple(check_masses(mesh))
     sound = mesh.with_hulls(hull for hull in mesh.hulls if hull.name not in faulty) if faulty else mesh

@@ -8,7 +8,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import ClassVar
 
-from meshforge.common import AssetError
+from meshforge.common import AssetError, require_mujoco
 from meshforge.formats.base import BODY_FEATURES, SCENE_FEATURES, Format, Mass, Output, ReadOptions, feature_of
 from meshforge.formats.mjcf import create, edit, read, references
 from meshforge.formats.mjcf.document import MjcfDocument, MjcfNode
@@ -60,11 +60,13 @@ class MjcfFormat(Format):
         return root is None or root[1].lower() == "mujoco"
 
     def read(self, path: Path, options: ReadOptions) -> Asset:
+        require_mujoco("an MJCF", str(path))
         return read.read_mjcf(path)
 
     def write(self, asset: Asset, name: str, mass: Mass = "keep") -> Output:
         if not isinstance(asset.document, MjcfDocument):
             raise AssetError("this asset was not read from an MJCF", where=str(asset.path))
+        require_mujoco("an MJCF", str(asset.path))
         return edit.write_mjcf(asset, asset.document, name, mass)
 
     def create(self, asset: Asset, name: str) -> Output:
