@@ -58,7 +58,7 @@ def format_status(found: Status, folder: Path) -> str:
 
 
 @dataclass(frozen=True, slots=True)
-class _HeldAsset:
+class _HoldReason:
     """An asset that is held, and its weightiest doubt; probability: that its edit is right, None where not known."""
 
     name: str
@@ -66,19 +66,19 @@ class _HeldAsset:
     reason: str
 
 
-def _hold(one: AssetConfidence) -> _HeldAsset:
-    return _HeldAsset(one.asset, one.probability, one.doubts[0].text if one.doubts else "")
+def _hold(one: AssetConfidence) -> _HoldReason:
+    return _HoldReason(one.asset, one.probability, one.doubts[0].text if one.doubts else "")
 
 
-def _hold_of_status(asset: AssetStatus) -> _HeldAsset:
+def _hold_of_status(asset: AssetStatus) -> _HoldReason:
     if asset.probability is None or asset.void:
-        return _HeldAsset(asset.id, None, format_standing(asset))
+        return _HoldReason(asset.id, None, format_standing(asset))
     return _hold(AssetConfidence(asset.id, asset.probability, asset.doubts))
 
 
-def _format_held(held: Sequence[_HeldAsset], folder: Path, most: int, rest: str = "") -> Iterator[str]:
+def _format_held(held: Sequence[_HoldReason], folder: Path, most: int, rest: str = "") -> Iterator[str]:
     """A line for each reason with the assets held for it, in the order given; most: lines; rest: after the others."""
-    reasons: dict[str, list[_HeldAsset]] = {}
+    reasons: dict[str, list[_HoldReason]] = {}
     for one in held:
         reasons.setdefault(one.reason, []).append(one)
     for reason, some in list(reasons.items())[:most]:
