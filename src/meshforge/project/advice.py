@@ -6,7 +6,6 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from meshforge.batch import SETTINGS
 from meshforge.common import pluralize, quote_path
 from meshforge.labels import label_command, label_file_beside
 from meshforge.project.learn import ProgramState
@@ -36,8 +35,6 @@ class Adviser:
         """The first thing that is missing on the way from assets to results that are signed off."""
         if self.problem:
             return Advice(f"The program cannot be applied: {self.problem}")
-        if not self.paths:
-            return Advice(f"There is no asset: put some where {self.folder / SETTINGS} looks for them, or correct it.")
         return (
             self._advise_hulls()
             or (self._advise_before_learning() if self.rules is None else None)

@@ -193,7 +193,8 @@ def test_assets_that_are_gone_or_cannot_be_read_are_to_be_mended_by_hand(tmp_pat
     assert told.code == 2 and "No asset can be read" in told.err
     for name in (FIRST, SECOND, THIRD):
         (tmp_path / "assets" / name).unlink()
-    assert run("status", "tables").code in (0, 2)
+    told = run("status", "tables")
+    assert told.code == 2 and "meshforge.toml: assets: ../assets: no assets here" in told.err
 
 
 def test_an_unreadable_asset_is_named_and_not_only_applied_to_again(tmp_path: Path) -> None:
