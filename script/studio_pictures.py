@@ -11,9 +11,9 @@ from typing import Literal
 from playwright.sync_api import Browser, Page
 
 from benchmark.studio.browser import chromium, studio
-from meshforge.cli.demo import TABLE_LABELS, create_tables, open_tables
+from meshforge.cli.demo import create_tables, open_tables
 from meshforge.project import Project
-from meshforge.samples import TABLES
+from meshforge.samples import TABLES, family_of
 from meshforge.symbolic import read_labels
 from script.pictures import BY_HAND
 
@@ -41,7 +41,8 @@ def main(folder: Path) -> None:
 
 def _prepare_project(folder: Path) -> Project:
     """The tables, of which one is labelled by hand."""
-    project = Project.create(folder, sorted(TABLES.glob("*.obj")), vocabulary=TABLE_LABELS)
+    labels = family_of("tables").vocabulary
+    project = Project.create(folder, sorted(TABLES.glob("*.obj")), vocabulary=labels)
     true = read_labels(TABLES / f"{BY_HAND[0]}.labels.json").labels
     project.set_labels(f"{BY_HAND[0]}.obj", {hull: label.name for hull, label in true.items()})
     return project

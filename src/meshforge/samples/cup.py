@@ -9,7 +9,7 @@ import numpy as np
 
 from meshforge.formats import MeshPart, format_obj
 from meshforge.geometry import Floats, Polytope, Pose, inertia
-from meshforge.samples.parts import Files, NamedHull, format_hulls, format_labels, join_surfaces, name_hulls
+from meshforge.samples.parts import Files, SampleHull, format_hulls, format_labels, join_surfaces, name_hulls
 from meshforge.samples.pieces import Cut, Profile, bend, hull_of, slice_all, stack, superellipse, wall
 
 _ROUND = superellipse(2.0, 2.0, 2.0, 14)
@@ -111,7 +111,7 @@ class Cup:
         files = {"model.urdf": urdf, "model.labels.json": labels, "meshes/visual.obj": visual, **meshes}
         return {f"{self.name}/{path}": content for path, content in files.items()}
 
-    def _format_urdf(self, hulls: Sequence[NamedHull], meshes: Sequence[str]) -> bytes:
+    def _format_urdf(self, hulls: Sequence[SampleHull], meshes: Sequence[str]) -> bytes:
         centre, moments = inertia([hull.shape for hull in hulls], self.mass)
         x, y, z = (f"{value:.5f}" for value in centre)
         rows = [f'i{"xyz"[i]}{"xyz"[j]}="{round(moments[i, j], 9) + 0:.9f}"' for i in range(3) for j in range(i, 3)]

@@ -18,7 +18,7 @@ Files = dict[str, bytes]
 
 
 @dataclass(frozen=True, slots=True)
-class NamedHull:
+class SampleHull:
     """A hull of a sample as its file has it: its name, its label and its shape."""
 
     name: str
@@ -28,14 +28,14 @@ class NamedHull:
 
 def name_hulls(
     parts: Iterable[tuple[str, Iterable[Polytope]]], pattern: str = "{}", pose: Pose | None = None
-) -> list[NamedHull]:
+) -> list[SampleHull]:
     """The hulls of parts (label, hulls), in that order, put at a pose.
 
     pattern: what they are called, with `{}` for the number, from 0 on, as wide as the last one.
     """
     hulls = [(label, hull_of(hull.vertices, pose) if pose else hull) for label, own in parts for hull in own]
     width = len(str(len(hulls) - 1))
-    return [NamedHull(pattern.format(f"{k:0{width}}"), label, hull) for k, (label, hull) in enumerate(hulls)]
+    return [SampleHull(pattern.format(f"{k:0{width}}"), label, hull) for k, (label, hull) in enumerate(hulls)]
 
 
 def join_surfaces(hulls: Iterable[Polytope]) -> Surface:
@@ -46,7 +46,7 @@ def join_surfaces(hulls: Iterable[Polytope]) -> Surface:
     return Surface(np.concatenate([hull.vertices for hull in each]), np.concatenate(faces))
 
 
-def format_hulls(hulls: Iterable[NamedHull], about: str) -> bytes:
+def format_hulls(hulls: Iterable[SampleHull], about: str) -> bytes:
     """An OBJ with a group for each hull."""
     parts = [MeshPart(hull.name, Surface(hull.shape.vertices, hull.shape.faces)) for hull in hulls]
     return f"# {about}\n".encode() + format_obj(parts)
