@@ -1,6 +1,6 @@
 """What every package needs and what knows nothing of meshes: errors, atomic files, words for messages."""
 
-from meshforge.common.extras import import_extra
+from meshforge.common.extras import import_extra, require_mujoco
 from meshforge.common.files import (
     FileStates,
     expand_glob,
@@ -30,7 +30,6 @@ from meshforge.common.messages import (
     join_names,
     nearest_name,
     pluralize,
-    require_mujoco,
     suggest_among,
     suggest_aside,
     suggest_name,

@@ -6,7 +6,6 @@ from __future__ import annotations
 
 import difflib
 from collections.abc import Collection, Iterable, Sequence
-from importlib.util import find_spec
 from typing import Any
 
 
@@ -131,13 +130,6 @@ class UsageError(MeshForgeError):
 
 class PluginError(MeshForgeError):
     """What a plug-in of another package does wrong, or that it cannot be loaded."""
-
-
-def require_mujoco(what: str, where: str | None = None) -> None:
-    """Raise MeshForgeError where MuJoCo, which `what` needs, is not installed; it is not loaded for that."""
-    if find_spec("mujoco") is None:
-        remedy = "Install it: pip install 'mujoco>=4.0'. It has no wheel for macOS on Intel: work on another machine."
-        raise MeshForgeError(f"{what} needs MuJoCo, which is not installed", where=where, remedy=remedy)
 
 
 class StoppedError(MeshForgeError):
