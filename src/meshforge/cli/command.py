@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
+from typer import BadParameter
 from typer.core import TyperCommand
 
 from meshforge.common import UsageError
@@ -26,4 +27,8 @@ class Command(TyperCommand):
                 if other in typed - known:
                     remedy = f"All options: meshforge {self.name} --help"
                     raise UsageError(f"meshforge {self.name} has no {other}: it is {name}", remedy=remedy)
-        return super().parse_args(ctx, args)
+        try:
+            return super().parse_args(ctx, args)
+        except BadParameter as error:
+            error.message = error.message.removeprefix("Value error, ")  # a word of pydantic's, by which Typer reads
+            raise

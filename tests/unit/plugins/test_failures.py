@@ -400,6 +400,6 @@ def test_nothing_is_looked_for_where_only_built_in_names_are_used(
     assert run("info", "table.obj").code == 0
     assert run("fmt", "p.mf").code == 0
     assert run("select", "Is(leg)", "table.obj").code == 0
-    assert run("check", "table.obj", "--engine", "bullet").code == 0
+    assert run("check", "table.obj", "--engine", "unreal").code == 0
     assert run("convert", "table.obj", "table.stl").code == 0
     monkeypatch.undo()

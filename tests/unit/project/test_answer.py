@@ -84,9 +84,9 @@ def test_fields_that_this_version_does_not_know_are_kept(tmp_path: Path) -> None
     ("text", "message"),
     [
         ('{"answers": [{"id": "1:a", "rule": 1, "asset": "b", "select": null}]}', "the id of this entry is '1:b'"),
-        ('{"answers": [{"id": "0:a", "rule": 0, "asset": "a", "select": null}]}', "answers.0.rule"),
-        ('{"answers": [{"id": "1:a", "rule": 1, "asset": "a"}]}', "answers.0.select"),
-        ('{"rejected": [{"id": "a#h=x", "asset": "a", "hull": "h", "to": "x"}]}', "rejected.0.from"),
+        ('{"answers": [{"id": "0:a", "rule": 0, "asset": "a", "select": null}]}', r"answers\[0\]\.rule"),
+        ('{"answers": [{"id": "1:a", "rule": 1, "asset": "a"}]}', r"answers\[0\]\.select"),
+        ('{"rejected": [{"id": "a#h=x", "asset": "a", "hull": "h", "to": "x"}]}', r"rejected\[0\]\.from"),
         ("[", "JSON"),
     ],
 )

@@ -198,7 +198,7 @@ def test_a_demonstration_that_cannot_be_is_refused(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        ('{"asset": "x", "steps": [{"rule": 0, "select": null, "action": "Delete"}]}', "steps.0.rule"),
+        ('{"asset": "x", "steps": [{"rule": 0, "select": null, "action": "Delete"}]}', r"steps\[0\]\.rule"),
         ('{"asset": "x", "steps": [{"rule": 1, "select": null, "action": "Delte"}]}', "'Delte' is no action"),
         ('{"asset": "x"}', "field steps"),
         ("{", "JSON"),

@@ -51,7 +51,7 @@ def test_what_was_said_means_the_same_by_the_other_name(tmp_path: Path) -> None:
     project = saying(tmp_path)
     project.rename_label("leg", "foot")
     assert project.vocabulary == ("top", "foot", "misc")
-    assert str(project.orientation and project.orientation.pairs[0].start) == "Is(label='foot')"
+    assert str(project.orientation and project.orientation.pairs[0].start) == "Is(foot)"
     assert {hull.label for hull in project.mesh(THIRD).hulls} == {"top", "foot", "misc"}
     assert [step.label for step in project.steps(FIRST)] == [None, "foot"]
     assert [edit.label for edit in project.corrections(SECOND)] == ["foot"]
