@@ -34,6 +34,18 @@ def test_importing_it_loads_nothing_heavy() -> None:
     assert done.stdout.strip() == "[]"
 
 
+def test_loading_an_asset_imports_no_reader_of_another_format_and_no_writer(tmp_path: Path) -> None:
+    path = write_urdf_table(tmp_path)
+    code = (
+        "import sys, meshforge as mf; mf.load(sys.argv[1]);"
+        "own = [name.removeprefix('meshforge.formats.') for name in sys.modules];"
+        "print([name for name in own if name.split('.')[-1] in ('read', 'edit', 'create')],"
+        f"[name for name in {HEAVY[1:]} if name in sys.modules and name not in ('coal', 'manifold3d')])"
+    )
+    done = subprocess.run([sys.executable, "-c", code, str(path)], capture_output=True, text=True, check=True)
+    assert done.stdout.strip() == "['urdf.read'] []"
+
+
 def test_every_name_it_offers_is_there() -> None:
     for name in mf.__all__:
         assert getattr(mf, name).__name__ == name

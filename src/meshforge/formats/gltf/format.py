@@ -10,11 +10,8 @@ from typing import Any, ClassVar
 from meshforge.common import AssetError
 from meshforge.formats.base import BODY_FEATURES, SCENE_FEATURES, Format, Mass, Output, ReadOptions, feature_of
 from meshforge.formats.engine_names.conventions import CollisionNames, GodotNames, UnityNames, UnrealNames, fallbacks_of
-from meshforge.formats.gltf import create, edit, read
 from meshforge.formats.gltf.document import GltfDocument
-from meshforge.formats.gltf.physics import explain_missing_mass, read_motion
 from meshforge.formats.meshfile.gltf_document import Json, entries, entry, extension, report_damage
-from meshforge.formats.meshfile.gltf_scene import GltfScene
 from meshforge.symbolic import Asset, Feature, FeatureKind
 
 _LISTS = {
@@ -47,14 +44,20 @@ class GltfFormat(Format):
     instead: ClassVar[Mapping[FeatureKind, str]] = {FeatureKind.ELLIPSOIDS: "written as triangles"}
 
     def read(self, path: Path, options: ReadOptions) -> Asset:
+        from meshforge.formats.gltf import read  # lazy: only glTF needs it
+
         return read.read_gltf(path)
 
     def write(self, asset: Asset, name: str, mass: Mass = "keep") -> Output:
         if not isinstance(asset.document, GltfDocument):
             raise AssetError("this asset was not read from a glTF file", where=str(asset.path))
+        from meshforge.formats.gltf import edit  # lazy: only glTF needs it
+
         return edit.write_gltf(asset, asset.document, name)
 
     def create(self, asset: Asset, name: str) -> Output:
+        from meshforge.formats.gltf import create  # lazy: only glTF needs it
+
         return create.create_gltf(asset, name)
 
     def features(self, asset: Asset) -> Iterable[Feature]:
@@ -71,6 +74,8 @@ class EngineGltf(GltfFormat):
         return isinstance(asset.document, GltfDocument) and asset.document.convention == self.engine.engine
 
     def create(self, asset: Asset, name: str) -> Output:
+        from meshforge.formats.gltf import create  # lazy: only glTF needs it
+
         return create.create_for_engine(asset, name, self.engine)
 
 
@@ -103,6 +108,8 @@ class GltfForUnity(EngineGltf):
 
 def features_of(document: GltfDocument, asset: Asset) -> list[Feature]:
     """The features of a glTF file that its asset does not have. Raises AssetError: what lists them is damaged."""
+    from meshforge.formats.meshfile.gltf_scene import GltfScene  # lazy: only glTF needs it
+
     with report_damage(str(asset.path)):
         tree = GltfScene.of(document.source, asset.path).tree
         return [*_list_features(tree), *_list_missing_masses(tree, document, asset)]
@@ -127,6 +134,8 @@ def _list_features(tree: Json) -> Iterator[Feature]:
 
 def _list_missing_masses(tree: Json, document: GltfDocument, asset: Asset) -> Iterator[Feature]:
     """The masses that the file says and the asset does not have."""
+    from meshforge.formats.gltf.physics import explain_missing_mass, read_motion  # lazy: only glTF needs it
+
     known = {inertial.body for inertial in asset.mechanism.inertials}
     motions = {name: read_motion(entry(tree, "nodes", node)) for node, name in document.bodies if name not in known}
     reasons = {name: explain_missing_mass(motion) for name, motion in motions.items() if "mass" in motion}

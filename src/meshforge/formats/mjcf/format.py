@@ -10,7 +10,6 @@ from typing import ClassVar
 
 from meshforge.common import AssetError, require_mujoco
 from meshforge.formats.base import BODY_FEATURES, SCENE_FEATURES, Format, Mass, Output, ReadOptions, feature_of
-from meshforge.formats.mjcf import create, edit, read, references
 from meshforge.formats.mjcf.document import MjcfDocument, MjcfNode
 from meshforge.symbolic import Asset, Feature, FeatureKind
 
@@ -61,19 +60,29 @@ class MjcfFormat(Format):
 
     def read(self, path: Path, options: ReadOptions) -> Asset:
         require_mujoco("an MJCF", str(path))
+        from meshforge.formats.mjcf import read  # lazy: only MJCF needs it
+
         return read.read_mjcf(path)
 
     def write(self, asset: Asset, name: str, mass: Mass = "keep") -> Output:
         if not isinstance(asset.document, MjcfDocument):
             raise AssetError("this asset was not read from an MJCF", where=str(asset.path))
         require_mujoco("an MJCF", str(asset.path))
+        from meshforge.formats.mjcf import edit  # lazy: only MJCF needs it
+
         return edit.write_mjcf(asset, asset.document, name, mass)
 
     def create(self, asset: Asset, name: str) -> Output:
+        from meshforge.formats.mjcf import create  # lazy: only MJCF needs it
+
         return create.create_mjcf(asset, name)
 
     def top(self, asset: Asset) -> Path:
-        return references.top_folder(asset.document) if isinstance(asset.document, MjcfDocument) else super().top(asset)
+        if not isinstance(asset.document, MjcfDocument):
+            return super().top(asset)
+        from meshforge.formats.mjcf import references  # lazy: only MJCF needs it
+
+        return references.top_folder(asset.document)
 
     def features(self, asset: Asset) -> Iterable[Feature]:
         return features_of(asset.document) if isinstance(asset.document, MjcfDocument) else ()

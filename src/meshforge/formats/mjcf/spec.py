@@ -11,8 +11,6 @@ from meshforge.common import AssetError, is_file, plain_path
 from meshforge.formats.base import Output
 from meshforge.formats.libraries import mujoco
 from meshforge.formats.mjcf.document import read_tree
-from meshforge.formats.mjcf.read import read_mjcf
-from meshforge.formats.mjcf.references import AssetFolders, iterate_file_references
 from meshforge.formats.temporary import make_folder
 from meshforge.symbolic import Asset
 
@@ -31,6 +29,8 @@ class SpecObject(Protocol):
 
 def read_text(text: str) -> Asset:
     """The asset in the text of an MJCF; its references count from the current folder. Raises AssetError."""
+    from meshforge.formats.mjcf.read import read_mjcf  # lazy: only MJCF needs it
+
     path = Path.cwd() / "text.xml"
     return read_mjcf(path, {path: text.encode()})
 
@@ -41,6 +41,8 @@ def read_spec(spec: SpecObject) -> Asset:
     References count from the folder that the spec was read from. Files that it holds in memory are put into a folder
     that lasts as long as this process, together with those on disk. Raises AssetError.
     """
+    from meshforge.formats.mjcf.read import read_mjcf  # lazy: only MJCF needs it
+
     name = f"{Path(str(spec.modelname or 'spec')).name}.xml"
     folder = plain_path(Path(str(spec.modelfiledir or "")).absolute())
     try:
@@ -59,6 +61,8 @@ def read_spec(spec: SpecObject) -> Asset:
 
 def _gather_files(main: Path, text: bytes, held: dict[str, bytes]) -> list[tuple[Path, bytes]]:
     """The files that a text refers to: those that the spec holds, under its names for them, before those on disk."""
+    from meshforge.formats.mjcf.references import AssetFolders, iterate_file_references  # lazy: only MJCF needs it
+
     tree = read_tree(main, {main: text})
     folders, found = AssetFolders.of(tree), []
     for node, attribute in iterate_file_references(tree):

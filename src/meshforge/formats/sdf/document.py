@@ -32,6 +32,8 @@ _VERSION_TEXT = re.compile(r"\s*(\d{1,4})\.(\d{1,4})\s*")
 _MODEL = re.compile(r"(?:package|model)://+([^/]+)/(.*)", re.S)
 _FILE = "file://"
 
+VISUAL_SUFFIXES = (".obj", ".stl", ".dae", ".glb", ".gltf")
+"""The mesh files that Gazebo reads."""
 CONFIG = "model.config"
 """The file that makes a folder a Gazebo model."""
 _USUAL_NAME = "model.sdf"

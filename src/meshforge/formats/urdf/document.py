@@ -17,6 +17,8 @@ from meshforge.formats.xml import Element, parse_xml
 from meshforge.geometry import Floats, Pose
 from meshforge.symbolic import Document, Inertial, Joint, JointKind, Mechanism, unit_vector
 
+VISUAL_SUFFIXES = (".obj", ".stl", ".dae")
+"""The mesh files that ROS, PyBullet and others read."""
 GEOMETRY_TAGS = ("box", "sphere", "cylinder", "capsule", "plane", "mesh")
 """The elements of a `<geometry>` that engines know."""
 

@@ -16,7 +16,6 @@ from meshforge.formats.base import Mass, Output, ReadOptions
 from meshforge.formats.mesh_reader import read_content
 from meshforge.formats.references import Resolver
 from meshforge.formats.urdf.format import UrdfFormat
-from meshforge.formats.urdf.read import read_urdf
 from meshforge.formats.xml import XmlText, parse_xml
 from meshforge.symbolic import Asset
 
@@ -41,6 +40,8 @@ class XacroFormat(UrdfFormat):
         return root.tag == "robot" and "name" in root.attributes
 
     def read(self, path: Path, options: ReadOptions) -> Asset:
+        from meshforge.formats.urdf.read import read_urdf  # lazy: only URDF needs it
+
         source, included = expand(path, options)
         asset = read_urdf(path, options, source)
         note = f"expanded by xacro; it is written as plain URDF, {self.output_name(path.name)}, without its macros"

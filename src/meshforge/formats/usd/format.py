@@ -10,7 +10,6 @@ from typing import Any, ClassVar
 
 from meshforge.common import AssetError
 from meshforge.formats.base import BODY_FEATURES, SCENE_FEATURES, Format, Mass, Output, ReadOptions, feature_of_tags
-from meshforge.formats.usd import create, edit, read
 from meshforge.formats.usd.stage import UsdDocument, UsdStage, usd
 from meshforge.symbolic import Asset, Feature, FeatureKind
 
@@ -43,14 +42,20 @@ class UsdFormat(Format):
     instead: ClassVar[Mapping[FeatureKind, str]] = {FeatureKind.ELLIPSOIDS: "written as triangles"}
 
     def read(self, path: Path, options: ReadOptions) -> Asset:
+        from meshforge.formats.usd import read  # lazy: only USD needs it
+
         return read.read_usd(path)
 
     def write(self, asset: Asset, name: str, mass: Mass = "keep") -> Output:
         if not isinstance(asset.document, UsdDocument):
             raise AssetError("this asset was not read from a USD file", where=str(asset.path))
+        from meshforge.formats.usd import edit  # lazy: only USD needs it
+
         return edit.write_usd(asset, asset.document, name, mass)
 
     def create(self, asset: Asset, name: str) -> Output:
+        from meshforge.formats.usd import create  # lazy: only USD needs it
+
         return create.create_usd(asset, name)
 
     def features(self, asset: Asset) -> Iterable[Feature]:

@@ -7,7 +7,6 @@ from pathlib import Path
 from typing import Any, Protocol, runtime_checkable
 
 from meshforge.formats.temporary import make_folder
-from meshforge.formats.usd.read import read_usd
 from meshforge.formats.usd.stage import usd
 from meshforge.symbolic import Asset
 
@@ -38,6 +37,8 @@ def read_stage(stage: StageObject) -> Asset:
     in memory, or has unsaved changes, is flattened, references resolved, in a folder that lasts as long as the process.
     Raises AssetError as reading a file does.
     """
+    from meshforge.formats.usd.read import read_usd  # lazy: only USD needs it
+
     root = stage.GetRootLayer()
     name = Path(str(root.GetDisplayName() or "stage")).stem or "stage"
     with usd(name):

@@ -1,0 +1,141 @@
+"""Making an SDF from an asset of another format: links, joints, native shapes and mesh files."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+
+from meshforge.common import join_names, pluralize
+from meshforge.formats import kinematic_tree, link_output, mesh_output, xml
+from meshforge.formats.base import Loss, Output
+from meshforge.formats.sdf import edit, elements
+from meshforge.formats.sdf.document import CONFIG, VISUAL_SUFFIXES
+from meshforge.formats.sdf.frames import WORLD
+from meshforge.formats.slots import Slot, assign_names, name_attribute_of
+from meshforge.geometry import Pose
+from meshforge.symbolic import Asset, FeatureKind, Opaque
+
+_VERSION = (1, 8)
+_MAIN = "model.sdf"
+
+
+def create_sdf(asset: Asset, name: str) -> Output:
+    """The files of an asset that came from another format.
+
+    Bodies become links, each with its frame on the joint that leads to it, so that at zero all is where it was; hulls
+    become native shapes or mesh files, non-convex pieces meshes. `model.sdf` gets a `model.config` beside it.
+    """
+    return _Creator(asset, name).build_output()
+
+
+class _Creator(link_output.LinkCreator):
+    native = elements.SdfShape
+    rules = kinematic_tree.JointRules(("fixed", "revolute", "prismatic", "ball", "floating"), world=True)
+    visual_suffixes = VISUAL_SUFFIXES
+    lead = 3 * elements.STEP
+
+    def __init__(self, asset: Asset, name: str) -> None:
+        self.name, stem = name, Path(name).stem
+        self.model = asset.path.stem if name == _MAIN else stem
+        super().__init__(asset, edit.SdfElementMaker(b"", b"\n", mesh_output.HullFiles(stem), version=_VERSION))
+        self.renamed: dict[str, str] = {}
+        for link, own in self.slots.items():
+            for slot in own:
+                self._rename(slot, self.links[link])
+
+    def build_output(self) -> Output:
+        others = assign_names([slot for own in self.slots.values() for slot in own])
+        names = {was: others.pop(name, name) for was, name in self.renamed.items()} | others
+        inside = [line for link in self.links for line in self._link_lines(link)]
+        if WORLD in self.links:  # what is part of the world does not fall
+            fixed = kinematic_tree.LinkJoint(
+                "world_fixed", None, WORLD, self.links[WORLD], Pose.identity(), np.zeros(3)
+            )
+            inside += elements.joint_lines(fixed, WORLD, self.links[WORLD])
+        for joint in self.chain.joints:
+            inside += self._joint_lines(joint)
+        model = elements.nest_with_name("model", self.model, *inside)
+        head = [b'<?xml version="1.0"?>', b'<sdf version="%s">' % ".".join(map(str, _VERSION)).encode()]
+        main = b"\n".join([*head, *(elements.STEP + line for line in model), b"</sdf>", b""])
+        made = dict(self.maker.files.made)
+        if self.name == _MAIN:
+            listed = b'<sdf version="%s">%s</sdf>' % (".".join(map(str, _VERSION)).encode(), xml.escape(self.name))
+            config = elements.nest("model", elements.leaf("name", self.model), listed)
+            made[CONFIG] = b"\n".join([b'<?xml version="1.0"?>', *config, b""])  # it makes the folder a Gazebo model
+        return Output(main, made, self.visuals.copies, self._collect_notes(), names, self.collect_losses())
+
+    def name_links(self, bare: set[str]) -> dict[str, str]:
+        """The name of each link; none for the world where it has nothing: joints can hold on to it without."""
+        taken = set(self.chain.frames)
+        names = {link: link for link in self.chain.frames if link != WORLD}
+        if WORLD in self.chain.frames and WORLD not in bare:
+            names = {WORLD: kinematic_tree.claim_name(f"{WORLD}_link", taken), **names}
+        return {link: _legal_name(name, taken) for link, name in names.items()} or {WORLD: f"{WORLD}_link"}
+
+    def _rename(self, slot: Slot, link: str) -> None:
+        """Name the element of a slot, for the link as it is called in the file."""
+        slot.name = name_attribute_of(slot)
+        if link != slot.body:
+            names = tuple(f"{link}/{name.removeprefix(f'{slot.body}/')}" for name in slot.names)
+            self.renamed |= dict(zip(slot.names, names, strict=True))
+            slot.body, slot.names = link, names
+
+    def build_opaque(self, piece: Opaque, root_t_link: Pose) -> list[Slot]:
+        """The collision of a non-convex piece; none where it has no surface."""
+        surface, link_t_root = piece.surface, root_t_link.inverse()
+        if piece.plane is not None:
+            plane = link_t_root @ piece.plane
+            kind = elements.nest("plane", elements.leaf("normal", "0 0 1"), elements.leaf("size", "100 100"))
+            return [Slot(piece.body, (piece.name,), text=elements.build_collision(plane, kind, self.lead, b"\n"))]
+        if surface is None:
+            return []
+        if not len(surface.faces):
+            self.lost.append(Loss(FeatureKind.OPAQUE, (piece.name,), "it has no triangle"))
+            return []
+        vertices = link_t_root.apply(np.asarray(surface.vertices))
+        kind = elements.mesh_lines(self.maker.files.add(piece.name, "", vertices, surface.faces))
+        return [Slot(piece.body, (piece.name,), text=elements.build_collision(Pose.identity(), kind, self.lead, b"\n"))]
+
+    def _link_lines(self, link: str) -> list[bytes]:
+        frame = self.chain.frames[link]
+        inertial, base = self.inertial_of(link)
+        inside = [elements.pose_leaf(Pose(frame.rotation, kinematic_tree.drop_rounding(frame.translation)))]
+        inside += elements.inertial_lines(inertial, base) if inertial else []
+        for k, (visual, reference) in enumerate(self.shown[link]):
+            inside += elements.visual_lines(f"visual{k}", visual, reference)
+        collisions = [slot.to_bytes(b"").split(b"\n") for slot in self.slots[link]]
+        inside += [line.removeprefix(self.lead) for lines in collisions for line in lines]
+        return elements.nest_with_name("link", self.links[link], *inside)
+
+    def _joint_lines(self, made: kinematic_tree.LinkJoint) -> list[bytes]:
+        """The lines of a joint; none for one that leaves its link free."""
+        if made.joint is not None and made.joint.kind == "floating":
+            name = made.joint.name
+            why = "a link without a joint moves freely in SDF"
+            self.lost.append(Loss(FeatureKind.JOINTS, (name,) * bool(name), why, None, not name))
+            return []
+        return elements.joint_lines(made, self.links.get(made.parent, WORLD), self.links[made.child])
+
+    def _collect_notes(self) -> tuple[str, ...]:
+        """What Gazebo makes of what the file does not say."""
+        notes = list(self.chain.notes) + self.maker.notes
+        renamed = [f"{link} as {name}" for link, name in self.links.items() if link != name]
+        if renamed:
+            notes.append(f"links that SDF has no such names for are written otherwise ({join_names(renamed, 3)})")
+        heavy = {*self.inertials, *self.chain.light}
+        weightless = [name for link, name in self.links.items() if link not in heavy]
+        if weightless:
+            links = pluralize(len(weightless), "link")
+            notes.append(
+                f"{links} without a mass ({join_names(weightless, 3)}): Gazebo takes 1 kg, with moments of 1 kg m^2"
+            )
+        return tuple(notes)
+
+
+def _legal_name(name: str, taken: set[str]) -> str:
+    """A name that SDF allows: `::` parts scopes, and names between double underscores are its own."""
+    allowed = name.replace("::", "__")
+    if allowed.startswith("__") and allowed.endswith("__"):
+        allowed = f"link{allowed}"
+    return name if allowed == name else kinematic_tree.claim_name(allowed, taken)
