@@ -50,6 +50,8 @@ class ApplyArguments:
     mass: Annotated[
         Literal["keep", "recompute"], typer.Option("--mass", help="Masses that a format derives from geometry.")
     ] = "keep"
+    names: options.MarkNames = None
+    collision: options.CollisionPlace = "beside"
     link: Annotated[bool, typer.Option("--link", help="Hard-link files that are only copied.")] = False
     dry_run: options.DryRun = False
     fresh: Annotated[bool, typer.Option("--fresh", help="Do again what an earlier run has done.")] = False
@@ -92,7 +94,9 @@ def apply(given: ApplyArguments) -> None:
     for text in batch.describe_absent_labels(work.program, work.jobs):
         remark(text)
     summary, started, done = batch.RunSummary(), perf_counter(), list[batch.AssetOutcome]()
-    run_options = batch.ApplyOptions(given.mass, given.link, given.dry_run, resume=not given.fresh)
+    run_options = batch.ApplyOptions(
+        given.mass, given.link, given.dry_run, resume=not given.fresh, names=given.names, collision=given.collision
+    )
     try:
         with progress(len(work.jobs), "editing") as advance:
             execution = replace(given.execution.to_options(), progress=advance)

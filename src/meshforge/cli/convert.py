@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any
 
 import typer
 
@@ -30,10 +30,8 @@ class ConvertArguments:
     to: Annotated[
         str | None, typer.Option("--to", metavar="SUFFIX", help="Write all assets in this format, as .usda, below OUT.")
     ] = None
-    names: Annotated[
-        Literal["unreal", "godot", "unity"] | None,
-        typer.Option("--names", help="Call what collides as this engine knows it: glTF for all, OBJ for unreal."),
-    ] = None
+    names: options.MarkNames = None
+    collision: options.CollisionPlace = None
     labels: options.LabelsPath = None
     link: Annotated[bool, typer.Option("--link", help="Hard-link files that are only copied.")] = False
     overwrite: Annotated[bool, typer.Option("--overwrite", help="Replace files that are there already.")] = False
@@ -48,8 +46,9 @@ def convert(given: ConvertArguments) -> None:
     """Write an asset in another format, or unchanged in its own; says what the target cannot hold.
 
     Bodies, joints, masses and visuals are kept where the format has them. Labels go beside the file, under the
-    names that the hulls have there. With --to, folders and globs are taken, too, OUT mirrors their tree, a run that was
-    stopped goes on where it was, and the exit code is 1 when some failed.
+    names that the hulls have there. A file that goes into its own format stays as it is, unless --names or
+    --collision asks for marks of what collides. With --to, folders and globs are taken, too, OUT mirrors their tree,
+    a run that was stopped goes on where it was, and the exit code is 1 when some failed.
     """
     if len(given.paths) < 2:
         raise UsageError("there is nothing to write to", remedy="meshforge convert ASSET OUT")
@@ -71,7 +70,9 @@ def convert(given: ConvertArguments) -> None:
     from meshforge.batch import ApplyOptions  # lazy: 250 modules that only --to needs
     from meshforge.cli.convert_many import convert_many  # lazy: 250 modules that only --to needs
 
-    run_options = ApplyOptions(link=given.link, dry_run=given.dry_run, to=suffix, names=given.names)
+    run_options = ApplyOptions(
+        link=given.link, dry_run=given.dry_run, to=suffix, names=given.names, collision=given.collision
+    )
     execution = given.execution.to_options()
     convert_many(sources, Path(out), given.labels, run_options, execution, given.report, json=given.json)
 
@@ -87,7 +88,7 @@ def _parse_suffix(to: str) -> str:
 
 def _convert_one(source: Path, out: Path, given: ConvertArguments) -> None:
     mesh = load(source, labels=given.labels)
-    saved = save(mesh, out, link=given.link, overwrite=given.overwrite, names=given.names)
+    saved = save(mesh, out, link=given.link, overwrite=given.overwrite, names=given.names, collision=given.collision)
     read_notes = mesh.asset.notes if mesh.asset else ()
     if mesh.labels:
         _write_labels(mesh, saved, given.overwrite)

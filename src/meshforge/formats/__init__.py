@@ -1,16 +1,16 @@
 """Files: a reader and a writer for each format, and the door to them all."""
 
-from meshforge.formats.base import Format, Loss, Mass, Output
-from meshforge.formats.engine_names.conventions import EngineName
+from meshforge.formats.base import Collision, Format, Loss, Mass, Output
+from meshforge.formats.engine_names.conventions import EngineName, MarkName
 from meshforge.formats.mesh_reader import read_triangles, split_into_pieces
 from meshforge.formats.meshfile.surface import RawSurface
-from meshforge.formats.output_tree import SaveResult, output_path_of, save
+from meshforge.formats.output_tree import SaveResult, describe_collision, output_path_of, save
 from meshforge.formats.plain.obj_text import format_obj
 from meshforge.formats.plain.parts import MeshPart
 from meshforge.formats.registry import (
     DESCRIPTION_SUFFIXES,
-    ENGINE_FORMATS,
     FORMATS,
+    MARKED_FORMATS,
     MESH_SUFFIXES,
     NO_GEOMETRY,
     SUFFIXES,
@@ -22,6 +22,7 @@ from meshforge.formats.registry import (
     load,
     load_many,
     read,
+    resolve_asset_path,
 )
 from meshforge.formats.segmentation.base import (
     POINTS_SUFFIXES,
@@ -36,16 +37,18 @@ from meshforge.formats.visuals import VisualSurfaces
 
 __all__ = [
     "DESCRIPTION_SUFFIXES",
-    "ENGINE_FORMATS",
     "FORMATS",
+    "MARKED_FORMATS",
     "MESH_SUFFIXES",
     "NO_GEOMETRY",
     "POINTS_SUFFIXES",
     "SEMANTICS_FILE",
     "SUFFIXES",
+    "Collision",
     "EngineName",
     "Format",
     "Loss",
+    "MarkName",
     "Mass",
     "MeshPart",
     "Output",
@@ -54,6 +57,7 @@ __all__ = [
     "Segmentation",
     "VisualSurfaces",
     "attach_own_mesh",
+    "describe_collision",
     "format_for",
     "format_obj",
     "format_of",
@@ -69,6 +73,7 @@ __all__ = [
     "read_segmentation",
     "read_semantics",
     "read_triangles",
+    "resolve_asset_path",
     "save",
     "split_into_pieces",
 ]

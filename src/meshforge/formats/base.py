@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import os
 from abc import ABC, abstractmethod
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import ClassVar, Literal
 
 from meshforge.common import AssetError, join_names, pluralize
-from meshforge.symbolic import Asset, Feature, FeatureKind
+from meshforge.symbolic import Asset, Feature, FeatureKind, Surface
 
 _PATHS = (
     "ROS_PACKAGE_PATH",
@@ -33,6 +33,8 @@ SCENE_FEATURES = frozenset(
 """What every format of scenes could hold besides, and `create` leaves out."""
 Mass = Literal["keep", "recompute"]
 """Whether an edited body keeps the mass and inertia it had, or has those of its hulls, where a format derives them."""
+Collision = Literal["beside", "replace"]
+"""Where the hulls of a scene go in which nothing is marked as collision: beside what is seen, or in its place."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -156,6 +158,35 @@ class Format(ABC):
     def matches_head(self, head: bytes) -> bool:
         """Whether a file of one of the suffixes may be an asset of this format; head: its first kilobytes."""
         return True
+
+
+class SceneFormat(Format):
+    """A format of scenes, in which collision is marked or not: in an unmarked scene, all that is seen is taken for it.
+
+    marks: how a written file says what collides, for notes.
+    """
+
+    marks: ClassVar[str]
+
+    @abstractmethod
+    def is_unmarked(self, asset: Asset) -> bool:
+        """Whether an asset of this format was read from a scene in which nothing is marked as collision."""
+
+    @abstractmethod
+    def is_edited(self, asset: Asset) -> bool:
+        """Whether the hulls of an asset of this format are not those of its file."""
+
+    @abstractmethod
+    def surfaces_of(self, asset: Asset) -> Sequence[Surface]:
+        """What an unmarked scene shows, as it was read."""
+
+    @abstractmethod
+    def write_beside(self, asset: Asset, name: str) -> Output:
+        """The files of an unmarked scene, all of it as it is, with the hulls of the asset beside it, marked.
+
+        They read back as the hulls of the asset, and what was taken for them is only seen. Raises AssetError where a
+        file of the scene has changed, or there is no hull.
+        """
 
 
 def feature_of(kind: FeatureKind, names: Iterable[str]) -> Feature:

@@ -6,6 +6,7 @@ from __future__ import annotations
 import copy
 import json
 from pathlib import Path, PurePosixPath
+from typing import Literal
 from urllib.parse import quote
 
 import numpy as np
@@ -29,14 +30,16 @@ from meshforge.symbolic import Asset, Geom, Opaque, Surface
 _FAR = 1e4  # sizes of a hull away from its body, beyond which single precision would spoil it
 
 
-def create_gltf(asset: Asset, name: str) -> Output:
+def create_gltf(asset: Asset, name: str, convention: Literal["plain", "khr"] | None = None) -> Output:
     """The files of an asset that came from another format.
 
     One body of nothing but hull meshes becomes plain nodes. Else colliders of KHR_physics_rigid_bodies hold bodies and
     native shapes; where the asset shows nothing, a mesh on each collider's node shows that.
+    convention: one of the two, whatever the asset is.
     """
     is_binary = PurePosixPath(name).suffix.lower() == ".glb"
-    return _Creator(asset, "plain" if _is_plain(asset) else "khr", is_binary).build_output(PurePosixPath(name).stem)
+    chosen = convention or ("plain" if _is_plain(asset) else "khr")
+    return _Creator(asset, chosen, is_binary).build_output(PurePosixPath(name).stem)
 
 
 def _is_plain(asset: Asset) -> bool:

@@ -161,8 +161,12 @@ class SceneDraft:
             holder = source if below else self.scene.placements[source].parent
         if holder is None or self._bodies.get(holder) != body:
             return body
-        stretch = np.linalg.svd(self.scene.placements[holder].linear, compute_uv=False)
-        return body if stretch[-1] <= 1e-9 * stretch[0] else holder  # it leaves no volume to what is below it
+        return holder if self.keeps_volume(holder) else body
+
+    def keeps_volume(self, index: int) -> bool:
+        """Whether a node leaves a volume to what is below it."""
+        stretch = np.linalg.svd(self.scene.placements[index].linear, compute_uv=False)
+        return bool(stretch[-1] > 1e-9 * stretch[0])
 
     def shape_in(self, shape: Shape, holder: int | None) -> Shape:
         """A shape of the root frame in the space of a node."""

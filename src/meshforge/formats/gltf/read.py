@@ -121,18 +121,30 @@ def _find_files(scene: GltfScene, path: Path) -> tuple[tuple[Path, ...], tuple[s
     return tuple(dict.fromkeys(found.values())), tuple(dict.fromkeys(missing))
 
 
-class SceneSurfaces(LazySurfaces):
-    """The visible surfaces of a file, none where it is damaged; bodies: the body of each node that is in one."""
+def read_scene_surfaces(asset: Asset, document: GltfDocument) -> SceneSurfaces:
+    """What a scene shows in which all meshes are taken for collision."""
+    with report_damage(str(asset.path)):
+        bodies = name_bodies(GltfScene.of(document.source, asset.path))
+    owners = {node: name for node, (_, name) in bodies.items()}
+    return SceneSurfaces(document.source, asset.path, owners, unmarked=True)
 
-    def __init__(self, source: bytes, path: Path, bodies: dict[int, str]) -> None:
-        self._source, self._path, self._bodies = source, path, bodies
+
+class SceneSurfaces(LazySurfaces):
+    """The visible surfaces of a file, none where it is damaged; bodies: the body of each node that is in one.
+
+    unmarked: whether meshes are seen that are taken for collision as nothing is marked.
+    """
+
+    def __init__(self, source: bytes, path: Path, bodies: dict[int, str], *, unmarked: bool = False) -> None:
+        self._source, self._path, self._bodies, self._unmarked = source, path, bodies, unmarked
 
     def _make(self) -> list[Surface]:
         found = []
         try:
             with report_damage(str(self._path)):
                 scene = GltfScene.of(self._source, self._path)
-                for index in visible_nodes(scene, convention_of(scene)):
+                shown = [k for k, placement in scene.placements.items() if "mesh" in placement.node]
+                for index in shown if self._unmarked else visible_nodes(scene, convention_of(scene)):
                     mesh, linear, offset = scene.place_mesh(scene.placements[index])
                     for part, rgba in split_by_color(scene, scene.placements[index].node["mesh"], mesh):
                         surface = place_surface(part.vertices, part.faces, linear, offset, self._bodies.get(index))
@@ -238,7 +250,7 @@ def collect_notes(scene: GltfScene, convention: Convention) -> Iterator[str]:
     if convention in _HOW:
         yield _HOW[convention]
     elif "Texture" in str(entries(scene.tree, "materials")):  # else it is a mesh file as any other
-        yield "no node is marked as collision: all meshes are taken for it, so that edits change what is seen"
+        yield "no node is marked as collision: all meshes are taken for it"
     placements, tree = scene.placements, scene.tree
     outside = [k for k, node in enumerate(entries(tree, "nodes")) if k not in placements and "mesh" in node]
     if outside:
