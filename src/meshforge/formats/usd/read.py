@@ -167,7 +167,7 @@ def _labels_of(prim: Any) -> Iterator[str]:
 def collect_notes(scene: UsdStage, physics: bool) -> Iterator[str]:
     """The notes on a stage; physics: whether its prims say what collides."""
     if not physics:
-        yield "no prim is marked as collision: all that is seen is taken for it, so that edits change what is seen"
+        yield "no prim is marked as collision: all that is seen is taken for it"
     prims = list(scene.prims())
     solid = [
         prim
@@ -184,6 +184,15 @@ def collect_notes(scene: UsdStage, physics: bool) -> Iterator[str]:
         yield f"of variants, the selected ones are read ({join_names(chosen, 3)})"
     if sum(prim.IsInstance() for prim in prims):
         yield "what an edit changes in an instance becomes that instance's own: it is no longer shared"
+
+
+def read_stage_surfaces(asset: Asset, document: UsdDocument) -> tuple[Surface, ...]:
+    """What a stage shows in which all that is seen is taken for collision; of a point instancer, all instances."""
+    with usd(str(asset.path)):
+        scene = UsdStage.open(asset.path)
+        shown = StageSurfaces.of(scene, colliders.StageBodies(scene, document.physics))
+    many = {name for element in document.authored if element.fixed for name in element.names}
+    return (*shown, *(piece.surface for piece in asset.opaque if piece.name in many and piece.surface is not None))
 
 
 class StageSurfaces(LazySurfaces):
