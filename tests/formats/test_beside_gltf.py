@@ -158,6 +158,17 @@ def test_unreal_finds_the_hulls_beside_the_meshes_that_they_are_of(folder: Path)
     assert len(read(out).visuals) == 3
 
 
+def test_meshes_that_unreal_cannot_tell_apart_are_named(folder: Path) -> None:
+    source = folder / "in" / "text" / "scene.gltf"
+    tree = json.loads(source.read_bytes())
+    for node in tree["nodes"]:
+        if node["name"] == "ball":
+            node["mesh"] = next(other["mesh"] for other in tree["nodes"] if other["name"] == "leg")
+    source.write_text(json.dumps(tree))
+    told = meshforge("apply", "p.mf", "in/text", "--out", "out", "--names", "unreal", cwd=folder).out
+    assert "Unreal finds the mesh of a hull by its name: rename those that have none, or share one (leg)" in told
+
+
 @pytest.mark.parametrize("names", ["godot", "unity"])
 def test_godot_and_unity_find_the_hulls_beside_what_is_seen(folder: Path, names: str) -> None:
     meshforge("convert", "in/text/scene.gltf", "out/scene.gltf", "--names", names, cwd=folder)

@@ -13,7 +13,7 @@ from pathlib import PurePosixPath
 
 import numpy as np
 
-from meshforge.common import AssetError
+from meshforge.common import AssetError, join_names
 from meshforge.formats.base import Loss, Output, note_renames
 from meshforge.formats.collision_pieces import names_to_keep, refuse_changed_files
 from meshforge.formats.engine_names.conventions import CollisionNames
@@ -70,10 +70,9 @@ def write_gltf_beside(asset: Asset, document: GltfDocument, name: str, engine: C
     renamed = {old: now for old, now in names.items() if old in hulls}
     notes = [
         *note_lacking_shapes(style_of(convention, draft), asset.geoms),
-        *(engine.notes(asset.geoms) if engine else ()),
+        *(engine.notes(asset.geoms) if engine else note_renames(renamed)),
+        *writer.notes,
     ]
-    if engine is None:
-        notes += note_renames(renamed)
     return replace(output, notes=tuple(notes), names=renamed, lost=tuple(writer.lost))
 
 
@@ -103,11 +102,15 @@ def _holder_of(draft: SceneDraft, piece: _Piece) -> int | None:
 
 
 class _Writer(ABC):
-    """Adds pieces to a scene; lost: what its way to mark collision cannot say."""
+    """Adds pieces to a scene; lost: what its way to mark collision cannot say; notes: for people."""
 
     def __init__(self, draft: SceneDraft) -> None:
         self.draft = draft
         self.lost: list[Loss] = []
+
+    @property
+    def notes(self) -> list[str]:
+        return []
 
     @abstractmethod
     def add(self, piece: _Piece) -> None:
@@ -195,6 +198,16 @@ class _EngineWriter(_Writer):
         self.taken = set(self.seen)
         self.number: Counter[str] = Counter()
         self.holders: dict[int | None, int] = {}
+        self.stood_for: dict[str, set[int]] = {}
+
+    @property
+    def notes(self) -> list[str]:
+        """The meshes that the engine cannot tell apart, where it goes by their names."""
+        if self.engine.centred:
+            return []
+        many = [name or "without a name" for name, nodes in self.stood_for.items() if len(nodes) > 1 or not name]
+        what = f"{self.engine.title} finds the mesh of a hull by its name"
+        return [f"{what}: rename those that have none, or share one ({join_names(many, 3)})"] if many else []
 
     def add(self, piece: _Piece) -> None:
         what, draft = piece.what, self.draft
@@ -252,7 +265,9 @@ class _EngineWriter(_Writer):
         if piece.element is None:
             return self.engine.body(self.stem)
         node, tree = self.draft.scene.placements[piece.element.node].node, self.draft.scene.tree
-        return _name_of(entry(tree, "meshes", node["mesh"])) or _name_of(node) or self.engine.body(self.stem)
+        name = _name_of(entry(tree, "meshes", node["mesh"])) or _name_of(node)
+        self.stood_for.setdefault(name, set()).add(piece.element.node)
+        return name or self.engine.body(self.stem)
 
     def _claim(self, names: Iterator[str]) -> str:
         """The first of some names that nothing has."""
