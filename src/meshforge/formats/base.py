@@ -104,6 +104,7 @@ class Format(ABC):
     holds: what `create` takes over from other formats, besides hulls; could: what such files may hold and `create`
     leaves out all the same; instead: how it writes what the format does not hold (`written as triangles`).
     shown_files: suffixes of mesh files of visuals that go along as they are, and are shown with their materials.
+    has_pictures: whether visuals are written with the pictures that are their base colours.
     """
 
     name: ClassVar[str]
@@ -117,6 +118,7 @@ class Format(ABC):
     could: ClassVar[frozenset[FeatureKind]] = frozenset()
     instead: ClassVar[Mapping[FeatureKind, str]] = {}
     shown_files: ClassVar[tuple[str, ...]] = ()
+    has_pictures: ClassVar[bool] = False
 
     @abstractmethod
     def read(self, path: Path, options: ReadOptions) -> Asset:

@@ -51,6 +51,7 @@ class GltfFormat(SceneFormat):
     up = "y"
     marks = f"as colliders of {_PHYSICS}"
     engine: ClassVar[CollisionNames | None] = None
+    has_pictures = True
     holds = BODY_FEATURES | {FeatureKind.CAPSULES, FeatureKind.OPAQUE, FeatureKind.PLANES}
     could = _COULD_NAMED | {
         *(FeatureKind.JOINTS, FeatureKind.BALL_JOINTS, FeatureKind.FIXED_JOINTS, FeatureKind.CONTACT, FeatureKind.PAIRS)

@@ -41,6 +41,7 @@ class UsdFormat(SceneFormat):
     suffixes = (".usda", ".usd", ".usdc", ".usdz")
     up = "z"
     marks = "as colliders of UsdPhysics"
+    has_pictures = True
     holds = BODY_FEATURES | {
         *(FeatureKind.CAPSULES, FeatureKind.OPAQUE, FeatureKind.PLANES),
         *(FeatureKind.JOINTS, FeatureKind.BALL_JOINTS, FeatureKind.FIXED_JOINTS),

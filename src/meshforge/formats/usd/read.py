@@ -12,12 +12,13 @@ import numpy as np
 from meshforge.common import AssetError, GeometryError, MeshForgeError, file_digest, is_file, join_names, pluralize
 from meshforge.formats import collision_pieces, mesh_reader
 from meshforge.formats.libraries import pxr
+from meshforge.formats.meshfile.surface import GAMMA
 from meshforge.formats.usd import colliders, guard
 from meshforge.formats.usd.mechanism import read_mechanism
 from meshforge.formats.usd.shapes import read_instances, read_mesh, read_parts
 from meshforge.formats.usd.stage import PrimRecord, UsdDocument, UsdStage, usd
-from meshforge.formats.visuals import GAMMA, LazySurfaces, Rgba
-from meshforge.symbolic import Asset, Geom, Mentions, Surface
+from meshforge.formats.visuals import LazySurfaces
+from meshforge.symbolic import Asset, Geom, Mentions, Rgba, Surface
 
 _LABELS = "SemanticsLabelsAPI:"
 _ISAAC = "SemanticsAPI:"
