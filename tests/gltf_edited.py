@@ -27,7 +27,7 @@ class Edited:
         gone = set(gone)
         assert gone <= {geom.name for geom in self.before.geoms}
         kept = [geom for geom in self.before.geoms if geom.name not in gone]
-        self.saved = save(self.before.with_geoms([*kept, *made]), self.out)
+        self.saved = save(self.before.with_geoms([*kept, *made]), self.out, collision="replace")
         after = read(self.out)
         told = {self.saved.names.get(geom.name, geom.name): geom for geom in kept}
         for geom in after.geoms:

@@ -128,7 +128,7 @@ def test_an_edit_leaves_the_rest_of_the_scene_as_it_was(assets: dict[str, Asset]
             continue
         changed, touched, less = edited(asset)
         out = tmp_path / key
-        saved = save(changed, out if suffix == "same" else out.with_suffix(suffix))
+        saved = save(changed, out if suffix == "same" else out.with_suffix(suffix), collision="replace")
         again = read(saved.path)
         assert not saved.names, key
         assert [g.name for g in again.geoms if "~" not in g.name] == [g.name for g in asset.geoms[1:-1]], key

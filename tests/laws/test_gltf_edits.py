@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 import tempfile
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from meshforge.formats import read, save
+from meshforge.formats import MarkName, read, save
 from meshforge.formats.gltf.document import GltfDocument
+from meshforge.formats.meshfile.gltf_scene import GltfScene
 from meshforge.geometry import Box, Capsule, Pose, Shape, Sphere, convex_hull, is_same_shape
 from meshforge.symbolic import Asset, Geom
 from tests.examples import examples
@@ -23,14 +25,15 @@ NAMES: dict[str, list[str | None]] = {
     "godot": ["leg-col", "leg-colonly", "top_convcol.001", "top-convcolonly", "leg"],
     "khr": [None, "leg", "leg", "top"],
 }
+BESIDE: list[MarkName] = ["khr", "unreal", "godot", "unity"]
 NUMBERS = st.sampled_from([-2.0, -1.0, 0.5, 1.0, 3.0])
 TURNS = st.sampled_from([[0, 0, 0, 1], [0.5, 0.5, 0.5, 0.5], [0, 0.6, 0, 0.8]])
 
 
 @st.composite
-def scenes(draw: st.DrawFn) -> SceneFile:
+def scenes(draw: st.DrawFn, conventions: Sequence[str] = tuple(sorted(NAMES))) -> SceneFile:
     """A scene of a convention: nodes in a random forest, with shared meshes of one to three pieces."""
-    convention = draw(st.sampled_from(sorted(NAMES)))
+    convention = draw(st.sampled_from(conventions))
     scene = SceneFile()
     scene.tree |= {"extras": {"n": 1.25}, "materials": [{"name": "wood"}, {"doubleSided": True}]}
     parts = [box(), together(box(), box((3, 0, 0))), together(box(), angle(), box((0, 5, 0))), angle()]
@@ -88,6 +91,39 @@ def edited(draw: st.DataObject, asset: Asset) -> Asset:
     return asset.with_geoms(geoms)
 
 
+@examples(60)
+@given(scenes(("plain",)), st.sampled_from([".glb", ".gltf"]), st.sampled_from([None, *BESIDE]), st.data())
+def test_hulls_beside_an_unmarked_scene_read_back_and_the_scene_is_as_it_was(
+    scene: SceneFile, suffix: str, names: MarkName | None, draw: st.DataObject
+) -> None:
+    with tempfile.TemporaryDirectory() as folder:
+        source = scene.write(Path(folder) / f"a{suffix}")
+        assume(any("mesh" in node for node in scene.tree["nodes"]))
+        before = read(source)
+        wanted = edited(draw, before)
+        assume(wanted.geoms)
+        saved = save(wanted, Path(folder) / "out" / source.name, names=names, collision="beside")
+        after = read(saved.path)
+        assert len(after.geoms) == len(wanted.geoms)
+        if names is None:
+            _assert_has(after, wanted, saved.names, baked=True)
+        assert [len(surface.faces) for surface in after.visuals] == _triangles(before)
+        then, now = tree_of(source.read_bytes()), tree_of(saved.path.read_bytes())
+        for key in ("bufferViews", "accessors", "materials", "meshes", "nodes"):
+            assert now[key][: len(then[key])] == then[key]
+        if suffix == ".glb":
+            assert _chunk(saved.path).startswith(_chunk(source))
+        again = save(after, Path(folder) / "again" / source.name, collision="beside")
+        assert again.path.read_bytes() == saved.path.read_bytes()
+
+
+def _triangles(asset: Asset) -> list[int]:
+    """How many triangles each node shows, in the order of the scene."""
+    assert isinstance(asset.document, GltfDocument)
+    scene = GltfScene.of(asset.document.source, asset.path)
+    return [len(scene.mesh(p.node["mesh"]).faces) for p in scene.placements.values() if "mesh" in p.node]
+
+
 @examples(80)
 @given(scenes(), st.sampled_from([".glb", ".gltf"]), st.data())
 def test_an_edit_changes_what_it_says_and_nothing_else(scene: SceneFile, suffix: str, draw: st.DataObject) -> None:
@@ -99,7 +135,7 @@ def test_an_edit_changes_what_it_says_and_nothing_else(scene: SceneFile, suffix:
         assert (Path(folder) / "same" / source.name).read_bytes() == source.read_bytes()
         wanted = edited(draw, before)
         assume(wanted.geoms or wanted.opaque)
-        saved = save(wanted, Path(folder) / "out" / source.name)
+        saved = save(wanted, Path(folder) / "out" / source.name, collision="replace")
         after = read(saved.path)
         _assert_has(after, wanted, saved.names)
         assert _seen(after) == _seen(before)  # collision goes, what is seen stays
@@ -117,15 +153,18 @@ def _seen(asset: Asset) -> list[tuple[str, int, list[list[float]]]]:
     return sorted((s.body or "", len(s.faces), np.round(s.vertices, 9).tolist()) for s in asset.visuals)
 
 
-def _assert_has(after: Asset, wanted: Asset, names: object) -> None:
-    """All hulls are there under their names, or those that are told, on their bodies."""
+def _assert_has(after: Asset, wanted: Asset, names: object, *, baked: bool = False) -> None:
+    """All hulls are there under their names, or those that are told, on their bodies.
+
+    baked: whether those that stay may have been written anew, in single precision.
+    """
     assert isinstance(names, dict)
     back = {geom.name: geom for geom in after.geoms}
     assert len(back) == len(wanted.geoms)
     for geom in wanted.geoms:
         now = back[names.get(geom.name, geom.name)]
         assert now.body == geom.body
-        if geom.parent is None:
+        if geom.parent is None and not baked:
             assert is_same_shape(now.shape, geom.shape, 1e-9)
         else:
             size = geom.shape.aabb.diagonal

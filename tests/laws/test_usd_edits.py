@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import tempfile
 from pathlib import Path
 
@@ -9,7 +10,8 @@ import numpy as np
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from meshforge.formats import read, save
+from meshforge.common import AssetError
+from meshforge.formats import SaveResult, read, save
 from meshforge.geometry import Box, Capsule, Pose, Shape, Sphere, convex_hull
 from meshforge.symbolic import Asset, Geom
 from tests.examples import examples
@@ -88,16 +90,43 @@ def test_an_edit_changes_what_it_says_and_nothing_else(text: str, data: st.DataO
         wanted = edited(data, asset)
         assume(wanted.geoms)
         saved = save(wanted, Path(folder, "out", "a.usda"))
-        after = {geom.name: geom for geom in read(saved.path).geoms}
-        assert len(after) == len(wanted.geoms)
-        for geom in wanted.geoms:
-            made = after[saved.names.get(geom.name, geom.name)]
-            assert made.body == geom.body
-            size = float(np.abs([geom.shape.aabb.min, geom.shape.aabb.max]).max())
-            same = geom.shape if made.shape.kind == geom.shape.kind else geom.shape.tessellate()
-            assert np.allclose(made.shape.aabb.min, same.aabb.min, atol=1e-5 * size)
-            assert np.allclose(made.shape.aabb.max, same.aabb.max, atol=1e-5 * size)
+        has_hulls(saved, wanted)
         unchanged(path, saved.path, asset, wanted)
+
+
+@examples(50)
+@given(text=stages(), data=st.data())
+def test_hulls_beside_an_unmarked_stage_read_back_and_the_stage_is_as_it_was(text: str, data: st.DataObject) -> None:
+    bare = re.sub(r"\(\s*prepend apiSchemas = \[.*?\]\s*\)", "", text).replace('"guide"', '"proxy"')
+    bare = bare.replace(CONVEX, "")
+    with tempfile.TemporaryDirectory() as folder:
+        path = written(Path(folder), bare)
+        try:
+            asset = read(path)
+        except AssetError:
+            assume(False)
+        wanted = edited(data, asset)
+        assume(wanted.geoms)
+        saved = save(wanted, Path(folder, "out", "a.usda"), collision="beside")
+        has_hulls(saved, wanted)
+        assert saved.names == {}
+        old, new = specs(path), specs(saved.path)
+        assert {at: new.get(at) for at in old} == old
+        again = save(read(saved.path), Path(folder, "again", "a.usda"), collision="beside")
+        assert again.path.read_bytes() == saved.path.read_bytes()
+
+
+def has_hulls(saved: SaveResult, wanted: Asset) -> None:
+    """What was written reads back as the hulls that it was to hold, each in its place."""
+    after = {geom.name: geom for geom in read(saved.path).geoms}
+    assert len(after) == len(wanted.geoms)
+    for geom in wanted.geoms:
+        made = after[saved.names.get(geom.name, geom.name)]
+        assert made.body == geom.body
+        size = float(np.abs([geom.shape.aabb.min, geom.shape.aabb.max]).max())
+        same = geom.shape if made.shape.kind == geom.shape.kind else geom.shape.tessellate()
+        assert np.allclose(made.shape.aabb.min, same.aabb.min, atol=1e-5 * size)
+        assert np.allclose(made.shape.aabb.max, same.aabb.max, atol=1e-5 * size)
 
 
 def unchanged(before: Path, after: Path, asset: Asset, wanted: Asset) -> None:

@@ -121,7 +121,7 @@ def _written(asset: Asset, path: Path, name: str, *, shows: bool, edited: bool =
     source = next((known for known in FORMATS if known.name == asset.format), None)
     meant = asset if source is target else turn_upright(asset, source, target)[0]
     try:
-        save(asset, path)
+        save(asset, path, collision="replace")  # of scenes of hulls alone, which readers are to see
     except MeshForgeError as error:
         return Refused(name, path.suffix, error.problem)
     wanted, found = shapes_of(meant, opaque=False), shapes_of(read(path))

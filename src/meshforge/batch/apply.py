@@ -19,8 +19,17 @@ from meshforge.batch.lock import hold_lock
 from meshforge.batch.outcome import AssetOutcome, Edited, Failed, RuleEffect, Unchanged
 from meshforge.batch.preparation.storage import prepare_from_folder, record_digest
 from meshforge.batch.workers import EXECUTION_DEFAULTS, ExecutionOptions, WorkerFailure
-from meshforge.common import Plugin, UsageError, describe_error, join_names
-from meshforge.formats import format_for, format_with_names, plugin_of_suffix, read
+from meshforge.common import AssetError, Plugin, UsageError, describe_error, join_names
+from meshforge.formats import (
+    MarkName,
+    describe_collision,
+    format_for,
+    format_of,
+    format_with_names,
+    plugin_of_suffix,
+    read,
+    resolve_asset_path,
+)
 from meshforge.language import Program, Template, plugin_of
 from meshforge.signoff import measure_edit
 from meshforge.symbolic import Asset, LabelFile, LabelTransfer, SymbolicMesh, read_labels, transfer_labels
@@ -70,17 +79,31 @@ def _run_task(jobs: tuple[AssetJob, ...], task: ApplyTask, execution: ExecutionO
 
 def _check_arguments(jobs: tuple[AssetJob, ...], task: ApplyTask) -> None:
     options = task.options
-    if options.names:
-        format_with_names(format_for(Path(f"asset{options.to or ''}"), ""), options.names)
+    if options.names and options.to:
+        format_with_names(format_for(Path(f"asset{options.to}"), ""), options.names)
     seen: dict[str, Path] = {}
     for job in jobs:
         if job.id in seen:
             raise UsageError(f"two assets have the id {job.id!r}: {seen[job.id]} and {job.path}")
         seen[job.id] = job.path
+        if options.names and options.to is None:
+            _refuse_names(job, options.names)
         if job.base.absolute() == task.out:
             raise UsageError(
                 "the output folder is the folder of the assets", where=str(task.out), remedy="Choose another --out."
             )
+
+
+def _refuse_names(job: AssetJob, names: MarkName) -> None:
+    """Raise UsageError where collision cannot be marked so in the format of an asset."""
+    try:
+        known = format_of(resolve_asset_path(job.path))
+    except AssetError:
+        return  # that asset fails by itself
+    try:
+        format_with_names(known, names)
+    except UsageError as error:
+        raise error.at(str(job.path)) from None
 
 
 def edit_asset(task: ApplyTask, job: AssetJob) -> outputs.WorkerResult:
@@ -105,7 +128,8 @@ def edit_asset(task: ApplyTask, job: AssetJob) -> outputs.WorkerResult:
 
 def inputs_of(task: ApplyTask, job: AssetJob, files: dict[str, str]) -> provenance.OutputInputs:
     """The digests of all that decides the output of a job; files: those of the asset."""
-    to, names = task.options.to, task.options.names
+    options = task.options
+    written = {"to": options.to, "names": options.names, "collision": options.collision}
     return provenance.OutputInputs(
         asset=files,
         preparation=record_digest(job.preparation) if job.preparation else None,
@@ -113,7 +137,7 @@ def inputs_of(task: ApplyTask, job: AssetJob, files: dict[str, str]) -> provenan
         program=provenance.program_digest(task.program),
         templates=provenance.template_digests(task.templates),
         corrections=corrections_digest(job.corrections),
-        settings=f"mass={task.options.mass}{f' to={to}' if to else ''}{f' names={names}' if names else ''}",
+        settings=" ".join([f"mass={options.mass}", *(f"{key}={value}" for key, value in written.items() if value)]),
         software=provenance.software_version(_plugins_of(task, job)),
     )
 
@@ -143,7 +167,11 @@ def _run_program(
     result = task.program.run(source, task.templates)
     mesh, flags = replay_corrections(job.corrections, source, result.mesh, task.program, task.templates)
     draft = outputs.plan_draft(task, job, asset)
-    if not task.options.dry_run:
+    if task.options.dry_run:
+        draft = replace(
+            draft, notes=describe_collision(mesh, draft.folder / draft.main, task.options.names, task.options.collision)
+        )
+    else:
         draft = outputs.write_draft(draft, mesh, labels.vocabulary or task.program.labels, task.options)
     outcome = (Unchanged if _has_same_hulls(source, mesh) and not job.preparation else Edited)(
         asset=job.id,

@@ -14,7 +14,7 @@ from meshforge.batch.discovery import AssetSet, asset_id
 from meshforge.batch.provenance import stamp_path
 from meshforge.batch.workers import GIB, MIB
 from meshforge.common import ProgramError, UsageError, pluralize
-from meshforge.formats import EngineName, Mass, labels_beside, read
+from meshforge.formats import Collision, MarkName, Mass, labels_beside, read
 from meshforge.language import Program, Template
 
 
@@ -40,8 +40,8 @@ class ApplyOptions:
 
     mass: whether bodies keep their masses where a format derives them from geometry; link: files that are only copied
     become hard links; dry_run: nothing is written; resume: an output that is whole and was made from the same is
-    skipped; to: the suffix of the format that all are written in, each one's own when None; names: the engine by whose
-    names for collision hulls are written.
+    skipped; to: the suffix of the format that all are written in, each one's own when None; names: how collision is
+    marked; collision: where the hulls of scenes go in which nothing is marked. The last two are as of `formats.save`.
     """
 
     mass: Mass = "keep"
@@ -49,7 +49,8 @@ class ApplyOptions:
     dry_run: bool = False
     resume: bool = True
     to: str | None = None
-    names: EngineName | None = None
+    names: MarkName | None = None
+    collision: Collision | None = "beside"
 
 
 APPLY_DEFAULTS = ApplyOptions()

@@ -30,9 +30,10 @@ def note_limits(
     """A note on each rule that hulls break of the engines a file is for, with the hulls, the engines and the remedy.
 
     form: the name of the format; holds: what it holds: a native shape that it does not counts as the mesh that stands
-    for it; names: the engine by whose names the file is written.
+    for it; names: how it marks collision, which may be for one
+    engine.
     """
-    known = (names,) if names else ENGINES_OF_FORMATS.get(form, ())
+    known = (names,) if names and names in ENGINES else ENGINES_OF_FORMATS.get(form, ())
     engines = [ENGINES[name] for name in known if name not in _SAID_ON_SAVING]
     native = {kind for kind, what in PRIMITIVE_FEATURES.items() if what in holds}
     written = [_as_written(hull, native) for hull in hulls] if engines else []

@@ -50,6 +50,8 @@ class ApplyArguments:
     mass: Annotated[
         Literal["keep", "recompute"], typer.Option("--mass", help="Masses that a format derives from geometry.")
     ] = "keep"
+    names: options.MarkNames = None
+    collision: options.CollisionPlace = "beside"
     link: Annotated[bool, typer.Option("--link", help="Hard-link files that are only copied.")] = False
     dry_run: options.DryRun = False
     again: Annotated[bool, typer.Option("--again", help="Do again what an earlier run has done.")] = False
@@ -91,7 +93,9 @@ def apply(given: ApplyArguments) -> None:
     if len(work.jobs) > 1:
         remark(str(batch.plan_run(work.jobs, work.out)))
     summary, started, done = batch.RunSummary(), perf_counter(), list[batch.AssetOutcome]()
-    run_options = batch.ApplyOptions(given.mass, given.link, given.dry_run, resume=not given.again)
+    run_options = batch.ApplyOptions(
+        given.mass, given.link, given.dry_run, resume=not given.again, names=given.names, collision=given.collision
+    )
     try:
         with progress(len(work.jobs), "editing") as advance:
             execution = replace(given.execution.to_options(), progress=advance)

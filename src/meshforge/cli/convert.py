@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any
 
 import typer
 
@@ -13,7 +13,7 @@ from meshforge import formats
 from meshforge.cli import options
 from meshforge.cli.terminal import print_json, remark
 from meshforge.common import UsageError, pluralize
-from meshforge.formats import FORMATS, PLUGIN_FORMATS, EngineName, Loss, SaveResult, format_for, format_with_names
+from meshforge.formats import FORMATS, PLUGIN_FORMATS, Loss, MarkName, SaveResult, format_for, format_with_names
 from meshforge.symbolic import Feature, SymbolicMesh
 
 
@@ -31,10 +31,8 @@ class ConvertArguments:
     to: Annotated[
         str | None, typer.Option("--to", metavar="SUFFIX", help="Write all assets in this format, as .usda, below OUT.")
     ] = None
-    names: Annotated[
-        Literal["unreal", "godot", "unity"] | None,
-        typer.Option("--names", help="Call what collides as this engine knows it: glTF for all, OBJ for unreal."),
-    ] = None
+    names: options.MarkNames = None
+    collision: options.CollisionPlace = None
     labels: options.LabelsPath = None
     link: Annotated[bool, typer.Option("--link", help="Hard-link files that are only copied.")] = False
     overwrite: Annotated[bool, typer.Option("--overwrite", help="Replace files that are there already.")] = False
@@ -49,8 +47,9 @@ def convert(given: ConvertArguments) -> None:
     """Write an asset in another format, or unchanged in its own; says what the target cannot hold.
 
     Bodies, joints, masses and visuals are kept where the format has them. Labels go beside the file, under the
-    names that the hulls have there. With --to, folders and globs are taken, too, OUT mirrors their tree, a run that was
-    stopped goes on where it was, and the exit code is 1 when some failed.
+    names that the hulls have there. A file that goes into its own format stays as it is, unless --names or
+    --collision asks for marks of what collides. With --to, folders and globs are taken, too, OUT mirrors their tree,
+    a run that was stopped goes on where it was, and the exit code is 1 when some failed.
     """
     if len(given.paths) < 2:
         raise UsageError("there is nothing to write to", remedy="meshforge convert ASSET OUT")
@@ -72,7 +71,9 @@ def convert(given: ConvertArguments) -> None:
     from meshforge.batch import ApplyOptions  # lazy: 250 modules that only --to needs
     from meshforge.cli.convert_many import convert_many  # lazy: 250 modules that only --to needs
 
-    run_options = ApplyOptions(link=given.link, dry_run=given.dry_run, to=suffix, names=given.names)
+    run_options = ApplyOptions(
+        link=given.link, dry_run=given.dry_run, to=suffix, names=given.names, collision=given.collision
+    )
     execution = given.execution.to_options()
     convert_many(sources, Path(out), given.labels, run_options, execution, given.report, json=given.json)
 
@@ -92,7 +93,9 @@ def _parse_suffix(to: str) -> str:
 
 def _convert_one(source: Path, out: Path, given: ConvertArguments) -> None:
     mesh = formats.load(source, labels=given.labels)
-    saved = formats.convert(mesh, out, link=given.link, overwrite=given.overwrite, names=given.names)
+    saved = formats.convert(
+        mesh, out, link=given.link, overwrite=given.overwrite, names=given.names, collision=given.collision
+    )
     read_notes = mesh.asset.notes if mesh.asset else ()
     limit_notes = _note_limits(mesh, saved, given.names)
     if given.json:
@@ -104,7 +107,7 @@ def _convert_one(source: Path, out: Path, given: ConvertArguments) -> None:
     remark(f"wrote {saved.path}: {', '.join([pluralize(len(mesh.hulls), 'hull'), *held])}")
 
 
-def _note_limits(mesh: SymbolicMesh, saved: SaveResult, names: EngineName | None) -> tuple[str, ...]:
+def _note_limits(mesh: SymbolicMesh, saved: SaveResult, names: MarkName | None) -> tuple[str, ...]:
     """What the engines that read the file would refuse of it."""
     from meshforge.checks import note_limits  # lazy: 0.1 s, not needed for the help
 

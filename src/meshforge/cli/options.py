@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal, TypeVar, get_type_hin
 import typer
 
 from meshforge.common import UsageError, join_names, plain_path
-from meshforge.formats import load
+from meshforge.formats import Collision, MarkName, load
 from meshforge.geometry import CoacdSettings, DecomposeSettings, VhacdSettings
 from meshforge.symbolic import SymbolicMesh
 
@@ -58,6 +58,25 @@ Hollow = Annotated[
     typer.Option("--hollow", help="Leave planar holes open, so that shells of one sheet are not filled."),
 ]
 Seconds = Annotated[float | None, typer.Option("--timeout", min=0.1, help="Seconds to try.")]
+
+MarkNames = Annotated[
+    MarkName | None,
+    typer.Option(
+        "--names",
+        help="How to mark what collides: names for unreal (glTF, OBJ), godot or unity (glTF), khr (glTF's "
+        "KHR_physics_rigid_bodies) or usd (UsdPhysics).",
+        show_default=False,
+    ),
+]
+CollisionPlace = Annotated[
+    Collision | None,
+    typer.Option(
+        "--collision",
+        help="Of glTF and USD with nothing marked as collision: hulls beside what is seen, all of which stays, or in "
+        "its place; default beside.",
+        show_default=False,
+    ),
+]
 
 NOTHING_TO_SHOW = "with --dry-run there is nothing to show"
 

@@ -1,19 +1,19 @@
 """Files: a reader and a writer for each format, and the door to them all."""
 
-from meshforge.formats.base import Format, Loss, Mass, Output, ReadOptions
+from meshforge.formats.base import Collision, Format, Loss, Mass, Output, ReadOptions
 from meshforge.formats.convert import convert, to_mjspec
 from meshforge.formats.decompose import decompose
-from meshforge.formats.engine_names.conventions import EngineName
+from meshforge.formats.engine_names.conventions import EngineName, MarkName
 from meshforge.formats.mesh_reader import read_triangles, split_into_pieces
 from meshforge.formats.meshfile.surface import RawSurface
 from meshforge.formats.mjcf.trial import MujocoTrial, try_in_mujoco
-from meshforge.formats.output_tree import SaveResult, output_path_of, save
+from meshforge.formats.output_tree import SaveResult, describe_collision, output_path_of, save
 from meshforge.formats.plain.obj_text import format_obj
 from meshforge.formats.plain.parts import MeshPart
 from meshforge.formats.registry import (
     DESCRIPTION_SUFFIXES,
-    ENGINE_FORMATS,
     FORMATS,
+    MARKED_FORMATS,
     MESH_SUFFIXES,
     NO_GEOMETRY,
     PLUGIN_FORMATS,
@@ -48,17 +48,19 @@ from meshforge.formats.visuals import VisualSurfaces
 
 __all__ = [
     "DESCRIPTION_SUFFIXES",
-    "ENGINE_FORMATS",
     "FORMATS",
+    "MARKED_FORMATS",
     "MESH_SUFFIXES",
     "NO_GEOMETRY",
     "PLUGIN_FORMATS",
     "POINTS_SUFFIXES",
     "SEMANTICS_FILE",
     "SUFFIXES",
+    "Collision",
     "EngineName",
     "Format",
     "Loss",
+    "MarkName",
     "Mass",
     "MeshPart",
     "MujocoTrial",
@@ -73,6 +75,7 @@ __all__ = [
     "attach_own_mesh",
     "convert",
     "decompose",
+    "describe_collision",
     "format_for",
     "format_obj",
     "format_of",

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import os
 from abc import ABC, abstractmethod
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import ClassVar, Literal
 
 from meshforge.common import AssetError, join_names, pluralize
-from meshforge.symbolic import Asset, Feature, FeatureKind
+from meshforge.symbolic import Asset, Feature, FeatureKind, Surface
 
 _PATHS = (
     "ROS_PACKAGE_PATH",
@@ -33,6 +33,8 @@ SCENE_FEATURES = frozenset(
 """What every format of scenes could hold besides, and `create` leaves out."""
 Mass = Literal["keep", "recompute"]
 """Whether an edited body keeps the mass and inertia it had, or has those of its hulls, where a format derives them."""
+Collision = Literal["beside", "replace"]
+"""Where the hulls of a scene go in which nothing is marked as collision: beside what is seen, or in its place."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -102,6 +104,7 @@ class Format(ABC):
     holds: what `create` takes over from other formats, besides hulls; could: what such files may hold and `create`
     leaves out all the same; instead: how it writes what the format does not hold (`written as triangles`).
     shown_files: suffixes of mesh files of visuals that go along as they are, and are shown with their materials.
+    has_pictures: whether visuals are written with the pictures that are their base colours.
     """
 
     name: ClassVar[str]
@@ -115,6 +118,7 @@ class Format(ABC):
     could: ClassVar[frozenset[FeatureKind]] = frozenset()
     instead: ClassVar[Mapping[FeatureKind, str]] = {}
     shown_files: ClassVar[tuple[str, ...]] = ()
+    has_pictures: ClassVar[bool] = False
 
     @abstractmethod
     def read(self, path: Path, options: ReadOptions) -> Asset:
@@ -160,6 +164,35 @@ class Format(ABC):
     def matches_head(self, head: bytes) -> bool:
         """Whether a file of one of the suffixes may be an asset of this format; head: its first kilobytes."""
         return True
+
+
+class SceneFormat(Format):
+    """A format of scenes, in which collision is marked or not: in an unmarked scene, all that is seen is taken for it.
+
+    marks: how a written file says what collides, for notes.
+    """
+
+    marks: ClassVar[str]
+
+    @abstractmethod
+    def is_unmarked(self, asset: Asset) -> bool:
+        """Whether an asset of this format was read from a scene in which nothing is marked as collision."""
+
+    @abstractmethod
+    def is_edited(self, asset: Asset) -> bool:
+        """Whether the hulls of an asset of this format are not those of its file."""
+
+    @abstractmethod
+    def surfaces_of(self, asset: Asset) -> Sequence[Surface]:
+        """What an unmarked scene shows, as it was read."""
+
+    @abstractmethod
+    def write_beside(self, asset: Asset, name: str) -> Output:
+        """The files of an unmarked scene, all of it as it is, with the hulls of the asset beside it, marked.
+
+        They read back as the hulls of the asset, and what was taken for them is only seen. Raises AssetError where a
+        file of the scene has changed, or there is no hull.
+        """
 
 
 def feature_of(kind: FeatureKind, names: Iterable[str]) -> Feature:

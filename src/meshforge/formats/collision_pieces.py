@@ -185,6 +185,12 @@ def new_hulls(asset: Asset, known: Container[str]) -> list[Geom]:
     return [geom for geom in asset.geoms if geom.parent is not None or geom.name not in known]
 
 
+def is_edited(asset: Asset, known: Iterable[str]) -> bool:
+    """Whether an edit removed or made a hull; known: the names of the pieces of the file."""
+    names = set(known)
+    return not names <= names_to_keep(asset) or bool(new_hulls(asset, names))
+
+
 def drop_repeats(found: Iterable[tuple[str, str | None]]) -> Mentions:
     """The mentions without empty ones, each name once."""
     names: dict[str, str] = {}

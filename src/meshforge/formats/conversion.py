@@ -9,6 +9,7 @@ from pathlib import Path
 
 from meshforge.common import join_names
 from meshforge.formats.base import Format, Loss, Output
+from meshforge.formats.looks import LOOK_SUFFIXES
 from meshforge.formats.references import find_companions
 from meshforge.formats.visuals import Visual, VisualSurfaces
 from meshforge.geometry import Pose
@@ -45,11 +46,11 @@ def report_conversion(
     own = [*output.lost, *_find_renamed(output, target), *_find_faded_materials(asset, target)]
     features = [_subtract_losses(feature, own) for feature in (*features_of(asset), *_visual_features(asset))]
     # a creator sees the asset, not the document: what only that holds is never converted
-    beyond = [f for f in (source.features(asset) if source else ()) if f.count]
+    beyond = [_subtract_pictures(f, asset, target) for f in (source.features(asset) if source else ()) if f.count]
     lost = [f for f in features if f.count and f.kind not in target.holds]
     return ConversionReport(
         held=tuple(f for f in features if f.count and f.kind in target.holds),
-        lost=(*(_explain_loss(f, target) for f in (*lost, *beyond)), *_merge_losses(own)),
+        lost=(*(_explain_loss(f, target) for f in (*lost, *beyond) if f.count), *_merge_losses(own)),
         remarks=(*remarks, *output.notes),
     )
 
@@ -60,6 +61,26 @@ def _subtract_losses(feature: Feature, losses: Sequence[Loss]) -> Feature:
     names = {name for loss in like for name in loss.names}
     unnamed = max(0, feature.unnamed - sum(loss.unnamed for loss in like))
     return Feature(feature.kind, tuple(n for n in feature.names if n not in names), unnamed, feature.reason)
+
+
+def _subtract_pictures(feature: Feature, asset: Asset, target: Format) -> Feature:
+    """A feature of a document without the pictures that visuals take along."""
+    if not target.has_pictures or isinstance(asset.visuals, VisualSurfaces):
+        return feature
+    shown = [surface.texture for surface in asset.visuals if surface.texture is not None]
+    if not shown:
+        return feature
+    match feature.kind:
+        case FeatureKind.MATERIALS:
+            why = f"MeshForge converts only their base colours and the pictures of these to {target.title}"
+            return replace(feature, reason=why)
+        case FeatureKind.TEXTURES:
+            count = len({texture.picture for texture in shown})
+        case FeatureKind.TEXTURE_COORDINATES:
+            count = len(shown)
+        case _:
+            return feature
+    return Feature(feature.kind, (), max(0, feature.count - count), feature.reason)
 
 
 def _explain_loss(feature: Feature, target: Format) -> Loss:
@@ -97,11 +118,25 @@ def _find_faded_materials(asset: Asset, target: Format) -> list[Loss]:
     """Mesh files of visuals whose own materials the target does not show, though it has the shapes."""
     if FeatureKind.VISUALS not in target.holds or not isinstance(asset.visuals, VisualSurfaces):
         return []
-    files = dict.fromkeys(visual.what for visual in asset.visuals.visuals if isinstance(visual.what, Path))
-    unshown = [(f, (f, *find_companions(f).values())) for f in files if f.suffix.lower() not in target.shown_files]
-    faded = tuple(f.name for f, parts in unshown if any(part.suffix.lower() in _WITH_MATERIALS for part in parts))
-    why = f"{target.title} gets the shapes alone"
-    return [Loss(FeatureKind.MESH_MATERIALS, faded, why, "shown without these")] if faded else []
+    in_part: dict[Path, bool] = {}
+    for visual in asset.visuals.visuals:
+        if isinstance(visual.what, Path) and visual.what.suffix.lower() not in target.shown_files:
+            has_look = target.has_pictures and visual.rgba is None and visual.what.suffix.lower() in LOOK_SUFFIXES
+            in_part[visual.what] = in_part.get(visual.what, True) and has_look
+    parts = {file: (file, *find_companions(file).values()) for file in in_part}
+    faded = [file for file in in_part if any(part.suffix.lower() in _WITH_MATERIALS for part in parts[file])]
+    bare = tuple(file.name for file in faded if not in_part[file])
+    rest = tuple(file.name for file in faded if in_part[file])
+    losses = [
+        Loss(FeatureKind.MESH_MATERIALS, bare, f"{target.title} gets the shapes alone", "shown without these"),
+        Loss(
+            FeatureKind.MESH_MATERIALS,
+            rest,
+            "MeshForge converts nothing else of materials",
+            "shown with base colours and their pictures",
+        ),
+    ]
+    return [loss for loss in losses if loss.names]
 
 
 def _merge_losses(losses: Sequence[Loss]) -> list[Loss]:

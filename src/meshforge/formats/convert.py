@@ -6,7 +6,8 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from meshforge.formats.engine_names.conventions import EngineName
+from meshforge.formats.base import Collision
+from meshforge.formats.engine_names.conventions import MarkName
 from meshforge.formats.mjcf.spec import build_spec
 from meshforge.formats.output_tree import SaveResult, make_output, save
 from meshforge.formats.registry import Source, labels_beside, to_mesh
@@ -19,17 +20,19 @@ def convert(
     *,
     link: bool = False,
     overwrite: bool = False,
-    names: EngineName | None = None,
+    names: MarkName | None = None,
+    collision: Collision | None = None,
 ) -> SaveResult:
     """Write an asset in the format that the suffix of `out` names, or unchanged in its own; its labels beside it.
 
     asset: a mesh, or what `load` reads. link: files that are only copied become hard links; overwrite: existing files
-    may be replaced; names: an engine (`unreal`, `godot`, `unity`), by whose names for collision the file is made.
+    may be replaced. names: how the file marks collision; collision: where the hulls of a scene go in which nothing is
+    marked: both as `save` has them.
     The result says what the format cannot hold, in `.notes` and `.report`. Labels keep the names that hulls have there.
     Raises AssetError and UsageError as `load` and `save` do.
     """
     mesh = to_mesh(asset)
-    saved = save(mesh, out, link=link, overwrite=overwrite, names=names)
+    saved = save(mesh, out, link=link, overwrite=overwrite, names=names, collision=collision)
     return _write_labels(mesh, saved, overwrite) if mesh.labels else saved
 
 

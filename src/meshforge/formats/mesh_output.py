@@ -16,9 +16,9 @@ from meshforge.formats import kinematic_tree, mesh_reader
 from meshforge.formats.meshfile.surface import join_surfaces, stack_triangles
 from meshforge.formats.plain.obj_text import format_obj_rows
 from meshforge.formats.references import Resolver, find_companions, placement
-from meshforge.formats.visuals import Rgba, Visual
+from meshforge.formats.visuals import Visual
 from meshforge.geometry import Floats, Ints, Pose, Shape
-from meshforge.symbolic import Surface
+from meshforge.symbolic import Rgba, Surface
 
 _LONGEST = 120  # letters of a made file name, well below the 255 bytes of file systems
 

@@ -9,13 +9,13 @@ import shutil
 import tempfile
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager, nullcontext
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from meshforge.common import AssetError, plain_path, replace_atomically, write_atomically
-from meshforge.formats.base import Format, Mass, Output
+from meshforge.formats.base import Collision, Format, Mass, Output, SceneFormat
 from meshforge.formats.conversion import ConversionReport, report_conversion, turn_upright
-from meshforge.formats.engine_names.conventions import EngineName
+from meshforge.formats.engine_names.conventions import MarkName
 from meshforge.formats.registry import FOLDER, SUFFIXES, format_for, format_named, format_with_names
 from meshforge.geometry import Pose
 from meshforge.symbolic import Asset, Body, Document, Geom, SymbolicMesh
@@ -51,22 +51,26 @@ def save(
     mass: Mass = "keep",
     link: bool = False,
     overwrite: bool = False,
-    names: EngineName | None = None,
+    names: MarkName | None = None,
+    collision: Collision | None = None,
 ) -> SaveResult:
     """Write an asset, in the format it was read from where the suffix of `out` fits it, else made anew.
 
     Every file that the asset refers to goes along. A path without suffix is a folder of one file a hull.
     mass: whether bodies keep their masses where a format derives them from geometry;
     link: files that are only copied become hard links; overwrite: existing files may be replaced;
-    names: an engine, by whose names for collision the file is made, unless it was read with these.
+    names: how the file marks collision: by the names of an engine, "khr" or "usd"; one that does so already is edited,
+    others are made anew. collision: for scenes (glTF, USD) in which nothing is marked, whether hulls are written beside
+    what is seen, all of which stays, or in its place; None writes them beside it if an edit changed them or there are
+    `names`, and else leaves such a file as it is.
     Raises AssetError: the format cannot hold the hulls, or a file of the input, or another one that exists, would be
-    overwritten. Raises UsageError: the engine knows no collision by name in files of this format.
+    overwritten. Raises UsageError: collision cannot be marked so in files of this format.
     """
     asset = _to_asset(what)
     out = Path(os.path.normpath(out))
     known = format_for(out, asset.format)
     known = format_with_names(known, names) if names else known
-    output, report = _make_output(asset, known, out.name, mass)
+    output, report = _make_output(asset, known, out.name, mass, _place_collision(asset, known, names, collision))
     plan = _plan_files(output, out, known.is_folder)
     _refuse_outside(plan, out if known.is_folder else out.parent)
     _refuse_overwrite(plan, asset, overwrite)
@@ -83,22 +87,62 @@ def make_output(mesh: SymbolicMesh, kind: str, name: str) -> Output:
     """The files of a mesh in the format of a name, main file named `name`, without writing them. Raises AssetError."""
     known = format_named(kind)
     assert known is not None
-    return _make_output(_to_asset(mesh), known, name, "keep")[0]
+    asset = _to_asset(mesh)
+    return _make_output(asset, known, name, "keep", _place_collision(asset, known, None, None))[0]
 
 
 def _to_asset(what: SymbolicMesh | Asset) -> Asset:
     return what if isinstance(what, Asset) else what.to_asset() if what.asset else _asset_of_mesh(what)
 
 
-def _make_output(asset: Asset, known: Format, name: str, mass: Mass) -> tuple[Output, ConversionReport]:
-    """The files of an asset in its own format or another, and the report on them."""
+def describe_collision(
+    what: SymbolicMesh, out: Path, names: MarkName | None, collision: Collision | None
+) -> tuple[str, ...]:
+    """What `save` would say of where it writes hulls, for a scene in which nothing is marked as collision."""
+    asset = what.to_asset()
+    known = format_for(out, asset.format)
+    known = format_with_names(known, names) if names else known
+    return _note_collision(asset, known, _place_collision(asset, known, names, collision))
+
+
+def _place_collision(
+    asset: Asset, known: Format, names: MarkName | None, collision: Collision | None
+) -> Collision | None:
+    """Where the hulls of an unmarked scene go when it is written as a scene; None where it is copied, or is no such."""
+    source = format_named(asset.format)
+    if not isinstance(source, SceneFormat) or not isinstance(known, SceneFormat) or not source.is_unmarked(asset):
+        return None
+    stays = known.name == source.name and names is None and not source.is_edited(asset)
+    return None if collision is None and stays else collision or "beside"
+
+
+def _note_collision(asset: Asset, known: Format, place: Collision | None) -> tuple[str, ...]:
+    if place == "beside" and isinstance(known, SceneFormat):
+        return (f"nothing was marked as collision: what is seen stays, and the hulls are beside it {known.marks}",)
+    if place == "replace" and isinstance(known, SceneFormat) and known.name == asset.format and known.is_edited(asset):
+        return ("nothing was marked as collision: the hulls are in the place of what was seen",)
+    return ()
+
+
+def _make_output(
+    asset: Asset, known: Format, name: str, mass: Mass, place: Collision | None
+) -> tuple[Output, ConversionReport]:
+    """The files of an asset in its own format or another, and the report on them.
+
+    place: where the hulls of an unmarked scene go.
+    """
+    source, notes = format_named(asset.format), _note_collision(asset, known, place)
+    if place == "beside" and isinstance(known, SceneFormat) and known.name == asset.format:
+        output = known.write_beside(asset, name)
+        return output, ConversionReport(lost=output.lost, remarks=(*notes, *output.notes))
     if known.can_write_back(asset):
         output = known.write(asset, name, mass)
-        return output, ConversionReport(remarks=output.notes)
-    source = format_named(asset.format)
+        return output, ConversionReport(remarks=(*notes, *output.notes))
+    if place == "beside" and isinstance(source, SceneFormat):
+        asset = replace(asset, visuals=source.surfaces_of(asset))
     upright, remarks = turn_upright(asset, source, known)
     output = known.create(upright, name)
-    return output, report_conversion(upright, source, known, output, remarks)
+    return output, report_conversion(upright, source, known, output, (*notes, *remarks))
 
 
 def _asset_of_mesh(mesh: SymbolicMesh) -> Asset:

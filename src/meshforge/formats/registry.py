@@ -12,8 +12,8 @@ import numpy as np
 
 from meshforge.common import AssetError, Plugin, PluginError, Registry, UsageError, expand_glob, nearest_name
 from meshforge.formats.base import Format, ReadOptions
-from meshforge.formats.engine_names.conventions import EngineName
-from meshforge.formats.gltf.format import GltfForGodot, GltfFormat, GltfForUnity, GltfForUnreal
+from meshforge.formats.engine_names.conventions import MarkName
+from meshforge.formats.gltf.format import GltfForGodot, GltfFormat, GltfForUnity, GltfForUnreal, PhysicsGltf
 from meshforge.formats.meshfile.surface import FARTHEST
 from meshforge.formats.mjcf.format import MjcfFormat
 from meshforge.formats.mjcf.spec import SpecObject, read_spec, read_text
@@ -42,12 +42,21 @@ FORMATS: tuple[Format, ...] = (
     *FOLDER.members,
     FOLDER,
 )
-ENGINE_FORMATS: Mapping[EngineName, tuple[Format, ...]] = {
+MARKED_FORMATS: Mapping[MarkName, tuple[Format, ...]] = {
     "unreal": (GltfForUnreal(), obj.ObjForUnreal()),
     "godot": (GltfForGodot(),),
     "unity": (GltfForUnity(),),
+    "khr": (PhysicsGltf(),),
+    "usd": (UsdFormat(),),
 }
-"""The formats that can be written with the names by which an engine knows collision."""
+"""The formats that can be written with collision marked in a way: by names that an engine knows, or an extension."""
+_MARKS: Mapping[MarkName, str] = {
+    "unreal": "named for Unreal",
+    "godot": "named for Godot",
+    "unity": "named for Unity",
+    "khr": "marked by KHR_physics_rigid_bodies",
+    "usd": "marked by UsdPhysics",
+}
 SUFFIXES: tuple[str, ...] = tuple(dict.fromkeys(s for f in FORMATS for s in f.suffixes))
 """The suffixes of all files that can be read without plug-ins, lower case, with the dot; folders have none."""
 PLUGIN_FORMATS: Registry[Format] = Registry(
@@ -147,14 +156,14 @@ def format_for(path: Path, own: str) -> Format:
     raise _unknown_format_error(path)
 
 
-def format_with_names(known: Format, names: EngineName) -> Format:
-    """A format with the names of an engine. Raises UsageError: the engine knows no collision by name in its files."""
-    for named in ENGINE_FORMATS[names]:
-        if named.name == known.name:
-            return named
+def format_with_names(known: Format, names: MarkName) -> Format:
+    """A format that marks collision in a way. Raises UsageError: its files cannot be marked so."""
+    for marked in MARKED_FORMATS[names]:
+        if marked.name == known.name:
+            return marked
     files = known.title if known.is_folder else f"{known.title} files"
-    can = ", ".join(suffix for named in ENGINE_FORMATS[names] for suffix in named.suffixes)
-    raise UsageError(f"{files} cannot be named for {names.title()}", remedy=f"Formats that can: {can}.")
+    can = ", ".join(suffix for marked in MARKED_FORMATS[names] for suffix in marked.suffixes)
+    raise UsageError(f"{files} cannot be {_MARKS[names]}", remedy=f"Formats that can: {can}.")
 
 
 def _formats_of_suffix(path: Path) -> list[Format]:

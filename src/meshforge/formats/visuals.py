@@ -11,14 +11,10 @@ from typing import Any, overload
 import numpy as np
 
 from meshforge.common import MeshForgeError
-from meshforge.formats import base, collision_pieces, mesh_reader
-from meshforge.geometry import Floats, Pose, Shape
-from meshforge.symbolic import Asset, FeatureKind, Surface
-
-GAMMA = 2.2
-"""Colours of glTF and USD are linear, those of other formats are as screens show them."""
-
-Rgba = tuple[float, float, float, float]
+from meshforge.formats import base, collision_pieces, looks, mesh_reader
+from meshforge.formats.meshfile.surface import GAMMA
+from meshforge.geometry import Floats, Ints, Pose, Shape
+from meshforge.symbolic import Asset, FeatureKind, Rgba, Surface
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -49,8 +45,20 @@ class Visual:
             read = mesh_reader.read_triangles(self.what)
         except MeshForgeError:
             return []
-        found = [collision_pieces.place_surface(s.vertices, s.faces, self.linear, self.offset, self.body) for s in read]
-        return [replace(surface, rgba=self.rgba) for surface in found]
+        return [replace(self._place(s.vertices, s.faces), rgba=self.rgba) for s in read]
+
+    def surfaces_with_looks(self) -> list[Surface]:
+        """Its surfaces with the base colours and pictures of their file, unless it has a colour itself."""
+        if isinstance(self.what, Shape) or self.rgba is not None:
+            return self.surfaces()
+        try:
+            read = looks.read_looks(self.what)
+        except MeshForgeError:
+            return []
+        return [replace(self._place(s.vertices, s.faces), rgba=s.rgba, texture=s.texture) for s in read]
+
+    def _place(self, vertices: Floats, faces: Ints) -> Surface:
+        return collision_pieces.place_surface(vertices, faces, self.linear, self.offset, self.body)
 
 
 class LazySurfaces(Sequence[Surface], ABC):
@@ -101,12 +109,12 @@ def visuals_of(asset: Asset) -> list[tuple[str, Visual | Surface]]:
 
 
 def read_visual_surfaces(asset: Asset) -> tuple[list[tuple[str, Surface]], list[base.Loss]]:
-    """The surfaces of visuals with their bodies and colours, and what cannot be read."""
+    """The surfaces of visuals with their bodies, colours and pictures, and what cannot be read."""
     found: list[tuple[str, Surface]] = []
     refused: list[str] = []
     for body, visual in visuals_of(asset):
-        surfaces = visual.surfaces() if isinstance(visual, Visual) else [visual]
-        found += [(body, replace(surface, rgba=visual.rgba)) for surface in surfaces if len(surface.faces)]
+        surfaces = visual.surfaces_with_looks() if isinstance(visual, Visual) else [visual]
+        found += [(body, surface) for surface in surfaces if len(surface.faces)]
         if not surfaces:
             refused.append(body)
     return found, unreadable_visuals(refused)

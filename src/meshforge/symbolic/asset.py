@@ -47,18 +47,46 @@ class Geom:
     mentions: Mentions = ()
 
 
+Rgba = tuple[float, float, float, float]
+"""A colour as screens show it: four shares of 1, the last of them opacity."""
+
+
+@dataclass(frozen=True, slots=True)
+class Picture:
+    """An image file, PNG or JPEG: its bytes, and the suffix for them."""
+
+    data: bytes
+    suffix: Literal[".png", ".jpg"]
+
+    @staticmethod
+    def of(data: bytes) -> Picture | None:
+        """The picture in the bytes of a file; None for a file of another kind."""
+        if data.startswith(b"\x89PNG\r\n"):
+            return Picture(data, ".png")
+        return Picture(data, ".jpg") if data.startswith(b"\xff\xd8\xff") else None
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Texture:
+    """A picture on a surface, in the place of its colour; coordinates: (n, 2) of each vertex, to the right and up."""
+
+    coordinates: Floats
+    picture: Picture
+
+
 @dataclass(frozen=True, eq=False, slots=True)
 class Surface:
     """Triangles to look at, or to decompose; vertices (n, 3) [m] in the root frame, faces (m, 3).
 
-    body: the one that shows it, None where the file does not say; rgba: its colour, four shares of 1, None where it
-    has no single one.
+    body: the one that shows it, None where the file does not say; rgba: its colour, None where it has no single one;
+    texture: the picture that it has instead.
     """
 
     vertices: Floats
     faces: Ints
     body: str | None = None
-    rgba: tuple[float, float, float, float] | None = None
+    rgba: Rgba | None = None
+    texture: Texture | None = None
 
 
 @dataclass(frozen=True, eq=False, slots=True)

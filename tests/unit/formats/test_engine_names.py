@@ -11,7 +11,7 @@ import trimesh
 
 from meshforge.checks import check
 from meshforge.common import AssetError, UsageError
-from meshforge.formats import EngineName, read, save
+from meshforge.formats import EngineName, MarkName, read, save
 from meshforge.geometry import Box, Pose, Sphere, convex_hull
 from meshforge.symbolic import Asset, Geom, Opaque, Surface, SymbolicMesh
 from tests.conversion_samples import SAMPLES, block, foreign, wedge
@@ -266,7 +266,7 @@ def test_pieces_that_an_edit_puts_below_their_node_do_not_make_a_file_one_for_un
     scene.node("all_colliders", together(box(), box((2, 0, 0)), box((4, 0, 0))))
     asset = read(scene.write(tmp_path / "a.gltf"))
     left = [geom for geom in asset.geoms if geom.name != "all_colliders#1"]
-    after = read(save(asset.with_geoms(left), tmp_path / "out" / "a.gltf").path)
+    after = read(save(asset.with_geoms(left), tmp_path / "out" / "a.gltf", collision="replace").path)
     assert names(after) == ["top", "all_colliders#0", "all_colliders#2"] and not after.visuals
 
 
@@ -280,11 +280,14 @@ def test_pieces_that_an_edit_puts_below_their_node_do_not_make_a_file_one_for_un
         ("a.obj", "unity", "OBJ files cannot be named for Unity\n  Formats that can: .glb, .gltf."),
         ("a.urdf", "unreal", "URDF files cannot be named for Unreal\n  Formats that can: .glb, .gltf, .obj."),
         ("a.stl", "unity", "STL files cannot be named for Unity\n  Formats that can: .glb, .gltf."),
+        ("a.obj", "khr", "OBJ files cannot be marked by KHR_physics_rigid_bodies\n  Formats that can: .glb, .gltf."),
+        ("a.gltf", "usd", "glTF files cannot be marked by UsdPhysics\n  Formats that can: .usda, .usd, .usdc, .usdz."),
+        ("a.usda", "unity", "USD files cannot be named for Unity\n  Formats that can: .glb, .gltf."),
         ("a", "unreal", "a folder of mesh files cannot be named for Unreal\n  Formats that can: .glb, .gltf, .obj."),
     ],
 )
 def test_formats_without_such_names_are_refused_with_those_that_have_them(
-    place: str, engine: EngineName, message: str, tmp_path: Path
+    place: str, engine: MarkName, message: str, tmp_path: Path
 ) -> None:
     with pytest.raises(UsageError) as caught:
         save(SAMPLES["crowd"](), tmp_path / place, names=engine)

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import pytest
 
-from meshforge.formats import ENGINE_FORMATS, FORMATS, Format
+from meshforge.formats import FORMATS, MARKED_FORMATS, Format
 from meshforge.symbolic import FeatureKind
 
 ROOT = Path(__file__).parents[3]
@@ -19,7 +19,7 @@ PAGE = ROOT / "docs" / "formats.md"
 _START, _END = "<!-- {}: made by tests/unit/formats/test_formats_page.py -->\n", "<!-- end of {} -->"
 _MATRICES = {
     "matrix": [known for known in FORMATS if known.writable],
-    "named matrix": [known for formats in ENGINE_FORMATS.values() for known in formats],
+    "named matrix": [known for names in ("unreal", "godot", "unity") for known in MARKED_FORMATS[names]],
 }
 
 

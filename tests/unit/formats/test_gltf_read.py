@@ -62,7 +62,7 @@ def test_that_textured_meshes_are_taken_for_collision_is_told(tmp_path: Path) ->
     scene = SceneFile()
     scene.node("chair", box())
     scene.tree["materials"] = [{"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}}]
-    assert "edits change what is seen" in asset_of(scene, tmp_path).notes[0]
+    assert "all meshes are taken for it" in asset_of(scene, tmp_path).notes[0]
 
 
 def test_nodes_are_named_after_themselves_then_their_mesh_then_their_number(tmp_path: Path) -> None:

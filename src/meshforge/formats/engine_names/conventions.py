@@ -16,6 +16,8 @@ from meshforge.symbolic import PRIMITIVE_FEATURES, FeatureKind, Geom
 
 EngineName = Literal["unreal", "godot", "unity"]
 """The engines whose names for collision can be written."""
+MarkName = Literal["unreal", "godot", "unity", "khr", "usd"]
+"""How collision can be marked: by the names of an engine, by KHR_physics_rigid_bodies, or by UsdPhysics."""
 
 UnrealPrefix = Literal["UCX", "UBX", "USP", "UCP"]
 GodotSuffix = Literal["col", "convcol", "colonly", "convcolonly"]

@@ -4,8 +4,10 @@ plain, or named for an engine."""
 from __future__ import annotations
 
 import copy
+import hashlib
 import json
 from pathlib import Path, PurePosixPath
+from typing import Literal
 from urllib.parse import quote
 
 import numpy as np
@@ -22,21 +24,23 @@ from meshforge.formats.gltf.edit_styles import PlainStyle
 from meshforge.formats.gltf.physics import KHR, motion_of
 from meshforge.formats.meshfile.gltf_document import Container, Json
 from meshforge.formats.meshfile.gltf_scene import GltfScene
-from meshforge.formats.visuals import Rgba, linear_color, read_visual_surfaces
+from meshforge.formats.visuals import linear_color, read_visual_surfaces
 from meshforge.geometry import Floats, Ints
-from meshforge.symbolic import Asset, Geom, Opaque, Surface
+from meshforge.symbolic import Asset, Geom, Opaque, Picture, Surface
 
 _FAR = 1e4  # sizes of a hull away from its body, beyond which single precision would spoil it
 
 
-def create_gltf(asset: Asset, name: str) -> Output:
+def create_gltf(asset: Asset, name: str, convention: Literal["plain", "khr"] | None = None) -> Output:
     """The files of an asset that came from another format.
 
     One body of nothing but hull meshes becomes plain nodes. Else colliders of KHR_physics_rigid_bodies hold bodies and
     native shapes; where the asset shows nothing, a mesh on each collider's node shows that.
+    convention: one of the two, whatever the asset is.
     """
     is_binary = PurePosixPath(name).suffix.lower() == ".glb"
-    return _Creator(asset, "plain" if _is_plain(asset) else "khr", is_binary).build_output(PurePosixPath(name).stem)
+    chosen = convention or ("plain" if _is_plain(asset) else "khr")
+    return _Creator(asset, chosen, is_binary).build_output(PurePosixPath(name).stem)
 
 
 def _is_plain(asset: Asset) -> bool:
@@ -105,9 +109,8 @@ class _Creator:
         """A node that shows a surface."""
         holder, name = self.nodes.get(body), f"{body}-visual"
         points = self.draft.points_in(np.asarray(surface.vertices), holder)
-        mesh, middle = self.draft.add_surface_mesh(
-            points, surface.faces, name, add_material(self.draft.tree, surface.rgba)
-        )
+        material = add_material(self.draft, surface)
+        mesh, middle = self.draft.add_surface_mesh(points, surface.faces, name, material, surface.texture)
         self.draft.add_node({"name": name, "mesh": mesh, "translation": middle.tolist()}, holder)
 
 
@@ -147,7 +150,8 @@ class _EngineCreator:
         draft, parts = self.draft, []
         for surface in family.surfaces:
             points = draft.points_in(np.asarray(surface.vertices), node)
-            parts.append(draft.build_primitive(points, surface.faces, add_material(draft.tree, surface.rgba)))
+            material = add_material(draft, surface)
+            parts.append(draft.build_primitive(points, surface.faces, material, surface.texture))
         return draft.add_mesh({"name": family.name, "primitives": parts})
 
     def _add_collision(self, family: EngineBody, node: int) -> None:
@@ -185,15 +189,36 @@ def new_draft(tree: Json, path: Path, is_binary: bool) -> SceneDraft:
     return SceneDraft(GltfScene(copy.deepcopy(tree), None, path), tree, b"" if is_binary else None)
 
 
-def add_material(tree: Json, rgba: Rgba | None) -> int | None:
-    """The number of a material of a colour, which is added where it is not there yet."""
-    if rgba is None:
+def add_material(draft: SceneDraft, surface: Surface) -> int | None:
+    """The number of a material of the colour or picture of a surface, which is added where it is not there yet."""
+    shading: Json = {"metallicFactor": 0.0}
+    wanted: Json = {"pbrMetallicRoughness": shading}
+    if surface.texture is not None:
+        shading["baseColorTexture"] = {"index": _add_picture(draft, surface.texture.picture)}
+    elif surface.rgba is not None:
+        shading["baseColorFactor"] = [*linear_color(surface.rgba), float(surface.rgba[3])]
+        if surface.rgba[3] < 1:
+            wanted["alphaMode"] = "BLEND"
+    else:
         return None
-    color = [*linear_color(rgba), float(rgba[3])]
-    wanted: Json = {"pbrMetallicRoughness": {"baseColorFactor": color, "metallicFactor": 0.0}}
-    if rgba[3] < 1:
-        wanted["alphaMode"] = "BLEND"
-    found: list[Json] = tree.setdefault("materials", [])
+    return _number_of(draft.tree, "materials", wanted)
+
+
+def _add_picture(draft: SceneDraft, picture: Picture) -> int:
+    """The number of a texture of a picture; the picture is in the buffer, once."""
+    kind = "image/png" if picture.suffix == ".png" else "image/jpeg"
+    name = hashlib.blake2b(picture.data, digest_size=8).hexdigest()
+    images: list[Json] = draft.tree.setdefault("images", [])
+    known = next((k for k, image in enumerate(images) if image["name"] == name), None)
+    if known is None:
+        images.append({"name": name, "bufferView": draft.geometry.add_bytes(picture.data), "mimeType": kind})
+        known = len(images) - 1
+    return _number_of(draft.tree, "textures", {"source": known})
+
+
+def _number_of(tree: Json, key: str, wanted: Json) -> int:
+    """The number of a thing in a list of the tree, which is added where it is not there yet."""
+    found: list[Json] = tree.setdefault(key, [])
     if wanted not in found:
         found.append(wanted)
     return found.index(wanted)

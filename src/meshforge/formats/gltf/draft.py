@@ -15,6 +15,7 @@ from meshforge.formats.gltf import output, physics
 from meshforge.formats.meshfile.gltf_document import Json, entries, entry, extension
 from meshforge.formats.meshfile.gltf_scene import GltfScene
 from meshforge.geometry import Floats, Ints, Shape
+from meshforge.symbolic import Texture
 
 _KINDS = {5120: "<i1", 5121: "<u1", 5122: "<i2", 5123: "<u2", 5125: "<u4", 5126: "<f4"}  # by componentType
 _POINTER = re.compile(r"/nodes/(\d+)(/.*)?")
@@ -101,16 +102,26 @@ class SceneDraft:
         return self.add_surface_mesh(polytope.vertices, polytope.faces, name, material)
 
     def add_surface_mesh(
-        self, points: Floats, faces: Ints, name: str, material: int | None = None
+        self,
+        points: Floats,
+        faces: Ints,
+        name: str,
+        material: int | None = None,
+        texture: Texture | None = None,
     ) -> tuple[int, Floats]:
         """A new mesh of vertices (n, 3) and faces (m, 3), about the middle (3,) of their box; and that middle."""
         middle = (points.min(axis=0) + points.max(axis=0)) / 2
-        primitive = self.build_primitive(points - middle, faces, material)
+        primitive = self.build_primitive(points - middle, faces, material, texture)
         return self.add_mesh({"name": name, "primitives": [primitive]}), middle
 
-    def build_primitive(self, points: Floats, faces: Ints, material: int | None = None) -> Json:
-        """A primitive of vertices (n, 3) and faces (m, 3), where they are."""
+    def build_primitive(
+        self, points: Floats, faces: Ints, material: int | None = None, texture: Texture | None = None
+    ) -> Json:
+        """A primitive of vertices (n, 3) and faces (m, 3), where they are; texture: that its material has."""
         part: Json = {"attributes": {"POSITION": self.geometry.add_vertex_data(points.astype("<f4"), bounds=True)}}
+        if texture is not None:
+            downwards = np.column_stack([texture.coordinates[:, 0], 1 - texture.coordinates[:, 1]])
+            part["attributes"]["TEXCOORD_0"] = self.geometry.add_vertex_data(downwards.astype("<f4"))
         part["indices"] = self.geometry.add_triangles(faces)
         return part if material is None else {**part, "material": material}
 
@@ -161,8 +172,12 @@ class SceneDraft:
             holder = source if below else self.scene.placements[source].parent
         if holder is None or self._bodies.get(holder) != body:
             return body
-        stretch = np.linalg.svd(self.scene.placements[holder].linear, compute_uv=False)
-        return body if stretch[-1] <= 1e-9 * stretch[0] else holder  # it leaves no volume to what is below it
+        return holder if self.keeps_volume(holder) else body
+
+    def keeps_volume(self, index: int) -> bool:
+        """Whether a node leaves a volume to what is below it."""
+        stretch = np.linalg.svd(self.scene.placements[index].linear, compute_uv=False)
+        return bool(stretch[-1] > 1e-9 * stretch[0])
 
     def shape_in(self, shape: Shape, holder: int | None) -> Shape:
         """A shape of the root frame in the space of a node."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import copy
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from pathlib import Path
 
@@ -48,11 +48,15 @@ def write_gltf(asset: Asset, document: GltfDocument, name: str) -> Output:
         draft = SceneDraft(scene, copy.deepcopy(base.tree), base.before)
         names = _edit_draft(draft, document, kept, made, asset.path)
         output = pack_scene(base, scene, draft.geometry, name)
-    style = style_of(document.convention, draft)
+    notes = note_lacking_shapes(style_of(document.convention, draft), made)
+    return replace(output, notes=(*notes, *note_renames(names)), names=names)
+
+
+def note_lacking_shapes(style: EditStyle, made: Iterable[Geom]) -> list[str]:
+    """Notes on hulls of shapes that a convention does not have."""
     lacking = Counter(geom.shape.kind for geom in made if geom.shape.kind not in style.holds)
     counts = [(kind, pluralize(count, kind)) for kind, count in sorted(lacking.items())]
-    notes = [f"{many} written as hull meshes: {style.lacks} {kind}" for kind, many in counts]
-    return replace(output, notes=(*notes, *note_renames(names)), names=names)
+    return [f"{many} written as hull meshes: {style.lacks} {kind}" for kind, many in counts]
 
 
 def _edit_draft(

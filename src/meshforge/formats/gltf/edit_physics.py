@@ -114,8 +114,12 @@ class PhysicsStyle(EditStyle):
     def _add_node(self, node: Json, drawn: bool, holder: int | None, like: Json, geometry: Any, name: str) -> None:
         if drawn:
             node["extras"] = copy.deepcopy(DRAWN_EXTRAS)
+        self.add_collider(node, holder, geometry, name, like)
+
+    def add_collider(self, node: Json, holder: int | None, geometry: Any, name: str, like: Json | None = None) -> None:
+        """Add a node that collides with a geometry; name: of the piece; like: a node that collides alike."""
         index = self.draft.add_node(node, holder)
-        self._set_collider(index, like, geometry)
+        self._set_collider(index, like or {}, geometry)
         self.draft.expected[index] = (name,)
 
     def _set_collider(self, index: int, like: Json, geometry: Any) -> None:

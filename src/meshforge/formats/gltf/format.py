@@ -3,16 +3,26 @@ can hold, and what one holds besides hulls."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any, ClassVar
 
 from meshforge.common import AssetError
-from meshforge.formats.base import BODY_FEATURES, SCENE_FEATURES, Format, Mass, Output, ReadOptions, feature_of
+from meshforge.formats.base import (
+    BODY_FEATURES,
+    SCENE_FEATURES,
+    Mass,
+    Output,
+    ReadOptions,
+    SceneFormat,
+    feature_of,
+)
+from meshforge.formats.collision_pieces import is_edited
 from meshforge.formats.engine_names.conventions import CollisionNames, GodotNames, UnityNames, UnrealNames, fallbacks_of
 from meshforge.formats.gltf.document import GltfDocument
 from meshforge.formats.meshfile.gltf_document import Json, entries, entry, extension, report_damage
-from meshforge.symbolic import Asset, Feature, FeatureKind
+from meshforge.formats.meshfile.gltf_scene import GltfScene
+from meshforge.symbolic import Asset, Feature, FeatureKind, Surface
 
 _LISTS = {
     "materials": FeatureKind.MATERIALS,
@@ -30,13 +40,16 @@ _COULD_NAMED = SCENE_FEATURES - {FeatureKind.CONTACT} | {
 """What a file can hold and `create` leaves out, but for physics, which names do not say."""
 
 
-class GltfFormat(Format):
+class GltfFormat(SceneFormat):
     """glTF 2.0, as text with its buffers beside it, or as one GLB."""
 
     name = "gltf"
     title = "glTF"
     suffixes = (".glb", ".gltf")
     up = "y"
+    marks = f"as colliders of {_PHYSICS}"
+    engine: ClassVar[CollisionNames | None] = None
+    has_pictures = True
     holds = BODY_FEATURES | {FeatureKind.CAPSULES, FeatureKind.OPAQUE, FeatureKind.PLANES}
     could = _COULD_NAMED | {
         *(FeatureKind.JOINTS, FeatureKind.BALL_JOINTS, FeatureKind.FIXED_JOINTS, FeatureKind.CONTACT, FeatureKind.PAIRS)
@@ -63,6 +76,39 @@ class GltfFormat(Format):
     def features(self, asset: Asset) -> Iterable[Feature]:
         return features_of(asset.document, asset) if isinstance(asset.document, GltfDocument) else ()
 
+    def is_unmarked(self, asset: Asset) -> bool:
+        return isinstance(asset.document, GltfDocument) and asset.document.convention == "plain"
+
+    def is_edited(self, asset: Asset) -> bool:
+        assert isinstance(asset.document, GltfDocument)
+        return is_edited(asset, (name for element in asset.document.authored for name in element.names))
+
+    def surfaces_of(self, asset: Asset) -> Sequence[Surface]:
+        assert isinstance(asset.document, GltfDocument)
+        from meshforge.formats.gltf import read  # lazy: only glTF needs it
+
+        return read.read_scene_surfaces(asset, asset.document)
+
+    def write_beside(self, asset: Asset, name: str) -> Output:
+        assert isinstance(asset.document, GltfDocument)
+        from meshforge.formats.gltf import beside  # lazy: only glTF needs it
+
+        return beside.write_gltf_beside(asset, asset.document, name, self.engine)
+
+
+class PhysicsGltf(GltfFormat):
+    """glTF whose collision is marked by KHR_physics_rigid_bodies."""
+
+    title = f"glTF with {_PHYSICS}"
+
+    def can_write_back(self, asset: Asset) -> bool:
+        return isinstance(asset.document, GltfDocument) and asset.document.convention == "khr"
+
+    def create(self, asset: Asset, name: str) -> Output:
+        from meshforge.formats.gltf import create  # lazy: only glTF needs it
+
+        return create.create_gltf(asset, name, "khr")
+
 
 class EngineGltf(GltfFormat):
     """glTF whose collision an engine knows by name."""
@@ -84,6 +130,7 @@ class GltfForUnreal(EngineGltf):
 
     engine = UnrealNames()
     title = "glTF for Unreal"
+    marks = "under names for Unreal"
     holds = engine.holds
     instead = fallbacks_of(engine)
 
@@ -93,6 +140,7 @@ class GltfForGodot(EngineGltf):
 
     engine = GodotNames()
     title = "glTF for Godot"
+    marks = "under names for Godot"
     holds = engine.holds
     instead = fallbacks_of(engine)
 
@@ -102,13 +150,13 @@ class GltfForUnity(EngineGltf):
 
     engine = UnityNames()
     title = "glTF for Unity"
+    marks = "under names for Unity"
     holds = engine.holds
     instead = fallbacks_of(engine)
 
 
 def features_of(document: GltfDocument, asset: Asset) -> list[Feature]:
     """The features of a glTF file that its asset does not have. Raises AssetError: what lists them is damaged."""
-    from meshforge.formats.meshfile.gltf_scene import GltfScene  # lazy: only glTF needs it
 
     with report_damage(str(asset.path)):
         tree = GltfScene.of(document.source, asset.path).tree

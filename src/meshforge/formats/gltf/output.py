@@ -150,6 +150,12 @@ class GeometryBuffer:
             accessor["normalized"] = True
         return index
 
+    def add_bytes(self, data: bytes) -> int:
+        """The buffer view of some bytes, such as a picture."""
+        view = {"buffer": self.buffer, "byteOffset": self._start + len(self.added), "byteLength": len(data)}
+        self.added += data + b"\0" * (-len(data) % 4)
+        return self._append("bufferViews", view)
+
     def finish(self, *, embed: bool, uri: str) -> None:
         """Write down the length of the chunk, or a buffer at `uri`, or in the file itself with `embed`."""
         if not self.added:

@@ -17,9 +17,9 @@ from meshforge.formats.gltf.colliders import CollisionReader, NodeCollision, con
 from meshforge.formats.gltf.document import BODY, Convention, GltfDocument, NodeRecord
 from meshforge.formats.gltf.physics import body_nodes, is_trigger, read_inertial, rigid_pose_of
 from meshforge.formats.meshfile.gltf_document import Json, entries, entry, report_damage
-from meshforge.formats.meshfile.gltf_meshes import GltfMesh
+from meshforge.formats.meshfile.gltf_looks import split_by_look
 from meshforge.formats.meshfile.gltf_scene import GltfScene
-from meshforge.formats.visuals import GAMMA, LazySurfaces, Rgba
+from meshforge.formats.visuals import LazySurfaces
 from meshforge.geometry import Pose
 from meshforge.symbolic import Asset, Body, Mechanism, Mentions, Surface, unique_names
 
@@ -121,22 +121,34 @@ def _find_files(scene: GltfScene, path: Path) -> tuple[tuple[Path, ...], tuple[s
     return tuple(dict.fromkeys(found.values())), tuple(dict.fromkeys(missing))
 
 
-class SceneSurfaces(LazySurfaces):
-    """The visible surfaces of a file, none where it is damaged; bodies: the body of each node that is in one."""
+def read_scene_surfaces(asset: Asset, document: GltfDocument) -> SceneSurfaces:
+    """What a scene shows in which all meshes are taken for collision."""
+    with report_damage(str(asset.path)):
+        bodies = name_bodies(GltfScene.of(document.source, asset.path))
+    owners = {node: name for node, (_, name) in bodies.items()}
+    return SceneSurfaces(document.source, asset.path, owners, unmarked=True)
 
-    def __init__(self, source: bytes, path: Path, bodies: dict[int, str]) -> None:
-        self._source, self._path, self._bodies = source, path, bodies
+
+class SceneSurfaces(LazySurfaces):
+    """The visible surfaces of a file, none where it is damaged; bodies: the body of each node that is in one.
+
+    unmarked: whether meshes are seen that are taken for collision as nothing is marked.
+    """
+
+    def __init__(self, source: bytes, path: Path, bodies: dict[int, str], *, unmarked: bool = False) -> None:
+        self._source, self._path, self._bodies, self._unmarked = source, path, bodies, unmarked
 
     def _make(self) -> list[Surface]:
         found = []
         try:
             with report_damage(str(self._path)):
                 scene = GltfScene.of(self._source, self._path)
-                for index in visible_nodes(scene, convention_of(scene)):
+                shown = [k for k, placement in scene.placements.items() if "mesh" in placement.node]
+                for index in shown if self._unmarked else visible_nodes(scene, convention_of(scene)):
                     mesh, linear, offset = scene.place_mesh(scene.placements[index])
-                    for part, rgba in split_by_color(scene, scene.placements[index].node["mesh"], mesh):
+                    for part, rgba, texture in split_by_look(scene, scene.placements[index].node["mesh"], mesh):
                         surface = place_surface(part.vertices, part.faces, linear, offset, self._bodies.get(index))
-                        found.append(replace(surface, rgba=rgba))
+                        found.append(replace(surface, rgba=rgba, texture=texture))
         except MeshForgeError:
             return []
         return found
@@ -161,32 +173,6 @@ def _is_only_collision(scene: GltfScene, index: int, convention: Convention) -> 
         return any(unreal_kind(name) for name in names)
     kind = next((kind for kind in map(godot_kind, names) if kind), None)
     return convention == "godot" and kind in ("colonly", "convcolonly")
-
-
-def split_by_color(scene: GltfScene, mesh: int, whole: GltfMesh) -> Iterator[tuple[GltfMesh, Rgba | None]]:
-    """The triangles of a mesh, apart where its parts have colours of their own; None for those without one."""
-    parts = entries(entry(scene.tree, "meshes", mesh), "primitives")
-    colors = [_read_color(scene, parts[patch.index].get("material")) for patch in whole.patches]
-    if not len(whole.faces):
-        return
-    if len(set(colors)) == 1:
-        yield whole, colors[0]
-        return
-    start = 0
-    for patch, color in zip(whole.patches, colors, strict=True):
-        end = start + len(patch.points)
-        yield GltfMesh(whole.vertices[start:end], patch.faces, (patch,)), color
-        start = end
-
-
-def _read_color(scene: GltfScene, material: int | None) -> Rgba | None:
-    """The colour of a material; None where it has a texture, or says no colour."""
-    shading = {} if material is None else entry(scene.tree, "materials", material).get("pbrMetallicRoughness", {})
-    factor = shading.get("baseColorFactor")
-    if factor is None or "baseColorTexture" in shading or len(factor) != 4:
-        return None
-    red, green, blue = (np.clip(np.asarray(factor[:3], dtype=np.float64), 0, 1) ** (1 / GAMMA)).tolist()
-    return round(red, 4), round(green, 4), round(blue, 4), float(factor[3])
 
 
 def mentions_of_node(scene: GltfScene, source: NodeCollision) -> list[Mentions]:
@@ -238,7 +224,7 @@ def collect_notes(scene: GltfScene, convention: Convention) -> Iterator[str]:
     if convention in _HOW:
         yield _HOW[convention]
     elif "Texture" in str(entries(scene.tree, "materials")):  # else it is a mesh file as any other
-        yield "no node is marked as collision: all meshes are taken for it, so that edits change what is seen"
+        yield "no node is marked as collision: all meshes are taken for it"
     placements, tree = scene.placements, scene.tree
     outside = [k for k, node in enumerate(entries(tree, "nodes")) if k not in placements and "mesh" in node]
     if outside:

@@ -86,7 +86,7 @@ class Buffers:
         if not isinstance(uri, str):
             raise ValueError(f"the uri of buffer {index} is no text")
         if uri.startswith("data:"):
-            return _decode_data_uri(uri)
+            return decode_data_uri(uri)
         try:
             return self._file(uri).read_bytes()
         except OSError as error:
@@ -151,7 +151,8 @@ def _layout_of(accessor: Json) -> tuple[int, int, np.dtype[Any]]:
     return count, _WIDTHS[width], np.dtype(_TYPES[kind])
 
 
-def _decode_data_uri(uri: str) -> bytes:
+def decode_data_uri(uri: str) -> bytes:
+    """The bytes in a data URI. Raises ValueError: damaged."""
     head, comma, text = uri.partition(",")
     if not comma:
         raise ValueError("a data URI of it is damaged")

@@ -46,10 +46,10 @@ class ObjText:
         surface.check_surfaces([surface.RawSurface(None, self.vertices, self.faces)], where)
         named = tuple(group_names(self.groups))
         within = tuple(g if o and g and o == name != g else "" for (o, g), name in zip(self.groups, named, strict=True))
-        mentions = ("group", self.face_group, within), ("material", *self._materials())
+        mentions = ("group", self.face_group, within), ("material", *self.materials())
         return surface.Soup(self.vertices, self.faces, self.face_group, named, mentions)
 
-    def _materials(self) -> tuple[Ints, tuple[str, ...]]:
+    def materials(self) -> tuple[Ints, tuple[str, ...]]:
         """The material (m,) of each triangle, and the names of all; the first has none."""
         marks = [k for k, statement in enumerate(self.statements) if statement.lstrip()[:6] == b"usemtl"]
         names = [surface.text_of(self.statements[k].strip()[6:].strip()) for k in marks]

@@ -13,6 +13,9 @@ import numpy.typing as npt
 from meshforge.common import AssetError, pluralize
 from meshforge.geometry import Floats, Ints
 
+GAMMA = 2.2
+"""Colours of glTF and USD are linear, those of other formats are as screens show them."""
+
 _NUMBER = re.compile(rb"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?|[+-]?(nan|inf(inity)?)", re.I)
 FARTHEST = 1e15
 """The largest coordinate that is read: farther out, doubles are coarser than a decimetre, and volumes overflow."""

@@ -14,7 +14,7 @@ from meshforge.formats.base import Loss, Output
 from meshforge.formats.kinematic_tree import BodyTree, claim_name
 from meshforge.formats.mjcf import document, elements, references
 from meshforge.geometry import Pose
-from meshforge.symbolic import Asset, FeatureKind, Geom, Joint, Opaque, Surface
+from meshforge.symbolic import Asset, FeatureKind, Geom, Joint, Opaque, Rgba, Surface
 
 WORLD = "world"
 """What MuJoCo calls the body that never moves; no other may have this name."""
@@ -223,7 +223,7 @@ class NewGeomMaker:
         return (*visuals.unreadable_visuals(self.files.refused), *self.lost)
 
 
-def _visual_tag(attributes: dict[str, str], rgba: visuals.Rgba | None) -> bytes:
+def _visual_tag(attributes: dict[str, str], rgba: Rgba | None) -> bytes:
     color = {"rgba": xml.format_numbers(rgba)} if rgba else {}
     return elements.tag("geom", {"class": "visual", **attributes, **color})
 

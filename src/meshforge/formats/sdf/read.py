@@ -15,9 +15,9 @@ from meshforge.formats import base, collision_pieces, references, slots
 from meshforge.formats.sdf import document, models, shapes
 from meshforge.formats.sdf.frames import text_of
 from meshforge.formats.sdf.mechanism import compute_masses, has_computed_mass, read_joints, read_masses
-from meshforge.formats.visuals import Rgba, Visual, VisualSurfaces
+from meshforge.formats.visuals import Visual, VisualSurfaces
 from meshforge.formats.xml import Element, parse_numbers
-from meshforge.symbolic import Asset, Body, Mechanism, Mentions
+from meshforge.symbolic import Asset, Body, Mechanism, Mentions, Rgba
 
 _UNIT = re.compile(rb"<unit\b[^>]*?\bmeter\s*=\s*[\"']\s*([0-9.eE+-]+)\s*[\"']")
 _HEAD_BYTES = 100_000  # bytes within which a file says its unit

@@ -15,10 +15,10 @@ from meshforge.formats import base, collision_pieces, mesh_reader, slots
 from meshforge.formats.references import Resolver, find_companions
 from meshforge.formats.urdf import document
 from meshforge.formats.urdf.document import UrdfLinks, read_links, read_mechanism
-from meshforge.formats.visuals import Rgba, Visual, VisualSurfaces
+from meshforge.formats.visuals import Visual, VisualSurfaces
 from meshforge.formats.xml import Element, XmlText, format_numbers
 from meshforge.geometry import Box, Capsule, Cylinder, Floats, Pose, Shape, Sphere
-from meshforge.symbolic import Asset, Body, Mentions
+from meshforge.symbolic import Asset, Body, Mentions, Rgba
 
 _UP = (0.0, 0.0, 1.0)
 

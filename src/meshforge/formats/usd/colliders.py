@@ -15,6 +15,8 @@ COLLISION, MESH_COLLISION = "PhysicsCollisionAPI", "PhysicsMeshCollisionAPI"
 RIGID_BODY, TRIGGER = "PhysicsRigidBodyAPI", "PhysxTriggerAPI"
 DRAWN = "meshforgeDrawn"
 """The custom data of a collider that a conversion shows, since the asset shows nothing."""
+HULL_NAME = "meshforgeName"
+"""The custom data of a collider beside an unmarked stage: the name of the hull, which is called after what is seen."""
 
 _CONTACT_PREFIXES = ("physxcollision", "physxconvexhull", "newton", "mjc")
 _PHYSICS_MATERIAL = "material:binding:physics"
@@ -110,9 +112,14 @@ class StageBodies:
         return (*fixed, *(Body(self.names[path], self.scene.pose(prim)) for path, prim in self.prims.items()))
 
     def hull_name(self, path: str, body: str) -> str:
-        """The name of what a prim collides with: its path below its body, after the body's name where there are any."""
+        """The name of what a prim collides with, after the body's name where there are any bodies.
+
+        It is the one that the prim says in its custom data, else its path below the body.
+        """
         of_body = next((own for own, name in self.names.items() if name == body), "")
-        own = self.scene.shorten_path(path, of_body)
+        prim = self.scene.stage.GetPrimAtPath(path)
+        said = prim.GetCustomDataByKey(HULL_NAME) if prim else None
+        own = said if isinstance(said, str) and said else self.scene.shorten_path(path, of_body)
         return f"{body}/{own}" if self.names else own
 
 

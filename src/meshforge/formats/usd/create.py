@@ -14,6 +14,7 @@ from meshforge.formats.base import Loss, Output
 from meshforge.formats.kinematic_tree import BodyTree, claim_name
 from meshforge.formats.libraries import pxr
 from meshforge.formats.usd.colliders import apply_schemas
+from meshforge.formats.usd.looks import StageLooks
 from meshforge.formats.usd.prims import (
     PrimSpace,
     add_joint,
@@ -27,7 +28,7 @@ from meshforge.formats.usd.prims import (
     write_mass,
 )
 from meshforge.formats.usd.stage import BODY, export_layer, is_crate_wanted, pack_usdz, usd
-from meshforge.formats.visuals import Rgba, Visual, linear_color, unreadable_visuals, visuals_of
+from meshforge.formats.visuals import linear_color, read_visual_surfaces
 from meshforge.geometry import Pose
 from meshforge.symbolic import Asset, Geom, Inertial, Joint, Opaque, Surface
 
@@ -56,6 +57,7 @@ class _Creator:
         self.names: dict[str, str] = {}
         self.lost: list[Loss] = []
         self.drawn = not len(asset.visuals)
+        self.looks = StageLooks(self.root, name.stem)
 
     def build_output(self) -> Output:
         self.layer.defaultPrim = self.root.name
@@ -71,8 +73,10 @@ class _Creator:
         self._add_joints()
         suffix, stem = self.name.suffix.lower(), self.name.stem
         main = export_layer(self.layer, crate=is_crate_wanted(suffix, None))
-        main = pack_usdz({f"{stem}.usdc": main}) if suffix == ".usdz" else main
-        return Output(main, notes=tuple(self._collect_notes()), names=self.names, lost=tuple(self.lost))
+        pictures = self.looks.files
+        if suffix == ".usdz":
+            main, pictures = pack_usdz({f"{stem}.usdc": main, **pictures}), {}
+        return Output(main, pictures, notes=tuple(self._collect_notes()), names=self.names, lost=tuple(self.lost))
 
     def _add_body(self, link: str, pose: Pose) -> None:
         spec = add_prim(self.root, self._free_name(self.root, link), "Xform")
@@ -125,15 +129,13 @@ class _Creator:
         return holder, self._free_name(holder, own)
 
     def _add_visuals(self) -> None:
-        refused = []
-        for body, visual in visuals_of(self.asset):
-            surfaces = [s for s in (visual.surfaces() if isinstance(visual, Visual) else [visual]) if len(s.faces)]
+        shown, lost = read_visual_surfaces(self.asset)
+        for body, surface in shown:
             holder = self.bodies.get(body, self.root)
-            for surface in surfaces:
-                add_visual(holder, self._free_name(holder, "visual"), surface, visual.rgba, self._space(body))
-            if not surfaces:
-                refused.append(body)
-        self.lost += unreadable_visuals(refused)
+            spec = add_visual(holder, self._free_name(holder, "visual"), surface, self._space(body))
+            if surface.texture is not None:
+                self.looks.put_on(spec, surface.texture)
+        self.lost += lost
 
     def _add_joints(self) -> None:
         paths = {link: str(spec.path) for link, spec in self.bodies.items()}
@@ -214,12 +216,13 @@ class StageLinks:
         return StageLinks(poses, tuple(joints), tuple(between))
 
 
-def add_visual(holder: Any, name: str, surface: Surface, rgba: Rgba | None, space: PrimSpace) -> None:
+def add_visual(holder: Any, name: str, surface: Surface, space: PrimSpace) -> Any:
     """A mesh that is seen and does not collide, with its display colour."""
     spec = add_mesh(holder, name, np.asarray(surface.vertices), surface.faces, space)
-    color = rgba or surface.rgba
+    color = surface.rgba
     if color is None:
-        return
+        return spec
     set_value(spec, "primvars:displayColor", "Color3fArray", pxr.Vt.Vec3fArray([pxr.Gf.Vec3f(*linear_color(color))]))
     if color[3] < 1:
         set_value(spec, "primvars:displayOpacity", "FloatArray", pxr.Vt.FloatArray([float(color[3])]))
+    return spec

@@ -4,7 +4,7 @@ bodies keep their masses."""
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path, PurePosixPath
 from typing import Any
 
@@ -33,6 +33,9 @@ from meshforge.symbolic import Asset, Inertial
 PACKAGE_SUFFIX = ".usdz"
 LAYER_SUFFIXES = (".usd", ".usda", ".usdc")
 
+LayerEdit = Callable[[UsdStage, Any], tuple[list[str], dict[str, str]]]
+"""Edits a copy of the root layer of a stage; returns notes, and what hulls read back as under another name."""
+
 _DENSITY = 1000.0  # [kg/m^3], where nothing says another one
 
 
@@ -42,11 +45,33 @@ def write_usd(asset: Asset, document: UsdDocument, name: str, mass: Mass) -> Out
     Raises AssetError: a file changed since the asset was read, or the edit cannot be made in its root layer.
     """
     suffix = PurePosixPath(name).suffix.lower()
-    known = {piece for element in document.authored for piece in element.names}
-    edited = not known <= collision_pieces.names_to_keep(asset) or bool(collision_pieces.new_hulls(asset, known))
-    copies, far = _list_copies(asset)
+    edited = is_stage_edited(asset, document)
     if not edited and suffix == asset.path.suffix.lower():
+        copies, far = _list_copies(asset)
         return Output(document.source, copies=copies, notes=tuple(far))
+
+    def author(scene: UsdStage, layer: Any) -> tuple[list[str], dict[str, str]]:
+        bodies = colliders.StageBodies(scene, document.physics)
+        sources = list(read_collisions(scene, bodies, document.physics, []))
+        edit = edit_stage.UsdEdit(scene, bodies, document, layer)
+        edit.run(asset, sources)
+        notes = keep_masses(edit, sources) if mass == "keep" else []
+        return [*notes, *edit.notes, *note_renames(edit.names)], edit.names
+
+    return edit_root_layer(asset, document, PurePosixPath(name), author if edited else None)
+
+
+def is_stage_edited(asset: Asset, document: UsdDocument) -> bool:
+    """Whether the hulls of an asset are not those of its stage."""
+    return collision_pieces.is_edited(asset, (piece for element in document.authored for piece in element.names))
+
+
+def edit_root_layer(asset: Asset, document: UsdDocument, name: PurePosixPath, author: LayerEdit | None) -> Output:
+    """The files of a stage with an edit of a copy of its root layer; without one, the same in the form of a name.
+
+    Raises AssetError: a file changed since the asset was read.
+    """
+    copies, far = _list_copies(asset)
     collision_pieces.refuse_changed_files(document.digests, str(asset.path))
     if not asset.path.is_file() or asset.path.read_bytes() != document.source:
         raise collision_pieces.change_error(asset.path.name, str(asset.path))
@@ -54,17 +79,8 @@ def write_usd(asset: Asset, document: UsdDocument, name: str, mass: Mass) -> Out
         scene = UsdStage.open(asset.path)
         layer = pxr.Sdf.Layer.CreateAnonymous(".usda")
         layer.TransferContent(scene.stage.GetRootLayer())
-        notes, names = list(far), dict[str, str]()
-        if edited:
-            bodies = colliders.StageBodies(scene, document.physics)
-            sources = list(read_collisions(scene, bodies, document.physics, []))
-            edit = edit_stage.UsdEdit(scene, bodies, document, layer)
-            edit.run(asset, sources)
-            if mass == "keep":
-                notes += keep_masses(edit, sources)
-            notes += [*edit.notes, *note_renames(edit.names)]
-            names = edit.names
-        return _build_output(layer, scene.stage.GetRootLayer(), asset, document, name, copies, notes, names)
+        notes, names = author(scene, layer) if author else ([], {})
+        return _build_output(layer, scene.stage.GetRootLayer(), asset, document, name, copies, [*far, *notes], names)
 
 
 def _layer_text(layer: Any, original: Any, source: bytes, notes: list[str]) -> bytes:
@@ -91,13 +107,13 @@ def _build_output(
     original: Any,
     asset: Asset,
     document: UsdDocument,
-    name: str,
+    name: PurePosixPath,
     copies: Mapping[str, Path],
     notes: list[str],
     names: dict[str, str],
 ) -> Output:
     """The files of an edited root layer, in the form that a name asks for."""
-    suffix, was_package = PurePosixPath(name).suffix.lower(), asset.path.suffix.lower() == PACKAGE_SUFFIX
+    suffix, was_package = name.suffix.lower(), asset.path.suffix.lower() == PACKAGE_SUFFIX
     inside = unpack_usdz(document.source) if was_package else {}
     first = next(iter(inside), "")
     root = inside.pop(first) if first else document.source
@@ -106,7 +122,7 @@ def _build_output(
         main = export_layer(layer, crate=True) if crate else _layer_text(layer, original, root, notes)
         return Output(main, inside, dict(copies), tuple(notes), names)
     if not was_package:
-        inside, first = _read_files_beside(copies, asset), f"{PurePosixPath(name).stem}.usdc"
+        inside, first = _read_files_beside(copies, asset), f"{name.stem}.usdc"
     crate = is_crate_wanted(PurePosixPath(first).suffix.lower(), root)
     main = export_layer(layer, crate=True) if crate else _layer_text(layer, original, root, notes)
     return Output(pack_usdz({first: main, **inside}), {}, dict(copies) if was_package else {}, tuple(notes), names)

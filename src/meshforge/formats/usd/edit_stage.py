@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -13,7 +13,7 @@ from meshforge.common import AssetError, pluralize
 from meshforge.formats.collision_pieces import CollisionPiece, names_to_keep, new_hulls
 from meshforge.formats.libraries import pxr
 from meshforge.formats.usd import colliders
-from meshforge.formats.usd.prims import PrimSpace, add_mesh, add_native, free_prim_name, mark_collider
+from meshforge.formats.usd.prims import PrimSpace, add_collision, add_mesh, add_native, free_prim_name, mark_collider
 from meshforge.formats.usd.read import PrimCollision
 from meshforge.formats.usd.stage import BODY, PrimRecord, UsdDocument, UsdStage
 from meshforge.symbolic import Asset, Geom
@@ -46,6 +46,8 @@ class UsdEdit:
             staying = [k for k, name in enumerate(element.names) if name in kept]
             if len(staying) < len(element.names):
                 self._remove(element, source, staying)
+            elif not self.document.physics:  # else only new prims would collide
+                self._mark(source)
         known = {name: k for k, element in enumerate(self.document.authored) for name in element.names}
         for geom in new_hulls(asset, known):
             parent = known.get(geom.parent or "")
@@ -54,10 +56,7 @@ class UsdEdit:
     @property
     def notes(self) -> list[str]:
         """How the edit is written where that is not obvious."""
-        found = [
-            f"{pluralize(number, kind)} written as hull meshes: USD has no such shape here"
-            for kind, number in sorted(self._hulled.items())
-        ]
+        found = note_hulls(self._hulled)
         if number := self._how["deactivated"]:
             verb = "is" if number == 1 else "are"
             prims = f"{pluralize(number, 'prim')} of other layers"
@@ -101,19 +100,29 @@ class UsdEdit:
 
     def _finish(self, spec: Any, name: str, body: str, parent: PrimCollision | None, approximation: str | None) -> None:
         """Mark a new prim as collision, with what it inherits, and see what it will be called."""
-        if self.document.physics:
-            mark_collider(spec, approximation, drawn=parent is not None and colliders.is_drawn(parent.prim))
-            if parent is not None:
-                colliders.inherit_contact(spec, parent.prim)
-                self._join_groups(parent.path, spec.path)
+        marked = self.document.physics
+        drawn = not marked or (parent is not None and colliders.is_drawn(parent.prim))
+        mark_collider(spec, approximation, drawn=drawn)
+        if marked and parent is not None:
+            colliders.inherit_contact(spec, parent.prim)
+            self._join_groups(parent.path, spec.path)
         read = self.bodies.hull_name(str(spec.path), body)
         if read != name:
             self.names[name] = read
 
+    def _mark(self, source: PrimCollision) -> None:
+        """Say of a prim that was taken for collision that it collides, as the pieces that it has; it is still seen."""
+        whole = len(source.parts) == 1 and source.parts[0].shape is not None
+        for prim in _list_prototypes(source.prim):
+            make_instances_editable(self.layer, prim)
+            spec = pxr.Sdf.CreatePrimInLayer(self.layer, prim.GetPath())
+            is_mesh = prim.GetTypeName() == "Mesh"
+            add_collision(spec, ("convexHull" if whole else "none") if is_mesh else None)
+
     def _find_holder(self, parent: PrimCollision | None, body: str) -> tuple[Any, PrimSpace]:
         """The spec below which a new prim goes, and the space that it is put in."""
         prim = self._find_holding_prim(parent, body)
-        while not prim.IsPseudoRoot() and not _is_regular(self.scene, prim):
+        while not prim.IsPseudoRoot() and not holds_volume(self.scene, prim):
             prim = prim.GetParent()
         if prim.IsPseudoRoot():
             return self.layer.pseudoRoot, PrimSpace(self.scene.metres * np.eye(3), np.zeros(3))
@@ -157,13 +166,33 @@ class UsdEdit:
         return str(self.scene.path)
 
 
-def _is_regular(scene: UsdStage, prim: Any) -> bool:
+def note_hulls(hulled: Mapping[str, int]) -> list[str]:
+    """Notes on shapes that are written as hulls; hulled: how many of each kind."""
+    return [
+        f"{pluralize(number, kind)} written as hull meshes: USD has no such shape here"
+        for kind, number in sorted(hulled.items())
+    ]
+
+
+def holds_volume(scene: UsdStage, prim: Any) -> bool:
     """Whether what is put below a prim keeps its volume."""
     linear, offset = scene.placement(prim)
     if not (np.isfinite(linear).all() and np.isfinite(offset).all()):
         return False
     stretch = np.linalg.svd(linear, compute_uv=False)
     return bool(stretch[-1] > 1e-9 * stretch[0])
+
+
+def _list_prototypes(prim: Any) -> list[Any]:
+    """The prims that a point instancer shows many times, else the prim itself."""
+    if not prim.IsA(pxr.UsdGeom.PointInstancer):
+        return [prim]
+    roots = [
+        prim.GetStage().GetPrimAtPath(path)
+        for path in pxr.UsdGeom.PointInstancer(prim).GetPrototypesRel().GetForwardedTargets()
+    ]
+    predicate = pxr.Usd.TraverseInstanceProxies(pxr.Usd.PrimDefaultPredicate)
+    return [own for root in roots if root for own in pxr.Usd.PrimRange(root, predicate) if own.IsA(pxr.UsdGeom.Gprim)]
 
 
 def remove_collision(scene: UsdStage, layer: Any, prim: Any, physics: bool) -> str:

@@ -4,14 +4,22 @@ masses and visuals."""
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any, ClassVar
 
 from meshforge.common import AssetError
-from meshforge.formats.base import BODY_FEATURES, SCENE_FEATURES, Format, Mass, Output, ReadOptions, feature_of_tags
+from meshforge.formats.base import (
+    BODY_FEATURES,
+    SCENE_FEATURES,
+    Mass,
+    Output,
+    ReadOptions,
+    SceneFormat,
+    feature_of_tags,
+)
 from meshforge.formats.usd.stage import UsdDocument, UsdStage, usd
-from meshforge.symbolic import Asset, Feature, FeatureKind
+from meshforge.symbolic import Asset, Feature, FeatureKind, Surface
 
 _TYPES = {
     "Material": FeatureKind.MATERIALS,
@@ -24,13 +32,15 @@ _TYPES = {
 _LIGHTS = "Light"
 
 
-class UsdFormat(Format):
+class UsdFormat(SceneFormat):
     """Universal Scene Description, as text (.usda), crate (.usdc), either (.usd) or a package (.usdz)."""
 
     name = "usd"
     title = "USD"
     suffixes = (".usda", ".usd", ".usdc", ".usdz")
     up = "z"
+    marks = "as colliders of UsdPhysics"
+    has_pictures = True
     holds = BODY_FEATURES | {
         *(FeatureKind.CAPSULES, FeatureKind.OPAQUE, FeatureKind.PLANES),
         *(FeatureKind.JOINTS, FeatureKind.BALL_JOINTS, FeatureKind.FIXED_JOINTS),
@@ -60,6 +70,27 @@ class UsdFormat(Format):
 
     def features(self, asset: Asset) -> Iterable[Feature]:
         return features_of(asset) if isinstance(asset.document, UsdDocument) else ()
+
+    def is_unmarked(self, asset: Asset) -> bool:
+        return isinstance(asset.document, UsdDocument) and not asset.document.physics
+
+    def is_edited(self, asset: Asset) -> bool:
+        assert isinstance(asset.document, UsdDocument)
+        from meshforge.formats.usd import edit  # lazy: only USD needs it
+
+        return edit.is_stage_edited(asset, asset.document)
+
+    def surfaces_of(self, asset: Asset) -> Sequence[Surface]:
+        assert isinstance(asset.document, UsdDocument)
+        from meshforge.formats.usd import read  # lazy: only USD needs it
+
+        return read.read_stage_surfaces(asset, asset.document)
+
+    def write_beside(self, asset: Asset, name: str) -> Output:
+        assert isinstance(asset.document, UsdDocument)
+        from meshforge.formats.usd import beside  # lazy: only USD needs it
+
+        return beside.write_usd_beside(asset, asset.document, name)
 
 
 def features_of(asset: Asset) -> list[Feature]:

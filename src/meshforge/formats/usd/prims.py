@@ -140,13 +140,18 @@ def add_mesh(holder: Any, name: str, points: Floats, faces: Ints, space: PrimSpa
 
 def mark_collider(spec: Any, approximation: str | None, *, drawn: bool = False) -> None:
     """Make a prim collide, and be hidden unless it is to be drawn; approximation: of a mesh."""
-    apply_schemas(spec, [COLLISION, *([MESH_COLLISION] if approximation else [])])
-    if approximation:
-        set_value(spec, "physics:approximation", "Token", approximation, uniform=True)
+    add_collision(spec, approximation)
     if drawn:
         spec.SetInfoDictionaryValue("customData", DRAWN, True)
     else:
         set_value(spec, "purpose", "Token", "guide", uniform=True)
+
+
+def add_collision(spec: Any, approximation: str | None) -> None:
+    """Make a prim collide; approximation: of a mesh, None for other shapes."""
+    apply_schemas(spec, [COLLISION, *([MESH_COLLISION] if approximation else [])])
+    if approximation:
+        set_value(spec, "physics:approximation", "Token", approximation, uniform=True)
 
 
 def _add_cube(spec: Any, at: Floats, turn: Floats, sides: Floats) -> Any:

@@ -12,12 +12,13 @@ import numpy as np
 from meshforge.common import AssetError, GeometryError, MeshForgeError, file_digest, is_file, join_names, pluralize
 from meshforge.formats import collision_pieces, mesh_reader
 from meshforge.formats.libraries import pxr
+from meshforge.formats.meshfile.surface import GAMMA
 from meshforge.formats.usd import colliders, guard
 from meshforge.formats.usd.mechanism import read_mechanism
 from meshforge.formats.usd.shapes import read_instances, read_mesh, read_parts
 from meshforge.formats.usd.stage import PrimRecord, UsdDocument, UsdStage, usd
-from meshforge.formats.visuals import GAMMA, LazySurfaces, Rgba
-from meshforge.symbolic import Asset, Geom, Mentions, Surface
+from meshforge.formats.visuals import LazySurfaces
+from meshforge.symbolic import Asset, Geom, Mentions, Rgba, Surface
 
 _LABELS = "SemanticsLabelsAPI:"
 _ISAAC = "SemanticsAPI:"
@@ -167,7 +168,7 @@ def _labels_of(prim: Any) -> Iterator[str]:
 def collect_notes(scene: UsdStage, physics: bool) -> Iterator[str]:
     """The notes on a stage; physics: whether its prims say what collides."""
     if not physics:
-        yield "no prim is marked as collision: all that is seen is taken for it, so that edits change what is seen"
+        yield "no prim is marked as collision: all that is seen is taken for it"
     prims = list(scene.prims())
     solid = [
         prim
@@ -184,6 +185,15 @@ def collect_notes(scene: UsdStage, physics: bool) -> Iterator[str]:
         yield f"of variants, the selected ones are read ({join_names(chosen, 3)})"
     if sum(prim.IsInstance() for prim in prims):
         yield "what an edit changes in an instance becomes that instance's own: it is no longer shared"
+
+
+def read_stage_surfaces(asset: Asset, document: UsdDocument) -> tuple[Surface, ...]:
+    """What a stage shows in which all that is seen is taken for collision; of a point instancer, all instances."""
+    with usd(str(asset.path)):
+        scene = UsdStage.open(asset.path)
+        shown = StageSurfaces.of(scene, colliders.StageBodies(scene, document.physics))
+    many = {name for element in document.authored if element.fixed for name in element.names}
+    return (*shown, *(piece.surface for piece in asset.opaque if piece.name in many and piece.surface is not None))
 
 
 class StageSurfaces(LazySurfaces):

@@ -1,0 +1,156 @@
+"""Hulls written beside an unmarked stage: its prims stay as they are, and new ones below a scope collide."""
+
+from __future__ import annotations
+
+from collections import Counter
+from pathlib import PurePosixPath
+from typing import Any
+
+import numpy as np
+
+from meshforge.common import AssetError
+from meshforge.formats.base import Output
+from meshforge.formats.collision_pieces import names_to_keep
+from meshforge.formats.libraries import pxr
+from meshforge.formats.usd import colliders
+from meshforge.formats.usd.edit import edit_root_layer
+from meshforge.formats.usd.edit_stage import holds_volume, note_hulls
+from meshforge.formats.usd.prims import (
+    PrimSpace,
+    add_mesh,
+    add_native,
+    add_prim,
+    free_prim_name,
+    mark_collider,
+    set_place,
+)
+from meshforge.formats.usd.stage import UsdDocument, UsdStage
+from meshforge.symbolic import Asset, Geom, Opaque
+
+_SCOPE = "collision"
+
+
+def write_usd_beside(asset: Asset, document: UsdDocument, name: str) -> Output:
+    """The files of a stage with the hulls of an asset beside it, hidden and marked by UsdPhysics.
+
+    Raises AssetError: a file changed since the asset was read, or there is no hull to write.
+    """
+
+    def author(scene: UsdStage, layer: Any) -> tuple[list[str], dict[str, str]]:
+        writer = _BesideWriter(scene, layer, document, asset)
+        pieces: list[Geom | Opaque] = [*asset.geoms, *asset.opaque]
+        for piece in pieces:
+            writer.add(piece)
+        if not writer.count:
+            raise AssetError("there is no hull to write", where=str(asset.path))
+        return note_hulls(writer.hulled), {}
+
+    return edit_root_layer(asset, document, PurePosixPath(name), author)
+
+
+class _BesideWriter:
+    """Adds pieces to a copy of a root layer; hulled: how many of each kind are hulls as USD lacks the shape."""
+
+    def __init__(self, scene: UsdStage, layer: Any, document: UsdDocument, asset: Asset) -> None:
+        self.scene, self.layer = scene, layer
+        self.kept = names_to_keep(asset)
+        self.paths = {name: element.path for element in document.authored for name in element.names}
+        self.scopes: dict[str, Any] = {}
+        self.hulled: Counter[str] = Counter()
+        self.count = 0
+
+    def add(self, piece: Geom | Opaque) -> None:
+        """Add a piece below the scope of what it moves with; one that is neither triangles nor a plane is left out."""
+        parent = piece.parent if isinstance(piece, Geom) else None
+        path = self.paths.get(piece.name if piece.name in self.kept else parent or "")
+        carrier = self._find_carrier(path)
+        space = self._space_of(carrier)
+        if isinstance(piece, Geom):
+            self._add_hull(piece, carrier, space)
+        elif piece.plane is not None and (place := space.split_pose(piece.plane)) is not None:
+            spec = self._add_prim(carrier, piece.name, "Plane")
+            set_place(spec, place[0], place[1])
+            self._mark(spec, piece.name, None)
+        elif piece.surface is not None and len(piece.surface.faces):
+            holder, name = self._scope_of(carrier), self._free_name(carrier, piece.name)
+            spec = add_mesh(holder, name, np.asarray(piece.surface.vertices), piece.surface.faces, space)
+            self._mark(spec, piece.name, "none")
+
+    def _add_hull(self, geom: Geom, carrier: Any, space: PrimSpace) -> None:
+        holder, name = self._scope_of(carrier), self._free_name(carrier, geom.name)
+        spec, approximation = add_native(holder, name, geom.shape, space), None
+        if spec is None:
+            if geom.shape.is_primitive:
+                self.hulled[geom.shape.kind] += 1
+            spec = add_mesh(holder, name, np.asarray(geom.shape.vertices), geom.shape.faces, space)
+            approximation = "convexHull"
+        self._mark(spec, geom.name, approximation)
+
+    def _mark(self, spec: Any, name: str, approximation: str | None) -> None:
+        """Make a prim collide, and remember what it is called in the asset."""
+        mark_collider(spec, approximation)
+        spec.SetInfoDictionaryValue("customData", colliders.HULL_NAME, name)
+        self.count += 1
+
+    def _add_prim(self, carrier: Any, name: str, kind: str) -> Any:
+        return add_prim(self._scope_of(carrier), self._free_name(carrier, name), kind)
+
+    def _free_name(self, carrier: Any, name: str) -> str:
+        """The name of a prim in the scope of a carrier: the last part of a hull's."""
+        return free_prim_name(name.rsplit("/", 1)[-1], [child.name for child in self._scope_of(carrier).nameChildren])
+
+    def _find_carrier(self, path: str | None) -> Any:
+        """The prim that a piece moves with: the nearest animated one at or above where it comes from, else the default
+        prim; the root of the stage where below neither a prim could be."""
+        scene = self.scene
+        prim = scene.stage.GetPrimAtPath(path) if path else None
+        while prim and not prim.IsPseudoRoot():
+            moves = pxr.UsdGeom.Xformable(prim) and pxr.UsdGeom.Xformable(prim).TransformMightBeTimeVarying()
+            if moves and _can_hold(scene, prim):
+                return prim
+            prim = prim.GetParent()
+        default = scene.stage.GetDefaultPrim()
+        return default if default and _can_hold(scene, default) else scene.stage.GetPseudoRoot()
+
+    def _scope_of(self, carrier: Any) -> Any:
+        """The spec of the scope below a prim, which is made where there is none yet.
+
+        Below geometry no other may be: beside an animated mesh it is a group that moves as that does.
+        """
+        path = str(carrier.GetPath())
+        if path not in self.scopes:
+            beside = carrier.IsA(pxr.UsdGeom.Gprim) and not carrier.GetParent().IsPseudoRoot()
+            above = carrier.GetParent() if beside else carrier
+            is_root = above.IsPseudoRoot()
+            holder = self.layer.pseudoRoot if is_root else pxr.Sdf.CreatePrimInLayer(self.layer, above.GetPath())
+            taken = [child.GetName() for child in above.GetAllChildren()]
+            taken += [child.name for child in holder.nameChildren]
+            spec = add_prim(holder, free_prim_name(_SCOPE, taken), "Xform" if beside else "Scope")
+            if beside:
+                _copy_movement(carrier, spec)
+            self.scopes[path] = spec
+        return self.scopes[path]
+
+    def _space_of(self, carrier: Any) -> PrimSpace:
+        if carrier.IsPseudoRoot():
+            return PrimSpace(self.scene.metres * np.eye(3), np.zeros(3))
+        return PrimSpace(*self.scene.placement(carrier))
+
+
+def _copy_movement(prim: Any, spec: Any) -> None:
+    """Author on a new prim where another one is below its parent, at all times."""
+    names = ["xformOpOrder", *(op.GetOpName() for op in pxr.UsdGeom.Xformable(prim).GetOrderedXformOps())]
+    for name in dict.fromkeys(name.removeprefix("!invert!") for name in names):
+        attribute = prim.GetAttribute(name)
+        if not attribute or not attribute.HasAuthoredValue():
+            continue
+        made = pxr.Sdf.AttributeSpec(spec, name, attribute.GetTypeName(), attribute.GetVariability())
+        if attribute.GetNumTimeSamples() == 0:
+            made.default = attribute.Get()
+        for time in attribute.GetTimeSamples():
+            spec.layer.SetTimeSample(made.path, time, attribute.Get(time))
+
+
+def _can_hold(scene: UsdStage, prim: Any) -> bool:
+    """Whether a prim can be put below another one, and keeps its volume there; an instance shares what is below it."""
+    return not (prim.IsInstance() or prim.IsInstanceProxy()) and holds_volume(scene, prim)

@@ -1,0 +1,168 @@
+"""Pictures on visuals go along to glTF and USD: from the meshes of a URDF, from an OBJ, and from glTF; read by trimesh
+and by USD's own library."""
+
+from __future__ import annotations
+
+import io
+import zipfile
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+import trimesh
+from PIL import Image
+
+from meshforge.formats import read
+from tests.formats.test_beside_gltf import scene
+from tests.gltf_validation import errors
+from tests.loop.command import meshforge_here as meshforge
+
+# A square of two materials: a picture on the left half, plain red on the right.
+SHEET = """\
+mtllib sheet.mtl
+v 0 0 0
+v 1 0 0
+v 2 0 0
+v 0 1 0
+v 1 1 0
+v 2 1 0
+vt 0 0
+vt 1 0
+vt 1 1
+vt 0 0.5
+usemtl drawn
+f 1/1 2/2 5/3 4/4
+usemtl plain
+f 2 3 6 5
+"""
+LIBRARY = "newmtl drawn\nKd 1 1 1\nmap_Kd -s 1 1 1 pictures/a b.png\nnewmtl plain\nKd 1 0 0\n"
+ROBOT = """\
+<robot name="r"><link name="base">
+  <visual><origin xyz="0 0 1"/><geometry><mesh filename="{mesh}" scale="2 2 2"/></geometry></visual>
+  <collision><geometry><box size="1 1 1"/></geometry></collision>
+</link></robot>
+"""
+
+
+@pytest.fixture
+def folder(tmp_path: Path) -> Path:
+    """A folder with a URDF of a textured OBJ, one of a textured GLB, and that GLB."""
+    (tmp_path / "pictures").mkdir()
+    Image.fromarray(np.arange(48, dtype=np.uint8).reshape(4, 4, 3)).save(tmp_path / "pictures" / "a b.png")
+    (tmp_path / "sheet.obj").write_text(SHEET)
+    (tmp_path / "sheet.mtl").write_text(LIBRARY)
+    (tmp_path / "obj.urdf").write_text(ROBOT.format(mesh="sheet.obj"))
+    scene().export(tmp_path / "scene.glb")  # type: ignore[no-untyped-call]
+    (tmp_path / "glb.urdf").write_text(ROBOT.format(mesh="scene.glb"))
+    return tmp_path
+
+
+def gltf_pictures(path: Path) -> Iterator[tuple[Any, Any]]:
+    """The textured meshes that trimesh finds, in the root frame, with their pictures."""
+    opened = trimesh.load_scene(path, process=False)
+    for node in opened.graph.nodes_geometry:
+        place, name = opened.graph[node]
+        mesh = opened.geometry[name].copy()
+        if mesh.visual.kind == "texture" and mesh.visual.material.baseColorTexture is not None:
+            mesh.apply_transform(place)
+            yield mesh, mesh.visual.material.baseColorTexture
+
+
+def usd_pictures(path: Path) -> Iterator[tuple[Any, Any, bytes]]:
+    """Points in the root frame, texture coordinates and picture of each textured mesh that USD finds."""
+    from pxr import Ar, Usd, UsdGeom, UsdShade
+
+    opened = Usd.Stage.Open(str(path))
+    for prim in opened.Traverse():
+        material, _ = UsdShade.MaterialBindingAPI(prim).ComputeBoundMaterial()
+        if not material or not prim.IsA(UsdGeom.Mesh):
+            continue
+        (source,) = material.ComputeSurfaceSource()[0].GetInput("diffuseColor").GetConnectedSources()[0]
+        file = source.source.GetPrim().GetAttribute("inputs:file").Get()
+        data = bytes(Ar.GetResolver().OpenAsset(Ar.ResolvedPath(file.resolvedPath)).GetBuffer())
+        matrix = np.array(UsdGeom.XformCache().GetLocalToWorldTransform(prim))
+        points = np.array(UsdGeom.Mesh(prim).GetPointsAttr().Get(), dtype=float)
+        values = UsdGeom.PrimvarsAPI(prim).GetPrimvar("st")
+        assert values.GetInterpolation() == "vertex"
+        yield points @ matrix[:3, :3] + matrix[3, :3], np.array(values.Get()), data
+
+
+def sheet_places(points: Any, coordinates: Any) -> dict[tuple[float, ...], tuple[float, ...]]:
+    """The texture coordinates by the points that have them."""
+    rows = zip(np.round(points, 5).tolist(), np.round(coordinates, 5).tolist(), strict=True)
+    return {tuple(point): tuple(place) for point, place in rows}
+
+
+SHEET_PLACES = {(0.0, 0.0, 1.0): (0.0, 0.0), (2.0, 0.0, 1.0): (1.0, 0.0), (2.0, 2.0, 1.0): (1.0, 1.0)}
+SHEET_PLACES[0.0, 2.0, 1.0] = (0.0, 0.5)
+
+
+def test_the_obj_of_a_urdf_has_its_picture_in_a_glb(folder: Path) -> None:
+    told = meshforge("convert", "obj.urdf", "out/a.glb", cwd=folder).err
+    assert "(sheet.obj) is shown with base colours and their pictures" in told
+    ((mesh, picture),) = gltf_pictures(folder / "out" / "a.glb")
+    upright = np.column_stack([mesh.vertices[:, 0], -mesh.vertices[:, 2], mesh.vertices[:, 1]])  # glTF has Y up
+    assert sheet_places(upright, mesh.visual.uv) == SHEET_PLACES  # trimesh counts v upwards
+    assert np.array_equal(np.array(picture.convert("RGB")).ravel(), np.arange(48))
+    colors = [m.visual.material.baseColorFactor for m in trimesh.load_scene(folder / "out" / "a.glb").geometry.values()]
+    assert [255, 0, 0, 255] in [list(color) for color in colors if color is not None]
+    assert not errors([folder / "out" / "a.glb"])[0]
+
+
+@pytest.mark.parametrize("suffix", [".usda", ".usdc", ".usdz"])
+def test_the_obj_of_a_urdf_has_its_picture_in_a_stage(folder: Path, suffix: str) -> None:
+    meshforge("convert", "obj.urdf", f"out/a{suffix}", cwd=folder)
+    out = folder / "out" / f"a{suffix}"
+    ((points, coordinates, data),) = usd_pictures(out)
+    assert sheet_places(points, coordinates) == SHEET_PLACES
+    assert data == (folder / "pictures" / "a b.png").read_bytes()
+    if suffix == ".usdz":
+        assert zipfile.ZipFile(out).namelist() == ["a.usdc", "textures/a_0.png"]
+    again = meshforge("convert", f"out/a{suffix}", f"again/a{suffix}", cwd=folder)
+    assert again.code == 0 and len(list(usd_pictures(folder / "again" / f"a{suffix}"))) == 1
+
+
+@pytest.mark.parametrize("name", ["glb.urdf", "scene.glb"])
+def test_a_textured_glb_goes_to_a_stage_with_its_picture(folder: Path, name: str) -> None:
+    meshforge("convert", name, "out/a.usda", cwd=folder)
+    ((points, coordinates, data),) = usd_pictures(folder / "out" / "a.usda")
+    ((ring, picture),) = gltf_pictures(folder / "scene.glb")
+    np.testing.assert_allclose(coordinates, ring.visual.uv, atol=1e-6)
+    assert Image.open(io.BytesIO(data)).tobytes() == picture.tobytes()
+    assert len(points) == len(ring.vertices)
+
+
+def test_a_textured_glb_in_a_urdf_goes_to_gltf_for_an_engine(folder: Path) -> None:
+    meshforge("convert", "glb.urdf", "out/a.gltf", "--names", "unreal", cwd=folder)
+    ((mesh, picture),) = [(m, p) for m, p in gltf_pictures(folder / "out" / "a.gltf") if p is not None]
+    ((ring, was),) = gltf_pictures(folder / "scene.glb")
+    assert picture.tobytes() == was.tobytes() and len(mesh.visual.uv) == len(ring.visual.uv)
+    assert not errors([folder / "out" / "a.gltf"])[0]
+
+
+def test_a_colour_of_the_description_goes_before_what_its_mesh_has(folder: Path) -> None:
+    text = (folder / "obj.urdf").read_text()
+    shown = '<material name="m"><color rgba="0 0 1 1"/></material></visual>'
+    (folder / "blue.urdf").write_text(text.replace("</visual>", shown))
+    told = meshforge("convert", "blue.urdf", "out/a.glb", cwd=folder).err
+    assert "(sheet.obj) is shown without these" in told and not list(gltf_pictures(folder / "out" / "a.glb"))
+
+
+@pytest.mark.parametrize(
+    ("old", "new"),
+    [("vt 1 1", "vt 1 x"), ("5/3", "5/9"), ("4/4", "4"), ("sheet.mtl", "none.mtl"), ("usemtl drawn", "usemtl other")],
+)
+def test_texture_coordinates_that_are_damaged_leave_the_shape(folder: Path, old: str, new: str) -> None:
+    (folder / "sheet.obj").write_text(SHEET.replace(old, new))
+    meshforge("convert", "obj.urdf", "out/a.usda", cwd=folder)
+    assert not list(usd_pictures(folder / "out" / "a.usda"))
+    assert sum(len(surface.faces) for surface in read(folder / "out" / "a.usda").visuals) == 4
+
+
+def test_a_missing_picture_leaves_the_colour(folder: Path) -> None:
+    (folder / "pictures" / "a b.png").unlink()
+    meshforge("convert", "obj.urdf", "out/a.glb", cwd=folder)
+    assert len(read(folder / "out" / "a.glb").visuals) == 2
+    assert not list(gltf_pictures(folder / "out" / "a.glb"))
