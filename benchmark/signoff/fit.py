@@ -34,9 +34,8 @@ LABELS = (FLAT, TRUE, SYSTEMATIC, PROPAGATED[2])
 """Under which the sessions are."""
 SEED = 1
 _CAP = 90.0  # seconds of a person, after which a session says nothing new
-MOST_WRONG = 0.015
-"""The share of the edits at the bar that may be wrong in the midst of sessions, where the same few count each round:
-at the end about a third of that."""
+MOST_WRONG = 0.01
+"""The share of the edits at the bar that may be wrong in the midst of sessions: as at their end, where it is less."""
 _STEP = 0.05  # by which less speaks for edits
 _STRAY = 1e-3  # cost of the squares of the weights
 _SIGNS = (0, 1, -1, -1, -1)  # of the weights: what speaks for an edit never speaks against it
