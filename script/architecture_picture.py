@@ -11,7 +11,7 @@ from html import escape
 from pathlib import Path
 
 FILE = Path(__file__).resolve().parents[1] / "docs" / "pictures" / "architecture.svg"
-WIDTH, HEIGHT = 1080, 800
+WIDTH, HEIGHT = 1080, 896
 STEPS = (
     ("URDF in", "table.urdf", "formats"),
     ("asset", "bodies, geoms, document", "symbolic"),
@@ -29,14 +29,15 @@ LAYERS = (
     (("labels", "from names, files, models, propagation"),),
     (("store", "the project folder on disk"),),
     (("inspection", "checks, pictures and differences of one asset"),),
-    (("batch", "many assets: workers, outputs, report"), ("samples", "bundled families")),
+    (("batch", "many assets: workers, outputs, report"), ("samples", "families to try")),
+    (("signoff", "how sure each result is; what to ask next"),),
     (
         ("synthesis", "learns programs"),
-        ("checks", "legality, limits, fit, physics"),
+        ("checks", "legality, fit, free space, physics"),
         ("formats", "reads and writes files"),
     ),
     (("label_model", "what is believed about labels"),),
-    (("language", "parses, prints and runs programs"), ("rendering", "draws meshes")),
+    (("language", "parses, prints and runs programs"), ("rendering", "draws meshes"), ("engines", "their limits")),
     (("symbolic", "asset, hulls, contact graph"),),
     (("geometry", "hulls, poses, distances, decomposition"),),
     (("common", "errors, atomic files, text"),),

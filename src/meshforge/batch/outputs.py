@@ -15,9 +15,8 @@ from meshforge.batch import provenance
 from meshforge.batch.discovery import STATE
 from meshforge.batch.jobs import ApplyOptions, ApplyTask, AssetJob
 from meshforge.batch.outcome import AssetOutcome, Failed
-from meshforge.checks import note_limits
 from meshforge.common import AssetError, MeshForgeError
-from meshforge.formats import format_for, format_with_names, labels_beside, output_path_of, read, save
+from meshforge.formats import labels_beside, output_path_of, read, save
 from meshforge.symbolic import Asset, SymbolicMesh, write_labels
 
 DRAFT_FILES, DRAFT_STAMP = "files", "stamp.json"
@@ -73,17 +72,7 @@ def write_draft(
     files = sorted(path for path in plan.folder.rglob("*") if path.is_file())
     digests = {path.relative_to(plan.folder).as_posix(): provenance.file_digest(path) for path in files}
     labels = tuple(written.hull_of(name).label for name in order)
-    notes = (*saved.notes, *_note_limits(main, written, options))
-    return provenance.OutputDraft(plan.folder, plan.main, digests, notes, labels)
-
-
-def _note_limits(main: Path, written: SymbolicMesh, options: ApplyOptions) -> tuple[str, ...]:
-    """What the engines that read the file would refuse of it: of a file made anew of all hulls, else of made ones."""
-    own = "" if written.asset is None else written.asset.format
-    known = format_for(main, own)
-    known = format_with_names(known, options.names) if options.names else known
-    hulls = [hull for hull in written.hulls if hull.parent is not None or options.to or options.names]
-    return note_limits(hulls, known.name, known.holds, options.names)
+    return provenance.OutputDraft(plan.folder, plan.main, digests, saved.notes, labels)
 
 
 def _read_back(main: Path, mesh: SymbolicMesh) -> list[str]:

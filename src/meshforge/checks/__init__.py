@@ -1,17 +1,13 @@
 """Whether hulls are legal, within the limits of an engine, fit, leave free what is free, and rest; and fixes."""
 
 from meshforge.checks.engine_trial import EngineTrial
-from meshforge.checks.engines import ENGINES, find_engine
 from meshforge.checks.examination import CheckOptions, Examination, check, draw_examination, examine_mesh
 from meshforge.checks.fix import FixResult, fix
-from meshforge.checks.legality import Finding, Severity
-from meshforge.checks.limit_notes import ENGINES_OF_FORMATS, note_limits
 from meshforge.checks.registry import CHECKS, Check
+from meshforge.engines import Finding, Severity
 
 __all__ = [
     "CHECKS",
-    "ENGINES",
-    "ENGINES_OF_FORMATS",
     "Check",
     "CheckOptions",
     "EngineTrial",
@@ -22,7 +18,5 @@ __all__ = [
     "check",
     "draw_examination",
     "examine_mesh",
-    "find_engine",
     "fix",
-    "note_limits",
 ]

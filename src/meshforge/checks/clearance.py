@@ -9,8 +9,8 @@ import numpy as np
 
 from meshforge.checks import grid as voxels
 from meshforge.checks.grid import Grid, Mask, flood_from_outside, grid_around, voxelize_hulls, voxelize_surface
-from meshforge.checks.legality import Finding
 from meshforge.common import join_names
+from meshforge.engines import Finding
 from meshforge.geometry import Aabb, Floats
 from meshforge.symbolic import Hull, Surface, SymbolicMesh
 

@@ -6,8 +6,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any, Literal
 
-from meshforge.checks.engines import find_engine
-from meshforge.checks.legality import Finding
+from meshforge.engines import Finding, find_engine
 
 Given = Literal["file", "conversion"]
 """The file itself, or what `meshforge convert` makes of it for the engine."""

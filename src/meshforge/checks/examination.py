@@ -11,13 +11,12 @@ import numpy as np
 
 from meshforge.checks.clearance import Clearance, measure_clearance
 from meshforge.checks.engine_trial import EngineTrial
-from meshforge.checks.engines import ENGINES, find_engine
 from meshforge.checks.fit import LEAST_GAP_SHARE, FitGroup, MeshFit, measure_fit
-from meshforge.checks.legality import Finding, check_legality, find_oddities
-from meshforge.checks.limits import check_limits
+from meshforge.checks.legality import check_legality, find_oddities
 from meshforge.checks.physics.simulation import Physics, simulate
 from meshforge.checks.registry import CHECKS, MEASURES, run_checks
 from meshforge.common import UsageError, suggest_among
+from meshforge.engines import ENGINES, Finding, check_limits, find_engine
 from meshforge.geometry import Floats, Ints
 from meshforge.rendering import draw_heat_map, draw_volumes
 from meshforge.symbolic import Surface, SymbolicMesh

@@ -9,9 +9,9 @@ from typing import Any
 import numpy as np
 
 from meshforge.checks.grid import Grid, Mask, flood_from_outside, grid_around, voxelize_surface
-from meshforge.checks.legality import Finding
 from meshforge.checks.surface_samples import SurfaceIndex
 from meshforge.common import join_names
+from meshforge.engines import Finding
 from meshforge.geometry import Aabb, Floats, Ints, planes_of
 from meshforge.symbolic import Hull, Surface, SymbolicMesh
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from meshforge import geometry
 from meshforge.checks.legality import check_legality
-from meshforge.checks.limits import Engine, Limit
+from meshforge.engines import Engine, Limit
 from meshforge.symbolic import Hull, SymbolicMesh
 
 TOLERANCE = 0.01

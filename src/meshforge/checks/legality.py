@@ -1,39 +1,19 @@
-"""What a check finds; what every hull and every mesh must be, whatever the engine; and what is legal but odd: slivers,
-oblong hulls, hulls inside of others, pairs that overlap or gape."""
+"""What every hull and every mesh must be, whatever the engine; and what is legal but odd: slivers, oblong hulls, hulls
+inside of others, pairs that overlap or gape."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from typing import Literal
 
 import numpy as np
 
 from meshforge import geometry
 from meshforge.common import join_names, pluralize
+from meshforge.engines import Finding
 from meshforge.symbolic import Hull, SymbolicMesh
 
-Severity = Literal["error", "warning"]
-
 _REHULL = "Merge the hull by itself, which makes it anew, or delete it."
-
-
-@dataclass(frozen=True, slots=True)
-class Finding:
-    """A rule that does not hold, for the hulls it names.
-
-    error: engines or this program will refuse or misread the hulls; warning: allowed, but worth a look.
-    """
-
-    rule: str
-    severity: Severity
-    hulls: tuple[str, ...]
-    message: str
-    remedy: str
-
-    def __str__(self) -> str:
-        """What is wrong, and on a line of its own, the remedy."""
-        return f"{self.severity}: {self.message}" + (f"\n  {self.remedy}" if self.remedy else "")
 
 
 @dataclass(frozen=True, slots=True)

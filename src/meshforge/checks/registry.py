@@ -7,9 +7,8 @@ from collections.abc import Iterable, Iterator, Sequence
 from inspect import isabstract
 from typing import Any
 
-from meshforge.checks.engines import ENGINES
-from meshforge.checks.legality import Finding
 from meshforge.common import Plugin, PluginError, Registry, blame
+from meshforge.engines import ENGINES, Finding
 from meshforge.symbolic import SymbolicMesh
 
 MEASURES = ("fit", "clearance", "physics")

@@ -13,8 +13,8 @@ from meshforge import formats
 from meshforge.cli import options
 from meshforge.cli.terminal import print_json, remark
 from meshforge.common import UsageError, pluralize
-from meshforge.formats import FORMATS, PLUGIN_FORMATS, Loss, MarkName, SaveResult, format_for, format_with_names
-from meshforge.symbolic import Feature, SymbolicMesh
+from meshforge.formats import FORMATS, PLUGIN_FORMATS, Loss, SaveResult
+from meshforge.symbolic import Feature
 
 
 @dataclass(frozen=True, slots=True)
@@ -97,28 +97,16 @@ def _convert_one(source: Path, out: Path, given: ConvertArguments) -> None:
         mesh, out, link=given.link, overwrite=given.overwrite, names=given.names, collision=given.collision
     )
     read_notes = mesh.asset.notes if mesh.asset else ()
-    limit_notes = _note_limits(mesh, saved, given.names)
     if given.json:
-        print_json(_to_json(source, saved, len(mesh.hulls), read_notes, limit_notes))
+        print_json(_to_json(source, saved, len(mesh.hulls), read_notes))
         return
-    for note in (*read_notes, *saved.notes, *limit_notes):
+    for note in (*read_notes, *saved.notes):
         remark(f"note: {note}")
     held = [pluralize(feature.count, feature.kind.one, feature.kind.many) for feature in saved.report.held]
     remark(f"wrote {saved.path}: {', '.join([pluralize(len(mesh.hulls), 'hull'), *held])}")
 
 
-def _note_limits(mesh: SymbolicMesh, saved: SaveResult, names: MarkName | None) -> tuple[str, ...]:
-    """What the engines that read the file would refuse of it."""
-    from meshforge.checks import note_limits  # lazy: 0.1 s, not needed for the help
-
-    known = format_for(saved.path, mesh.asset.format if mesh.asset else "")
-    known = format_with_names(known, names) if names else known
-    return note_limits(mesh.hulls, known.name, known.holds, names)
-
-
-def _to_json(
-    source: Path, saved: SaveResult, hulls: int, notes: Sequence[str], limit_notes: Sequence[str]
-) -> dict[str, Any]:
+def _to_json(source: Path, saved: SaveResult, hulls: int, notes: Sequence[str]) -> dict[str, Any]:
     """The report as JSON has it."""
     report = saved.report
     return {
@@ -127,7 +115,7 @@ def _to_json(
         "hulls": hulls,
         "held": [_to_row(feature) for feature in report.held],
         "lost": [{**_to_row(loss), "why": loss.why, "instead": loss.instead} for loss in report.lost],
-        "notes": [*notes, *report.remarks, *limit_notes],
+        "notes": [*notes, *report.remarks],
     }
 
 

@@ -15,8 +15,8 @@ import typer
 from meshforge.batch import MOST_PICTURED, LabelStatus, ReportAsset, ReportHeader, ReportOptions, RunFigures, read_again
 from meshforge.cli.console import print_table, progress
 from meshforge.cli.report import write_report_page
-from meshforge.cli.terminal import print_json
-from meshforge.common import pluralize
+from meshforge.cli.terminal import print_json, remark
+from meshforge.common import MeshForgeError, pluralize
 from meshforge.labels import LabelOutcome, Tally
 from meshforge.project import Project
 
@@ -163,8 +163,14 @@ class LabelPrinter:
         assets = project.assets()
         order = list(dict.fromkeys([*(asset for asset, _ in tally.doubtful), *assets]))
         shown = assets if self._sheets else order[:_MAX_ON_SHEET]
-        with progress(len(shown), "drawing") as advance:
-            written = project.draw_labels(self._sheets or project.folder / "pictures", shown, advance)
+        written: Sequence[Path] = ()
+        try:
+            with progress(len(shown), "drawing") as advance:
+                written = project.draw_labels(self._sheets or project.folder / "pictures", shown, advance)
+        except MeshForgeError as error:  # labels are written: pictures that nobody asked for are no reason to fail
+            if self._sheets:
+                raise
+            remark(f"no pictures of the labels: {error}")
         if self.json:
             print_json({"labels": asdict(tally), "sheets": [str(path) for path in written]}, compact=True)
         else:

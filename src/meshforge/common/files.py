@@ -12,6 +12,8 @@ from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
+_DRAFT_SUFFIX = ".tmp"
+
 FileStates = dict[Path, tuple[int, int] | None]
 """Of files, what `file_state` gives: where it is the same, they most likely hold the same."""
 
@@ -31,7 +33,7 @@ def write_atomically(path: Path, content: str | bytes) -> None:
 def replace_atomically(path: Path) -> Iterator[Path]:
     """A new file beside `path`, to be filled and flushed; then it takes that name, or goes where an error came up."""
     path.parent.mkdir(parents=True, exist_ok=True)
-    handle, name = tempfile.mkstemp(prefix=f".{path.name[:80]}.", suffix=".tmp", dir=path.parent)
+    handle, name = tempfile.mkstemp(prefix=_draft_prefix(path), suffix=_DRAFT_SUFFIX, dir=path.parent)
     os.close(handle)
     draft = Path(name)
     try:
@@ -40,6 +42,15 @@ def replace_atomically(path: Path) -> Iterator[Path]:
     except BaseException:
         draft.unlink(missing_ok=True)
         raise
+
+
+def find_drafts(path: Path) -> Iterator[Path]:
+    """What writers of a file left half-written beside it when they were killed; or what one is writing now."""
+    return path.parent.glob(f"{glob.escape(_draft_prefix(path))}????????{_DRAFT_SUFFIX}")
+
+
+def _draft_prefix(path: Path) -> str:
+    return f".{path.name[:80]}."
 
 
 def file_state(path: Path) -> tuple[int, int] | None:

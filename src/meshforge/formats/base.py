@@ -105,6 +105,7 @@ class Format(ABC):
     leaves out all the same; instead: how it writes what the format does not hold (`written as triangles`).
     shown_files: suffixes of mesh files of visuals that go along as they are, and are shown with their materials.
     has_pictures: whether visuals are written with the pictures that are their base colours.
+    engines: those that read its files themselves, by name (`meshforge.engines`).
     """
 
     name: ClassVar[str]
@@ -119,6 +120,7 @@ class Format(ABC):
     instead: ClassVar[Mapping[FeatureKind, str]] = {}
     shown_files: ClassVar[tuple[str, ...]] = ()
     has_pictures: ClassVar[bool] = False
+    engines: ClassVar[tuple[str, ...]] = ()
 
     @abstractmethod
     def read(self, path: Path, options: ReadOptions) -> Asset:
@@ -137,6 +139,10 @@ class Format(ABC):
     def can_write_back(self, asset: Asset) -> bool:
         """Whether an asset was read from a file of this kind, so that `write` writes it back."""
         return asset.format == self.name
+
+    def engines_of(self, asset: Asset) -> tuple[str, ...]:
+        """The engines that an asset in this format is for: those of the format, or by whose names it was marked."""
+        return self.engines
 
     def create(self, asset: Asset, name: str) -> Output:
         """The files of an asset that came from another format: geometry and bodies, as far as the format holds them."""

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
-from meshforge.common import UsageError, suggest_among, write_atomically
+from meshforge.common import UsageError, find_drafts, suggest_among, write_atomically
 from meshforge.samples.bottles import build_bottles
 from meshforge.samples.chairs import build_chairs
 from meshforge.samples.cups import build_cups
@@ -97,13 +97,16 @@ def write_family(family: SampleFamily, folder: Path) -> int:
         raise _refuse(family, folder, other)
     for path in missing:
         write_atomically(folder / path, files[path])
+        for draft in find_drafts(folder / path):
+            draft.unlink(missing_ok=True)
     return len(missing)
 
 
 def _find_other(folder: Path, files: Files) -> str | None:
-    """A file below a folder that is none of a family."""
-    below = sorted(path for path in folder.rglob("*") if not path.is_dir())
-    return next((name for path in below if (name := path.relative_to(folder).as_posix()) not in files), None)
+    """A file below a folder that is none of a family, nor one that a killed run left half-written."""
+    own = {*(folder / path for path in files), *(draft for path in files for draft in find_drafts(folder / path))}
+    others = sorted(path for path in folder.rglob("*") if not path.is_dir() and path not in own)
+    return others[0].relative_to(folder).as_posix() if others else None
 
 
 def _refuse(family: SampleFamily, folder: Path, other: str) -> UsageError:

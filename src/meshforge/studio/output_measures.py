@@ -7,8 +7,9 @@ from dataclasses import dataclass
 from typing import TypeVar
 
 from meshforge.batch import Stamp, has_same_files, read_stamp, record_digest, software_version, text_digest
-from meshforge.checks import ENGINES, CheckOptions, Examination, Finding, check, examine_mesh
+from meshforge.checks import CheckOptions, Examination, Finding, check, examine_mesh
 from meshforge.common import ProjectError
+from meshforge.engines import ENGINES
 from meshforge.formats import load
 from meshforge.project import Project, output_digest
 from meshforge.studio.errors import NotHereError

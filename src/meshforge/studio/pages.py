@@ -8,7 +8,7 @@ from contextlib import suppress
 from threading import Lock, RLock
 from typing import Any
 
-from meshforge.checks import ENGINES
+from meshforge.engines import ENGINES
 from meshforge.studio.wire import Wire, events
 from meshforge.studio.wire.asset import EngineView
 from meshforge.studio.wire.family import Card, HistoryView, ProjectView, VocabularyLabel

@@ -2,20 +2,23 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 from meshforge.batch import IN_PROCESS, ApplyOptions, AssetJob, Failed, apply, load_named_templates
-from meshforge.checks import ENGINES, ENGINES_OF_FORMATS, check
-from meshforge.formats import load, save
+from meshforge.checks import check
+from meshforge.engines import ENGINES
+from meshforge.formats import FORMATS, load, save
 from meshforge.geometry import Aabb, Box, convex_hull
 from meshforge.language import Program
 from meshforge.symbolic import Hull, Label, SymbolicMesh, write_labels
 from tests.unit.cli.in_process import Run, runner
 
 SUFFIXES = {"mjcf": ".xml", "urdf": ".urdf", "sdf": ".sdf", "usd": ".usda"}
+ENGINES_OF = {known.name: known.engines for known in FORMATS if known.name in SUFFIXES}
 ACTIONS = (
     *("Merge", "Replace(cylinder)", "Replace(cylinder, native)", "Replace(capsule, native)"),
     *("Replace(sphere, native)", "Scale(all, 0.00001)", 'Each(Replace("ball.obj"))', 'Add(+Z, "ball.obj")'),
@@ -34,7 +37,7 @@ def table() -> SymbolicMesh:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("form", ENGINES_OF_FORMATS)
+@pytest.mark.parametrize("form", SUFFIXES)
 @pytest.mark.parametrize("action", ACTIONS)
 def test_each_hull_that_an_engine_of_the_format_refuses_or_lacks_is_in_a_note(
     form: str, action: str, tmp_path: Path
@@ -57,7 +60,7 @@ def test_each_hull_that_an_engine_of_the_format_refuses_or_lacks_is_in_a_note(
     )
     assert not isinstance(outcome, Failed), outcome.error
     written = load(outcome.out)
-    for engine in ENGINES_OF_FORMATS[form]:
+    for engine in ENGINES_OF[form]:
         title = ENGINES[engine].title
         notes = [note for note in outcome.notes if title in note.partition(":")[0]]
         for finding in check(written, engine):
@@ -68,12 +71,24 @@ def test_each_hull_that_an_engine_of_the_format_refuses_or_lacks_is_in_a_note(
 
 
 def test_what_nobody_made_is_not_noted_again_in_its_own_format(tmp_path: Path) -> None:
-    path = save(ball(300), tmp_path / "in/ball.usda").path
-    job = AssetJob("ball.usda", path, path.parent)
+    first = save(ball(300), tmp_path / "in/ball.usda")
+    assert any("PhysX on the GPU" in note for note in first.notes)
+    job = AssetJob("ball.usda", first.path, first.path.parent)
     (same,) = apply(Program(), [job], tmp_path / "out", execution=IN_PROCESS)
     assert not isinstance(same, Failed) and not any("PhysX" in note for note in same.notes)
+    assert not any("Bullet" in note for note in save(ball(300), tmp_path / "in/ball.sdf").notes)
+    job = AssetJob("ball.sdf", tmp_path / "in/ball.sdf", first.path.parent)
     (other,) = apply(Program(), [job], tmp_path / "to", options=ApplyOptions(to=".usda"), execution=IN_PROCESS)
     assert not isinstance(other, Failed) and any("PhysX on the GPU" in note for note in other.notes)
+
+
+def test_a_file_marked_for_an_engine_notes_what_that_engine_refuses_of_made_hulls(tmp_path: Path) -> None:
+    path = save(table(), tmp_path / "table.glb", names="godot").path
+    mesh = load(path)
+    assert not save(mesh, tmp_path / "same.glb").notes
+    made = [replace(mesh.hulls[0], shape=ball(300).hulls[0].shape, parent=mesh.hulls[0].name), *mesh.hulls[1:]]
+    notes = save(mesh.with_hulls(made), tmp_path / "made.glb").notes
+    assert any(note.startswith("Godot with Jolt: ") and "more than 256 vertices" in note for note in notes)
 
 
 def test_a_conversion_notes_what_the_engine_of_its_format_refuses(
@@ -86,7 +101,8 @@ def test_a_conversion_notes_what_the_engine_of_its_format_refuses(
     assert f"note: {said}" in run("convert", "ball.obj", "ball.usda").err
     assert any(note.startswith(said) for note in run("convert", "ball.obj", "b.usda", "--json").json["notes"])
     godot = run("convert", "ball.obj", "ball.glb", "--names", "godot").err
-    assert "note: Godot with Jolt: ball (300): more than 256 vertices; Jolt leaves part of the hull out" in godot
+    said = "Godot with Jolt: ball-convcolonly (300): more than 256 vertices; Jolt leaves part of the hull out"
+    assert f"note: {said}" in godot
     unity = run("convert", "ball.obj", "u.glb", "--names", "unity").err
     assert unity.count("more than 255 vertices") == 1
     assert "more than" not in run("convert", "ball.obj", "ball.ply").err

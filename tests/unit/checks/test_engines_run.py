@@ -8,7 +8,7 @@ import mujoco
 import numpy as np
 import pytest
 
-from meshforge.checks import ENGINES
+from meshforge.engines import ENGINES
 from meshforge.geometry import Aabb, Box
 
 

@@ -4,8 +4,8 @@ from pathlib import Path
 
 import pytest
 
-from meshforge.checks import ENGINES, ENGINES_OF_FORMATS
-from meshforge.checks.limits import Engine
+from meshforge.engines import ENGINES, Engine
+from meshforge.formats import FORMATS
 
 PAGE = Path(__file__).parents[3] / "docs" / "engines.md"
 
@@ -42,9 +42,9 @@ def test_every_number_has_a_source(engine: Engine) -> None:
 
 def test_the_page_names_the_engines_that_each_format_is_written_for() -> None:
     text = PAGE.read_text("utf-8")
-    titles = {"mjcf": "MJCF", "urdf": "URDF", "sdf": "SDF", "usd": "USD"}
-    assert titles.keys() == ENGINES_OF_FORMATS.keys()
-    for form, names in ENGINES_OF_FORMATS.items():
-        listed = ", ".join(ENGINES[name].title.split(" (")[0] for name in names)
+    read_by_engines = [known for known in FORMATS if known.engines and known.writable]
+    assert {known.name for known in read_by_engines} == {"urdf", "mjcf", "sdf", "usd"}
+    for known in read_by_engines:
+        listed = ", ".join(ENGINES[name].title.split(" (")[0] for name in known.engines)
         listed = listed.replace("PhysX on the CPU, PhysX on the GPU", "PhysX on the CPU and on the GPU")
-        assert f"| {titles[form]} | {listed} |" in text
+        assert f"| {known.title} | {listed} |" in text

@@ -6,7 +6,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from meshforge.checks import check, find_engine, fix
+from meshforge.checks import check, fix
+from meshforge.engines import find_engine
 from meshforge.geometry import Aabb, Box, Polytope, Pose, Shape, convex_hull, polygon_sizes
 from meshforge.symbolic import Hull, Label, SymbolicMesh
 from tests.unit.cli.in_process import Run, runner

@@ -5,8 +5,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from meshforge.checks import ENGINES, check
+from meshforge.checks import check
 from meshforge.common import UsageError
+from meshforge.engines import ENGINES
 from meshforge.geometry import Aabb, Box, Cylinder, Polytope, Pose, Shape, convex_hull, polygon_sizes
 from meshforge.symbolic import Asset, Body, Document, Geom, Hull, SymbolicMesh
 

@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 from PIL import Image
 
+from meshforge.common import MeshForgeError
 from meshforge.project import Project
 from tests.unit.batch.families import label_of, table_boxes, write_table
 from tests.unit.cli.in_process import Run, runner
@@ -74,6 +75,21 @@ def test_sheets_of_all_assets_go_where_one_wants_them(run: Run, tmp_path: Path) 
     run("label", "p", "--with", "names", "--sheets", "sheets")
     assert [path.name for path in (tmp_path / "sheets").iterdir()] == ["labels-001.png"]
     assert not (tmp_path / "p/pictures").exists()
+
+
+@pytest.mark.slow
+def test_labels_are_kept_and_told_where_pictures_cannot_be_drawn(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
+    def refuse(*given: object) -> None:
+        raise MeshForgeError("pictures need embreex, which is not installed")
+
+    monkeypatch.setattr("meshforge.labels.label_store.write_contact_sheets", refuse)
+    told = run("label", "p", "--with", "names")
+    assert told.code == 0
+    assert "no pictures of the labels: pictures need embreex, which is not installed" in told.err
+    assert "no label" in told.out and "pictures:" not in told.out
+    asked = run("label", "p", "--with", "names", "--sheets", "sheets")
+    assert asked.code == 2
+    assert "pictures need embreex" in asked.err
 
 
 @pytest.mark.slow

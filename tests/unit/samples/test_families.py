@@ -11,6 +11,7 @@ from pathlib import Path
 import pytest
 
 from meshforge.checks import check
+from meshforge.common import UsageError
 from meshforge.formats import load
 from meshforge.language import Program
 from meshforge.samples import FAMILIES, family_of, write_family
@@ -105,6 +106,19 @@ def test_families_differ_in_counts_names_and_orders(root: Path) -> None:
         assert len({len(mesh.hulls) for mesh in found}) >= 7
         assert len({next(iter(mesh.hulls)).label for mesh in found}) >= 2
         assert len({re.sub(r"\d+", "", next(iter(mesh.hulls)).name) for mesh in found}) >= 4
+
+
+def test_what_a_killed_run_left_half_written_is_no_other_file(tmp_path: Path) -> None:
+    family = family_of("tables")
+    count, first = write_family(family, tmp_path), sorted(family.build())[0]
+    (tmp_path / first).unlink()
+    (tmp_path / f".{first}.a1b2c3d4.tmp").write_text("half")
+    assert count > 1 and write_family(family, tmp_path) == 1
+    assert not list(tmp_path.rglob("*.tmp"))
+    (tmp_path / first).unlink()
+    (tmp_path / ".other.a1b2c3d4.tmp").write_text("whose?")
+    with pytest.raises(UsageError, match=r"this folder holds something else: \.other"):
+        write_family(family, tmp_path)
 
 
 @pytest.mark.parametrize("name", BUILT)

@@ -9,8 +9,9 @@ import pytest
 
 from meshforge.batch import IN_PROCESS, CheckTask, check_asset
 from meshforge.batch.provenance import read_stamp, stamp_path
-from meshforge.checks import ENGINES, CheckOptions
+from meshforge.checks import CheckOptions
 from meshforge.common import ProjectError
+from meshforge.engines import ENGINES
 from meshforge.project import Project
 from meshforge.studio.jobs.outputs import to_line
 from meshforge.studio.output_checks import CHECK_PARTS, OutputChecks, ResultCache, _measure_all

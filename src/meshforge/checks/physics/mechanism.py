@@ -10,8 +10,8 @@ from typing import Any
 
 import numpy as np
 
-from meshforge.checks.legality import Finding
 from meshforge.common import join_names
+from meshforge.engines import Finding
 from meshforge.geometry import Aabb, Pose, inertia
 from meshforge.symbolic import Hull, Inertial, Joint, SymbolicMesh
 

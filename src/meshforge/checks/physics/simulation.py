@@ -8,10 +8,11 @@ from typing import Any
 
 import numpy as np
 
-from meshforge.checks.legality import Finding, check_legality
+from meshforge.checks.legality import check_legality
 from meshforge.checks.physics.mechanism import ContactRules, JointTree, check_masses
 from meshforge.checks.physics.model import FLOOR, STEP, compile_model
 from meshforge.common import join_names, pluralize, require_mujoco
+from meshforge.engines import Finding
 from meshforge.geometry import Floats
 from meshforge.symbolic import SymbolicMesh
 

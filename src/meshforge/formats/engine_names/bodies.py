@@ -65,7 +65,7 @@ class _Namer:
         bases = [self.stem] if [body.name for body in asset.bodies] == [_NAMELESS] else [b.name for b in asset.bodies]
         names = [self._claim_name(engine.body, name) for name in bases]
         found = [self._name_body(*pair) for pair in zip(asset.bodies, names, strict=True)]
-        notes = list(engine.notes(asset.geoms))
+        notes = list[str]()
         if self.bare:
             notes.append(
                 f"{engine.title} needs a mesh to be seen: what collides stands for it in {join_names(self.bare, 3)}"

@@ -10,8 +10,7 @@ from typing import ClassVar, Literal
 
 import numpy as np
 
-from meshforge.common import join_names
-from meshforge.geometry import Box, Capsule, Pose, Shape, Sphere, polygon_sizes, tight_box, tight_capsule
+from meshforge.geometry import Box, Capsule, Pose, Shape, Sphere, tight_box, tight_capsule
 from meshforge.symbolic import PRIMITIVE_FEATURES, FeatureKind, Geom
 
 EngineName = Literal["unreal", "godot", "unity"]
@@ -60,10 +59,6 @@ class CollisionNames(ABC):
     def opaque(self, own: str) -> str:
         """The name of a piece that collides with its triangles."""
         raise AssertionError(f"{self.title} takes no such pieces")
-
-    def notes(self, geoms: Iterable[Geom]) -> tuple[str, ...]:
-        """What a user should know about hulls that are written for the engine."""
-        return ()
 
 
 def clean_name(name: str, not_taken: str) -> str:
@@ -212,7 +207,6 @@ _GODOT_REFUSED = (
 _GODOT_WORDS = ("noimp", "rigid", "navmesh", "occ", "occonly", "vehicle", "wheel", "loop", "cycle")
 
 _UNITY_REFUSED = r"[/\\\x00-\x1f]+"  # paths of objects are written with slashes
-_MOST_UNITY = 255  # vertices, and flat faces, of a convex MeshCollider (docs/engines.md)
 
 COLLIDERS = "_colliders"
 
@@ -253,16 +247,6 @@ class UnityNames(CollisionNames):
 
     def opaque(self, own: str) -> str:
         return self.body(own)
-
-    def notes(self, geoms: Iterable[Geom]) -> tuple[str, ...]:
-        hulls = [(geom.name, geom.shape.tessellate()) for geom in geoms]
-        large = [name for name, hull in hulls if max(len(hull.vertices), len(polygon_sizes(hull))) > _MOST_UNITY]
-        if not large:
-            return ()
-        return (
-            f"Unity makes partial hulls of more than {_MOST_UNITY} vertices or flat faces: {join_names(large, 3)}; "
-            "meshforge check --engine unity --fix makes them simpler",
-        )
 
 
 def holds_colliders(name: object) -> bool:

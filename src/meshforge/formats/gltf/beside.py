@@ -70,7 +70,7 @@ def write_gltf_beside(asset: Asset, document: GltfDocument, name: str, engine: C
     renamed = {old: now for old, now in names.items() if old in hulls}
     notes = [
         *note_lacking_shapes(style_of(convention, draft), asset.geoms),
-        *(engine.notes(asset.geoms) if engine else note_renames(renamed)),
+        *(() if engine else note_renames(renamed)),
         *writer.notes,
     ]
     return replace(output, notes=tuple(notes), names=renamed, lost=tuple(writer.lost))

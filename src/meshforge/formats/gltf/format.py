@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any, ClassVar
 
 from meshforge.common import AssetError
+from meshforge.engines import ENGINES
 from meshforge.formats.base import (
     BODY_FEATURES,
     SCENE_FEATURES,
@@ -21,7 +22,6 @@ from meshforge.formats.collision_pieces import is_edited
 from meshforge.formats.engine_names.conventions import CollisionNames, GodotNames, UnityNames, UnrealNames, fallbacks_of
 from meshforge.formats.gltf.document import GltfDocument
 from meshforge.formats.meshfile.gltf_document import Json, entries, entry, extension, report_damage
-from meshforge.formats.meshfile.gltf_scene import GltfScene
 from meshforge.symbolic import Asset, Feature, FeatureKind, Surface
 
 _LISTS = {
@@ -72,6 +72,10 @@ class GltfFormat(SceneFormat):
         from meshforge.formats.gltf import create  # lazy: only glTF needs it
 
         return create.create_gltf(asset, name)
+
+    def engines_of(self, asset: Asset) -> tuple[str, ...]:
+        marks = asset.document.convention if isinstance(asset.document, GltfDocument) else ""
+        return (marks,) if marks in ENGINES and self.can_write_back(asset) else self.engines
 
     def features(self, asset: Asset) -> Iterable[Feature]:
         return features_of(asset.document, asset) if isinstance(asset.document, GltfDocument) else ()
@@ -129,6 +133,7 @@ class GltfForUnreal(EngineGltf):
     """With prefixes: `UCX_table_00`."""
 
     engine = UnrealNames()
+    engines = ("unreal",)
     title = "glTF for Unreal"
     marks = "under names for Unreal"
     holds = engine.holds
@@ -139,6 +144,7 @@ class GltfForGodot(EngineGltf):
     """With suffixes: `leg-convcolonly`."""
 
     engine = GodotNames()
+    engines = ("godot",)
     title = "glTF for Godot"
     marks = "under names for Godot"
     holds = engine.holds
@@ -149,6 +155,7 @@ class GltfForUnity(EngineGltf):
     """With a node for what collides: `table_colliders`."""
 
     engine = UnityNames()
+    engines = ("unity",)
     title = "glTF for Unity"
     marks = "under names for Unity"
     holds = engine.holds
@@ -157,6 +164,7 @@ class GltfForUnity(EngineGltf):
 
 def features_of(document: GltfDocument, asset: Asset) -> list[Feature]:
     """The features of a glTF file that its asset does not have. Raises AssetError: what lists them is damaged."""
+    from meshforge.formats.meshfile.gltf_scene import GltfScene  # lazy: only glTF needs it
 
     with report_damage(str(asset.path)):
         tree = GltfScene.of(document.source, asset.path).tree

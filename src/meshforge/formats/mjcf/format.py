@@ -41,6 +41,7 @@ class MjcfFormat(Format):
     """MuJoCo's own format for models."""
 
     name = "mjcf"
+    engines = ("mujoco",)
     suffixes = (".xml", ".mjcf")
     is_description = True
     title = "MJCF"

@@ -97,6 +97,7 @@ class ObjForUnreal(ObjFormat):
     """OBJ files whose collision Unreal knows by name."""
 
     title = "OBJ for Unreal"
+    engines = ("unreal",)
     up = "z"  # Interchange's translator of OBJ turns nothing, and Unreal is z-up
     holds = _UNREAL.holds - {FeatureKind.COLORS}
     instead: ClassVar[Mapping[FeatureKind, str]] = {

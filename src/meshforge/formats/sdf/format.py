@@ -27,6 +27,7 @@ class SdfFormat(base.Format):
     """The Simulation Description Format, of Gazebo."""
 
     name = "sdf"
+    engines = ("bullet",)
     suffixes = (".sdf",)
     is_description = True
     title = "SDF"

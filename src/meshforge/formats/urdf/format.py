@@ -21,6 +21,7 @@ class UrdfFormat(Format):
     """The Unified Robot Description Format."""
 
     name = "urdf"
+    engines = ("mujoco", "bullet")
     suffixes = (".urdf",)
     is_description = True
     title = "URDF"

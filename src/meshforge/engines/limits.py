@@ -1,18 +1,18 @@
-"""Limits of physics engines: what each measures of a hull, and what of a mesh is beyond them."""
+"""Limits of physics engines: what each measures of a hull, and what of a mesh is beyond them, as findings."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
 
-from meshforge.checks.legality import Finding, Severity
 from meshforge.common import join_names, pluralize
 from meshforge.geometry import LEVEL, Polytope, measure_extents, neighbour_faces, normals_of, polygon_sizes
-from meshforge.symbolic import Hull, SymbolicMesh
+from meshforge.symbolic import Geom, Hull, SymbolicMesh
 
+Severity = Literal["error", "warning"]
 Bound = Literal["most", "least"]
 
 _SIMPLER = "Reduce it (check --fix), replace it by a primitive, or split it."
@@ -20,6 +20,24 @@ _THICKER = "Give it a thickness, replace it by a box, or merge it with a neighbo
 _SHORTER = "Split it along its length."
 
 _MESH_FILES = ("obj", "stl", "ply")
+
+
+@dataclass(frozen=True, slots=True)
+class Finding:
+    """A rule that does not hold, for the hulls it names.
+
+    error: engines or this program will refuse or misread the hulls; warning: allowed, but worth a look.
+    """
+
+    rule: str
+    severity: Severity
+    hulls: tuple[str, ...]
+    message: str
+    remedy: str
+
+    def __str__(self) -> str:
+        """What is wrong, and on a line of its own, the remedy."""
+        return f"{self.severity}: {self.message}" + (f"\n  {self.remedy}" if self.remedy else "")
 
 
 @dataclass(frozen=True, slots=True)
@@ -107,7 +125,7 @@ def check_limits(engine: Engine, mesh: SymbolicMesh, faulty: frozenset[str]) -> 
     )
 
 
-def check_limit(engine: Engine, limit: Limit, hulls: list[Hull]) -> Finding | None:
+def check_limit(engine: Engine, limit: Limit, hulls: Sequence[Hull | Geom]) -> Finding | None:
     """The hulls that are meshes and beyond a limit; None where there are none."""
     values = {h.name: limit.measure(h.shape) for h in hulls if isinstance(h.shape, Polytope)}
     over = {name: value for name, value in values.items() if limit.is_broken(value)}
@@ -119,7 +137,7 @@ def check_limit(engine: Engine, limit: Limit, hulls: list[Hull]) -> Finding | No
     return Finding(f"{engine.name}-{limit.rule}", limit.severity, tuple(over), message, limit.remedy)
 
 
-def check_primitives(engine: Engine, hulls: list[Hull]) -> Iterator[Finding]:
+def check_primitives(engine: Engine, hulls: Sequence[Hull | Geom]) -> Iterator[Finding]:
     """Native shapes that the engine lacks."""
     names = tuple(h.name for h in hulls if h.shape.is_primitive and h.shape.kind not in engine.primitives)
     if names:

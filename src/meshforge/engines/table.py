@@ -7,8 +7,8 @@ from __future__ import annotations
 
 from types import MappingProxyType
 
-from meshforge.checks.limits import Engine, make_limit
 from meshforge.common import UsageError, suggest_among
+from meshforge.engines.limits import Engine, make_limit
 
 _COARSER = "PhysX makes a coarser hull of it"
 _COOKED = "PhysX leaves part of the hull out"

@@ -1,0 +1,38 @@
+"""Notes on hulls that are written for engines which would refuse them, or have no such shape: by the tables alone."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterable, Sequence
+from dataclasses import replace
+
+from meshforge.engines.limits import Engine, Finding, check_limit, check_primitives
+from meshforge.engines.table import ENGINES
+from meshforge.geometry import Polytope
+from meshforge.symbolic import PRIMITIVE_FEATURES, FeatureKind, Geom
+
+
+def note_limits(geoms: Iterable[Geom], engines: Iterable[str], holds: Collection[FeatureKind]) -> tuple[str, ...]:
+    """A note on each rule that hulls break of the engines a file is for, with the hulls, the engines and the remedy.
+
+    engines: by name; holds: what the format holds: a native shape that it does not counts as the mesh that stands for
+    it.
+    """
+    native = {kind for kind, what in PRIMITIVE_FEATURES.items() if what in holds}
+    written = [_as_written(geom, native) for geom in geoms]
+    found: dict[str, tuple[Finding, list[str]]] = {}
+    for engine in map(ENGINES.__getitem__, engines):
+        for finding in _find_broken_rules(engine, written):
+            found.setdefault(finding.message, (finding, []))[1].append(engine.title)
+    return tuple(f"{' and '.join(titles)}: {one.message}. {one.remedy}" for one, titles in found.values())
+
+
+def _as_written(geom: Geom, native: Collection[str]) -> Geom:
+    shape = geom.shape
+    return geom if isinstance(shape, Polytope) or shape.kind in native else replace(geom, shape=shape.tessellate())
+
+
+def _find_broken_rules(engine: Engine, geoms: Sequence[Geom]) -> list[Finding]:
+    """What the engine refuses or changes, and native shapes that it lacks."""
+    limits = (limit for limit in engine.limits if limit.severity == "error")
+    broken = [finding for limit in limits if (finding := check_limit(engine, limit, geoms))]
+    return [*broken, *check_primitives(engine, geoms)]
