@@ -1,5 +1,5 @@
-"""Pictures on visuals go along to glTF and USD: from the meshes of a URDF, from an OBJ, and from glTF; read by trimesh
-and by USD's own library."""
+"""Pictures on visuals go along to glTF and USD: from the meshes of a URDF (OBJ, Collada, glTF), and from glTF; read by
+trimesh and by USD's own library."""
 
 from __future__ import annotations
 
@@ -38,6 +38,42 @@ usemtl plain
 f 2 3 6 5
 """
 LIBRARY = "newmtl drawn\nKd 1 1 1\nmap_Kd -s 1 1 1 pictures/a b.png\nnewmtl plain\nKd 1 0 0\n"
+# The same square as Collada.
+SHEET_DAE = """\
+<?xml version="1.0"?>
+<COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
+<asset><unit meter="1"/><up_axis>Z_UP</up_axis></asset>
+<library_images><image id="im"><init_from>pictures/a%20b.png</init_from></image></library_images>
+<library_effects>
+<effect id="e1"><profile_COMMON>
+<newparam sid="su"><surface type="2D"><init_from>im</init_from></surface></newparam>
+<newparam sid="sa"><sampler2D><source>su</source></sampler2D></newparam>
+<technique sid="t"><lambert><diffuse><texture texture="sa" texcoord="UV"/></diffuse></lambert></technique>
+</profile_COMMON></effect>
+<effect id="e2"><profile_COMMON><technique sid="t"><lambert>
+<diffuse><color>1 0 0 1</color></diffuse></lambert></technique></profile_COMMON></effect>
+</library_effects>
+<library_materials><material id="m1"><instance_effect url="#e1"/></material>
+<material id="m2"><instance_effect url="#e2"/></material></library_materials>
+<library_geometries><geometry id="g"><mesh>
+<source id="p"><float_array id="pa" count="18">0 0 0 1 0 0 2 0 0 0 1 0 1 1 0 2 1 0</float_array><technique_common>
+<accessor source="#pa" count="6" stride="3"><param name="X" type="float"/><param name="Y" type="float"/>
+<param name="Z" type="float"/></accessor></technique_common></source>
+<source id="u"><float_array id="ua" count="8">0 0 1 0 1 1 0 0.5</float_array><technique_common>
+<accessor source="#ua" count="4" stride="2"><param name="S" type="float"/><param name="T" type="float"/>
+</accessor></technique_common></source>
+<vertices id="v"><input semantic="POSITION" source="#p"/></vertices>
+<polylist material="one" count="1"><input semantic="VERTEX" source="#v" offset="0"/>
+<input semantic="TEXCOORD" source="#u" offset="1" set="0"/><vcount>4</vcount><p>0 0 1 1 4 2 3 3</p></polylist>
+<triangles material="two" count="2"><input semantic="VERTEX" source="#v" offset="0"/><p>1 2 5 1 5 4</p></triangles>
+</mesh></geometry></library_geometries>
+<library_visual_scenes><visual_scene id="s"><node id="n"><instance_geometry url="#g">
+<bind_material><technique_common>
+<instance_material symbol="one" target="#m1"><bind_vertex_input semantic="UV" input_semantic="TEXCOORD" input_set="0"/>
+</instance_material><instance_material symbol="two" target="#m2"/></technique_common></bind_material>
+</instance_geometry></node></visual_scene></library_visual_scenes>
+<scene><instance_visual_scene url="#s"/></scene></COLLADA>
+"""
 ROBOT = """\
 <robot name="r"><link name="base">
   <visual><origin xyz="0 0 1"/><geometry><mesh filename="{mesh}" scale="2 2 2"/></geometry></visual>
@@ -54,6 +90,8 @@ def folder(tmp_path: Path) -> Path:
     (tmp_path / "sheet.obj").write_text(SHEET)
     (tmp_path / "sheet.mtl").write_text(LIBRARY)
     (tmp_path / "obj.urdf").write_text(ROBOT.format(mesh="sheet.obj"))
+    (tmp_path / "sheet.dae").write_text(SHEET_DAE)
+    (tmp_path / "dae.urdf").write_text(ROBOT.format(mesh="sheet.dae"))
     scene().export(tmp_path / "scene.glb")  # type: ignore[no-untyped-call]
     (tmp_path / "glb.urdf").write_text(ROBOT.format(mesh="scene.glb"))
     return tmp_path
@@ -99,9 +137,10 @@ SHEET_PLACES = {(0.0, 0.0, 1.0): (0.0, 0.0), (2.0, 0.0, 1.0): (1.0, 0.0), (2.0, 
 SHEET_PLACES[0.0, 2.0, 1.0] = (0.0, 0.5)
 
 
-def test_the_obj_of_a_urdf_has_its_picture_in_a_glb(folder: Path) -> None:
-    told = meshforge("convert", "obj.urdf", "out/a.glb", cwd=folder).err
-    assert "(sheet.obj) is shown with base colours and their pictures" in told
+@pytest.mark.parametrize("kind", ["obj", "dae"])
+def test_the_mesh_of_a_urdf_has_its_picture_in_a_glb(folder: Path, kind: str) -> None:
+    told = meshforge("convert", f"{kind}.urdf", "out/a.glb", cwd=folder).err
+    assert f"(sheet.{kind}) is shown with base colours and their pictures" in told
     ((mesh, picture),) = gltf_pictures(folder / "out" / "a.glb")
     upright = np.column_stack([mesh.vertices[:, 0], -mesh.vertices[:, 2], mesh.vertices[:, 1]])  # glTF has Y up
     assert sheet_places(upright, mesh.visual.uv) == SHEET_PLACES  # trimesh counts v upwards
@@ -111,9 +150,9 @@ def test_the_obj_of_a_urdf_has_its_picture_in_a_glb(folder: Path) -> None:
     assert not errors([folder / "out" / "a.glb"])[0]
 
 
-@pytest.mark.parametrize("suffix", [".usda", ".usdc", ".usdz"])
-def test_the_obj_of_a_urdf_has_its_picture_in_a_stage(folder: Path, suffix: str) -> None:
-    meshforge("convert", "obj.urdf", f"out/a{suffix}", cwd=folder)
+@pytest.mark.parametrize(("kind", "suffix"), [("obj", ".usda"), ("obj", ".usdc"), ("obj", ".usdz"), ("dae", ".usda")])
+def test_the_mesh_of_a_urdf_has_its_picture_in_a_stage(folder: Path, kind: str, suffix: str) -> None:
+    meshforge("convert", f"{kind}.urdf", f"out/a{suffix}", cwd=folder)
     out = folder / "out" / f"a{suffix}"
     ((points, coordinates, data),) = usd_pictures(out)
     assert sheet_places(points, coordinates) == SHEET_PLACES
@@ -159,6 +198,18 @@ def test_texture_coordinates_that_are_damaged_leave_the_shape(folder: Path, old:
     meshforge("convert", "obj.urdf", "out/a.usda", cwd=folder)
     assert not list(usd_pictures(folder / "out" / "a.usda"))
     assert sum(len(surface.faces) for surface in read(folder / "out" / "a.usda").visuals) == 4
+
+
+@pytest.mark.parametrize(
+    ("old", "new"),
+    [("1 1 4 2", "1 1 4 9"), ('texture="sa"', 'texture="so"'), ("a%20b", "none"), ('#u" offset="1"', '#u" offset="0"')],
+)
+def test_a_collada_file_whose_picture_is_damaged_or_gone_leaves_the_shape(folder: Path, old: str, new: str) -> None:
+    assert old in SHEET_DAE
+    (folder / "sheet.dae").write_text(SHEET_DAE.replace(old, new))
+    done = meshforge("convert", "dae.urdf", "out/a.usda", cwd=folder)
+    assert done.code == 0 and "Traceback" not in done.err
+    assert not list(usd_pictures(folder / "out" / "a.usda"))
 
 
 def test_a_missing_picture_leaves_the_colour(folder: Path) -> None:

@@ -1,4 +1,4 @@
-"""Mesh files of visuals with what they look like: an OBJ with its material libraries, and glTF."""
+"""Mesh files of visuals with what they look like: an OBJ with its material libraries, Collada, and glTF."""
 
 from __future__ import annotations
 
@@ -6,20 +6,22 @@ import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
+from urllib.parse import unquote
 
 import numpy as np
 
 from meshforge.common import is_file
 from meshforge.formats import mesh_reader
 from meshforge.formats.meshfile import obj
+from meshforge.formats.meshfile.dae import parse_dae_looks
 from meshforge.formats.meshfile.gltf_document import report_damage
 from meshforge.formats.meshfile.gltf_looks import split_by_look
 from meshforge.formats.meshfile.gltf_scene import GltfScene
-from meshforge.formats.references import find_companions
+from meshforge.formats.references import Resolver, find_companions
 from meshforge.geometry import Floats, Ints
 from meshforge.symbolic import Picture, Rgba, Surface, Texture
 
-LOOK_SUFFIXES = (".obj", ".glb", ".gltf")
+LOOK_SUFFIXES = (".obj", ".dae", ".glb", ".gltf")
 """The mesh files whose base colours and pictures `read_looks` reads."""
 
 _OPTIONS = re.compile(r"(?:-\w+(?:\s+[-+.\d]\S*|\s+(?:on|off))*\s+)*")
@@ -33,6 +35,8 @@ def read_looks(path: Path) -> list[Surface]:
     """
     if path.suffix.lower() == ".obj":
         return _read_obj(path)
+    if path.suffix.lower() == ".dae":
+        return _read_dae(path)
     if path.suffix.lower() in LOOK_SUFFIXES:
         return _read_gltf(path)
     return [Surface(surface.vertices, surface.faces) for surface in mesh_reader.read_triangles(path)]
@@ -76,19 +80,31 @@ def _read_obj(path: Path) -> list[Surface]:
     found: list[Surface] = []
     for k in np.unique(of_face):
         material, own = materials.get(names[k], _Material()), of_face == k
-        found.append(_build_part(parsed, own, material, None if corners is None else corners[own], places))
+        of_own = None if corners is None else corners[own]
+        found.append(_build_surface(parsed.vertices, parsed.faces[own], material, of_own, places))
     return found
 
 
-def _build_part(parsed: obj.ObjText, own: Ints, material: _Material, corners: Ints | None, places: Floats) -> Surface:
-    """The triangles of one material; corners: the texture coordinate (m, 3) of each corner, -1 for none."""
-    faces = parsed.faces[own]
-    if material.picture is None or corners is None or (corners < 0).any():
+def _build_surface(vertices: Floats, faces: Ints, material: _Material, corners: Ints | None, places: Floats) -> Surface:
+    """Triangles of one material, with the vertices that they use; a picture only where every corner has its place."""
+    if material.picture is None or corners is None or not ((corners >= 0) & (corners < len(places))).all():
         used, numbers = np.unique(faces, return_inverse=True)
-        return Surface(parsed.vertices[used], numbers.reshape(-1, 3), None, material.rgba)
+        return Surface(vertices[used], numbers.reshape(-1, 3), None, material.rgba)
     pairs, numbers = np.unique(np.column_stack([faces.ravel(), corners.ravel()]), axis=0, return_inverse=True)
     texture = Texture(places[pairs[:, 1]], material.picture)
-    return Surface(parsed.vertices[pairs[:, 0]], numbers.reshape(-1, 3), None, None, texture)
+    return Surface(vertices[pairs[:, 0]], numbers.reshape(-1, 3), None, None, texture)
+
+
+def _read_dae(path: Path) -> list[Surface]:
+    resolver, pictures = Resolver(path.parent), dict[str, Picture | None]()
+    found = list[Surface]()
+    for part in parse_dae_looks(mesh_reader.read_content(path), str(path)):
+        if part.image and part.image not in pictures:
+            file = resolver.find(part.image) or resolver.find(unquote(part.image))
+            pictures[part.image] = Picture.of(_read_or_empty(file)) if file else None
+        material = _Material(part.rgba, pictures.get(part.image))
+        found.append(_build_surface(part.vertices, part.faces, material, part.corners, part.places))
+    return found
 
 
 def _read_corners(parsed: obj.ObjText) -> tuple[Ints | None, Floats]:

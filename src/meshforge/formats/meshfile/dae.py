@@ -10,6 +10,8 @@ import io
 import re
 import warnings
 from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -22,35 +24,75 @@ from meshforge.geometry import Floats, Ints
 _NOT_FINITE = re.compile(r"\b(nan|inf)", re.I)
 
 
+@dataclass(frozen=True, eq=False, slots=True)
+class LookPart:
+    """The triangles of one material in a geometry: vertices (n, 3), faces (m, 3).
+
+    rgba: its colour, shares of 1, None where it has none or a picture; image: the reference to that picture, empty for
+    none; places: (k, 2) texture coordinates, to the right and up; corners: (m, 3) those of each corner, None for none.
+    """
+
+    vertices: Floats
+    faces: Ints
+    rgba: tuple[float, float, float, float] | None
+    image: str
+    places: Floats
+    corners: Ints | None
+
+
 def parse_dae(data: bytes, where: str) -> list[RawSurface]:
     """The surfaces of a Collada file. Raises AssetError: not such a file, or no scene in it."""
+    with _report_damage(where):
+        document = _open_document(data, where)
+        unit = float(document.assetInfo.unitmeter or 1.0)
+        found = [s for bound, name in _list_geometries(document) for s in _read_surface(bound, name, unit)]
+    if not found and document.geometries:
+        problem = f"its scene shows no triangle of {pluralize(len(document.geometries), 'geometry', 'geometries')}"
+        raise AssetError(problem, where=where)
+    return check_surfaces(found, where)
+
+
+def parse_dae_looks(data: bytes, where: str) -> list[LookPart]:
+    """The same triangles, apart where their materials are. Raises AssetError as `parse_dae` does."""
+    with _report_damage(where):
+        geometries = _list_geometries(_open_document(data, where))
+        return [_read_look(part, triangles) for bound, _ in geometries for part, triangles in _list_triangles(bound)]
+
+
+def _open_document(data: bytes, where: str) -> Any:
     import collada  # lazy: 0.1 s, only Collada needs it
-    from collada.common import DaeBrokenRefError, DaeError, DaeUnsupportedError  # lazy: as collada
+    from collada.common import DaeBrokenRefError, DaeUnsupportedError  # lazy: as collada
 
     data = blank_markup(XmlText.of(data).data)
     if b"<!ENTITY" in data or b"<!DOCTYPE" in data:
         raise AssetError("it declares XML entities, which are not read", where=where)
+    return collada.Collada(io.BytesIO(data), ignore=[DaeUnsupportedError, DaeBrokenRefError])
+
+
+@contextmanager
+def _report_damage(where: str) -> Iterator[None]:
+    """What pycollada raises for a damaged file, as one kind of error."""
+    from collada.common import DaeError  # lazy: as collada
+
     try:
         with warnings.catch_warnings(), np.errstate(over="ignore", invalid="ignore"):
             warnings.simplefilter("ignore", PendingDeprecationWarning)  # pycollada counts on numpy.matrix
-            document = collada.Collada(io.BytesIO(data), ignore=[DaeUnsupportedError, DaeBrokenRefError])
-            unit = float(document.assetInfo.unitmeter or 1.0)
-            nodes = document.scene.nodes if document.scene else []
-            found = [s for node in nodes for s in _walk(node, np.eye(4), unit)]
-            geometries = len(document.geometries)
+            yield
     except RecursionError as error:
         raise AssetError("its nodes lie too deep in each other", where=where, remedy="Export it again.") from error
     except (DaeError, ValueError, TypeError, AttributeError, IndexError, KeyError, SyntaxError) as error:
         reason = " ".join(str(error).split())
         problem = f"this Collada file cannot be read: {reason}"
         raise AssetError(problem, where=where, remedy="Export it again.") from error
-    if not found and geometries:
-        problem = f"its scene shows no triangle of {pluralize(geometries, 'geometry', 'geometries')}"
-        raise AssetError(problem, where=where)
-    return check_surfaces(found, where)
 
 
-def _walk(node: Any, world: Floats, unit: float) -> Iterator[RawSurface]:
+def _list_geometries(document: Any) -> Iterator[tuple[Any, str | None]]:
+    """Each geometry in the scene as its node places it, with the name of the node."""
+    for node in document.scene.nodes if document.scene else []:
+        yield from _walk(node, np.eye(4))
+
+
+def _walk(node: Any, world: Floats) -> Iterator[tuple[Any, str | None]]:
     from collada.scene import GeometryNode, Node, NodeNode  # lazy: as collada
 
     if isinstance(node, NodeNode):
@@ -58,11 +100,11 @@ def _walk(node: Any, world: Floats, unit: float) -> Iterator[RawSurface]:
     inside = world @ node.matrix
     for child in node.children:
         if isinstance(child, Node | NodeNode):
-            yield from _walk(child, inside, unit)
+            yield from _walk(child, inside)
         elif isinstance(child, GeometryNode):
             _refuse_numbers(child.geometry)
             for bound in child.objects("geometry", inside):
-                yield from _read_surface(bound, node.name or node.id, unit)
+                yield bound, node.name or node.id
 
 
 def _refuse_numbers(geometry: Any) -> None:
@@ -76,7 +118,13 @@ def _refuse_numbers(geometry: Any) -> None:
 
 def _read_surface(bound: Any, name: str | None, unit: float) -> Iterator[RawSurface]:
     """The surface of a geometry; its sets of triangles, one a material, are joined."""
-    parts: list[tuple[Floats, Ints]] = []
+    parts = [_read_triangles(triangles) for _, triangles in _list_triangles(bound)]
+    if parts:
+        yield RawSurface(name, *stack_triangles(parts), unit)
+
+
+def _list_triangles(bound: Any) -> Iterator[tuple[Any, Any]]:
+    """The sets of polygons of a geometry, one a material, each with its triangles; none that has none."""
     for part in bound.primitives():
         counts = getattr(part.original, "vcounts", None)
         if counts is not None and int(np.sum(counts)) != len(part.index):
@@ -85,7 +133,40 @@ def _read_surface(bound: Any, name: str | None, unit: float) -> Iterator[RawSurf
         if not hasattr(triangles, "vertex_index") or np.ndim(triangles.vertex_index) != 2 or not len(triangles):
             continue
         if triangles.vertex_index.shape[1] == 3:
-            faces = np.asarray(triangles.vertex_index, dtype=np.int64)
-            parts.append((np.asarray(triangles.vertex, dtype=np.float64), faces))
-    if parts:
-        yield RawSurface(name, *stack_triangles(parts), unit)
+            yield part, triangles
+
+
+def _read_triangles(triangles: Any) -> tuple[Floats, Ints]:
+    return np.asarray(triangles.vertex, dtype=np.float64), np.asarray(triangles.vertex_index, dtype=np.int64)
+
+
+def _read_look(part: Any, triangles: Any) -> LookPart:
+    """A set of triangles with the diffuse colour or picture of its material."""
+    vertices, faces = _read_triangles(triangles)
+    diffuse = getattr(getattr(part.material, "effect", None), "diffuse", None)
+    if isinstance(diffuse, tuple):
+        return LookPart(vertices, faces, _read_color(diffuse), "", np.zeros((0, 2)), None)
+    image = getattr(getattr(getattr(diffuse, "sampler", None), "surface", None), "image", None)
+    number = _find_set(part, getattr(diffuse, "texcoord", ""))
+    if image is None or number >= len(triangles.texcoord_indexset):
+        return LookPart(vertices, faces, None, "", np.zeros((0, 2)), None)
+    places = np.asarray(triangles.texcoordset[number], dtype=np.float64)[:, :2]
+    corners = np.asarray(triangles.texcoord_indexset[number], dtype=np.int64)
+    return LookPart(vertices, faces, None, str(image.path), places, corners)
+
+
+def _read_color(diffuse: tuple[Any, ...]) -> tuple[float, float, float, float] | None:
+    """A colour of three or four shares; None for what is none."""
+    shares = np.clip(np.array([*diffuse[:4], 1.0][:4], dtype=np.float64), 0.0, 1.0)
+    if len(shares) != 4 or not np.isfinite(shares).all():
+        return None
+    red, green, blue, alpha = shares.tolist()
+    return red, green, blue, alpha
+
+
+def _find_set(part: Any, symbol: str) -> int:
+    """The place of the set of texture coordinates that a picture lies by, among those of a geometry."""
+    wanted = (part.inputmap or {}).get(symbol, ("TEXCOORD", "0"))[1]
+    sources = part.original.sources.get("TEXCOORD", []) if hasattr(part.original, "sources") else []
+    numbers = [source[3] for source in sources]
+    return numbers.index(wanted) if wanted in numbers else 0
