@@ -5,7 +5,6 @@ from meshforge.geometry.convex import FLATNESS, convex_hull, measure_extents, pr
 from meshforge.geometry.decomposition.engines import CoacdSettings, DecomposeSettings, EngineControl, VhacdSettings
 from meshforge.geometry.decomposition.run import cache_folder, decompose
 from meshforge.geometry.decomposition.triangles import is_line, is_sheet, sheet_hulls, volume_inside
-from meshforge.geometry.distance import close_pairs, distance
 from meshforge.geometry.faults import HullFault, describe_fault, find_fault
 from meshforge.geometry.fill import aabb_box, aabb_capsule, aabb_cylinder, aabb_sphere, longest_axis, map_to_box
 from meshforge.geometry.fit import tight_box, tight_capsule, tight_cylinder
@@ -20,6 +19,7 @@ from meshforge.geometry.pose import (
     smallest_rotation,
     snap_rotation,
 )
+from meshforge.geometry.proximity import close_pairs, distance
 from meshforge.geometry.round_shapes import Capsule, Cylinder, Ellipsoid, Sphere
 from meshforge.geometry.shape import Box, Polytope, Shape, digest, is_same_shape
 from meshforge.geometry.simplify import Enclosure, HullBudget, enclose

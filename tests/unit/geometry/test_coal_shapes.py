@@ -11,7 +11,7 @@ import pytest
 
 from meshforge.geometry import Box, Floats, Polytope, Pose, close_pairs, convex_hull, distance
 from meshforge.geometry.arrays import bounds, near_boxes
-from meshforge.geometry.distance import _POOL_SIZE, CoalFrame, _pool, split_for_coal
+from meshforge.geometry.coal_distance import _POOL_SIZE, CoalFrame, _pool, split_shape
 
 
 def ball(corners: int, center: Floats) -> Polytope:
@@ -93,7 +93,7 @@ def test_threads_do_not_pour_into_each_others_vessels() -> None:
 def test_a_vertex_may_have_more_edges_than_coal_can_count(count: int) -> None:
     cone = convex_hull(np.vstack([rim(count), [[0, 0, 1]]]))
     assert np.bincount(cone.faces.ravel()).max() == count
-    cut = split_for_coal(cone)
+    cut = split_shape(cone)
     assert (len(cut) > 1) == (count > 254)
     assert sum(part.volume for part in cut) == pytest.approx(cone.volume, rel=1e-12)
     small = Box(Pose.of_translation([0, 0, 1.75]), np.array([0.25, 0.25, 0.25]))
@@ -128,7 +128,7 @@ def fanned(count: int) -> Polytope:
 )
 def test_several_vertices_may_have_too_many_edges(shape: Polytope) -> None:
     assert (np.bincount(shape.faces.ravel()) > 254).sum() == 2
-    cut = split_for_coal(shape)
+    cut = split_shape(shape)
     assert all(np.bincount(part.faces.ravel()).max() <= 254 for part in cut)
     assert sum(part.volume for part in cut) == pytest.approx(shape.volume, rel=1e-9)
     top = float(shape.aabb.max[2])

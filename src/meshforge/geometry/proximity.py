@@ -1,0 +1,54 @@
+"""Distances between convex shapes, behind a comparison of AABBs: by coal, or by FCL where coal has no wheel."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from importlib.util import find_spec
+from math import inf
+from typing import TYPE_CHECKING
+
+from meshforge.geometry.arrays import bounds, near_boxes
+from meshforge.geometry.shape import Shape
+
+if TYPE_CHECKING or find_spec("coal"):
+    from meshforge.geometry import coal_distance as _engine
+else:
+    from meshforge.geometry import fcl_distance as _engine
+
+
+def distance(a: Shape, b: Shape) -> float:
+    """The smallest distance [m] between two convex shapes, 0 where they touch or overlap."""
+    return close_pairs([a, b], inf)[0, 1]
+
+
+def close_pairs(
+    shapes: Sequence[Shape], reach: float, settled: frozenset[int] = frozenset()
+) -> dict[tuple[int, int], float]:
+    """Distance of each pair (i, j), i < j, of shapes at most `reach` [m] apart, in order of (i, j).
+
+    settled: indices among which no pair is wanted, only pairs with one of the others.
+    """
+    if len(shapes) < 2:
+        return {}
+    owned = [(k, part) for k, shape in enumerate(shapes) for part in _engine.split_shape(shape)]
+    if len(owned) > len(shapes):
+        return _merge_by_owner(owned, reach, settled)
+    low, high = bounds([shape.aabb for shape in shapes])
+    near = near_boxes(low, high, reach)
+    if settled:
+        near = [(i, j) for i, j in near if i not in settled or j not in settled]
+    gaps = _engine.measure_gaps(shapes, near, low.min(axis=0), high.max(axis=0))
+    return {pair: gap for pair, gap in zip(near, gaps, strict=True) if gap <= reach}
+
+
+def _merge_by_owner(
+    owned: Sequence[tuple[int, Shape]], reach: float, settled: frozenset[int]
+) -> dict[tuple[int, int], float]:
+    """Close pairs of shapes from their parts, each with the index of the shape it belongs to."""
+    done = frozenset(part for part, (owner, _) in enumerate(owned) if owner in settled)
+    found: dict[tuple[int, int], float] = {}
+    for (i, j), gap in close_pairs([part for _, part in owned], reach, done).items():
+        pair = owned[i][0], owned[j][0]
+        if pair[0] != pair[1]:
+            found[pair] = min(gap, found.get(pair, inf))
+    return dict(sorted(found.items()))
