@@ -32,6 +32,7 @@ from meshforge.batch.outcome import (
     status_of,
     to_json_line,
 )
+from meshforge.batch.pool import WorkerFailure, worker_context
 from meshforge.batch.preparation.decompose import DecompositionResult, decompose_asset
 from meshforge.batch.preparation.record import (
     Preparation,
@@ -83,12 +84,10 @@ from meshforge.batch.workers import (
     IN_PROCESS,
     TIMEOUT,
     ExecutionOptions,
-    WorkerFailure,
     count_processors,
     memory_share,
     raise_if_stopped,
     run_isolated,
-    worker_context,
 )
 
 __all__ = [

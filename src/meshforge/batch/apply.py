@@ -17,8 +17,9 @@ from meshforge.batch.execution import execute
 from meshforge.batch.jobs import APPLY_DEFAULTS, ApplyOptions, ApplyTask, AssetJob
 from meshforge.batch.lock import hold_lock
 from meshforge.batch.outcome import AssetOutcome, Edited, Failed, RuleEffect, Unchanged
+from meshforge.batch.pool import WorkerFailure
 from meshforge.batch.preparation.storage import prepare_from_folder, record_digest
-from meshforge.batch.workers import EXECUTION_DEFAULTS, ExecutionOptions, WorkerFailure
+from meshforge.batch.workers import EXECUTION_DEFAULTS, ExecutionOptions
 from meshforge.common import UsageError, describe_error, join_names
 from meshforge.formats import format_for, format_with_names, read
 from meshforge.language import Program, Template

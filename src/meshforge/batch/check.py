@@ -17,8 +17,9 @@ from meshforge.batch.discovery import asset_id
 from meshforge.batch.execution import execute
 from meshforge.batch.jobs import AssetJob
 from meshforge.batch.lock import hold_lock
+from meshforge.batch.pool import WorkerFailure
 from meshforge.batch.provenance import are_unchanged, file_digest, software_version, source_files, text_digest
-from meshforge.batch.workers import ExecutionOptions, WorkerFailure
+from meshforge.batch.workers import ExecutionOptions
 from meshforge.checks import CheckOptions, Examination, FixResult, draw_examination, examine_mesh, find_engine, fix
 from meshforge.common import AssetError, MeshForgeError, UsageError, describe_error, plain_path
 from meshforge.formats import labels_beside, load, output_path_of, save

@@ -11,7 +11,8 @@ from dataclasses import replace
 from typing import Any
 
 from meshforge.batch import workers as processes
-from meshforge.batch.workers import ExecutionOptions, Item, Result, WorkerFailure, memory_share, run_isolated
+from meshforge.batch.pool import Item, Result, WorkerFailure
+from meshforge.batch.workers import ExecutionOptions, memory_share, run_isolated
 from meshforge.common import MeshForgeError
 
 ITEMS_A_CHUNK = 32

@@ -3,25 +3,16 @@
 from __future__ import annotations
 
 import os
-import signal
-import sys
-from collections import deque
 from collections.abc import Callable, Generator, Sequence
-from concurrent.futures import Future, TimeoutError, wait
-from concurrent.futures.process import BrokenProcessPool
 from contextlib import suppress
 from dataclasses import dataclass
-from multiprocessing import get_context
+from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal, TypeVar
+from typing import Literal
 
-from meshforge.common import MeshForgeError, StoppedError
+from meshforge.batch.pool import Item, RaisedError, Result, WorkerFailure, WorkerPool
+from meshforge.common import StoppedError
 
-if TYPE_CHECKING:
-    from pebble import ProcessPool
-
-Item = TypeVar("Item")
-Result = TypeVar("Result")
 Backend = Literal["local", "ray"]
 
 TIMEOUT = 600.0
@@ -30,10 +21,6 @@ ITEMS_AHEAD = 32
 """Items handed out before the oldest is done, for each worker: enough to hide one slow item behind."""
 POLL_SECONDS = 0.1
 """Seconds between two looks whether to stop."""
-
-_END: Any = object()
-_function: Callable[[Any], Any]
-_memory: int | None = None
 
 _USABLE_SHARE = 0.9  # of the machine's memory, for all workers together
 _CGROUP_LIMIT = Path("/sys/fs/cgroup/memory.max")
@@ -68,14 +55,6 @@ UNBOUNDED = ExecutionOptions(timeout=None)
 """In worker processes, each item for as long as it takes."""
 
 
-@dataclass(frozen=True, slots=True)
-class WorkerFailure:
-    """An item whose worker did not come back, why, and after how many seconds, as far as known."""
-
-    why: str
-    seconds: float = 0.0
-
-
 def run_isolated(
     function: Callable[[Item], Result], items: Sequence[Item], options: ExecutionOptions = UNBOUNDED
 ) -> Generator[Result | WorkerFailure, None, None]:
@@ -103,117 +82,36 @@ def count_processors() -> int:
 def _run_pool(
     function: Callable[[Item], Result], items: Sequence[Item], workers: int, options: ExecutionOptions
 ) -> Generator[Result | WorkerFailure, None, None]:
-    from pebble import ProcessPool  # lazy: 0.04 s, not needed in this process alone
-
-    progress, stop = options.progress, options.stop
-    pool = ProcessPool(
-        workers, initializer=_begin_worker, initargs=[function, options.memory], context=worker_context()
-    )
-    waiting: deque[Future[Result]] = deque()
-    rest = iter(items)
+    work = partial(_run_within, options.memory, function) if options.memory else function
+    pool: WorkerPool[Item, Result] = WorkerPool(work, items, workers, options.timeout)
+    found: dict[int, Result | WorkerFailure | RaisedError] = {}
     try:
-        while True:
-            while len(waiting) < ITEMS_AHEAD * workers and (item := next(rest, _END)) is not _END:
-                future = _schedule(pool, item, options.timeout)
-                if progress:
-                    future.add_done_callback(lambda _: progress())
-                waiting.append(future)
-            if not waiting:
-                break
-            while stop and not wait([waiting[0]], POLL_SECONDS).done:
-                raise_if_stopped(stop)
-            oldest = _collect(waiting.popleft(), options.timeout)
-            yield oldest
+        for oldest in range(len(items)):
+            while oldest not in found:
+                raise_if_stopped(options.stop)
+                pool.hand_out(oldest + ITEMS_AHEAD * workers)
+                for index, result in pool.collect(POLL_SECONDS if options.stop else None):
+                    found[index] = result
+                    if options.progress:
+                        options.progress()
+            result = found.pop(oldest)
+            if isinstance(result, RaisedError):
+                raise result.error
+            yield result
     finally:  # also when the caller stops early, or on Ctrl-C
-        pool.stop()  # type: ignore[no-untyped-call]  # pebble has no types
-        pool.join()
+        pool.close()
 
 
-def _begin_worker(function: Callable[[Any], Any], memory: int | None) -> None:
-    """What each worker does first: the function comes once, not with every item, for it may hold much."""
-    global _function, _memory
-    _function, _memory = function, memory
-
-
-def _run_item(item: Any) -> Any:
+def _run_within(memory: int, function: Callable[[Item], Result], item: Item) -> Result:
     """The bound counts from here, for each item anew: libraries keep some of what earlier ones took."""
-    if _memory:
-        limit_memory(_memory)
-    return _function(item)
+    limit_memory(memory)
+    return function(item)
 
 
 def raise_if_stopped(stop: Callable[[], bool] | None) -> None:
     """Raise StoppedError where `stop` says so."""
     if stop and stop():
         raise StoppedError("this was stopped")
-
-
-def _schedule(pool: ProcessPool, item: Any, timeout: float | None) -> Future[Any]:
-    try:
-        return pool.schedule(_run_item, args=[item], timeout=timeout)
-    except RuntimeError as error:  # the pool has given up
-        raise _start_error(error) from error
-
-
-def worker_context() -> Any:
-    """How workers start: a clean server process that has the imports done forks them, where forking is safe.
-
-    The server imports what this process has of MeshForge by now, which is about what workers will need: the first
-    worker is there in 0.45 s for `batch`, each further one in 0.02 s (0.45 s each when spawned).
-    Forking this process itself would copy locks that its other threads hold.
-    """
-    if sys.platform != "linux":
-        return _keep_locks(get_context("spawn"))
-    context = get_context("forkserver")
-    context.set_forkserver_preload(["meshforge.batch.apply", *_list_modules()])
-    return _keep_locks(context)
-
-
-def _list_modules() -> list[str]:
-    """The modules of MeshForge that this process has imported, but for the command line's, which no worker runs."""
-    return [name for name in sys.modules if name.startswith("meshforge.") and not name.startswith("meshforge.cli")]
-
-
-def _keep_locks(context: Any) -> Any:
-    """The same for one pool, whose locks stay as long as the pool.
-
-    Pebble lets go of them before it stops its workers; one that was just starting would complain that they are gone.
-    """
-    own: Any = type(context)()
-    locks: list[Any] = []
-
-    def kept_lock() -> Any:
-        locks.append(context.RLock())
-        return locks[-1]
-
-    own.RLock = kept_lock
-    return own
-
-
-def _collect(future: Future[Result], timeout: float | None) -> Result | WorkerFailure:
-    from pebble import ProcessExpired  # lazy: 0.04 s, not needed in this process alone
-
-    try:
-        return future.result()
-    except TimeoutError:
-        return WorkerFailure(f"it took longer than {timeout:g} seconds and was stopped", timeout or 0.0)
-    except ProcessExpired as error:
-        return WorkerFailure(f"its worker process died ({_describe_exit(error.exitcode)})")
-    except BrokenProcessPool as error:
-        raise _start_error(error) from error
-
-
-def _start_error(error: Exception) -> MeshForgeError:
-    remedy = "In a script of your own, put the call below `if __name__ == '__main__':`, or pass workers=0."
-    return MeshForgeError(f"worker processes do not start: {error}", remedy=remedy)
-
-
-def _describe_exit(code: int | None) -> str:
-    """How a process ended: negative codes are signals."""
-    try:
-        return signal.Signals(-code).name if code and code < 0 else f"exit code {code}"
-    except ValueError:
-        return f"signal {-(code or 0)}"
 
 
 def memory_share(workers: int) -> int | None:

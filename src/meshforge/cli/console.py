@@ -8,12 +8,15 @@ from __future__ import annotations
 import sys
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
+from time import monotonic
 from typing import Any
 
 from rich import box
 from rich.console import Console
 from rich.table import Table
 from rich.text import Text
+
+_REFRESH_SECONDS = 0.1
 
 
 def print_table(columns: Sequence[str], rows: Iterable[Sequence[Any]], *, right: Sequence[str] = ()) -> None:
@@ -52,9 +55,18 @@ def progress(total: int | None, what: str) -> Iterator[Callable[[], None]]:
         redirect_stdout=sys.stdout.isatty(),
         speed_estimate_period=120,
         disable=not console.is_terminal,
+        auto_refresh=False,  # by a thread, beside which workers could not start by a fork
     ) as bar:
-        task = bar.add_task(what, total=total)
-        yield lambda: bar.advance(task)
+        task, drawn = bar.add_task(what, total=total), 0.0
+
+        def advance() -> None:
+            nonlocal drawn
+            bar.advance(task)
+            if (now := monotonic()) - drawn >= _REFRESH_SECONDS:
+                drawn = now
+                bar.refresh()
+
+        yield advance
 
 
 @contextmanager

@@ -10,8 +10,15 @@ from pathlib import Path
 
 import pytest
 
-from meshforge.batch import ExecutionOptions, WorkerFailure, run_isolated
-from meshforge.batch.workers import worker_context
+from meshforge.batch import ExecutionOptions, WorkerFailure, hold_lock, pool, run_isolated, worker_context
+
+
+@pytest.fixture(params=["server", "fork"], autouse=True)
+def start_method(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Workers of a server process, as beside threads, and workers that are forks of this process."""
+    if request.param == "fork" and sys.platform != "linux":
+        pytest.skip("forks are for Linux")
+    monkeypatch.setattr(pool, "_has_one_thread", lambda: request.param == "fork")
 
 
 def square(number: int) -> int:
@@ -28,6 +35,27 @@ def square_or_hang(number: int) -> int:
     if number == 1:
         time.sleep(60)
     return number * number
+
+
+def raise_at_two(number: int) -> int:
+    if number == 2:
+        raise KeyError("two")
+    return number
+
+
+def repeat(data: bytes) -> bytes:
+    return data * 2
+
+
+def die_if_odd(number: int) -> int:
+    if number % 2:
+        os._exit(3)
+    return number
+
+
+def sleep_from_one_on(number: int) -> int:
+    time.sleep(60 * min(number, 1))
+    return number
 
 
 def test_results_come_in_the_order_of_the_items() -> None:
@@ -56,6 +84,33 @@ def test_a_hang_is_stopped_and_loses_one_item_only() -> None:
     results = list(run_isolated(square_or_hang, range(4), ExecutionOptions(2, 0.5)))
     assert results[1] == WorkerFailure("it took longer than 0.5 seconds and was stopped", 0.5)
     assert results[:1] + results[2:] == [0, 4, 9]
+
+
+def test_a_caller_gets_what_the_function_raised_with_where_that_was() -> None:
+    results = run_isolated(raise_at_two, range(5), ExecutionOptions(2, None))
+    assert [next(results), next(results)] == [0, 1]
+    with pytest.raises(KeyError, match="two") as raised:
+        next(results)
+    assert "raise_at_two" in raised.value.__notes__[0]
+
+
+def test_large_items_and_large_results_do_not_wait_for_each_other() -> None:
+    items = [bytes([k]) * (1 << 20) for k in range(40)]
+    assert list(run_isolated(repeat, items, ExecutionOptions(2, None))) == [item * 2 for item in items]
+
+
+def test_every_item_that_kills_its_worker_is_named_and_no_other_one() -> None:
+    results = list(run_isolated(die_if_odd, range(12), ExecutionOptions(2, None)))
+    assert [k for k, result in enumerate(results) if isinstance(result, WorkerFailure)] == list(range(1, 12, 2))
+    assert results[1] == WorkerFailure("its worker process died (exit code 3)")
+
+
+def test_a_lock_is_not_held_by_the_workers_of_who_holds_it(tmp_path: Path) -> None:
+    results = run_isolated(sleep_from_one_on, range(5), ExecutionOptions(1, None))
+    with hold_lock(tmp_path / "lock", "this", wait=0):
+        assert next(results) == 0
+    with hold_lock(tmp_path / "lock", "this", wait=0):
+        results.close()
 
 
 def test_a_caller_may_stop_early() -> None:

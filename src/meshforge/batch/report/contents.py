@@ -12,7 +12,8 @@ from typing import TYPE_CHECKING, Generic, Literal, TypeVar
 from meshforge.batch.execution import execute
 from meshforge.batch.jobs import AssetJob
 from meshforge.batch.outcome import MOST_SHOWN, RunSummary
-from meshforge.batch.workers import ExecutionOptions, WorkerFailure
+from meshforge.batch.pool import WorkerFailure
+from meshforge.batch.workers import ExecutionOptions
 from meshforge.checks import Examination, Finding, draw_examination
 from meshforge.formats import load
 from meshforge.language import RuleTrace
