@@ -45,7 +45,7 @@ class WorkerFailure:
 
 
 @dataclass(frozen=True, slots=True)
-class RaisedError:
+class ItemError:
     """What the function raised for an item."""
 
     error: Exception
@@ -109,7 +109,7 @@ class WorkerPool(Generic[Item, Result]):
                 if len(worker.items) < size and (size == 1 or worker.is_quick) and self._has_more(limit):
                     self._give(worker)
 
-    def collect(self, seconds: float | None) -> Iterator[tuple[int, Result | WorkerFailure | RaisedError]]:
+    def collect(self, seconds: float | None) -> Iterator[tuple[int, Result | WorkerFailure | ItemError]]:
         """Wait up to so many seconds, None for no bound; the items that are done by then, by their places."""
         wait([worker.connection for worker in self._workers], self._seconds_to_wait(seconds))
         for worker in list(self._workers):
@@ -203,8 +203,8 @@ def _compute(item: bytes, function: Callable[[Any], Any]) -> bytes:
     except Exception as error:
         error.add_note(f"In a worker process:\n{traceback.format_exc()}")
         with suppress(Exception):
-            return pickle.dumps(RaisedError(error))
-        return pickle.dumps(RaisedError(MeshForgeError(f"{type(error).__name__}: {error}")))
+            return pickle.dumps(ItemError(error))
+        return pickle.dumps(ItemError(MeshForgeError(f"{type(error).__name__}: {error}")))
 
 
 def _quickest_context() -> Any:

@@ -10,7 +10,7 @@ from functools import partial
 from pathlib import Path
 from typing import Literal
 
-from meshforge.batch.pool import Item, RaisedError, Result, WorkerFailure, WorkerPool
+from meshforge.batch.pool import Item, ItemError, Result, WorkerFailure, WorkerPool
 from meshforge.common import StoppedError
 
 Backend = Literal["local", "ray"]
@@ -84,7 +84,7 @@ def _run_pool(
 ) -> Generator[Result | WorkerFailure, None, None]:
     work = partial(_run_within, options.memory, function) if options.memory else function
     pool: WorkerPool[Item, Result] = WorkerPool(work, items, workers, options.timeout)
-    found: dict[int, Result | WorkerFailure | RaisedError] = {}
+    found: dict[int, Result | WorkerFailure | ItemError] = {}
     try:
         for oldest in range(len(items)):
             while oldest not in found:
@@ -95,7 +95,7 @@ def _run_pool(
                     if options.progress:
                         options.progress()
             result = found.pop(oldest)
-            if isinstance(result, RaisedError):
+            if isinstance(result, ItemError):
                 raise result.error
             yield result
     finally:  # also when the caller stops early, or on Ctrl-C

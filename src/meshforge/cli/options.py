@@ -14,13 +14,12 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal, TypeVar, get_type_hin
 import typer
 
 from meshforge.common import UsageError, join_names, plain_path
-from meshforge.formats import load
-from meshforge.geometry import CoacdSettings, DecomposeSettings, VhacdSettings
-from meshforge.symbolic import SymbolicMesh
 
 if TYPE_CHECKING:
     from meshforge.batch import ExecutionOptions
+    from meshforge.geometry import DecomposeSettings
     from meshforge.project import Project
+    from meshforge.symbolic import SymbolicMesh
 
 Arguments = TypeVar("Arguments")
 
@@ -154,6 +153,8 @@ class EngineMethod(StrEnum):
 
 def parse_engine_settings(method: EngineMethod, given: list[str] | None) -> DecomposeSettings:
     """The settings of an engine with some given as `NAME=VALUE`. Raises UsageError, listing what there is to set."""
+    from meshforge.geometry import CoacdSettings, VhacdSettings  # lazy: most commands decompose nothing
+
     kind = CoacdSettings if method is EngineMethod.COACD else VhacdSettings
     known = {f.name: f for f in fields(kind)}
     values: dict[str, Any] = {}
@@ -199,6 +200,8 @@ def open_asset(asset: Path, labels: Path | None, project: Path | None) -> Symbol
 
     Raises UsageError for labels beside a project, which has its own.
     """
+    from meshforge.formats import load  # lazy: not all commands read assets
+
     if project is None:
         return load(asset, labels=labels)
     if labels:

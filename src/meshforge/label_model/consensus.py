@@ -10,7 +10,6 @@ from functools import cache
 from importlib.resources import files
 
 import numpy as np
-from scipy.sparse import csr_matrix
 
 from meshforge.geometry import Floats
 from meshforge.label_model.lookalikes import PER_MESH, Places
@@ -92,6 +91,8 @@ class FamilyContext:
     """A family with what is said of it, to be weighed round by round."""
 
     def __init__(self, table: FamilyTable, seen: Observations) -> None:
+        from scipy.sparse import csr_matrix  # lazy: 0.5 s, half of all imports
+
         self.table, self.seen, self.count = table, seen, len(seen.labels)
         self.free = seen.known & ~seen.fixed
         speaking = np.unique(table.owner[seen.given]) if seen.given.any() else np.unique(table.owner[seen.known])

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from math import hypot
 
 import numpy as np
 
@@ -18,6 +19,7 @@ _PARALLEL = 1e-6  # sine of the angle below which two pairs count as giving one 
 SQUARE_ENOUGH = 1.05
 """The frame as it came is kept when its rectangle is at most this many times the smallest."""
 _EQUAL = 1e-9  # areas and angles that differ by less are equal
+_ROUNDING = 1e-12  # of the size, by which points on one side of a hull are beside it
 
 
 def orient_mesh(mesh: SymbolicMesh, orient: Orient | None) -> tuple[SymbolicMesh, Pose]:
@@ -113,9 +115,7 @@ def square_up_angle(footprint: Floats) -> float:
     Of the four quarter turns that do, it is the one nearest to the incoming frame (of two, the positive one).
     A smallest rectangle has a side along an edge of the convex hull, so the edges are all that is tried.
     """
-    from scipy.spatial import ConvexHull  # lazy: slow to import, only a single landmark pair needs it
-
-    outline = footprint[ConvexHull(footprint).vertices]
+    outline = _find_outline(footprint)
     edges = np.roll(outline, -1, axis=0) - outline
     turns = _fold_angles(-np.arctan2(edges[:, 1], edges[:, 0]))
     areas = np.array([_rectangle_area(outline, turn) for turn in turns])
@@ -125,6 +125,29 @@ def square_up_angle(footprint: Floats) -> float:
     tied = [float(turn) for turn in turns[areas <= smallest * (1 + _EQUAL)]]
     nearest = min(abs(turn) for turn in tied)
     return max(turn for turn in tied if abs(turn) <= nearest + _EQUAL)
+
+
+def _find_outline(points: Floats) -> Floats:
+    """The corners (m, 2) of the convex hull of points (n, 2), counterclockwise (Andrew's monotone chain).
+
+    scipy would take half a second to import.
+    """
+    least = _ROUNDING * float(np.ptp(points, axis=0).max())  # that a corner sticks out
+    places: list[tuple[float, float]] = list(map(tuple, np.unique(points, axis=0).tolist()))
+    return np.array(_turn_left(places, least)[:-1] + _turn_left(places[::-1], least)[:-1])
+
+
+def _turn_left(places: Sequence[tuple[float, float]], least: float) -> list[tuple[float, float]]:
+    """Those of places in order from which each way on turns left, by more than `least` [m] beside the way."""
+    found: list[tuple[float, float]] = []
+    for x, y in places:
+        while len(found) > 1:
+            (ax, ay), (bx, by) = found[-2:]
+            if (bx - ax) * (y - ay) - (by - ay) * (x - ax) > least * hypot(x - ax, y - ay):
+                break
+            found.pop()
+        found.append((x, y))
+    return found
 
 
 def _fold_angles(angles: Floats) -> Floats:

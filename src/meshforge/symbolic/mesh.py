@@ -10,8 +10,9 @@ from math import dist
 
 import numpy as np
 
+from meshforge import geometry
 from meshforge.common import MeshForgeError
-from meshforge.geometry import Aabb, Floats, Shape, bounds, close_pairs
+from meshforge.geometry import Aabb, Floats, Shape, bounds
 from meshforge.symbolic.asset import Asset, Geom
 from meshforge.symbolic.hull import Hull, Label
 
@@ -186,13 +187,13 @@ def contact_graph(
     pairs of two kept shapes are taken over, all others are measured.
     """
     if known is None or not kept:
-        return close_pairs(shapes, reach)
+        return geometry.close_pairs(shapes, reach)  # by its package: coal is imported where contacts are asked for
     back = {old: new for new, old in kept.items()}
     found = {
         (min(back[i], back[j]), max(back[i], back[j])): gap for (i, j), gap in known.items() if i in back and j in back
     }
     if len(kept) < len(shapes):
-        found.update(close_pairs(shapes, reach, settled=frozenset(kept)))
+        found.update(geometry.close_pairs(shapes, reach, settled=frozenset(kept)))
     return dict(sorted(found.items()))
 
 
