@@ -45,6 +45,14 @@ def _freeze(array: npt.NDArray[Number], shape: tuple[int, ...]) -> npt.NDArray[N
     return array
 
 
+def sort_rows(rows: npt.NDArray[Any]) -> npt.NDArray[Any]:
+    """The distinct rows of (n, columns), at least one, in order; for few rows far quicker than `np.unique`."""
+    rows = rows[np.lexsort(rows.T[::-1])]
+    new = np.ones(len(rows), dtype=bool)
+    new[1:] = (rows[1:] != rows[:-1]).any(axis=1)
+    return rows[new]
+
+
 def cross(a: Floats, b: Floats) -> Floats:
     """The cross products of rows (n, 3) and (n, 3); for few rows five times as fast as numpy's own, and the same."""
     out = np.empty((len(a), 3))

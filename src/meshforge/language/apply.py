@@ -145,12 +145,7 @@ def is_valid(shape: geometry.Shape) -> bool:
 
 
 def _is_valid_polytope(shape: geometry.Polytope) -> bool:
-    vertices, faces = shape.vertices, shape.faces
-    return (
-        geometry.is_closed(faces)
-        and geometry.is_outward(vertices, faces)
-        and geometry.is_convex(vertices, faces, _CONVEXITY)
-    )
+    return geometry.is_convex_hull(shape.vertices, shape.faces, _CONVEXITY)
 
 
 @dataclass(frozen=True, slots=True)
