@@ -22,6 +22,7 @@ from meshforge.batch.preparation.storage import prepare_from_folder, record_dige
 from meshforge.batch.workers import EXECUTION_DEFAULTS, ExecutionOptions
 from meshforge.common import UsageError, describe_error, join_names
 from meshforge.formats import format_for, format_with_names, read
+from meshforge.geometry import proximity  # noqa: F401  # coal is there when workers are forked
 from meshforge.language import Program, Template
 from meshforge.signoff import measure_edit
 from meshforge.symbolic import Asset, LabelFile, LabelTransfer, SymbolicMesh, read_labels, transfer_labels

@@ -83,7 +83,8 @@ def _bound_eigenvalue(xx: Any, xy: Any, xz: Any, yy: Any, yz: Any, zz: Any) -> A
     """
     trace = xx + yy + zz
     determinant = xx * (yy * zz - yz * yz) - xy * (xy * zz - yz * xz) + xz * (xy * yz - yy * xz)
-    return np.where(determinant > _CLEAR * trace**3, 4 * determinant / trace**2, -np.inf)
+    bound = 4 * determinant / np.maximum(trace * trace, np.finfo(float).tiny)
+    return np.where(determinant > _CLEAR * trace**3, bound, -np.inf)
 
 
 def spans_volume(points: Floats) -> bool:

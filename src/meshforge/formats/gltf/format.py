@@ -1,31 +1,17 @@
-"""The format glTF as the registry has it, with a variant for each engine that knows collision by name; what a file
-can hold, and what one holds besides hulls."""
+"""The format glTF as the registry has it, with a variant for each engine that knows collision by name, and what a file
+can hold. Reading, writing and making files are imported when they are asked for."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Mapping
 from pathlib import Path
-from typing import Any, ClassVar
+from typing import ClassVar
 
 from meshforge.common import AssetError
-from meshforge.formats.base import BODY_FEATURES, SCENE_FEATURES, Format, Mass, Output, ReadOptions, feature_of
+from meshforge.formats import gltf
+from meshforge.formats.base import BODY_FEATURES, SCENE_FEATURES, Format, Mass, Output, ReadOptions
 from meshforge.formats.engine_names.conventions import CollisionNames, GodotNames, UnityNames, UnrealNames, fallbacks_of
-from meshforge.formats.gltf import create, edit, read
-from meshforge.formats.gltf.document import GltfDocument
-from meshforge.formats.gltf.physics import explain_missing_mass, read_motion
-from meshforge.formats.meshfile.gltf_document import Json, entries, entry, extension, report_damage
-from meshforge.formats.meshfile.gltf_scene import GltfScene
 from meshforge.symbolic import Asset, Feature, FeatureKind
-
-_LISTS = {
-    "materials": FeatureKind.MATERIALS,
-    "textures": FeatureKind.TEXTURES,
-    "animations": FeatureKind.ANIMATIONS,
-    "skins": FeatureKind.SKINS,
-    "cameras": FeatureKind.CAMERAS,
-}
-_ATTRIBUTES = {"COLOR_0": FeatureKind.VERTEX_COLORS, "TEXCOORD_0": FeatureKind.TEXTURE_COORDINATES}
-_LIGHTS, _PHYSICS = "KHR_lights_punctual", "KHR_physics_rigid_bodies"
 
 _COULD_NAMED = SCENE_FEATURES - {FeatureKind.CONTACT} | {
     *(FeatureKind.VERTEX_COLORS, FeatureKind.TEXTURE_COORDINATES, FeatureKind.ANIMATIONS, FeatureKind.SKINS)
@@ -47,18 +33,18 @@ class GltfFormat(Format):
     instead: ClassVar[Mapping[FeatureKind, str]] = {FeatureKind.ELLIPSOIDS: "written as triangles"}
 
     def read(self, path: Path, options: ReadOptions) -> Asset:
-        return read.read_gltf(path)
+        return gltf.read_gltf(path)
 
     def write(self, asset: Asset, name: str, mass: Mass = "keep") -> Output:
-        if not isinstance(asset.document, GltfDocument):
+        if not isinstance(asset.document, gltf.GltfDocument):
             raise AssetError("this asset was not read from a glTF file", where=str(asset.path))
-        return edit.write_gltf(asset, asset.document, name)
+        return gltf.write_gltf(asset, asset.document, name)
 
     def create(self, asset: Asset, name: str) -> Output:
-        return create.create_gltf(asset, name)
+        return gltf.create_gltf(asset, name)
 
     def features(self, asset: Asset) -> Iterable[Feature]:
-        return features_of(asset.document, asset) if isinstance(asset.document, GltfDocument) else ()
+        return gltf.features_of(asset.document, asset) if isinstance(asset.document, gltf.GltfDocument) else ()
 
 
 class EngineGltf(GltfFormat):
@@ -68,10 +54,10 @@ class EngineGltf(GltfFormat):
     could = _COULD_NAMED
 
     def can_write_back(self, asset: Asset) -> bool:
-        return isinstance(asset.document, GltfDocument) and asset.document.convention == self.engine.engine
+        return isinstance(asset.document, gltf.GltfDocument) and asset.document.convention == self.engine.engine
 
     def create(self, asset: Asset, name: str) -> Output:
-        return create.create_for_engine(asset, name, self.engine)
+        return gltf.create_for_engine(asset, name, self.engine)
 
 
 class GltfForUnreal(EngineGltf):
@@ -99,40 +85,3 @@ class GltfForUnity(EngineGltf):
     title = "glTF for Unity"
     holds = engine.holds
     instead = fallbacks_of(engine)
-
-
-def features_of(document: GltfDocument, asset: Asset) -> list[Feature]:
-    """The features of a glTF file that its asset does not have. Raises AssetError: what lists them is damaged."""
-    with report_damage(str(asset.path)):
-        tree = GltfScene.of(document.source, asset.path).tree
-        return [*_list_features(tree), *_list_missing_masses(tree, document, asset)]
-
-
-def _list_features(tree: Json) -> Iterator[Feature]:
-    for key, what in _LISTS.items():
-        yield _feature_of(what, entries(tree, key))
-    yield _feature_of(FeatureKind.LIGHTS, entries(extension(tree, _LIGHTS) or {}, "lights"))
-    parts = [part for mesh in entries(tree, "meshes") for part in entries(mesh, "primitives")]
-    for name, what in _ATTRIBUTES.items():
-        yield Feature(what, unnamed=sum(name in part.get("attributes", {}) for part in parts))
-    physics = extension(tree, _PHYSICS) or {}
-    settings = [one for key in ("physicsMaterials", "collisionFilters") for one in entries(physics, key)]
-    yield Feature(FeatureKind.CONTACT, unnamed=len(settings))
-    nodes = entries(tree, "nodes")
-    joined = [
-        n for n in nodes if "joint" in (extension(n, _PHYSICS) or {}) or extension(n, "OMI_physics_joint") is not None
-    ]
-    yield Feature(FeatureKind.JOINTS, unnamed=len(joined))
-
-
-def _list_missing_masses(tree: Json, document: GltfDocument, asset: Asset) -> Iterator[Feature]:
-    """The masses that the file says and the asset does not have."""
-    known = {inertial.body for inertial in asset.mechanism.inertials}
-    motions = {name: read_motion(entry(tree, "nodes", node)) for node, name in document.bodies if name not in known}
-    reasons = {name: explain_missing_mass(motion) for name, motion in motions.items() if "mass" in motion}
-    for reason in dict.fromkeys(reasons.values()):
-        yield Feature(FeatureKind.MASSES, tuple(name for name, why in reasons.items() if why == reason), reason=reason)
-
-
-def _feature_of(what: FeatureKind, things: list[Any]) -> Feature:
-    return feature_of(what, (str(thing.get("name") or "") for thing in things))

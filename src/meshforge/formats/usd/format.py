@@ -1,28 +1,16 @@
-"""The format USD as the registry has it, what a stage can hold, and what one holds besides hulls, bodies, joints,
-masses and visuals."""
+"""The format USD as the registry has it, and what a stage can hold. Reading, writing and making files are imported
+when they are asked for."""
 
 from __future__ import annotations
 
-from collections import Counter
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Mapping
 from pathlib import Path
-from typing import Any, ClassVar
+from typing import ClassVar
 
 from meshforge.common import AssetError
-from meshforge.formats.base import BODY_FEATURES, SCENE_FEATURES, Format, Mass, Output, ReadOptions, feature_of_tags
-from meshforge.formats.usd import create, edit, read
-from meshforge.formats.usd.stage import UsdDocument, UsdStage, usd
+from meshforge.formats import usd
+from meshforge.formats.base import BODY_FEATURES, SCENE_FEATURES, Format, Mass, Output, ReadOptions
 from meshforge.symbolic import Asset, Feature, FeatureKind
-
-_TYPES = {
-    "Material": FeatureKind.MATERIALS,
-    "Camera": FeatureKind.CAMERAS,
-    "SkelRoot": FeatureKind.SKINS,
-    "PhysicsScene": FeatureKind.SETTINGS,
-    "PhysicsCollisionGroup": FeatureKind.PAIRS,
-    "PhysicsDistanceJoint": FeatureKind.OTHERS,
-}
-_LIGHTS = "Light"
 
 
 class UsdFormat(Format):
@@ -43,53 +31,15 @@ class UsdFormat(Format):
     instead: ClassVar[Mapping[FeatureKind, str]] = {FeatureKind.ELLIPSOIDS: "written as triangles"}
 
     def read(self, path: Path, options: ReadOptions) -> Asset:
-        return read.read_usd(path)
+        return usd.read_usd(path)
 
     def write(self, asset: Asset, name: str, mass: Mass = "keep") -> Output:
-        if not isinstance(asset.document, UsdDocument):
+        if not isinstance(asset.document, usd.UsdDocument):
             raise AssetError("this asset was not read from a USD file", where=str(asset.path))
-        return edit.write_usd(asset, asset.document, name, mass)
+        return usd.write_usd(asset, asset.document, name, mass)
 
     def create(self, asset: Asset, name: str) -> Output:
-        return create.create_usd(asset, name)
+        return usd.create_usd(asset, name)
 
     def features(self, asset: Asset) -> Iterable[Feature]:
-        return features_of(asset) if isinstance(asset.document, UsdDocument) else ()
-
-
-def features_of(asset: Asset) -> list[Feature]:
-    """The features of a USD file that its asset does not have."""
-    with usd(str(asset.path)):
-        return list(_list_features(UsdStage.open(asset.path)))
-
-
-def _list_features(scene: UsdStage) -> Iterator[Feature]:
-    found: dict[FeatureKind, list[str]] = {}
-    count: Counter[FeatureKind] = Counter()
-    for prim in scene.prims():
-        what = _TYPES.get(str(prim.GetTypeName()))
-        if what is None and str(prim.GetTypeName()).endswith(_LIGHTS):
-            what = FeatureKind.LIGHTS
-        if what is not None:
-            found.setdefault(what, []).append(prim.GetName())
-        count.update(_features_of_attributes(prim))
-    for what, names in found.items():
-        yield feature_of_tags(what, names)
-    for what, number in count.items():
-        yield Feature(what, unnamed=number)
-
-
-def _features_of_attributes(prim: Any) -> Iterator[FeatureKind]:
-    """What the attributes of a prim are, each kind once."""
-    attributes = prim.GetAuthoredAttributes()
-    if any(attribute.GetNumTimeSamples() > 1 for attribute in attributes):
-        yield FeatureKind.ANIMATIONS
-    names = {attribute.GetName() for attribute in attributes}
-    if prim.GetTypeName() == "Shader" and prim.GetAttribute("info:id").Get() == "UsdUVTexture":
-        yield FeatureKind.TEXTURES
-    if "primvars:st" in names:
-        yield FeatureKind.TEXTURE_COORDINATES
-    if any("physics:dynamicFriction" in name or name.startswith("physxMaterial") for name in names):
-        yield FeatureKind.CONTACT
-    if any(name.startswith("drive:") for name in names):
-        yield FeatureKind.ACTUATORS
+        return usd.features_of(asset) if isinstance(asset.document, usd.UsdDocument) else ()
