@@ -5,14 +5,15 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from meshforge.batch.apply import apply, inputs_of
 from meshforge.common.exports import export_lazily
 
 if TYPE_CHECKING:
     from meshforge.batch.check import CheckJournal, CheckOutcome, CheckTask, check_asset, check_assets, open_journal
     from meshforge.batch.corrections import Correction, replay_corrections
     from meshforge.batch.discovery import OWN_FOLDERS, SETTINGS, STATE, AssetSet, asset_id, expand, find_assets_in
+    from meshforge.batch.edit import apply
     from meshforge.batch.execution import execute
+    from meshforge.batch.inputs import inputs_of
     from meshforge.batch.jobs import (
         APPLY_DEFAULTS,
         ApplyOptions,

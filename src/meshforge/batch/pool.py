@@ -234,7 +234,7 @@ def worker_context() -> Any:
     if sys.platform != "linux":
         return _keep_locks(get_context("spawn"))
     context = get_context("forkserver")
-    context.set_forkserver_preload(["meshforge.batch.apply", *_list_modules()])
+    context.set_forkserver_preload(["meshforge.batch.edit", *_list_modules()])
     return _keep_locks(context)
 
 

@@ -11,14 +11,15 @@ from functools import partial
 from pathlib import Path
 
 from meshforge.batch import outputs, provenance
-from meshforge.batch.corrections import corrections_digest, replay_corrections
+from meshforge.batch.corrections import replay_corrections
 from meshforge.batch.discovery import STATE
 from meshforge.batch.execution import execute
+from meshforge.batch.inputs import inputs_of
 from meshforge.batch.jobs import APPLY_DEFAULTS, ApplyOptions, ApplyTask, AssetJob
 from meshforge.batch.lock import hold_lock
 from meshforge.batch.outcome import AssetOutcome, Edited, Failed, RuleEffect, Unchanged
 from meshforge.batch.pool import WorkerFailure
-from meshforge.batch.preparation.storage import prepare_from_folder, record_digest
+from meshforge.batch.preparation.storage import prepare_from_folder
 from meshforge.batch.workers import EXECUTION_DEFAULTS, ExecutionOptions
 from meshforge.common import UsageError, describe_error, join_names
 from meshforge.formats import format_for, format_with_names, read
@@ -103,21 +104,6 @@ def edit_asset(task: ApplyTask, job: AssetJob) -> outputs.WorkerResult:
         failed = Failed(job.id, describe_error(error, str(job.path)), time.perf_counter() - started)
         disk = error.strerror if isinstance(error, OSError) and error.errno in outputs.DISK_ERRORS else None
         return outputs.WorkerResult(failed, inputs, disk=disk)
-
-
-def inputs_of(task: ApplyTask, job: AssetJob, files: dict[str, str]) -> provenance.OutputInputs:
-    """The digests of all that decides the output of a job; files: those of the asset."""
-    to, names = task.options.to, task.options.names
-    return provenance.OutputInputs(
-        asset=files,
-        preparation=record_digest(job.preparation) if job.preparation else None,
-        labels=provenance.file_digest(job.labels) if job.labels else None,
-        program=provenance.program_digest(task.program),
-        templates=provenance.template_digests(task.templates),
-        corrections=corrections_digest(job.corrections),
-        settings=f"mass={task.options.mass}{f' to={to}' if to else ''}{f' names={names}' if names else ''}",
-        software=provenance.software_version(),
-    )
 
 
 def _find_up_to_date(task: ApplyTask, job: AssetJob) -> outputs.WorkerResult | None:
