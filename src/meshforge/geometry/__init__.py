@@ -9,6 +9,7 @@ from meshforge.common.exports import export_lazily
 if TYPE_CHECKING:
     from meshforge.geometry.arrays import (
         Aabb,
+        Bools,
         Floats,
         Ints,
         bounds,
@@ -17,6 +18,7 @@ if TYPE_CHECKING:
         nearest_on_triangles,
         row_distances,
     )
+    from meshforge.geometry.connectivity import component_roots
     from meshforge.geometry.convex import FLATNESS, convex_hull, measure_extents, principal_extents, spans_volume
     from meshforge.geometry.decomposition.engines import CoacdSettings, DecomposeSettings, EngineControl, VhacdSettings
     from meshforge.geometry.decomposition.run import cache_folder, decompose
@@ -58,6 +60,7 @@ __all__ = [
     "FLATNESS",
     "LEVEL",
     "Aabb",
+    "Bools",
     "Box",
     "Capsule",
     "CoacdSettings",
@@ -82,6 +85,7 @@ __all__ = [
     "bounds",
     "cache_folder",
     "close_pairs",
+    "component_roots",
     "convex_hull",
     "cut",
     "decompose",
