@@ -56,7 +56,8 @@ def keep_reached(low: Bools, high: Bools) -> Bools:
     for down, right in ((0, 1), (1, -1), (1, 0), (1, 1)):
         other = number[rows + 1 + down, columns + 1 + right]
         pairs.append((own[other >= 0], other[other >= 0]))
-    roots = component_roots(*(np.concatenate(side) for side in zip(*pairs, strict=True)), count)
+    first, second = (np.concatenate(side) for side in zip(*pairs, strict=True))
+    roots = component_roots(first, second, count)
     kept = np.zeros(count, bool)
     kept[roots[high[low]]] = True
     found = np.zeros(low.shape, bool)

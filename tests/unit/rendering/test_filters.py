@@ -22,7 +22,7 @@ def test_places_between_pixels_show_what_they_do_in_scipy_and_nothing_beyond_the
     picture = RANDOM.random((30, 41)).astype(np.float32)
     places = RANDOM.uniform(-3.0, 44.0, (4000, 2))
     places[:400] = np.round(places[:400])
-    places[:3] = [[0, 0], [29, 40], [29.0001, 0]]
+    places[:3] = np.array([[0, 0], [29, 40], [29.0001, 0]])
     assert np.array_equal(sample(picture, places), map_coordinates(picture, places.T, order=1))
     assert sample(picture, places)[2] == 0.0
 
