@@ -140,8 +140,8 @@ class WorkerPool(Generic[Item, Result]):
         others = [worker.connection for worker in self._workers]
         try:
             self._workers.append(_Worker(self._context, self._function, others))
-        except RuntimeError as error:  # a script that would run again in each worker
-            raise _start_error(str(error)) from error
+        except RuntimeError as error:
+            raise _start_error("each of them runs the script that starts them") from error
 
     def _give(self, worker: _Worker) -> None:
         index = self._again[0] if self._again else self._next

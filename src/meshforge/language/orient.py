@@ -18,6 +18,7 @@ _PARALLEL = 1e-6  # sine of the angle below which two pairs count as giving one 
 
 SQUARE_ENOUGH = 1.05
 """The frame as it came is kept when its rectangle is at most this many times the smallest."""
+_EIGHT_WAYS = np.array([(1, 0), (1, 1), (0, 1), (-1, 1), (-1, 0), (-1, -1), (0, -1), (1, -1)], dtype=np.float64)
 _EQUAL = 1e-9  # areas and angles that differ by less are equal
 _ROUNDING = 1e-12  # of the size, by which points on one side of a hull are beside it
 
@@ -133,8 +134,17 @@ def _find_outline(points: Floats) -> Floats:
     scipy would take half a second to import.
     """
     least = _ROUNDING * float(np.ptp(points, axis=0).max())  # that a corner sticks out
-    places: list[tuple[float, float]] = list(map(tuple, np.unique(points, axis=0).tolist()))
+    places: list[tuple[float, float]] = sorted(set(map(tuple, _drop_inner(points).tolist())))
     return np.array(_turn_left(places, least)[:-1] + _turn_left(places[::-1], least)[:-1])
+
+
+def _drop_inner(points: Floats) -> Floats:
+    """Points (n, 2) without most of those that are no corners of their hull: what lies within the farthest eight."""
+    farthest = points[(points @ _EIGHT_WAYS.T).argmax(axis=0)]
+    sides = np.roll(farthest, -1, axis=0) - farthest
+    farthest, sides = farthest[sides.any(axis=1)], sides[sides.any(axis=1)]
+    away = points[:, None] - farthest
+    return points[~((sides[:, 0] * away[..., 1] - sides[:, 1] * away[..., 0]) > 0).all(axis=1)]
 
 
 def _turn_left(places: Sequence[tuple[float, float]], least: float) -> list[tuple[float, float]]:
