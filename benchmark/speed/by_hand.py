@@ -18,11 +18,16 @@ NEAR = 0.002  # of the diagonal: parts whose boxes are no farther apart touch
 
 def main(tables: Path, out: Path) -> None:
     """Edit every table of a folder, labels beside it, and write it into another one."""
-    tray = trimesh.load_mesh(tables / "templates" / "tray.obj", process=False).split()
+    tray = read_tray(tables)
     out.mkdir(parents=True, exist_ok=True)
     for path in sorted(tables.glob("*.obj")):
         labels = json.loads(path.with_suffix(".labels.json").read_text(encoding="utf-8"))["hulls"]
         edit_table(read_parts(path), labels, tray).export(out / path.name)
+
+
+def read_tray(tables: Path) -> list[Any]:
+    """The parts of the template for drawers."""
+    return list(trimesh.load_mesh(tables / "templates" / "tray.obj", process=False).split())
 
 
 def read_parts(path: Path) -> dict[str, Any]:
@@ -40,13 +45,15 @@ def edit_table(parts: dict[str, Any], labels: dict[str, Any], tray: list[Any]) -
     near = NEAR * join(list(parts.values())).scale
     level = max(panel.bounds[1, 2] for panel in panels) - near
     made = [panel for panel in panels if panel.bounds[1, 2] <= level]
-    top = join([panel for panel in panels if panel.bounds[1, 2] > level])
-    made.append(top.bounding_box_oriented.to_mesh())
-    made += [join(leg).convex_hull for leg in group(legs, near)]
-    for drawer in group(drawers, near):
+    top = join([panel for panel in panels if panel.bounds[1, 2] > level]).bounding_box_oriented
+    square = top.primitive.transform[:3, :3]  # a table may be turned; square to its top, boxes touch where parts do
+    made.append(top.to_mesh())
+    made += [join(leg).convex_hull for leg in group(legs, square, near)]
+    for drawer in group(drawers, square, near):
         made += put_into_box(tray, join(drawer).bounding_box_oriented)
+    boxes = [bounds(drawer, square) for drawer in drawers]
     for handle in handles:
-        at_drawer = any(touches(handle, drawer, near) for drawer in drawers)
+        at_drawer = any(touches(bounds(handle, square), box, near) for box in boxes)
         made.append(build_capsule(handle.bounding_box_oriented) if at_drawer else handle)
     return trimesh.Scene(made)
 
@@ -56,14 +63,21 @@ def join(parts: list[Any]) -> Any:
     return trimesh.util.concatenate(parts)
 
 
+def bounds(part: Any, square: Any) -> Any:
+    """The lower and the upper corner of the box of a part along some axes (3, 3)."""
+    places = part.vertices @ square
+    return np.array([places.min(axis=0), places.max(axis=0)])
+
+
 def touches(one: Any, other: Any, near: float) -> bool:
-    """Whether the boxes of two parts touch."""
-    return bool((one.bounds[0] - near <= other.bounds[1]).all() and (other.bounds[0] - near <= one.bounds[1]).all())
+    """Whether two boxes touch."""
+    return bool((one[0] - near <= other[1]).all() and (other[0] - near <= one[1]).all())
 
 
-def group(parts: list[Any], near: float) -> list[list[Any]]:
+def group(parts: list[Any], square: Any, near: float) -> list[list[Any]]:
     """Parts that touch, together."""
-    edges = [(i, j) for i in range(len(parts)) for j in range(i) if touches(parts[i], parts[j], near)]
+    boxes = [bounds(part, square) for part in parts]
+    edges = [(i, j) for i in range(len(parts)) for j in range(i) if touches(boxes[i], boxes[j], near)]
     pairs, nodes = np.array(edges, dtype=int).reshape(-1, 2), np.arange(len(parts))
     found = trimesh.graph.connected_components(pairs, nodes=nodes, min_len=1)
     return [[parts[k] for k in sorted(component)] for component in found]

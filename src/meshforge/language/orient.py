@@ -144,7 +144,9 @@ def _drop_inner(points: Floats) -> Floats:
     sides = np.roll(farthest, -1, axis=0) - farthest
     farthest, sides = farthest[sides.any(axis=1)], sides[sides.any(axis=1)]
     away = points[:, None] - farthest
-    return points[~((sides[:, 0] * away[..., 1] - sides[:, 1] * away[..., 0]) > 0).all(axis=1)]
+    within = ((sides[:, 0] * away[..., 1] - sides[:, 1] * away[..., 0]) > 0).all(axis=1)
+    outer: Floats = points[~within]
+    return outer
 
 
 def _turn_left(places: Sequence[tuple[float, float]], least: float) -> list[tuple[float, float]]:

@@ -127,7 +127,10 @@ def test_nothing_to_do_starts_no_process() -> None:
 def test_a_script_without_a_main_guard_is_told_what_to_do(tmp_path: Path) -> None:
     script = tmp_path / "script.py"
     call = "print(list(run_isolated(abs, [1, -2], ExecutionOptions(1))))"
-    script.write_text(f"from meshforge.batch import ExecutionOptions, run_isolated\n{call}\n")
+    thread = "Thread(target=sleep, args=[60], daemon=True).start()"  # beside which nothing is forked
+    imports = "from threading import Thread\nfrom time import sleep\n"
+    imports += "from meshforge.batch import ExecutionOptions, run_isolated"
+    script.write_text(f"{imports}\n{thread}\n{call}\n")
     done = subprocess.run([sys.executable, str(script)], capture_output=True, text=True, timeout=60)
     assert done.returncode == 1 and "if __name__ == '__main__'" in done.stderr
 
