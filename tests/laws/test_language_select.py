@@ -8,7 +8,7 @@ import numpy as np
 from hypothesis import given
 
 from meshforge.geometry import Aabb
-from meshforge.geometry.distance import distance
+from meshforge.geometry.proximity import distance
 from meshforge.language import (
     EXTREMITY,
     All,

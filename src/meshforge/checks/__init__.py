@@ -1,12 +1,21 @@
 """Whether hulls are legal, within the limits of an engine, fit, leave free what is free, and rest; and fixes."""
 
-from meshforge.checks.engine_trial import EngineTrial
-from meshforge.checks.engines import ENGINES, find_engine
-from meshforge.checks.examination import CheckOptions, Examination, check, draw_examination, examine_mesh
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
 from meshforge.checks.fix import FixResult, fix
-from meshforge.checks.legality import Finding, Severity
-from meshforge.checks.limit_notes import ENGINES_OF_FORMATS, note_limits
-from meshforge.checks.registry import CHECKS, Check
+from meshforge.common.exports import export_lazily
+
+if TYPE_CHECKING:
+    from meshforge.checks.engine_trial import EngineTrial
+    from meshforge.checks.engines import ENGINES, find_engine
+    from meshforge.checks.examination import CheckOptions, Examination, check, draw_examination, examine_mesh
+    from meshforge.checks.legality import Finding, Severity
+    from meshforge.checks.limit_notes import ENGINES_OF_FORMATS, note_limits
+    from meshforge.checks.registry import CHECKS, Check
+else:
+    __getattr__ = export_lazily(__name__)
 
 __all__ = [
     "CHECKS",

@@ -11,7 +11,7 @@ import pytest
 
 from meshforge.geometry import Box, Floats, Polytope, Pose, close_pairs, convex_hull, distance
 from meshforge.geometry.arrays import bounds, near_boxes
-from meshforge.geometry.distance import _POOL_SIZE, CoalFrame, _pool, split_for_coal
+from meshforge.geometry.proximity import _POOL_SIZE, CoalFrame, _pool, split_for_coal
 
 
 def ball(corners: int, center: Floats) -> Polytope:
