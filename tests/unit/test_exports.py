@@ -7,6 +7,7 @@ import subprocess
 import sys
 from importlib import import_module
 from pathlib import Path
+from zipfile import ZipFile
 
 import pytest
 
@@ -68,3 +69,13 @@ def test_a_command_imports_no_more_than_it_needs(words: list[str], absent: tuple
         env=os.environ | {"PYTHONPATH": path},
     )
     assert done.stdout.splitlines()[-1] == "ABSENT []"
+
+
+def test_names_are_found_in_a_zip_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    block = "if TYPE_CHECKING:\n    from zipped_package.home import (\n        answer,\n    )\nelse:\n"
+    imports = "from typing import TYPE_CHECKING\n\nfrom meshforge.common.exports import export_lazily\n\n"
+    with ZipFile(tmp_path / "package.zip", "w") as file:
+        file.writestr("zipped_package/__init__.py", f"{imports}{block}    __getattr__ = export_lazily(__name__)\n")
+        file.writestr("zipped_package/home.py", "answer = 42\n")
+    monkeypatch.syspath_prepend(str(tmp_path / "package.zip"))
+    assert import_module("zipped_package").answer == 42
