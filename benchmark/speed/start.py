@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import statistics
 import subprocess
 import sys
@@ -12,6 +11,7 @@ from pathlib import Path
 
 from benchmark.clock import once
 from benchmark.report import Goal, Result, Table, Tell
+from benchmark.speed.watch import compile_aside
 
 _COMMANDS = {
     "python -c pass": [sys.executable, "-c", "pass"],
@@ -30,7 +30,7 @@ def measure(tell: Tell, quick: bool) -> Result:
     times: dict[str, list[float]] = {name: [] for name in _COMMANDS}
     rounds = 1 if quick else _ROUNDS
     with tempfile.TemporaryDirectory() as folder:
-        compiled = {**os.environ, "PYTHONDONTWRITEBYTECODE": "", "PYTHONPYCACHEPREFIX": folder}
+        compiled = compile_aside(Path(folder))
         for turn in range(rounds + 1):
             tell(f"start: round {turn} of {rounds}")
             for name, command in _COMMANDS.items():

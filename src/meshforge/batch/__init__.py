@@ -1,95 +1,106 @@
 """Work on many assets: which they are, preparations, programs and checks run in worker processes, outcomes, outputs
 in place, and the report."""
 
-from meshforge.batch.apply import apply, inputs_of
-from meshforge.batch.check import CheckJournal, CheckOutcome, CheckTask, check_asset, check_assets, open_journal
-from meshforge.batch.corrections import Correction, replay_corrections
-from meshforge.batch.discovery import OWN_FOLDERS, SETTINGS, STATE, AssetSet, asset_id, expand, find_assets_in
-from meshforge.batch.engine_trial import ENGINES_TO_ASK, examine_file
-from meshforge.batch.execution import execute
-from meshforge.batch.jobs import (
-    APPLY_DEFAULTS,
-    ApplyOptions,
-    ApplyTask,
-    AssetJob,
-    load_named_templates,
-    load_templates,
-    make_jobs,
-    plan_run,
-    read_template,
-    template_folders,
-)
-from meshforge.batch.lock import hold_lock
-from meshforge.batch.outcome import (
-    MOST_SHOWN,
-    AssetOutcome,
-    Failed,
-    Held,
-    RuleEffect,
-    RunSummary,
-    Skipped,
-    describe_alarms,
-    status_of,
-    to_json_line,
-)
-from meshforge.batch.preparation.decompose import DecompositionResult, decompose_asset
-from meshforge.batch.preparation.record import (
-    Preparation,
-    Replacement,
-    apply_preparation,
-    find_sources,
-    replay_preparation,
-)
-from meshforge.batch.preparation.split import cut_hull, split_hull
-from meshforge.batch.preparation.storage import (
-    RECORD_FILE,
-    read_preparation,
-    read_prepared,
-    record_digest,
-    remove_preparation,
-    write_preparation,
-)
-from meshforge.batch.provenance import (
-    OutputInputs,
-    Stamp,
-    asset_digests,
-    file_digest,
-    has_same_files,
-    program_digest,
-    read_stamp,
-    software_version,
-    source_files,
-    stamp_path,
-    template_digests,
-    text_digest,
-)
-from meshforge.batch.report.contents import (
-    READ_TIMEOUT,
-    AssetStanding,
-    EarlierExamination,
-    LabelStatus,
-    MeshReader,
-    ReportAsset,
-    ReportStatus,
-    RunFigures,
-    StandingWord,
-    TopItems,
-    read_again,
-    read_job,
-)
-from meshforge.batch.report.page import MOST_PICTURED, REPORT_DEFAULTS, ReportHeader, ReportOptions, write_report
-from meshforge.batch.workers import (
-    EXECUTION_DEFAULTS,
-    IN_PROCESS,
-    TIMEOUT,
-    ExecutionOptions,
-    WorkerFailure,
-    count_processors,
-    memory_share,
-    raise_if_stopped,
-    run_isolated,
-    worker_context,
-)
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from meshforge.common.exports import export_lazily
+
+if TYPE_CHECKING:
+    from meshforge.batch.check import CheckJournal, CheckOutcome, CheckTask, check_asset, check_assets, open_journal
+    from meshforge.batch.corrections import Correction, replay_corrections
+    from meshforge.batch.discovery import OWN_FOLDERS, SETTINGS, STATE, AssetSet, asset_id, expand, find_assets_in
+    from meshforge.batch.edit import apply
+    from meshforge.batch.engine_trial import ENGINES_TO_ASK, examine_file
+    from meshforge.batch.execution import execute
+    from meshforge.batch.inputs import inputs_of
+    from meshforge.batch.jobs import (
+        APPLY_DEFAULTS,
+        ApplyOptions,
+        ApplyTask,
+        AssetJob,
+        load_named_templates,
+        load_templates,
+        make_jobs,
+        plan_run,
+        read_template,
+        template_folders,
+    )
+    from meshforge.batch.lock import hold_lock
+    from meshforge.batch.outcome import (
+        MOST_SHOWN,
+        AssetOutcome,
+        Failed,
+        Held,
+        RuleEffect,
+        RunSummary,
+        Skipped,
+        describe_alarms,
+        status_of,
+        to_json_line,
+    )
+    from meshforge.batch.preparation.decompose import DecompositionResult, decompose_asset
+    from meshforge.batch.preparation.record import (
+        Preparation,
+        Replacement,
+        apply_preparation,
+        find_sources,
+        replay_preparation,
+    )
+    from meshforge.batch.preparation.split import cut_hull, split_hull
+    from meshforge.batch.preparation.storage import (
+        RECORD_FILE,
+        read_preparation,
+        read_prepared,
+        record_digest,
+        remove_preparation,
+        write_preparation,
+    )
+    from meshforge.batch.provenance import (
+        OutputInputs,
+        Stamp,
+        asset_digests,
+        file_digest,
+        has_same_files,
+        program_digest,
+        read_stamp,
+        software_version,
+        source_files,
+        stamp_path,
+        template_digests,
+        text_digest,
+    )
+    from meshforge.batch.report.contents import (
+        READ_TIMEOUT,
+        AssetStanding,
+        EarlierExamination,
+        LabelStatus,
+        MeshReader,
+        ReportAsset,
+        ReportStatus,
+        RunFigures,
+        StandingWord,
+        TopItems,
+        read_again,
+        read_job,
+    )
+    from meshforge.batch.report.page import MOST_PICTURED, REPORT_DEFAULTS, ReportHeader, ReportOptions, write_report
+    from meshforge.batch.workers import (
+        EXECUTION_DEFAULTS,
+        IN_PROCESS,
+        TIMEOUT,
+        ExecutionOptions,
+        WorkerFailure,
+        count_processors,
+        memory_share,
+        raise_if_stopped,
+        run_isolated,
+        server_context,
+        worker_context,
+    )
+else:
+    __getattr__ = export_lazily(__name__)
 
 __all__ = [
     "APPLY_DEFAULTS",
@@ -175,6 +186,7 @@ __all__ = [
     "replay_corrections",
     "replay_preparation",
     "run_isolated",
+    "server_context",
     "software_version",
     "source_files",
     "split_hull",

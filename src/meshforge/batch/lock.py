@@ -20,6 +20,17 @@ class _ThreadLocks(threading.local):
 
 
 _LOCKS = _ThreadLocks()
+_HANDLES: set[int] = set()
+
+
+def _close_handles() -> None:
+    """In a forked process: else it would hold the locks for as long as it lives."""
+    for handle in _HANDLES:
+        os.close(handle)
+
+
+if hasattr(os, "register_at_fork"):
+    os.register_at_fork(after_in_child=_close_handles)
 
 
 @contextmanager
@@ -48,6 +59,7 @@ def hold_lock(path: Path, what: str, wait: float = 10.0, *, again: bool = False)
 def _acquire(path: Path, what: str, wait: float) -> Iterator[None]:
     path.parent.mkdir(parents=True, exist_ok=True)
     handle = os.open(path, os.O_RDWR | os.O_CREAT, 0o666)
+    _HANDLES.add(handle)
     try:
         until = time.monotonic() + wait
         while not _try_lock(handle):
@@ -58,6 +70,7 @@ def _acquire(path: Path, what: str, wait: float) -> Iterator[None]:
             time.sleep(0.02)
         yield
     finally:
+        _HANDLES.discard(handle)
         os.close(handle)  # closing lets go of the lock
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import os
 import signal
 import sys
@@ -12,6 +13,7 @@ from concurrent.futures.process import BrokenProcessPool
 from contextlib import suppress
 from dataclasses import dataclass
 from multiprocessing import get_context
+from multiprocessing.process import current_process
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, TypeVar
 
@@ -35,6 +37,8 @@ _END: Any = object()
 _function: Callable[[Any], Any]
 _memory: int | None = None
 
+_POOL_CYCLE = 0.01  # seconds between two looks of a pool at its workers, all of which its end waits for
+_THREADS = Path("/proc/self/task")
 _USABLE_SHARE = 0.9  # of the machine's memory, for all workers together
 _CGROUP_LIMIT = Path("/sys/fs/cgroup/memory.max")
 _PROCESS_STATUS = Path("/proc/self/status")
@@ -103,8 +107,9 @@ def count_processors() -> int:
 def _run_pool(
     function: Callable[[Item], Result], items: Sequence[Item], workers: int, options: ExecutionOptions
 ) -> Generator[Result | WorkerFailure, None, None]:
-    from pebble import ProcessPool  # lazy: 0.04 s, not needed in this process alone
+    from pebble import CONSTS, ProcessPool  # lazy: 0.04 s, not needed in this process alone
 
+    CONSTS.sleep_unit = _POOL_CYCLE
     progress, stop = options.progress, options.stop
     pool = ProcessPool(
         workers,
@@ -136,6 +141,7 @@ def _begin_worker(
     function: Callable[[Any], Any], memory: int | None, plugins: Mapping[PluginKind, tuple[Plugin, ...]]
 ) -> None:
     """What each worker does first: the function comes once, not with every item, for it may hold much."""
+    gc.freeze()  # what came with a fork is not looked through, so it stays shared
     adopt_plugins(plugins)
     global _function, _memory
     _function, _memory = function, memory
@@ -162,29 +168,30 @@ def _schedule(pool: ProcessPool, item: Any, timeout: float | None) -> Future[Any
 
 
 def worker_context() -> Any:
-    """How workers start: a clean server process that has the imports done forks them, where forking is safe.
+    """How the workers of one pool start: on Linux by a fork of this process while it has one thread, which takes
+    milliseconds, else as those of `server_context`.
+
+    A fork copies the locks that other threads hold, so it is safe where there are none, those of libraries counted.
+    Pebble makes its first workers before it starts its threads; one that replaces them comes from the server.
+    """
+    return _make_context(can_fork=True)
+
+
+def server_context() -> Any:
+    """How the workers of one pool start beside threads: on Linux by a fork of a clean server process.
 
     The server imports what this process has of MeshForge by now, which is about what workers will need: the first
     worker is there in 0.45 s for `batch`, each further one in 0.02 s (0.45 s each when spawned).
-    Forking this process itself would copy locks that its other threads hold.
     """
-    if sys.platform != "linux":
-        return _keep_locks(get_context("spawn"))
-    context = get_context("forkserver")
-    context.set_forkserver_preload(["meshforge.batch.apply", *_list_modules()])
-    return _keep_locks(context)
+    return _make_context(can_fork=False)
 
 
-def _list_modules() -> list[str]:
-    """The modules of MeshForge that this process has imported, but for the command line's, which no worker runs."""
-    return [name for name in sys.modules if name.startswith("meshforge.") and not name.startswith("meshforge.cli")]
-
-
-def _keep_locks(context: Any) -> Any:
-    """The same for one pool, whose locks stay as long as the pool.
+def _make_context(can_fork: bool) -> Any:
+    """The context of one pool, whose locks stay as long as the pool.
 
     Pebble lets go of them before it stops its workers; one that was just starting would complain that they are gone.
     """
+    context: Any = get_context("forkserver" if sys.platform == "linux" else "spawn")
     own: Any = type(context)()
     locks: list[Any] = []
 
@@ -192,8 +199,29 @@ def _keep_locks(context: Any) -> Any:
         locks.append(context.RLock())
         return locks[-1]
 
-    own.RLock = kept_lock
+    def start_process(**options: Any) -> Any:
+        if can_fork and _has_one_thread():
+            return get_context("fork").Process(**options)
+        if sys.platform == "linux":
+            context.set_forkserver_preload(["meshforge.batch.edit", *_list_modules()])
+        return context.Process(**options)
+
+    own.RLock, own.Process = kept_lock, start_process
     return own
+
+
+def _has_one_thread() -> bool:
+    """Whether this process may be forked: it has one thread, and is no worker that runs the script it is for."""
+    try:
+        is_alone = sys.platform == "linux" and len(list(_THREADS.iterdir())) == 1
+    except OSError:  # the system does not tell
+        return False
+    return is_alone and not getattr(current_process(), "_inheriting", False)
+
+
+def _list_modules() -> list[str]:
+    """The modules of MeshForge that this process has imported, but for the command line's, which no worker runs."""
+    return [name for name in sys.modules if name.startswith("meshforge.") and not name.startswith("meshforge.cli")]
 
 
 def _collect(future: Future[Result], timeout: float | None) -> Result | WorkerFailure:

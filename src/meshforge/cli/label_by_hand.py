@@ -13,8 +13,6 @@ from meshforge.cli.terminal import print_json
 from meshforge.common import UsageError, pluralize, quote_path, suggest_among
 from meshforge.labels import label_command
 from meshforge.project import Project
-from meshforge.studio.edits.assets import LabelByName
-from meshforge.studio.history import History
 from meshforge.symbolic import Label, SymbolicMesh
 
 _OWN = ("project", "asset", "hulls", "vocabulary", "json")
@@ -36,6 +34,9 @@ def label_by_hand(
     vocabulary: to be set before, None for that of the project. Raises MeshForgeError, with nothing written, where
     anything of it is wrong.
     """
+    from meshforge.studio.edits.assets import LabelByName  # lazy: 140 classes that labels from elsewhere do not need
+    from meshforge.studio.history import History  # lazy: as LabelByName
+
     if not texts and "=" in asset:
         remedy = f"meshforge label {quote_path(project.folder)} ASSET '{asset}'"
         raise UsageError(f"{asset}: of which asset?", remedy=remedy)

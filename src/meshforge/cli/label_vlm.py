@@ -7,7 +7,7 @@ from collections import defaultdict
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import asdict, dataclass
-from typing import Annotated, Literal
+from typing import TYPE_CHECKING, Annotated, Literal
 
 import typer
 from pydantic import ValidationError
@@ -17,9 +17,11 @@ from meshforge.cli.console import progress
 from meshforge.cli.label_report import LabelPrinter
 from meshforge.cli.terminal import catch_interrupt, print_json, remark
 from meshforge.common import UsageError, first_validation_error, join_names, pluralize
-from meshforge.labels import Usage, VlmForecast, VlmResult
 from meshforge.project import Project
 from meshforge.store import VlmSettings
+
+if TYPE_CHECKING:
+    from meshforge.labels import Usage, VlmForecast, VlmResult
 
 _MAX_NAMES = 8  # names in a row
 

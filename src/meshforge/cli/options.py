@@ -14,13 +14,13 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal, TypeVar, get_type_hin
 import typer
 
 from meshforge.common import UsageError, join_names, plain_path
-from meshforge.formats import Collision, MarkName, load
-from meshforge.geometry import CoacdSettings, DecomposeSettings, VhacdSettings
-from meshforge.symbolic import SymbolicMesh
+from meshforge.formats import Collision, MarkName
 
 if TYPE_CHECKING:
     from meshforge.batch import ExecutionOptions
+    from meshforge.geometry import DecomposeSettings
     from meshforge.project import Project
+    from meshforge.symbolic import SymbolicMesh
 
 Arguments = TypeVar("Arguments")
 
@@ -173,6 +173,8 @@ class EngineMethod(StrEnum):
 
 def parse_engine_settings(method: EngineMethod, given: list[str] | None) -> DecomposeSettings:
     """The settings of an engine with some given as `NAME=VALUE`. Raises UsageError, listing what there is to set."""
+    from meshforge.geometry import CoacdSettings, VhacdSettings  # lazy: most commands decompose nothing
+
     kind = CoacdSettings if method is EngineMethod.COACD else VhacdSettings
     known = {f.name: f for f in fields(kind)}
     values: dict[str, Any] = {}
@@ -219,6 +221,8 @@ def open_asset(asset: Path, labels: Path | None, project: Path | None) -> Symbol
     Raises UsageError for labels beside a project, which has its own.
     """
     if project is None:
+        from meshforge.formats import load  # lazy: most commands take several assets
+
         return load(asset, labels=labels)
     if labels:
         raise UsageError("a project has its own labels", remedy="Leave --labels out, or --project.")

@@ -1,50 +1,59 @@
 """Files: a reader and a writer for each format, and the door to them all."""
 
-from meshforge.formats.base import Collision, Format, Loss, Mass, Output, ReadOptions
-from meshforge.formats.convert import convert, to_mjspec
-from meshforge.formats.decompose import decompose
-from meshforge.formats.engine_names.conventions import EngineName, MarkName
-from meshforge.formats.mesh_reader import read_triangles, split_into_pieces
-from meshforge.formats.meshfile.surface import RawSurface
-from meshforge.formats.mjcf.trial import MujocoTrial, try_in_mujoco
-from meshforge.formats.output_tree import SaveResult, describe_collision, output_path_of, save
-from meshforge.formats.plain.obj_text import format_obj
-from meshforge.formats.plain.parts import MeshPart
-from meshforge.formats.registry import (
-    DESCRIPTION_SUFFIXES,
-    FORMATS,
-    MARKED_FORMATS,
-    MESH_SUFFIXES,
-    NO_GEOMETRY,
-    PLUGIN_FORMATS,
-    SUFFIXES,
-    Source,
-    all_suffixes,
-    format_for,
-    format_of,
-    format_with_names,
-    is_asset,
-    is_description,
-    labels_beside,
-    load,
-    load_many,
-    path_of,
-    plugin_of_suffix,
-    read,
-    resolve_asset_path,
-    to_mesh,
-)
-from meshforge.formats.segmentation.base import (
-    POINTS_SUFFIXES,
-    SEMANTICS_FILE,
-    Segmentation,
-    points_beside,
-    read_class_names,
-    read_semantics,
-)
-from meshforge.formats.segmentation.reader import attach_own_mesh, read_segmentation
-from meshforge.formats.trimesh_meshes import from_trimesh
-from meshforge.formats.visuals import VisualSurfaces
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from meshforge.common.exports import export_lazily
+
+if TYPE_CHECKING:
+    from meshforge.formats.base import Collision, Format, Loss, Mass, Output, ReadOptions
+    from meshforge.formats.convert_asset import convert, to_mjspec
+    from meshforge.formats.decompose_mesh import decompose
+    from meshforge.formats.engine_names.conventions import EngineName, MarkName
+    from meshforge.formats.mesh_reader import read_triangles, split_into_pieces
+    from meshforge.formats.meshfile.surface import RawSurface
+    from meshforge.formats.mjcf.trial import MujocoTrial, try_in_mujoco
+    from meshforge.formats.output_tree import SaveResult, describe_collision, output_path_of, save
+    from meshforge.formats.plain.obj_text import format_obj
+    from meshforge.formats.plain.parts import MeshPart
+    from meshforge.formats.registry import (
+        DESCRIPTION_SUFFIXES,
+        FORMATS,
+        MARKED_FORMATS,
+        MESH_SUFFIXES,
+        NO_GEOMETRY,
+        PLUGIN_FORMATS,
+        SUFFIXES,
+        Source,
+        all_suffixes,
+        format_for,
+        format_of,
+        format_with_names,
+        is_asset,
+        is_description,
+        labels_beside,
+        load,
+        load_many,
+        path_of,
+        plugin_of_suffix,
+        read,
+        resolve_asset_path,
+        to_mesh,
+    )
+    from meshforge.formats.segmentation.base import (
+        POINTS_SUFFIXES,
+        SEMANTICS_FILE,
+        Segmentation,
+        points_beside,
+        read_class_names,
+        read_semantics,
+    )
+    from meshforge.formats.segmentation.reader import attach_own_mesh, read_segmentation
+    from meshforge.formats.trimesh_meshes import from_trimesh
+    from meshforge.formats.visuals import VisualSurfaces
+else:
+    __getattr__ = export_lazily(__name__)
 
 __all__ = [
     "DESCRIPTION_SUFFIXES",

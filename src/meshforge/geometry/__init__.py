@@ -1,45 +1,67 @@
 """Pure shapes: hulls, native primitives, poses, and what can be measured and made of them."""
 
-from meshforge.geometry.arrays import Aabb, Floats, Ints, bounds, freeze_floats, freeze_ints, nearest_on_triangles
-from meshforge.geometry.convex import FLATNESS, convex_hull, measure_extents, principal_extents, spans_volume
-from meshforge.geometry.decomposition.engines import CoacdSettings, DecomposeSettings, EngineControl, VhacdSettings
-from meshforge.geometry.decomposition.run import cache_folder, decompose
-from meshforge.geometry.decomposition.triangles import is_line, is_sheet, sheet_hulls, volume_inside
-from meshforge.geometry.faults import HullFault, describe_fault, find_fault
-from meshforge.geometry.fill import aabb_box, aabb_capsule, aabb_cylinder, aabb_sphere, longest_axis, map_to_box
-from meshforge.geometry.fit import tight_box, tight_capsule, tight_cylinder
-from meshforge.geometry.native import native_capsule, native_cylinder, native_sphere
-from meshforge.geometry.pieces import Piece, split_pieces
-from meshforge.geometry.pose import (
-    Pose,
-    nearest_aligned_rotation,
-    nearest_aligned_rotation_between,
-    rotation_about,
-    rotation_of_quaternion,
-    smallest_rotation,
-    snap_rotation,
-)
-from meshforge.geometry.proximity import close_pairs, distance
-from meshforge.geometry.round_shapes import Capsule, Cylinder, Ellipsoid, Sphere
-from meshforge.geometry.shape import Box, Polytope, Shape, digest, is_same_shape
-from meshforge.geometry.simplify import Enclosure, HullBudget, enclose
-from meshforge.geometry.solids import cut, inertia, overlap_volume, partition, principal_axes, volume_of_union
-from meshforge.geometry.surface import (
-    LEVEL,
-    is_closed,
-    is_convex,
-    is_outward,
-    neighbour_faces,
-    normals_of,
-    planes_of,
-    polygon_sizes,
-    rises_above,
-)
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from meshforge.common.exports import export_lazily
+
+if TYPE_CHECKING:
+    from meshforge.geometry.arrays import (
+        Aabb,
+        Bools,
+        Floats,
+        Ints,
+        bounds,
+        freeze_floats,
+        freeze_ints,
+        nearest_on_triangles,
+        row_distances,
+    )
+    from meshforge.geometry.connectivity import component_roots
+    from meshforge.geometry.convex import FLATNESS, convex_hull, measure_extents, principal_extents, spans_volume
+    from meshforge.geometry.decomposition.engines import CoacdSettings, DecomposeSettings, EngineControl, VhacdSettings
+    from meshforge.geometry.decomposition.run import cache_folder, decompose
+    from meshforge.geometry.decomposition.triangles import is_line, is_sheet, sheet_hulls, volume_inside
+    from meshforge.geometry.faults import HullFault, describe_fault, find_fault
+    from meshforge.geometry.fill import aabb_box, aabb_capsule, aabb_cylinder, aabb_sphere, longest_axis, map_to_box
+    from meshforge.geometry.fit import tight_box, tight_capsule, tight_cylinder
+    from meshforge.geometry.native import native_capsule, native_cylinder, native_sphere
+    from meshforge.geometry.pieces import Piece, split_pieces
+    from meshforge.geometry.pose import (
+        Pose,
+        nearest_aligned_rotation,
+        nearest_aligned_rotation_between,
+        rotation_about,
+        rotation_of_quaternion,
+        smallest_rotation,
+        snap_rotation,
+    )
+    from meshforge.geometry.proximity import close_pairs, distance
+    from meshforge.geometry.round_shapes import Capsule, Cylinder, Ellipsoid, Sphere
+    from meshforge.geometry.shape import Box, Polytope, Shape, digest, is_same_shape
+    from meshforge.geometry.simplify import Enclosure, HullBudget, enclose
+    from meshforge.geometry.solids import cut, inertia, overlap_volume, partition, principal_axes, volume_of_union
+    from meshforge.geometry.surface import (
+        LEVEL,
+        is_closed,
+        is_convex,
+        is_convex_hull,
+        is_outward,
+        neighbour_faces,
+        normals_of,
+        planes_of,
+        polygon_sizes,
+        rises_above,
+    )
+else:
+    __getattr__ = export_lazily(__name__)
 
 __all__ = [
     "FLATNESS",
     "LEVEL",
     "Aabb",
+    "Bools",
     "Box",
     "Capsule",
     "CoacdSettings",
@@ -65,6 +87,7 @@ __all__ = [
     "bounds",
     "cache_folder",
     "close_pairs",
+    "component_roots",
     "convex_hull",
     "cut",
     "decompose",
@@ -78,6 +101,7 @@ __all__ = [
     "inertia",
     "is_closed",
     "is_convex",
+    "is_convex_hull",
     "is_line",
     "is_outward",
     "is_same_shape",
@@ -102,6 +126,7 @@ __all__ = [
     "rises_above",
     "rotation_about",
     "rotation_of_quaternion",
+    "row_distances",
     "sheet_hulls",
     "smallest_rotation",
     "snap_rotation",

@@ -18,7 +18,8 @@ def row_ids(*columns: Floats | Ints) -> tuple[Ints, Ints]:
         new[1:] |= ordered[1:] != ordered[:-1]
     ids = np.empty(len(order), dtype=np.int64)
     ids[order] = np.cumsum(new)
-    return ids, order[np.flatnonzero(new | (np.arange(len(order)) == 0))]
+    new[:1] = True
+    return ids, order[new]
 
 
 def weld(vertices: Floats) -> Ints:
@@ -50,7 +51,7 @@ def components_by_vertices(corners: Ints) -> Ints:
 
 def distinct_faces(corners: Ints, component: Ints) -> Ints:
     """Indices, ascending, of the triangles with three corners; of doubled ones in one component, the first."""
-    proper = np.flatnonzero((corners != np.roll(corners, 1, axis=1)).all(axis=1))
+    proper = np.flatnonzero((corners != corners[:, [2, 0, 1]]).all(axis=1))
     _, first = row_ids(component[proper], *np.sort(corners[proper], axis=1).T)
     return proper[np.sort(first)]
 
@@ -70,7 +71,7 @@ def find_closed_components(corners: Ints, component: Ints) -> Ints:
 
 def edges_of(corners: Ints) -> tuple[Ints, Bools]:
     """The edges (3m, 2) of triangles, lower vertex first, and whether each triangle runs along it that way."""
-    directed = np.concatenate([corners[:, [0, 1]], corners[:, [1, 2]], corners[:, [2, 0]]])
+    directed = np.concatenate([corners[:, :2], corners[:, 1:], corners[:, ::-2]])
     return np.sort(directed, axis=1), directed[:, 0] < directed[:, 1]
 
 
@@ -119,7 +120,8 @@ def find_closed_runs(corners: Ints) -> Ints:
 def is_simple(corners: Ints) -> bool:
     """Whether no edge has more than two triangles."""
     edges, _ = edges_of(corners)
-    return int(np.bincount(row_ids(*edges.T)[0]).max(initial=0)) <= 2
+    keys = np.sort(edges[:, 0] * (int(corners.max(initial=0)) + 1) + edges[:, 1])
+    return not (keys[2:] == keys[:-2]).any()
 
 
 def components_by_edges(points: Floats, corners: Ints, inward: bool) -> Ints:

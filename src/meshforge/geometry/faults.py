@@ -8,7 +8,7 @@ import numpy as np
 
 from meshforge.geometry.convex import spans_volume
 from meshforge.geometry.shape import Polytope, Shape
-from meshforge.geometry.surface import is_closed, is_convex, is_outward
+from meshforge.geometry.surface import is_closed, is_convex, is_convex_hull, is_outward
 
 HullFault = Literal["finite", "solid", "flat", "closed", "volume", "convex", "outward"]
 CONVEXITY = 1e-6
@@ -35,6 +35,8 @@ def _find_fault(shape: Shape, convexity: float) -> HullFault | None:
     if not spans_volume(vertices):
         return "flat"
     is_polytope = isinstance(shape, Polytope)
+    if is_polytope and shape.volume > 0 and is_convex_hull(vertices, shape.faces, convexity):
+        return None  # nearly always, and its planes are made once
     if is_polytope and not is_closed(shape.faces):
         return "closed"
     if shape.volume <= 0:

@@ -9,12 +9,13 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import lru_cache
 from hashlib import blake2b
+from itertools import pairwise
 
 import numpy as np
 
 from meshforge.common import GeometryError
 from meshforge.geometry import connectivity
-from meshforge.geometry.arrays import Bools, Floats, Ints
+from meshforge.geometry.arrays import Bools, Floats, Ints, sort_rows
 from meshforge.geometry.shape import Polytope, volume_and_centroid
 from meshforge.geometry.solidity import LEAST_FILL, SolidityVerdict, judge_solidity
 
@@ -236,13 +237,15 @@ class PieceReader:
 
 def _join_backs(parts: list[PieceFaces]) -> list[PieceFaces]:
     """The parts, the inside-out copy of a hull joined with that hull: both are sides of one double-sided surface."""
+    if len(parts) < 2:
+        return parts
     found: dict[bytes, list[int]] = {}
     out = list(parts)
     for k, part in enumerate(parts):
         shape = part.verdict.shape
         if shape is None:
             continue
-        same = found.setdefault(np.unique(shape.vertices, axis=0).tobytes(), [])
+        same = found.setdefault(sort_rows(shape.vertices).tobytes(), [])
         front = next((j for j in same if out[j].verdict.volume * part.verdict.volume < 0), None)
         if front is None:
             same.append(k)
@@ -261,7 +264,9 @@ def _number_by_group(corners: Ints, group: Ints) -> Ints:
 def _split(component: Ints) -> list[Ints]:
     """The members of each component, ascending, in the order of the component numbers."""
     order = np.argsort(component, kind="stable")
-    return np.split(order, np.flatnonzero(np.diff(component[order])) + 1) if len(order) else []
+    ordered = component[order]
+    ends = [*(np.flatnonzero(ordered[1:] != ordered[:-1]) + 1).tolist(), len(order)]
+    return [order[start:end] for start, end in pairwise([0, *ends])] if len(order) else []
 
 
 def _subdivide(faces: Ints, component: Ints) -> list[Ints]:

@@ -13,7 +13,7 @@ from weakref import WeakKeyDictionary
 
 import numpy as np
 
-from meshforge.geometry.arrays import Aabb, Floats, Ints, cross, freeze_floats, freeze_ints
+from meshforge.geometry.arrays import Aabb, Floats, Ints, cross, freeze_floats, freeze_ints, sort_rows
 from meshforge.geometry.pose import Pose
 
 _BOX_CORNERS = np.array(list(itertools.product((-1.0, 1.0), repeat=3)))
@@ -226,7 +226,7 @@ def digest(shape: Shape) -> str:
 
 
 def _compute_digest(shape: Shape) -> str:
-    rounded = np.unique(shape.vertices.astype(np.float32) + np.float32(0), axis=0)
+    rounded = sort_rows(shape.vertices.astype(np.float32) + np.float32(0))
     return hashlib.blake2b(shape.kind.encode() + rounded.tobytes(), digest_size=8).hexdigest()
 
 

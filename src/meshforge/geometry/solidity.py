@@ -12,6 +12,7 @@ from meshforge.geometry.arrays import Floats, Ints, cross
 from meshforge.geometry.connectivity import component_roots, edges_of, row_ids
 from meshforge.geometry.convex import convex_hull
 from meshforge.geometry.shape import Polytope
+from meshforge.geometry.surface import is_closed
 
 LEAST_FILL = 0.95
 """A piece is a hull when its volume is at least this share of its convex hull's."""
@@ -58,6 +59,9 @@ def _hull_unless_flat(points: Floats) -> Polytope | None:
         hull = convex_hull(points)
     except GeometryError:
         return None
+    x, y, z = hull.aabb.size.tolist()
+    if hull.volume > 2 * _FLAT * size * (x * y + y * z + z * x):  # a convex surface in a box has no more area than it
+        return hull
     return hull if _thickness(hull) > _FLAT * size else None
 
 
@@ -111,6 +115,8 @@ def _judge_fill(points: Floats, corners: Ints, hull: Polytope) -> SolidityVerdic
 
 def _find_rim(corners: Ints) -> tuple[Ints, Ints]:
     """The edges (k, 2) that triangles leave open, as the triangles run along them, and how many times each."""
+    if is_closed(corners):
+        return corners[:0, :2], corners[:0, 0]
     edges, forward = edges_of(corners)
     ids, first = row_ids(*edges.T)
     net = np.zeros(len(first), dtype=np.int64)

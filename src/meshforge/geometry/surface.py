@@ -25,7 +25,19 @@ def is_closed(faces: Ints) -> bool:
     start, end = faces.ravel(), faces[:, [1, 2, 0]].ravel()
     count = int(faces.max()) + 1
     along, against = np.sort(start * count + end), np.sort(end * count + start)
-    return bool((np.diff(along) > 0).all() and np.array_equal(along, against))
+    return bool((along[1:] > along[:-1]).all() and (along == against).all())
+
+
+def is_convex_hull(vertices: Floats, faces: Ints, tolerance: float) -> bool:
+    """Whether faces (m, 3) are closed, all face outwards and are convex: `is_closed`, `is_outward` and `is_convex`."""
+    if not is_closed(faces):
+        return False
+    planes = planes_of(vertices, faces)
+    if not (planes.offsets > 0).all():
+        return False
+    if len(vertices) * len(faces) > _MOST_PAIRS_CHECKED:
+        return is_convex(vertices, faces, tolerance)
+    return not _rises_above_planes(vertices, planes, tolerance * _size(vertices))
 
 
 def is_convex(vertices: Floats, faces: Ints, tolerance: float = 1e-9) -> bool:
@@ -107,7 +119,10 @@ def planes_of(vertices: Floats, faces: Ints) -> Planes:
 
 def rises_above(points: Floats, vertices: Floats, faces: Ints, height: float) -> bool:
     """Whether any of points (n, 3) lies more than `height` [m] above a face plane of a convex surface."""
-    planes = planes_of(vertices, faces)
+    return _rises_above_planes(points, planes_of(vertices, faces), height)
+
+
+def _rises_above_planes(points: Floats, planes: Planes, height: float) -> bool:
     points = points - planes.middle
     limits = planes.offsets + height
     if len(points) * len(limits) > _MOST_PAIRS_AT_ONCE:

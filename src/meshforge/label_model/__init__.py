@@ -1,11 +1,20 @@
 """The one model of what labels are: all that is said of a family weighed into a probability for each hull and label."""
 
-from meshforge.label_model.consensus import EVIDENCE, consensus_weights
-from meshforge.label_model.describe import MeshDescriber, ShapeDescriptor, remember_descriptor
-from meshforge.label_model.odds import LabelBeliefs, LabelOdds, is_human
-from meshforge.label_model.posterior import FamilyModel, FamilyPosterior, infer_labels, model_family
-from meshforge.label_model.sides import correct_upright, find_doubtful_sides
-from meshforge.label_model.table import FamilyTable, Observations, evidence_of, metric_weights, reference_label
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from meshforge.common.exports import export_lazily
+
+if TYPE_CHECKING:
+    from meshforge.label_model.consensus import EVIDENCE, consensus_weights
+    from meshforge.label_model.describe import MeshDescriber, ShapeDescriptor, remember_descriptor
+    from meshforge.label_model.odds import LabelBeliefs, LabelOdds, is_human
+    from meshforge.label_model.posterior import FamilyModel, FamilyPosterior, infer_labels, model_family
+    from meshforge.label_model.sides import correct_upright, find_doubtful_sides
+    from meshforge.label_model.table import FamilyTable, Observations, evidence_of, metric_weights, reference_label
+else:
+    __getattr__ = export_lazily(__name__)
 
 __all__ = [
     "EVIDENCE",

@@ -7,10 +7,8 @@ from dataclasses import dataclass
 from hashlib import blake2b
 
 import numpy as np
-from scipy.spatial import ConvexHull, QhullError
-from scipy.spatial.distance import cdist
 
-from meshforge.geometry import Floats, Ints
+from meshforge.geometry import Floats, Ints, row_distances
 from meshforge.label_model import surroundings
 from meshforge.label_model.surroundings import WholeShape, axes_along, whole_of
 from meshforge.label_model.ties import EQUAL, first_greatest, greatest_first, share_ranks
@@ -77,6 +75,8 @@ def rotation_to_z(up: Floats) -> Floats:
 
 def _flat_sides(mesh: SymbolicMesh) -> Floats:
     """Normals (k, 3) of the flat sides of the convex hull of all hulls, outward, the largest first, then inward."""
+    from scipy.spatial import ConvexHull, QhullError  # lazy: 0.5 s, half of all imports
+
     if not mesh.hulls:
         return np.zeros((0, 3))
     points = np.concatenate([hull.vertices for hull in mesh.hulls])
@@ -202,7 +202,7 @@ def _describe_counts(own: Floats, touching: Floats, volumes: Floats) -> Floats:
     """How many hulls look alike, touch, and are there; the share of the volume, of the largest, and the rank."""
     count = len(own)
     look = own[:, _LOOK_COLUMNS]
-    alike = np.exp(-cdist(look, look, "sqeuclidean") / _ALIKE**2).sum(axis=1) - 1
+    alike = np.exp(-row_distances(look, look, "sqeuclidean") / _ALIKE**2).sum(axis=1) - 1
     shares = np.maximum(volumes, 1e-12 * volumes.max() + 1e-300)
     columns = [
         np.log1p(alike),

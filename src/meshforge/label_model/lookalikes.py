@@ -9,9 +9,8 @@ from dataclasses import dataclass
 
 import numpy as np
 import numpy.typing as npt
-from scipy.spatial.distance import cdist
 
-from meshforge.geometry import Floats, Ints
+from meshforge.geometry import Floats, Ints, row_distances
 from meshforge.label_model.ties import pick_evenly
 
 Bools = npt.NDArray[np.bool_]
@@ -120,7 +119,7 @@ def find_lookalikes(rows: Floats, metric: Floats, owner: Ints, first: Sequence[i
     own, own_apart = np.zeros((len(rows), OF_OWN), dtype=np.int32), np.full((len(rows), OF_OWN), np.inf)
     for start, end in zip(starts.tolist(), ends.tolist(), strict=True):
         weighted = rows[start:end] * metric
-        gaps = cdist(weighted, weighted, "cityblock")
+        gaps = row_distances(weighted, weighted, "cityblock")
         np.fill_diagonal(gaps, np.inf)
         hulls = np.broadcast_to(np.arange(start, end, dtype=np.int32), gaps.shape)
         own[start:end], own_apart[start:end] = take_nearest(hulls, gaps, OF_OWN)
@@ -141,7 +140,7 @@ def _compare(rows: Floats, owner: Ints, meshes: Sequence[tuple[int, Places, Floa
     count = len(rows)
     hulls, apart = np.zeros((count, len(meshes), PER_MESH), np.int32), np.full((count, len(meshes), PER_MESH), np.inf)
     for place, (mesh, places, theirs) in enumerate(meshes):
-        gaps = cdist(rows, theirs, "cityblock")
+        gaps = row_distances(rows, theirs, "cityblock")
         gaps[owner == mesh] = np.inf
         hulls[:, place], apart[:, place] = take_nearest(np.broadcast_to(places, gaps.shape), gaps, PER_MESH)
     return hulls, apart

@@ -8,9 +8,8 @@ from dataclasses import dataclass
 from functools import cache, cached_property, lru_cache
 
 import numpy as np
-from scipy.spatial.distance import cdist
 
-from meshforge.geometry import Floats, Ints
+from meshforge.geometry import Floats, Ints, row_distances
 from meshforge.label_model.consensus import infer_chances
 from meshforge.label_model.describe import SHAPE_COLUMNS, MeshDescriber, describe_mesh, digest_mesh
 from meshforge.label_model.sides import choose_sides, find_doubtful_sides
@@ -130,11 +129,13 @@ class FamilyPosterior:
         some, doubt = rows[compared], 1 + _AT_LEAST - self.chances[compared].max(axis=1, initial=0.0)
         if not len(open_meshes):
             return []
-        near = max(float(np.median(cdist(some, some))) * _NEAR, 1e-9)
+        near = max(float(np.median(row_distances(some, some, "euclidean"))) * _NEAR, 1e-9)
 
         def alike(hulls: slice | Ints) -> Floats:
             """How much the best of some hulls is like each that is compared."""
-            found: Floats = np.exp(-((cdist(rows[hulls], some) / near) ** 2) / 2).max(axis=0, initial=0.0)
+            found: Floats = np.exp(-((row_distances(rows[hulls], some, "euclidean") / near) ** 2) / 2).max(
+                axis=0, initial=0.0
+            )
             return found
 
         covered = alike(pick_evenly(np.flatnonzero(seen.given), _HULLS))

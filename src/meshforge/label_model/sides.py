@@ -5,9 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Sequence
 
 import numpy as np
-from scipy.spatial.distance import cdist
 
-from meshforge.geometry import Floats
+from meshforge.geometry import Floats, row_distances
 from meshforge.label_model.describe import SHAPE_COLUMNS
 from meshforge.label_model.table import NO_LABEL, FamilyTable, Observations
 from meshforge.label_model.ties import EQUAL, greatest_first, pick_evenly
@@ -45,7 +44,7 @@ class UprightReference:
         theirs = table.rows[others, columns] * metric
         same = (own[:, None] == self._codes[others][None]) | (own == NO_LABEL)[:, None]
         same |= ~same.any(axis=1, keepdims=True)
-        gaps = (cdist(rows * metric, theirs, "cityblock") for rows in sides)
+        gaps = (row_distances(rows * metric, theirs, "cityblock") for rows in sides)
         return [float(np.where(same, one, np.inf).min(axis=1).mean()) for one in gaps]
 
 

@@ -1,20 +1,29 @@
 """The labels of a project: from people, names, files, a few labelled assets or a model; a person's label is never
 overwritten by a machine."""
 
-from meshforge.labels.by_hand import label_command
-from meshforge.labels.from_files.points import PointsOptions
-from meshforge.labels.from_files.read import LabelFileOptions, label_file_beside
-from meshforge.labels.from_files.segments import PointAlignment
-from meshforge.labels.label_by_consensus import ConsensusResult, LabelChange, SourceRestoration
-from meshforge.labels.label_by_plugin import LABELERS, AssetLabeler, check_labeler
-from meshforge.labels.label_by_propagation import PropagationResult
-from meshforge.labels.label_store import LabelStore
-from meshforge.labels.merge import LabelOutcome, label_new_hulls
-from meshforge.labels.offers import OfferCache
-from meshforge.labels.summary import Proposal, Proposals, SourceTally, Tally
-from meshforge.labels.vlm.endpoint import endpoint_of
-from meshforge.labels.vlm.label_by_vlm import VlmForecast, VlmResult, check_vlm_settings
-from meshforge.labels.vlm.limits import Usage
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from meshforge.common.exports import export_lazily
+
+if TYPE_CHECKING:
+    from meshforge.labels.by_hand import label_command
+    from meshforge.labels.from_files.points import PointsOptions
+    from meshforge.labels.from_files.read import LabelFileOptions, label_file_beside
+    from meshforge.labels.from_files.segments import PointAlignment
+    from meshforge.labels.label_by_consensus import ConsensusResult, LabelChange, SourceRestoration
+    from meshforge.labels.label_by_plugin import LABELERS, AssetLabeler, check_labeler
+    from meshforge.labels.label_by_propagation import PropagationResult
+    from meshforge.labels.label_store import LabelStore
+    from meshforge.labels.merge import LabelOutcome, label_new_hulls
+    from meshforge.labels.offers import OfferCache
+    from meshforge.labels.summary import Proposal, Proposals, SourceTally, Tally
+    from meshforge.labels.vlm.endpoint import endpoint_of
+    from meshforge.labels.vlm.label_by_vlm import VlmForecast, VlmResult, check_vlm_settings
+    from meshforge.labels.vlm.limits import Usage
+else:
+    __getattr__ = export_lazily(__name__)
 
 __all__ = [
     "LABELERS",

@@ -8,19 +8,14 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from meshforge.batch import IN_PROCESS, ExecutionOptions
-from meshforge.labels import label_by_consensus, label_by_propagation
+from meshforge.labels import from_files, label_by_consensus, label_by_propagation, names, vlm
 from meshforge.labels.family_comparison import Stage, WriteBlock, ignore_stage
-from meshforge.labels.from_files.label_by_files import label_from_files, propose_from_files
-from meshforge.labels.from_files.read import LabelFileOptions
 from meshforge.labels.label_by_consensus import ConsensusResult, SourceRestoration
 from meshforge.labels.label_by_plugin import label_by_plugin, propose_by_plugin
 from meshforge.labels.label_by_propagation import PropagationResult
 from meshforge.labels.merge import LabelOutcome, OutcomeCallback, ignore_report, set_labels
-from meshforge.labels.names.label_by_names import PatternPairs, label_from_names, propose_from_names
 from meshforge.labels.offers import LabelOffers, OfferCache
 from meshforge.labels.summary import Proposals, Tally, describe_label_plan, tally, write_contact_sheets
-from meshforge.labels.vlm.label_by_vlm import VlmForecast, VlmResult, forecast_vlm, label_with_vlm
-from meshforge.labels.vlm.limits import Usage
 from meshforge.store import Store, VlmSettings
 from meshforge.symbolic import LabelSource
 
@@ -41,7 +36,7 @@ class LabelStore(Store):
     def label_from_files(
         self,
         source: Path | None = None,
-        options: LabelFileOptions | None = None,
+        options: from_files.LabelFileOptions | None = None,
         *,
         execution: ExecutionOptions = IN_PROCESS,
         report: OutcomeCallback = ignore_report,
@@ -54,18 +49,20 @@ class LabelStore(Store):
         Raises ProjectError: no file at all; UsageError: a wrong pattern, or one file for several assets; AssetError: a
         file that cannot be read while a vocabulary is looked for.
         """
-        return label_from_files(self, source, options or LabelFileOptions(), execution, report)
+        return from_files.label_from_files(self, source, options or from_files.LabelFileOptions(), execution, report)
 
     def propose_from_files(
         self,
         source: Path | None = None,
-        options: LabelFileOptions | None = None,
+        options: from_files.LabelFileOptions | None = None,
         vocabulary: Sequence[str] | None = None,
         *,
         execution: ExecutionOptions = IN_PROCESS,
     ) -> Proposals:
         """What `label_from_files` would take, with nothing written; vocabulary: one to try instead."""
-        return propose_from_files(self, source, options or LabelFileOptions(), vocabulary, execution)
+        return from_files.propose_from_files(
+            self, source, options or from_files.LabelFileOptions(), vocabulary, execution
+        )
 
     def label_offers(self) -> LabelOffers:
         """What `label_from_files` and `label_from_names` would give. To ask often, use an `OfferCache`."""
@@ -73,7 +70,7 @@ class LabelStore(Store):
 
     def label_from_names(
         self,
-        meanings: PatternPairs = (),
+        meanings: names.PatternPairs = (),
         *,
         execution: ExecutionOptions = IN_PROCESS,
         report: OutcomeCallback = ignore_report,
@@ -84,17 +81,17 @@ class LabelStore(Store):
         words that are nearly those. report: called with the outcome of each asset, in their order.
         Raises ProjectError: no vocabulary; UsageError: a wrong pattern.
         """
-        return label_from_names(self, meanings, execution, report)
+        return names.label_from_names(self, meanings, execution, report)
 
     def propose_from_names(
         self,
-        meanings: PatternPairs = (),
+        meanings: names.PatternPairs = (),
         vocabulary: Sequence[str] | None = None,
         *,
         execution: ExecutionOptions = IN_PROCESS,
     ) -> Proposals:
         """What `label_from_names` would take, with nothing written; vocabulary: one to try instead."""
-        return propose_from_names(self, meanings, vocabulary, execution)
+        return names.propose_from_names(self, meanings, vocabulary, execution)
 
     def plan_labels(self) -> str:
         """A sentence on how many assets there are of what, and how many have labels."""
@@ -201,11 +198,11 @@ class LabelStore(Store):
         self,
         settings: VlmSettings | None = None,
         *,
-        progress: Callable[[Usage], None] | None = None,
+        progress: Callable[[vlm.Usage], None] | None = None,
         stop: Callable[[], bool] | None = None,
         write_block: Callable[[], AbstractContextManager[object]] | None = None,
         execution: ExecutionOptions = IN_PROCESS,
-    ) -> VlmResult:
+    ) -> vlm.VlmResult:
         """Ask a vision-language model for labels; labels of people and files stay.
 
         settings: those of the project when None. progress: called for each asset, with what was spent so far; stop:
@@ -213,7 +210,7 @@ class LabelStore(Store):
         an asset as soon as its answers are there; execution: how pictures are drawn. Answers are kept, so that none is
         paid for twice. Raises MeshForgeError where nothing could be asked at all.
         """
-        return label_with_vlm(self, settings or self.settings.vlm, progress, stop, write_block, execution)
+        return vlm.label_with_vlm(self, settings or self.settings.vlm, progress, stop, write_block, execution)
 
     def forecast_vlm(
         self,
@@ -223,6 +220,6 @@ class LabelStore(Store):
         stop: Callable[[], bool] | None = None,
         vocabulary: Sequence[str] | None = None,
         execution: ExecutionOptions = IN_PROCESS,
-    ) -> VlmForecast:
+    ) -> vlm.VlmForecast:
         """What `label_with_vlm` would send and what that costs, with nothing sent; vocabulary: one to try instead."""
-        return forecast_vlm(self, settings or self.settings.vlm, progress, stop, vocabulary, execution)
+        return vlm.forecast_vlm(self, settings or self.settings.vlm, progress, stop, vocabulary, execution)

@@ -1,56 +1,65 @@
 """The language of programs: extractors, actions, orientation; parsing, printing, evaluating and running them."""
 
-from meshforge.language.actions.base import (
-    AXES,
-    PRIMITIVES,
-    Action,
-    ArgumentType,
-    FactorArgument,
-    FileArgument,
-    FlagArgument,
-    PrimitiveOrFileArgument,
-    WordArgument,
-)
-from meshforge.language.actions.basic import Add, Delete, Each, Merge, Replace, Scale
-from meshforge.language.actions.edit import GroupEdit, HullGroup, NewShape, Template
-from meshforge.language.actions.registry import ACTIONS, make_action, plugin_of
-from meshforge.language.apply import (
-    ActionResult,
-    RuleTrace,
-    apply_action,
-    apply_rule,
-    from_canonical_frame,
-    to_canonical_frame,
-)
-from meshforge.language.labels import check_declared, show_label
-from meshforge.language.orient import find_rotation, orient_mesh
-from meshforge.language.parse import parse_action, parse_extractor, parse_orient
-from meshforge.language.print import Comments, Rule, explain, show
-from meshforge.language.program import HeaderComments, Program, RunResult, rename_in_program
-from meshforge.language.syntax import (
-    EXTREMITY,
-    SLACK,
-    All,
-    Attach,
-    BaseExtractor,
-    Diff,
-    Extractor,
-    Geo,
-    Intersect,
-    Is,
-    LandmarkPair,
-    Orient,
-    Union,
-    attach_mask,
-    geo_mask,
-    labels_of,
-    reference_length,
-    rename_in_orient,
-    select,
-    select_mask,
-    size_of,
-)
-from meshforge.language.words import DIRECTIONS, OPERATORS, Direction
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from meshforge.common.exports import export_lazily
+
+if TYPE_CHECKING:
+    from meshforge.language.actions.base import (
+        AXES,
+        PRIMITIVES,
+        Action,
+        ArgumentType,
+        FactorArgument,
+        FileArgument,
+        FlagArgument,
+        PrimitiveOrFileArgument,
+        WordArgument,
+    )
+    from meshforge.language.actions.basic import Add, Delete, Each, Merge, Replace, Scale
+    from meshforge.language.actions.edit import GroupEdit, HullGroup, NewShape, Template
+    from meshforge.language.actions.registry import ACTIONS, make_action, plugin_of
+    from meshforge.language.apply import (
+        ActionResult,
+        RuleTrace,
+        apply_action,
+        apply_rule,
+        from_canonical_frame,
+        to_canonical_frame,
+    )
+    from meshforge.language.labels import check_declared, show_label
+    from meshforge.language.orient import find_rotation, orient_mesh
+    from meshforge.language.parse import parse_action, parse_extractor, parse_orient
+    from meshforge.language.print import Comments, Rule, explain, show
+    from meshforge.language.program import HeaderComments, Program, RunResult, rename_in_program
+    from meshforge.language.syntax import (
+        EXTREMITY,
+        SLACK,
+        All,
+        Attach,
+        BaseExtractor,
+        Diff,
+        Extractor,
+        Geo,
+        Intersect,
+        Is,
+        LandmarkPair,
+        Orient,
+        Union,
+        attach_mask,
+        geo_mask,
+        labels_of,
+        reference_length,
+        rename_in_orient,
+        select,
+        select_mask,
+        size_of,
+    )
+    from meshforge.language.words import DIRECTIONS, OPERATORS, Direction
+else:
+    __getattr__ = export_lazily(__name__)
 
 __all__ = [
     "ACTIONS",

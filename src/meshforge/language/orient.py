@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from math import hypot
 
 import numpy as np
 
@@ -18,7 +19,9 @@ _PARALLEL = 1e-6  # sine of the angle below which two pairs count as giving one 
 
 SQUARE_ENOUGH = 1.05
 """The frame as it came is kept when its rectangle is at most this many times the smallest."""
+_EIGHT_WAYS = np.array([(1, 0), (1, 1), (0, 1), (-1, 1), (-1, 0), (-1, -1), (0, -1), (1, -1)], dtype=np.float64)
 _EQUAL = 1e-9  # areas and angles that differ by less are equal
+_ROUNDING = 1e-12  # of the size, by which points on one side of a hull are beside it
 
 
 def orient_mesh(mesh: SymbolicMesh, orient: Orient | None) -> tuple[SymbolicMesh, Pose]:
@@ -114,9 +117,7 @@ def square_up_angle(footprint: Floats) -> float:
     Of the four quarter turns that do, it is the one nearest to the incoming frame (of two, the positive one).
     A smallest rectangle has a side along an edge of the convex hull, so the edges are all that is tried.
     """
-    from scipy.spatial import ConvexHull  # lazy: slow to import, only a single landmark pair needs it
-
-    outline = footprint[ConvexHull(footprint).vertices]
+    outline = _find_outline(footprint)
     edges = np.roll(outline, -1, axis=0) - outline
     turns = _fold_angles(-np.arctan2(edges[:, 1], edges[:, 0]))
     areas = np.array([_rectangle_area(outline, turn) for turn in turns])
@@ -126,6 +127,40 @@ def square_up_angle(footprint: Floats) -> float:
     tied = [float(turn) for turn in turns[areas <= smallest * (1 + _EQUAL)]]
     nearest = min(abs(turn) for turn in tied)
     return max(turn for turn in tied if abs(turn) <= nearest + _EQUAL)
+
+
+def _find_outline(points: Floats) -> Floats:
+    """The corners (m, 2) of the convex hull of points (n, 2), counterclockwise (Andrew's monotone chain).
+
+    scipy would take half a second to import.
+    """
+    least = _ROUNDING * float(np.ptp(points, axis=0).max())  # that a corner sticks out
+    places: list[tuple[float, float]] = sorted(set(map(tuple, _drop_inner(points).tolist())))
+    return np.array(_turn_left(places, least)[:-1] + _turn_left(places[::-1], least)[:-1])
+
+
+def _drop_inner(points: Floats) -> Floats:
+    """Points (n, 2) without most of those that are no corners of their hull: what lies within the farthest eight."""
+    farthest = points[(points @ _EIGHT_WAYS.T).argmax(axis=0)]
+    sides = np.roll(farthest, -1, axis=0) - farthest
+    farthest, sides = farthest[sides.any(axis=1)], sides[sides.any(axis=1)]
+    away = points[:, None] - farthest
+    within = ((sides[:, 0] * away[..., 1] - sides[:, 1] * away[..., 0]) > 0).all(axis=1)
+    outer: Floats = points[~within]
+    return outer
+
+
+def _turn_left(places: Sequence[tuple[float, float]], least: float) -> list[tuple[float, float]]:
+    """Those of places in order from which each way on turns left, by more than `least` [m] beside the way."""
+    found: list[tuple[float, float]] = []
+    for x, y in places:
+        while len(found) > 1:
+            (ax, ay), (bx, by) = found[-2:]
+            if (bx - ax) * (y - ay) - (by - ay) * (x - ax) > least * hypot(x - ax, y - ay):
+                break
+            found.pop()
+        found.append((x, y))
+    return found
 
 
 def _fold_angles(angles: Floats) -> Floats:

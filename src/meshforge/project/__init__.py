@@ -1,19 +1,28 @@
 """What is done with a project folder: demonstrate, learn, ask, review, apply, and how far everything is."""
 
-from meshforge.project.alarms import measure_results
-from meshforge.project.learn import (
-    FamilyMeshes,
-    ProgramState,
-    sees_whole_family,
-    select_assets,
-    suggest_first_demonstration,
-)
-from meshforge.project.prepare import PreparationResult
-from meshforge.project.project import Project
-from meshforge.project.review import ProjectReview
-from meshforge.project.run import make_correction, output_digest, run_with_corrections
-from meshforge.project.sign_offs import AssessmentBasis, digest_lesson, keep_assessment
-from meshforge.project.status import AssetStatus, Status
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from meshforge.common.exports import export_lazily
+
+if TYPE_CHECKING:
+    from meshforge.project.alarms import measure_results
+    from meshforge.project.learn import (
+        FamilyMeshes,
+        ProgramState,
+        sees_whole_family,
+        select_assets,
+        suggest_first_demonstration,
+    )
+    from meshforge.project.prepare import PreparationResult
+    from meshforge.project.project import Project
+    from meshforge.project.review import ProjectReview
+    from meshforge.project.run import make_correction, output_digest, run_with_corrections
+    from meshforge.project.sign_offs import AssessmentBasis, digest_lesson, keep_assessment
+    from meshforge.project.status import AssetStatus, Status
+else:
+    __getattr__ = export_lazily(__name__)
 
 __all__ = [
     "AssessmentBasis",

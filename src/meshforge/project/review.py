@@ -8,13 +8,13 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 
+from meshforge import batch
 from meshforge.batch import (
     EXECUTION_DEFAULTS,
     IN_PROCESS,
     ExecutionOptions,
     Failed,
     OutputInputs,
-    apply,
     program_digest,
     text_digest,
 )
@@ -192,7 +192,7 @@ def _judge(store: Store, asset: str, said: str) -> None:
 def _make_output(store: Store, asset: str) -> None:
     """Make the output that a verdict is about, where it is not there as it would be now."""
     program, jobs, templates = run.build_work(store, {asset})
-    for outcome in apply(program, jobs, store.layout.edited, templates=templates, execution=IN_PROCESS):
+    for outcome in batch.apply(program, jobs, store.layout.edited, templates=templates, execution=IN_PROCESS):
         if isinstance(outcome, Failed):
             raise ProjectError(f"{asset} cannot be edited: {outcome.error}", where=str(store.folder))
 

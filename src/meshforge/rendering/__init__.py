@@ -1,25 +1,11 @@
 """Pictures of symbolic meshes for labelling, reports, thumbnails and terminals: rays and arithmetic, no display
 needed."""
 
-from meshforge.rendering.camera import VIEWS, Up, View
-from meshforge.rendering.canvas import (
-    check_picture_path,
-    encode_png,
-    encode_webp,
-    make_contact_sheet,
-    write_picture,
-    write_png,
-)
-from meshforge.rendering.colors import (
-    DIFFERENCE_COLORS,
-    SELECTED,
-    UNLABELLED,
-    UNSURE,
-    ColorBy,
-    color_hulls,
-    label_color,
-    label_colors,
-)
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from meshforge.common.exports import export_lazily
 from meshforge.rendering.compare import (
     compare,
     draw_before_after,
@@ -28,11 +14,34 @@ from meshforge.rendering.compare import (
     draw_heat_map,
     draw_volumes,
 )
-from meshforge.rendering.id_buffer import count_visible_pixels, render_id_buffer, render_thumbnail
-from meshforge.rendering.labeling.picture import LabelingPicture
-from meshforge.rendering.labeling.series import draw_labeling_pictures, hull_numbers
-from meshforge.rendering.picture import render, up_axis
-from meshforge.rendering.scene import RenderMesh, to_render_mesh
+
+if TYPE_CHECKING:
+    from meshforge.rendering.camera import VIEWS, Up, View
+    from meshforge.rendering.canvas import (
+        check_picture_path,
+        encode_png,
+        encode_webp,
+        make_contact_sheet,
+        write_picture,
+        write_png,
+    )
+    from meshforge.rendering.colors import (
+        DIFFERENCE_COLORS,
+        SELECTED,
+        UNLABELLED,
+        UNSURE,
+        ColorBy,
+        color_hulls,
+        label_color,
+        label_colors,
+    )
+    from meshforge.rendering.id_buffer import count_visible_pixels, render_id_buffer, render_thumbnail
+    from meshforge.rendering.labeling.picture import LabelingPicture
+    from meshforge.rendering.labeling.series import draw_labeling_pictures, hull_numbers
+    from meshforge.rendering.picture import render, up_axis
+    from meshforge.rendering.scene import RenderMesh, to_render_mesh
+else:
+    __getattr__ = export_lazily(__name__)
 
 __all__ = [
     "DIFFERENCE_COLORS",

@@ -9,6 +9,7 @@ import numpy as np
 from meshforge.geometry import Floats, Ints
 from meshforge.rendering.camera import Camera, Floats32
 from meshforge.rendering.colors import to_linear
+from meshforge.rendering.filters import blur, sample
 from meshforge.rendering.raycast import RayHits, ViewFrame, neighbour_slices
 from meshforge.rendering.scene import RayScene
 
@@ -142,7 +143,6 @@ def _interpolation_taps(places: Ints, count: int) -> list[tuple[Ints, Floats32]]
 def compute_ground_shadow(scene: RayScene, frame: ViewFrame, camera: Camera) -> Floats32:
     """How much of the sky is hidden from the ground behind each pixel (h, w), in 0..1; 0 where there is no ground."""
     from PIL import Image  # lazy: 0.01 s, only pictures need it
-    from scipy.ndimage import map_coordinates  # lazy: 0.3 s, only pictures need it
 
     width, height = camera.size
     if camera.axes[2] @ frame.upright < 0.05 or len(scene.corners) == 0:
@@ -152,7 +152,7 @@ def compute_ground_shadow(scene: RayScene, frame: ViewFrame, camera: Camera) -> 
         np.mgrid[0 : -(-height // _SHADOW_STEP), 0 : -(-width // _SHADOW_STEP)] * _SHADOW_STEP + (_SHADOW_STEP - 1) / 2
     )
     places = (_ground_points(frame, camera, rows.ravel(), columns.ravel())[:, frame.ground_axes] - low) / cell - 0.5
-    seen = map_coordinates(shadow, places.T, order=1).reshape(rows.shape)
+    seen = sample(shadow, places).reshape(rows.shape)
     box = (0, 0, width / _SHADOW_STEP, height / _SHADOW_STEP)
     large = np.asarray(Image.fromarray(seen).resize(camera.size, Image.Resampling.BICUBIC, box=box))
     return large.clip(0, 1) * _fade(height)[:, None] * _fade(width)
@@ -175,8 +175,6 @@ def _ground_points(frame: ViewFrame, camera: Camera, rows: Floats, columns: Floa
 
 def _shadow_from_above(scene: RayScene, frame: ViewFrame) -> tuple[Floats32, Floats, float]:
     """The shadow as seen from above (a, b), the lower corner (2,) of that picture, and the side of a cell."""
-    from scipy.ndimage import gaussian_filter  # lazy: 0.3 s, only pictures need it
-
     corners = scene.corners.reshape(-1, 3)[:, frame.ground_axes]
     low, high = corners.min(axis=0) - GROUND_REACH, corners.max(axis=0) + GROUND_REACH
     cell = float((high - low).max()) / _SHADOW_CELLS
@@ -185,5 +183,4 @@ def _shadow_from_above(scene: RayScene, frame: ViewFrame) -> tuple[Floats32, Flo
     points = np.zeros((first.size, 3)) + frame.upright * frame.ground_height
     points[:, frame.ground_axes] = low + (np.column_stack([first.ravel(), second.ravel()]) + 0.5) * cell
     free = measure_ground_sky(scene, points, frame.upright, dither_turns(first.ravel(), second.ravel()))
-    softened: Any = gaussian_filter((1 - free).reshape(first.shape), _SOFTNESS)
-    return softened, low, cell
+    return blur((1 - free).reshape(first.shape), _SOFTNESS), low, cell

@@ -11,6 +11,7 @@ import numpy as np
 
 from meshforge.geometry import Aabb, Floats, Ints
 from meshforge.rendering.camera import Camera, Up
+from meshforge.rendering.filters import keep_reached
 from meshforge.rendering.scene import RayScene, RenderMesh, build_scene, prepare_for_rays, window_rays
 
 _BORDER = 8  # pixels about what can be seen, so that its outline has room
@@ -202,8 +203,6 @@ def _find_depths(scene: RayScene, camera: Camera, seen: Ints, x: slice, y: slice
 
 def _find_steps(seen: Ints, item: Ints, depth: Floats) -> Any:
     """Which rays (h, w) go much farther or less far than the one before them, and not as part of a slope."""
-    from scipy.ndimage import label  # lazy: 0.3 s, only pictures need it
-
     low, high = np.zeros(seen.shape, bool), np.zeros(seen.shape, bool)
     for axis in (0, 1):
         here, there = neighbour_slices(axis)
@@ -214,10 +213,7 @@ def _find_steps(seen: Ints, item: Ints, depth: Floats) -> Any:
         same = (item[here] == item[there]) & (seen[here] >= 0)
         low[there] |= same & (rise > 2.5 * slope + _LOW)
         high[there] |= same & (rise > 2.5 * slope + _STEP)
-    parts, count = label(low, np.ones((3, 3)))
-    kept = np.zeros(count + 1, bool)
-    kept[parts[high]] = True
-    return kept[parts] & low
+    return keep_reached(low, high)
 
 
 def _find_edges(hits: RayHits, camera: Camera, about: Any) -> Any:

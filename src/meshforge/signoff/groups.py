@@ -8,8 +8,8 @@ from dataclasses import dataclass
 from math import prod
 
 import numpy as np
-from scipy.spatial.distance import cdist
 
+from meshforge.geometry import row_distances
 from meshforge.signoff.family import FamilyTrial, flip_shares
 from meshforge.signoff.prices import price_group
 from meshforge.signoff.question import HullPlace
@@ -53,7 +53,7 @@ def find_groups(family: FamilyTrial, open_assets: Sequence[int]) -> Iterator[Loo
     rows = family.posterior.table.rows * family.posterior.table.metric
     for label, some in sorted(by_label.items()):
         for seed in some[: max(1, _SEEDS // len(by_label))]:
-            apart = cdist(rows[[one.row for one in some]], rows[[seed.row]], "cityblock")[:, 0]
+            apart = row_distances(rows[[one.row for one in some]], rows[[seed.row]], "cityblock")[:, 0]
             alike = [one for one, gap in zip(some, apart, strict=True) if gap <= _ALIKE]
             yield _best_of(family, label, [seed, *(one for one in alike if one is not seed)])
 

@@ -1,43 +1,52 @@
 """The project folder on disk: its layout, its settings, every file of it read and written, and the lock. It knows no
 use case."""
 
-from meshforge.store.feedback import (
-    AnswerLine,
-    AnswersFile,
-    ConfirmationLine,
-    LabelBefore,
-    RepairLine,
-    Review,
-    RuleSelection,
-    Verdict,
-    repair_id,
-)
-from meshforge.store.layout import json_text, read_json, write_json
-from meshforge.store.meshes import AssetFacts, AssetFiles, geometry_digest, hull_digests, iterate_survey, survey
-from meshforge.store.program import (
-    CorrectionsFile,
-    DemonstrationFile,
-    ProgramRecord,
-    StepLine,
-    action_text,
-    action_text_without_each,
-    parse_action_text,
-)
-from meshforge.store.settings import (
-    Settings,
-    VlmSettings,
-    add_assets,
-    create_folder,
-    edit_settings,
-    find_assets,
-    orientation,
-    orientation_text,
-    read_settings,
-    set_value,
-    toml_value,
-)
-from meshforge.store.sign_off import AssessmentFile, ConfidenceLine, SignOff, SignOffFile, find_changes
-from meshforge.store.store import Store
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from meshforge.common.exports import export_lazily
+
+if TYPE_CHECKING:
+    from meshforge.store.feedback import (
+        AnswerLine,
+        AnswersFile,
+        ConfirmationLine,
+        LabelBefore,
+        RepairLine,
+        Review,
+        RuleSelection,
+        Verdict,
+        repair_id,
+    )
+    from meshforge.store.layout import json_text, read_json, write_json
+    from meshforge.store.meshes import AssetFacts, AssetFiles, geometry_digest, hull_digests, iterate_survey, survey
+    from meshforge.store.program import (
+        CorrectionsFile,
+        DemonstrationFile,
+        ProgramRecord,
+        StepLine,
+        action_text,
+        action_text_without_each,
+        parse_action_text,
+    )
+    from meshforge.store.settings import (
+        Settings,
+        VlmSettings,
+        add_assets,
+        create_folder,
+        edit_settings,
+        find_assets,
+        orientation,
+        orientation_text,
+        read_settings,
+        set_value,
+        toml_value,
+    )
+    from meshforge.store.sign_off import AssessmentFile, ConfidenceLine, SignOff, SignOffFile, find_changes
+    from meshforge.store.store import Store
+else:
+    __getattr__ = export_lazily(__name__)
 
 __all__ = [
     "AnswerLine",

@@ -10,7 +10,7 @@ from pathlib import Path
 from threading import Lock
 from typing import TYPE_CHECKING, ParamSpec, TypeVar
 
-from meshforge.batch import AssetSet, count_processors, read_prepared, record_digest, source_files, worker_context
+from meshforge.batch import AssetSet, count_processors, read_prepared, record_digest, server_context, source_files
 from meshforge.common import FileStates, MeshForgeError, file_states
 from meshforge.project import Project
 from meshforge.symbolic import Asset, SymbolicMesh
@@ -46,7 +46,7 @@ class Workers:
         with self._lock:
             if self._closed:
                 raise MeshForgeError("the studio is being closed")
-            self._pool = self._pool or ProcessPool(max_workers=self.count, context=worker_context())
+            self._pool = self._pool or ProcessPool(max_workers=self.count, context=server_context())
             future: Future[Result] = self._pool.schedule(function, args=args, kwargs=kwargs, timeout=self._timeout)
         return future
 

@@ -12,8 +12,9 @@ from typing import Any
 
 import numpy as np
 
+from meshforge import geometry
 from meshforge.common import HullNotFoundError, MeshForgeError, pluralize, suggest_name
-from meshforge.geometry import Aabb, Floats, Shape, bounds, close_pairs
+from meshforge.geometry import Aabb, Floats, Shape, bounds
 from meshforge.symbolic.asset import Asset, Geom
 from meshforge.symbolic.hull import Hull, Label
 from meshforge.symbolic.trimesh_export import make_scene
@@ -244,13 +245,13 @@ def contact_graph(
     pairs of two kept shapes are taken over, all others are measured.
     """
     if known is None or not kept:
-        return close_pairs(shapes, reach)
+        return geometry.close_pairs(shapes, reach)  # by its package: coal is imported where contacts are asked for
     back = {old: new for new, old in kept.items()}
     found = {
         (min(back[i], back[j]), max(back[i], back[j])): gap for (i, j), gap in known.items() if i in back and j in back
     }
     if len(kept) < len(shapes):
-        found.update(close_pairs(shapes, reach, settled=frozenset(kept)))
+        found.update(geometry.close_pairs(shapes, reach, settled=frozenset(kept)))
     return dict(sorted(found.items()))
 
 

@@ -8,9 +8,18 @@ from typing import Any
 
 import pytest
 
-from meshforge.batch import CheckTask, ExecutionOptions, Failed, apply, check_assets, expand, make_jobs, status_of
+from meshforge.batch import (
+    CheckTask,
+    ExecutionOptions,
+    Failed,
+    WorkerFailure,
+    apply,
+    check_assets,
+    expand,
+    make_jobs,
+    status_of,
+)
 from meshforge.batch.execution import run_on_cluster
-from meshforge.batch.workers import WorkerFailure
 from meshforge.checks import CheckOptions
 from meshforge.common import MeshForgeError, StoppedError
 from meshforge.language import Program

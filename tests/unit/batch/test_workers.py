@@ -7,11 +7,20 @@ import sys
 import time
 import weakref
 from pathlib import Path
+from threading import current_thread, main_thread
 
 import pytest
 
-from meshforge.batch import ExecutionOptions, WorkerFailure, run_isolated
-from meshforge.batch.workers import worker_context
+from meshforge.batch import ExecutionOptions, WorkerFailure, hold_lock, run_isolated, worker_context, workers
+
+
+@pytest.fixture(params=["server", "fork"], autouse=True)
+def start_method(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Workers of a server process, as beside threads, and forks of this process, replaced from the server."""
+    if request.param == "fork" and sys.platform != "linux":
+        pytest.skip("forks are for Linux")
+    can_fork = request.param == "fork"
+    monkeypatch.setattr(workers, "_has_one_thread", lambda: can_fork and current_thread() is main_thread())
 
 
 def square(number: int) -> int:
@@ -28,6 +37,27 @@ def square_or_hang(number: int) -> int:
     if number == 1:
         time.sleep(60)
     return number * number
+
+
+def raise_at_two(number: int) -> int:
+    if number == 2:
+        raise KeyError("two")
+    return number
+
+
+def repeat(data: bytes) -> bytes:
+    return data * 2
+
+
+def die_if_odd(number: int) -> int:
+    if number % 2:
+        os._exit(3)
+    return number
+
+
+def sleep_from_one_on(number: int) -> int:
+    time.sleep(60 * min(number, 1))
+    return number
 
 
 def test_results_come_in_the_order_of_the_items() -> None:
@@ -58,6 +88,33 @@ def test_a_hang_is_stopped_and_loses_one_item_only() -> None:
     assert results[:1] + results[2:] == [0, 4, 9]
 
 
+def test_a_caller_gets_what_the_function_raised_with_where_that_was() -> None:
+    results = run_isolated(raise_at_two, range(5), ExecutionOptions(2, None))
+    assert [next(results), next(results)] == [0, 1]
+    with pytest.raises(KeyError, match="two") as raised:
+        next(results)
+    assert "raise_at_two" in str(raised.value.__cause__)
+
+
+def test_large_items_and_large_results_do_not_wait_for_each_other() -> None:
+    items = [bytes([k]) * (1 << 20) for k in range(40)]
+    assert list(run_isolated(repeat, items, ExecutionOptions(2, None))) == [item * 2 for item in items]
+
+
+def test_every_item_that_kills_its_worker_is_named_and_no_other_one() -> None:
+    results = list(run_isolated(die_if_odd, range(12), ExecutionOptions(2, None)))
+    assert [k for k, result in enumerate(results) if isinstance(result, WorkerFailure)] == list(range(1, 12, 2))
+    assert results[1] == WorkerFailure("its worker process died (exit code 3)")
+
+
+def test_a_lock_is_not_held_by_the_workers_of_who_holds_it(tmp_path: Path) -> None:
+    results = run_isolated(sleep_from_one_on, range(5), ExecutionOptions(1, None))
+    with hold_lock(tmp_path / "lock", "this", wait=0):
+        assert next(results) == 0
+    with hold_lock(tmp_path / "lock", "this", wait=0):
+        results.close()
+
+
 def test_a_caller_may_stop_early() -> None:
     results = run_isolated(square, range(1000), ExecutionOptions(1, None))
     assert next(results) == 0
@@ -72,7 +129,10 @@ def test_nothing_to_do_starts_no_process() -> None:
 def test_a_script_without_a_main_guard_is_told_what_to_do(tmp_path: Path) -> None:
     script = tmp_path / "script.py"
     call = "print(list(run_isolated(abs, [1, -2], ExecutionOptions(1))))"
-    script.write_text(f"from meshforge.batch import ExecutionOptions, run_isolated\n{call}\n")
+    thread = "Thread(target=sleep, args=[60], daemon=True).start()"  # beside which nothing is forked
+    imports = "from threading import Thread\nfrom time import sleep\n"
+    imports += "from meshforge.batch import ExecutionOptions, run_isolated"
+    script.write_text(f"{imports}\n{thread}\n{call}\n")
     done = subprocess.run([sys.executable, str(script)], capture_output=True, text=True, timeout=60)
     assert done.returncode == 1 and "if __name__ == '__main__'" in done.stderr
 

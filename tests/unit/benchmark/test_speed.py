@@ -12,15 +12,18 @@ from types import ModuleType
 import numpy as np
 import pytest
 
+import meshforge as mf
 from benchmark import __main__ as bench
 from benchmark.clock import in_turns
 from benchmark.pages import PAGES, parts_of
 from benchmark.report import Goal, Result, Table, as_text
-from benchmark.speed import apply, contact, geometry, load, save
+from benchmark.speed import apply, by_hand, contact, geometry, load, save
 from benchmark.speed.assets import multi_hull
 from benchmark.speed.contact import near_pairs, one_mesh
 from benchmark.speed.watch import look
+from meshforge.batch import load_templates
 from meshforge.geometry import Box, Pose
+from meshforge.language import Program
 from meshforge.samples import TABLES
 
 
@@ -80,6 +83,29 @@ def test_apply_is_run_and_watched(tmp_path: Path) -> None:
     assert "A quick run" in page
     assert "OBJ, bundled tables" in page
     assert str(tmp_path.anchor + "tmp") not in page
+
+
+@pytest.mark.slow
+def test_commands_run_beside_the_script_by_hand(tmp_path: Path) -> None:
+    assert bench.main(["commands", "--quick", "--out", str(tmp_path)]) == 0
+    data = json.loads((tmp_path / "speed-commands.json").read_text("utf-8"))
+    names = [row[0].split(",")[0] for row in data["tables"][0]["rows"]]
+    assert names[0] == "the script by hand"
+    assert {"apply", "check", "status", "synthesize", "label", "info", "render", "mf.load"} == set(names[1:])
+    assert len(data["goals"]) == len(names) - 1
+
+
+def test_the_script_by_hand_makes_of_a_table_what_its_program_does(tmp_path: Path) -> None:
+    table = TABLES / "table_03.obj"
+    labels = json.loads(table.with_suffix(".labels.json").read_text("utf-8"))["hulls"]
+    tray = by_hand.read_tray(TABLES)
+    by_hand.edit_table(by_hand.read_parts(table), labels, tray).export(tmp_path / table.name)
+    program = Program.read(TABLES / "tables.mf")
+    edited = program.run(mf.load(table), load_templates(program, [TABLES / "templates"])).mesh
+    made = mf.load(tmp_path / table.name)
+    assert made.aabb and edited.aabb
+    assert len(made.hulls) == len(edited.hulls)
+    assert np.allclose(made.aabb.corners, edited.aabb.corners, atol=0.02)
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="only Linux tells the memory of other processes")

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from scipy.spatial import ConvexHull
 
 from meshforge.common import ProgramError
 from meshforge.geometry import Floats, Pose
 from meshforge.language import orient_mesh, parse_orient
-from meshforge.language.orient import square_up_angle
+from meshforge.language.orient import _find_outline, square_up_angle
 from meshforge.symbolic import SymbolicMesh
 from tests.unit.language.scenes import box, hull, mesh, table
 
@@ -76,6 +77,19 @@ def test_a_frame_within_five_percent_of_the_smallest_rectangle_is_kept() -> None
 def test_a_round_footprint_is_kept() -> None:
     angles = np.arange(64) * (2 * np.pi / 64)
     assert square_up_angle(np.column_stack([np.cos(angles), np.sin(angles)])) == 0.0
+
+
+def test_the_outline_of_a_footprint_is_that_of_qhull() -> None:
+    random = np.random.default_rng(3)
+    grid = np.stack(np.meshgrid(np.arange(7.0), np.arange(4.0)), axis=-1).reshape(-1, 2)
+    for k in range(60):
+        cosine, sine = np.cos(k), np.sin(k)
+        for points in (random.normal(size=(4 + k, 2)), grid @ np.array([[cosine, sine], [-sine, cosine]]), grid[::-1]):
+            expected = points[ConvexHull(points).vertices]
+            found = _find_outline(points)
+            assert {tuple(point) for point in found} == {tuple(point) for point in expected}
+            turns = np.roll(found, -1, axis=0) - found
+            assert (turns[:, 0] * np.roll(turns[:, 1], -1) > turns[:, 1] * np.roll(turns[:, 0], -1)).all()
 
 
 def test_the_opposite_direction_is_a_half_turn_about_a_fixed_axis() -> None:

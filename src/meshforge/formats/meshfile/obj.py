@@ -7,6 +7,7 @@ import codecs
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 
@@ -17,6 +18,7 @@ from meshforge.geometry import Floats, Ints
 ObjGroup = tuple[str, str]
 """The object (`o`) and the group (`g`) that a face is in; an empty text where there is none."""
 _STATEMENTS = frozenset((b"v", b"vn", b"vt", b"vp", b"f", b"fo", b"l", b"p", b"o", b"g", b"s", b"mtllib", b"usemtl"))
+_MOST_REMEMBERED = 1 << 20  # bytes of a file that is remembered
 _SHOWN = 60  # characters of a statement in a message
 
 _UNUSUAL = (b"#", b"\\", b"_", b" /", b"\t/", b"\x0b/", b"\x0c/")
@@ -94,6 +96,19 @@ def group_names(groups: tuple[ObjGroup, ...]) -> list[str | None]:
 
 def parse_obj(data: bytes, where: str) -> ObjText:
     """An OBJ file taken apart. Raises AssetError with file and line: a statement that cannot be read."""
+    return _parse_remembered(data, where) if len(data) <= _MOST_REMEMBERED else _parse(data, where)
+
+
+@lru_cache(maxsize=2)
+def _parse_remembered(data: bytes, where: str) -> ObjText:
+    """The file last read and the one last written: an edit takes each apart several times."""
+    text = _parse(data, where)
+    for array in (text.vertices, text.vertex_at, text.faces, text.face_at, text.face_group):
+        array.setflags(write=False)
+    return text
+
+
+def _parse(data: bytes, where: str) -> ObjText:
     statements = statements_of(data)
     words = keywords(statements)
     _refuse_others(statements, words, where)

@@ -7,7 +7,7 @@ from collections import deque
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
-from typing import assert_never
+from typing import TypeAlias, assert_never
 
 from meshforge import language
 from meshforge.synthesis.demonstration import Example, LabelChange
@@ -53,7 +53,7 @@ class OpenOperator:
 
 
 Open = Hole | OpenAttach | OpenGeo | OpenOperator
-Partial = Open | language.Extractor
+Partial: TypeAlias = Open | language.Extractor
 
 
 class HoleGrammar:

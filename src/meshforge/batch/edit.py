@@ -11,26 +11,27 @@ from functools import partial
 from pathlib import Path
 
 from meshforge.batch import outputs, provenance
-from meshforge.batch.corrections import corrections_digest, replay_corrections
+from meshforge.batch.corrections import replay_corrections
 from meshforge.batch.discovery import STATE
 from meshforge.batch.execution import execute
+from meshforge.batch.inputs import inputs_of
 from meshforge.batch.jobs import APPLY_DEFAULTS, ApplyOptions, ApplyTask, AssetJob
 from meshforge.batch.lock import hold_lock
 from meshforge.batch.outcome import AssetOutcome, Edited, Failed, RuleEffect, Unchanged
-from meshforge.batch.preparation.storage import prepare_from_folder, record_digest
+from meshforge.batch.preparation.storage import prepare_from_folder
 from meshforge.batch.workers import EXECUTION_DEFAULTS, ExecutionOptions, WorkerFailure
-from meshforge.common import AssetError, Plugin, UsageError, describe_error, join_names
+from meshforge.common import AssetError, UsageError, describe_error, join_names
 from meshforge.formats import (
     MarkName,
     describe_collision,
     format_for,
     format_of,
     format_with_names,
-    plugin_of_suffix,
     read,
     resolve_asset_path,
 )
-from meshforge.language import Program, Template, plugin_of
+from meshforge.geometry import proximity  # noqa: F401  # coal is there when workers are forked
+from meshforge.language import Program, Template
 from meshforge.signoff import measure_edit
 from meshforge.symbolic import Asset, LabelFile, LabelTransfer, SymbolicMesh, read_labels, transfer_labels
 
@@ -124,28 +125,6 @@ def edit_asset(task: ApplyTask, job: AssetJob) -> outputs.WorkerResult:
         failed = Failed(job.id, describe_error(error, str(job.path)), time.perf_counter() - started)
         disk = error.strerror if isinstance(error, OSError) and error.errno in outputs.DISK_ERRORS else None
         return outputs.WorkerResult(failed, inputs, disk=disk)
-
-
-def inputs_of(task: ApplyTask, job: AssetJob, files: dict[str, str]) -> provenance.OutputInputs:
-    """The digests of all that decides the output of a job; files: those of the asset."""
-    options = task.options
-    written = {"to": options.to, "names": options.names, "collision": options.collision}
-    return provenance.OutputInputs(
-        asset=files,
-        preparation=record_digest(job.preparation) if job.preparation else None,
-        labels=provenance.file_digest(job.labels) if job.labels else None,
-        program=provenance.program_digest(task.program),
-        templates=provenance.template_digests(task.templates),
-        corrections=corrections_digest(job.corrections),
-        settings=" ".join([f"mass={options.mass}", *(f"{key}={value}" for key, value in written.items() if value)]),
-        software=provenance.software_version(_plugins_of(task, job)),
-    )
-
-
-def _plugins_of(task: ApplyTask, job: AssetJob) -> Iterator[Plugin | None]:
-    """The plug-ins that read, edit and write the asset; None for what is built in."""
-    yield from map(plugin_of_suffix, {job.path.suffix, task.options.to or job.path.suffix})
-    yield from (plugin_of(rule.action) for rule in task.program.rules)
 
 
 def _find_up_to_date(task: ApplyTask, job: AssetJob) -> outputs.WorkerResult | None:

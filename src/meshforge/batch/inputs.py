@@ -1,0 +1,35 @@
+"""What an output is made from, as digests: its asset, labels, program and all else that a job and its task name."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from meshforge.batch import provenance
+from meshforge.batch.corrections import corrections_digest
+from meshforge.batch.jobs import ApplyTask, AssetJob
+from meshforge.batch.preparation.storage import record_digest
+from meshforge.common import Plugin
+from meshforge.formats import plugin_of_suffix
+from meshforge.language import plugin_of
+
+
+def inputs_of(task: ApplyTask, job: AssetJob, files: dict[str, str]) -> provenance.OutputInputs:
+    """The digests of all that decides the output of a job; files: those of the asset."""
+    options = task.options
+    written = {"to": options.to, "names": options.names, "collision": options.collision}
+    return provenance.OutputInputs(
+        asset=files,
+        preparation=record_digest(job.preparation) if job.preparation else None,
+        labels=provenance.file_digest(job.labels) if job.labels else None,
+        program=provenance.program_digest(task.program),
+        templates=provenance.template_digests(task.templates),
+        corrections=corrections_digest(job.corrections),
+        settings=" ".join([f"mass={options.mass}", *(f"{key}={value}" for key, value in written.items() if value)]),
+        software=provenance.software_version(_plugins_of(task, job)),
+    )
+
+
+def _plugins_of(task: ApplyTask, job: AssetJob) -> Iterator[Plugin | None]:
+    """The plug-ins that read, edit and write the asset; None for what is built in."""
+    yield from map(plugin_of_suffix, {job.path.suffix, task.options.to or job.path.suffix})
+    yield from (plugin_of(rule.action) for rule in task.program.rules)
