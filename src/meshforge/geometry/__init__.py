@@ -16,7 +16,6 @@ if TYPE_CHECKING:
         freeze_floats,
         freeze_ints,
         nearest_on_triangles,
-        row_distances,
     )
     from meshforge.geometry.connectivity import component_roots
     from meshforge.geometry.convex import FLATNESS, convex_hull, measure_extents, principal_extents, spans_volume
@@ -126,7 +125,6 @@ __all__ = [
     "rises_above",
     "rotation_about",
     "rotation_of_quaternion",
-    "row_distances",
     "sheet_hulls",
     "smallest_rotation",
     "snap_rotation",

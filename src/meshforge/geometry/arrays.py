@@ -7,7 +7,7 @@ import itertools
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from math import dist
-from typing import Any, Literal, TypeVar
+from typing import Any, TypeVar
 
 import numpy as np
 import numpy.typing as npt
@@ -18,9 +18,6 @@ Bools = npt.NDArray[np.bool_]
 Number = TypeVar("Number", np.float64, np.int64)
 
 _TINY = 1e-300
-_MOST_COMPARED = 50_000_000
-"""Numbers of rows that are compared, in all, before scipy is imported: 0.2 s of work."""
-_compared = 0
 
 
 def freeze_floats(values: Any, shape: tuple[int, ...]) -> Floats:
@@ -59,25 +56,6 @@ def cross(a: Floats, b: Floats) -> Floats:
     for k, (i, j) in enumerate(((1, 2), (2, 0), (0, 1))):
         out[:, k] = a[:, i] * b[:, j] - a[:, j] * b[:, i]
     return out
-
-
-def row_distances(a: Floats, b: Floats, metric: Literal["cityblock", "euclidean", "sqeuclidean"]) -> Floats:
-    """The distance (n, m) of each row of a (n, columns) to each of b (m, columns).
-
-    As scipy's `cdist`, bit for bit, which takes over once there is so much work that it is worth its import.
-    """
-    global _compared
-    _compared += a.size * len(b)
-    if _compared > _MOST_COMPARED:
-        from scipy.spatial.distance import cdist  # lazy: 0.5 s, which few comparisons do without
-
-        found: Floats = cdist(a, b, metric)
-        return found
-    out = np.zeros((len(a), len(b)))
-    for one, other in zip(a.T, b.T, strict=True):
-        gaps = one[:, None] - other
-        out += np.abs(gaps) if metric == "cityblock" else gaps * gaps
-    return np.sqrt(out) if metric == "euclidean" else out
 
 
 def nearest_on_triangles(points: Floats, corners: Floats) -> Floats:

@@ -5,14 +5,13 @@ the true label on calibration families (`python -m benchmark.labels consensus`).
 from __future__ import annotations
 
 import json
-from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cache
 from importlib.resources import files
 
 import numpy as np
 
-from meshforge.geometry import Floats, Ints
+from meshforge.geometry import Floats
 from meshforge.label_model.lookalikes import PER_MESH, Places
 from meshforge.label_model.sources import estimate_reliability, find_wrong_kinds
 from meshforge.label_model.table import Bools, FamilyTable, Observations
@@ -92,13 +91,17 @@ class FamilyContext:
     """A family with what is said of it, to be weighed round by round."""
 
     def __init__(self, table: FamilyTable, seen: Observations) -> None:
+        from scipy.sparse import csr_matrix  # lazy: 0.5 s, half of all imports
+
         self.table, self.seen, self.count = table, seen, len(seen.labels)
         self.free = seen.known & ~seen.fixed
         speaking = np.unique(table.owner[seen.given]) if seen.given.any() else np.unique(table.owner[seen.known])
         self.lookalikes = table.find_lookalikes(speaking.tolist())
+        a, b = table.touching.T
         n = len(table.owner)
+        links = csr_matrix((np.ones(2 * len(a)), (np.concatenate([a, b]), np.concatenate([b, a]))), shape=(n, n))
         degree = np.maximum(np.bincount(table.touching.ravel(), minlength=n), 1)
-        self.links, self.degree = _rank_links(table.touching), degree[:, None]
+        self.links, self.degree = links, degree[:, None]
         _, apart = self.lookalikes.nearest(np.ones(n, np.bool_), 1, 1)
         self.far = 1 - _alike(np.where(np.isfinite(apart), apart, 99.0), _FAR, _SOFT_FAR)
         """How far the nearest hull of another mesh is, 0 to 1 (n, 1)."""
@@ -192,33 +195,12 @@ class FamilyContext:
     def _hear_neighbors(self, chances: Floats, informed: _Helpers) -> Floats:
         """What hulls in contact say, by how much more often two labels touch than by accident."""
         weighty = chances * (informed.worth * informed.usable)[:, None]
-        pairs = weighty.T @ _sum_linked(self.links, weighty) + _PAIRS
+        pairs = weighty.T @ np.asarray(self.links @ weighty) + _PAIRS
         joint = pairs / pairs.sum()
         alone = joint.sum(axis=1)
         bonds = np.log(joint / (alone[:, None] * alone[None]))
-        heard: Floats = _sum_linked(self.links, chances @ bonds.T) / self.degree
+        heard: Floats = (self.links @ (chances @ bonds.T)) / self.degree
         return heard
-
-
-def _rank_links(touching: Ints) -> list[tuple[Ints, Ints]]:
-    """Pairs (k, 2) of hulls that touch, both ways, such that each hull is the first of one pair of each rank at most.
-
-    Sums over them are those of a sparse matrix, to the last bit.
-    """
-    pairs = np.concatenate([touching, touching[:, ::-1]])
-    first, second = pairs[np.lexsort((pairs[:, 1], pairs[:, 0]))].T
-    rank = np.arange(len(first)) - np.searchsorted(first, first)
-    order = np.argsort(rank, kind="stable")
-    ends = np.cumsum(np.bincount(rank))[:-1]
-    return list(zip(np.split(first[order], ends), np.split(second[order], ends), strict=True)) if len(rank) else []
-
-
-def _sum_linked(links: Sequence[tuple[Ints, Ints]], rows: Floats) -> Floats:
-    """For each hull the sum (n, columns) of the rows of those that it touches."""
-    total = np.zeros_like(rows)
-    for hulls, others in links:
-        total[hulls] += rows[others]
-    return total
 
 
 def _alike(apart: Floats, half: float, soft: float = _SOFT) -> Floats:

@@ -8,7 +8,7 @@ from hashlib import blake2b
 
 import numpy as np
 
-from meshforge.geometry import Floats, Ints, row_distances
+from meshforge.geometry import Floats, Ints
 from meshforge.label_model import surroundings
 from meshforge.label_model.surroundings import WholeShape, axes_along, whole_of
 from meshforge.label_model.ties import EQUAL, first_greatest, greatest_first, share_ranks
@@ -200,9 +200,11 @@ class HullDescriber:
 
 def _describe_counts(own: Floats, touching: Floats, volumes: Floats) -> Floats:
     """How many hulls look alike, touch, and are there; the share of the volume, of the largest, and the rank."""
+    from scipy.spatial.distance import cdist  # lazy: as above
+
     count = len(own)
     look = own[:, _LOOK_COLUMNS]
-    alike = np.exp(-row_distances(look, look, "sqeuclidean") / _ALIKE**2).sum(axis=1) - 1
+    alike = np.exp(-cdist(look, look, "sqeuclidean") / _ALIKE**2).sum(axis=1) - 1
     shares = np.maximum(volumes, 1e-12 * volumes.max() + 1e-300)
     columns = [
         np.log1p(alike),

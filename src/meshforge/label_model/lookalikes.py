@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from meshforge.geometry import Floats, Ints, row_distances
+from meshforge.geometry import Floats, Ints
 from meshforge.label_model.ties import pick_evenly
 
 Bools = npt.NDArray[np.bool_]
@@ -94,6 +94,8 @@ def find_lookalikes(rows: Floats, metric: Floats, owner: Ints, first: Sequence[i
     metric: the weight of each column; owner: (n,) the mesh of each, ascending; first: meshes that are looked at before
     others where there are too many.
     """
+    from scipy.spatial.distance import cdist  # lazy: 0.5 s, half of all imports
+
     meshes, starts = np.unique(owner, return_index=True)
     ends = np.append(starts[1:], len(owner)).astype(np.int64)
     chosen = _choose_meshes(meshes, first)
@@ -119,7 +121,7 @@ def find_lookalikes(rows: Floats, metric: Floats, owner: Ints, first: Sequence[i
     own, own_apart = np.zeros((len(rows), OF_OWN), dtype=np.int32), np.full((len(rows), OF_OWN), np.inf)
     for start, end in zip(starts.tolist(), ends.tolist(), strict=True):
         weighted = rows[start:end] * metric
-        gaps = row_distances(weighted, weighted, "cityblock")
+        gaps = cdist(weighted, weighted, "cityblock")
         np.fill_diagonal(gaps, np.inf)
         hulls = np.broadcast_to(np.arange(start, end, dtype=np.int32), gaps.shape)
         own[start:end], own_apart[start:end] = take_nearest(hulls, gaps, OF_OWN)
@@ -137,10 +139,12 @@ def _choose_meshes(meshes: Ints, first: Sequence[int]) -> Ints:
 
 def _compare(rows: Floats, owner: Ints, meshes: Sequence[tuple[int, Places, Floats]]) -> tuple[Places, Floats]:
     """The nearest hulls of each of some meshes, given as number, places of hulls and their rows; and distances."""
+    from scipy.spatial.distance import cdist  # lazy: as above
+
     count = len(rows)
     hulls, apart = np.zeros((count, len(meshes), PER_MESH), np.int32), np.full((count, len(meshes), PER_MESH), np.inf)
     for place, (mesh, places, theirs) in enumerate(meshes):
-        gaps = row_distances(rows, theirs, "cityblock")
+        gaps = cdist(rows, theirs, "cityblock")
         gaps[owner == mesh] = np.inf
         hulls[:, place], apart[:, place] = take_nearest(np.broadcast_to(places, gaps.shape), gaps, PER_MESH)
     return hulls, apart

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 
 import numpy as np
 
-from meshforge.geometry import Floats, row_distances
+from meshforge.geometry import Floats
 from meshforge.label_model.describe import SHAPE_COLUMNS
 from meshforge.label_model.table import NO_LABEL, FamilyTable, Observations
 from meshforge.label_model.ties import EQUAL, greatest_first, pick_evenly
@@ -36,6 +36,8 @@ class UprightReference:
         """How far hulls of a mesh, described by rows (n, columns) on each of some sides, are from those of other
         meshes, on average.
         """
+        from scipy.spatial.distance import cdist  # lazy: 0.5 s, half of all imports
+
         table, span = self._table, self._table.spans[mesh]
         others = self.hulls[table.owner[self.hulls] != mesh]
         if not len(others):
@@ -44,7 +46,7 @@ class UprightReference:
         theirs = table.rows[others, columns] * metric
         same = (own[:, None] == self._codes[others][None]) | (own == NO_LABEL)[:, None]
         same |= ~same.any(axis=1, keepdims=True)
-        gaps = (row_distances(rows * metric, theirs, "cityblock") for rows in sides)
+        gaps = (cdist(rows * metric, theirs, "cityblock") for rows in sides)
         return [float(np.where(same, one, np.inf).min(axis=1).mean()) for one in gaps]
 
 

@@ -9,7 +9,6 @@ from math import prod
 
 import numpy as np
 
-from meshforge.geometry import row_distances
 from meshforge.signoff.family import FamilyTrial, flip_shares
 from meshforge.signoff.prices import price_group
 from meshforge.signoff.question import HullPlace
@@ -46,6 +45,8 @@ class LookalikeGroup:
 
 def find_groups(family: FamilyTrial, open_assets: Sequence[int]) -> Iterator[LookalikeGroup]:
     """Groups about the hulls that matter most, each as large as is worth its seconds."""
+    from scipy.spatial.distance import cdist  # lazy: 0.5 s, half of all imports
+
     suspects = list(_suspects(family, open_assets))
     by_label = defaultdict[str, list[_Suspect]](list)
     for one in sorted(suspects, key=lambda one: (-_gain(family, [one]), one.place)):
@@ -53,7 +54,7 @@ def find_groups(family: FamilyTrial, open_assets: Sequence[int]) -> Iterator[Loo
     rows = family.posterior.table.rows * family.posterior.table.metric
     for label, some in sorted(by_label.items()):
         for seed in some[: max(1, _SEEDS // len(by_label))]:
-            apart = row_distances(rows[[one.row for one in some]], rows[[seed.row]], "cityblock")[:, 0]
+            apart = cdist(rows[[one.row for one in some]], rows[[seed.row]], "cityblock")[:, 0]
             alike = [one for one, gap in zip(some, apart, strict=True) if gap <= _ALIKE]
             yield _best_of(family, label, [seed, *(one for one in alike if one is not seed)])
 

@@ -1,33 +1,15 @@
-"""Arithmetic on rows, beside scipy's and numpy's, of which it is to be a copy to the last bit; shortcuts of hulls."""
+"""Rows in order as by numpy; shortcuts of hulls."""
 
 from __future__ import annotations
 
-from typing import Literal
-
 import numpy as np
 import pytest
-from scipy.spatial.distance import cdist
 
-from meshforge.geometry import arrays, is_convex, is_convex_hull, is_outward, principal_extents, row_distances
+from meshforge.geometry import is_convex, is_convex_hull, is_outward, principal_extents
 from meshforge.geometry.arrays import sort_rows
 from meshforge.geometry.convex import _is_surely_thick, convex_hull
 
 RANDOM = np.random.default_rng(9)
-
-
-@pytest.mark.parametrize("most", [0, 10**9], ids=["scipy", "own"])
-@pytest.mark.parametrize("metric", ["cityblock", "euclidean", "sqeuclidean"])
-@pytest.mark.parametrize("shape", [(0, 4, 3), (5, 7, 1), (60, 200, 40)])
-def test_distances_of_rows_are_those_of_scipy(
-    most: int,
-    metric: Literal["cityblock", "euclidean", "sqeuclidean"],
-    shape: tuple[int, int, int],
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    monkeypatch.setattr(arrays, "_compared", 1)
-    monkeypatch.setattr(arrays, "_MOST_COMPARED", most)
-    a, b = RANDOM.normal(size=(shape[0], shape[2])), RANDOM.normal(size=(shape[1], shape[2]))
-    assert np.array_equal(row_distances(a, b, metric), cdist(a, b, metric))
 
 
 @pytest.mark.parametrize("count", [0, 1, 400])
