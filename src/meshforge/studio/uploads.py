@@ -9,7 +9,14 @@ from threading import Lock
 from uuid import uuid4
 
 from meshforge.batch import find_assets_in
-from meshforge.common import MeshForgeError, ProjectError, UsageError, join_names, replace_atomically
+from meshforge.common import (
+    MeshForgeError,
+    ProjectError,
+    UsageError,
+    confine_reading,
+    join_names,
+    replace_atomically,
+)
 from meshforge.formats import read
 from meshforge.studio.errors import TooLargeError
 from meshforge.studio.workers import Workers
@@ -81,7 +88,8 @@ def confine_path(path: str) -> PurePosixPath:
 
 def find_assets(workers: Workers, home: Path) -> tuple[str, ...]:
     """The assets among uploaded files, by their paths. Raises ProjectError: there are none, or one cannot be read."""
-    found = find_assets_in(home) if home.is_dir() else []
+    with confine_reading(home):
+        found = find_assets_in(home) if home.is_dir() else []
     if not found:
         raise ProjectError("there is no asset among these files", remedy="Send URDF, MJCF, SDF, glTF or mesh files.")
     problems = [problem for path in found if (problem := _find_problem(workers, path, home))]
@@ -96,7 +104,7 @@ def find_assets(workers: Workers, home: Path) -> tuple[str, ...]:
 def _find_problem(workers: Workers, path: Path, home: Path) -> str | None:
     """Why an asset cannot be taken, None where it can."""
     try:
-        files = workers.run(_files_of, path)
+        files = workers.run(_files_of, path, home)
     except MeshForgeError as error:
         return error.message.replace(f"{home}/", "").split("\n")[0]
     outside = [file.name for file in files if not file.resolve().is_relative_to(home.resolve())]
@@ -104,5 +112,6 @@ def _find_problem(workers: Workers, path: Path, home: Path) -> str | None:
     return f"{name} refers to files that were not sent: {join_names(outside)}" if outside else None
 
 
-def _files_of(path: Path) -> tuple[Path, ...]:
-    return read(path).files
+def _files_of(path: Path, home: Path) -> tuple[Path, ...]:
+    with confine_reading(home):  # else a page could ask which files are on the disk
+        return read(path).files
