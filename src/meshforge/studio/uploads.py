@@ -42,12 +42,18 @@ class Uploads:
             room = MOST_ALL_FILES - sum(file.stat().st_size for file in present)
         if len(present) >= MOST_FILES:
             raise TooLargeError(f"these are more than {MOST_FILES} files", remedy="Add them in several portions.")
-        await save_stream(target, chunks, min(MOST_ONE_FILE, room))
+        try:
+            await save_stream(target, chunks, min(MOST_ONE_FILE, room), path)
+        except TooLargeError as error:
+            if room >= MOST_ONE_FILE:
+                raise
+            most, remedy = f"{MOST_ALL_FILES // MB} MB", "Add them in several portions."
+            raise TooLargeError(f"these files are larger than {most} together", where=path, remedy=remedy) from error
 
-    async def put_template(self, chunks: AsyncIterator[bytes]) -> Path:
-        """Store a template, and return its path. Raises TooLargeError for its size."""
+    async def put_template(self, name: str, chunks: AsyncIterator[bytes]) -> Path:
+        """Store a template, and return its path; name: what the page calls it. Raises TooLargeError for its size."""
         path = self.folder / f"template-{uuid4().hex}"
-        await save_stream(path, chunks, MOST_TEMPLATE)
+        await save_stream(path, chunks, MOST_TEMPLATE, name)
         return path
 
     def list_files(self) -> tuple[Path, tuple[str, ...]]:
@@ -60,8 +66,8 @@ class Uploads:
         shutil.rmtree(self.folder, ignore_errors=True)
 
 
-async def save_stream(target: Path, chunks: AsyncIterator[bytes], most: int) -> None:
-    """Write a file as it comes in. Raises TooLargeError; then there is no file."""
+async def save_stream(target: Path, chunks: AsyncIterator[bytes], most: int, name: str) -> None:
+    """Write a file as it comes in; name: what messages call it. Raises TooLargeError; then there is no file."""
     size = 0
     try:
         with replace_atomically(target) as draft, draft.open("wb") as stream:
@@ -69,11 +75,11 @@ async def save_stream(target: Path, chunks: AsyncIterator[bytes], most: int) -> 
                 size += len(chunk)
                 if size > most:
                     raise TooLargeError(
-                        f"this file is larger than {most // MB} MB", where=target.name, remedy="Send a smaller one."
+                        f"this file is larger than {most // MB} MB", where=name, remedy="Send a smaller one."
                     )
                 stream.write(chunk)
     except (FileExistsError, NotADirectoryError, IsADirectoryError):
-        raise UsageError("a file and a folder have the same name", where=target.name) from None
+        raise UsageError("a file and a folder have the same name", where=name) from None
 
 
 def confine_path(path: str) -> PurePosixPath:

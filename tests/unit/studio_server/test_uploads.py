@@ -8,6 +8,7 @@ from typing import TypeVar
 import pytest
 
 from meshforge.common import ProjectError, UsageError
+from meshforge.studio import uploads
 from meshforge.studio.errors import TooLargeError
 from meshforge.studio.uploads import Uploads, confine_path, find_assets, save_stream
 from meshforge.studio.workers import Workers
@@ -46,18 +47,40 @@ def test_plain_paths_are_taken(path: str) -> None:
 
 def test_a_file_that_is_too_large_leaves_nothing(tmp_path: Path) -> None:
     with pytest.raises(TooLargeError):
-        asyncio.run(save_stream(tmp_path / "a", chunks(b"123", b"456"), 5))
+        asyncio.run(save_stream(tmp_path / "a", chunks(b"123", b"456"), 5, "a"))
     assert not list(tmp_path.iterdir())
-    asyncio.run(save_stream(tmp_path / "a", chunks(b"123", b"45"), 5))
+    asyncio.run(save_stream(tmp_path / "a", chunks(b"123", b"45"), 5, "a"))
     assert (tmp_path / "a").read_bytes() == b"12345"
 
 
+def test_what_is_too_large_is_called_as_the_page_calls_it(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    for most in ("MOST_TEMPLATE", "MOST_ONE_FILE"):
+        monkeypatch.setattr(uploads, most, 5)
+    home = Uploads(tmp_path / "uploads")
+    with pytest.raises(TooLargeError) as refused:
+        asyncio.run(home.put_template("tray.obj", chunks(b"123456")))
+    assert refused.value.where == "tray.obj"
+    with pytest.raises(TooLargeError) as refused:
+        asyncio.run(home.put("robot/arm.stl", chunks(b"123456")))
+    assert refused.value.where == "robot/arm.stl"
+
+
+def test_files_that_are_too_large_together_are_no_fault_of_the_last_one(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(uploads, "MOST_ALL_FILES", 3 * uploads.MB)
+    home = Uploads(tmp_path / "uploads")
+    asyncio.run(home.put("a.stl", chunks(bytes(2 * uploads.MB))))
+    with pytest.raises(TooLargeError, match="larger than 3 MB together"):
+        asyncio.run(home.put("b.stl", chunks(bytes(2 * uploads.MB))))
+
+
 def test_a_file_in_the_place_of_a_folder_is_one_message(tmp_path: Path) -> None:
-    uploads = Uploads(tmp_path / "uploads")
-    asyncio.run(uploads.put("a", chunks(b"1")))
+    home = Uploads(tmp_path / "uploads")
+    asyncio.run(home.put("a", chunks(b"1")))
     with pytest.raises(UsageError, match="same name"):
-        asyncio.run(uploads.put("a/b", chunks(b"1")))
-    assert uploads.list_files()[1] == ("a",)
+        asyncio.run(home.put("a/b", chunks(b"1")))
+    assert home.list_files()[1] == ("a",)
 
 
 def test_what_was_sent_to_an_earlier_studio_is_gone(tmp_path: Path) -> None:
