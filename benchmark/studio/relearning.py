@@ -13,10 +13,12 @@ from typing import Any
 import httpx
 from playwright.sync_api import Page
 from websockets.sync.client import connect
+from websockets.typing import Subprotocol
 
 from benchmark.report import Goal, Result, Table, Tell
 from benchmark.studio.browser import chromium, open_asset, studio
 from meshforge.cli.demo import create_tables
+from meshforge.studio.api.connection import PROTOCOL
 
 OPEN, SHOWN = "table_05.obj", "table_08.obj"
 """A table of which nothing is shown, and one that demonstrates."""
@@ -78,8 +80,9 @@ def _time_answers(address: str, turns: int) -> list[float]:
     """From the request to the outcome, at a client without a picture [ms]."""
     base, _, token = address.partition("/?token=")
     headers, times = {"Authorization": f"Bearer {token}"}, []
+    offered = [Subprotocol(PROTOCOL), Subprotocol(token)]
     with (
-        connect(f"{base.replace('http', 'ws')}/ws?token={token}", max_size=None) as socket,
+        connect(f"{base.replace('http', 'ws')}/ws", subprotocols=offered, max_size=None) as socket,
         httpx.Client(base_url=base, headers=headers, timeout=60) as client,
     ):
         for turn in range(turns):

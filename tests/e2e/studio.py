@@ -16,6 +16,9 @@ from typing import Any
 
 import httpx
 from websockets.sync.client import ClientConnection, connect
+from websockets.typing import Subprotocol
+
+from meshforge.studio.api.connection import PROTOCOL
 
 _RUN = "from meshforge.cli import main; main()"
 PATIENCE = 60.0
@@ -53,8 +56,13 @@ class Studio:
     @contextmanager
     def page(self) -> Iterator[Page]:
         """An open page."""
-        with connect(f"{self.base.replace('http', 'ws')}/ws?token={self.token}", max_size=None) as connection:
+        with connect(self.socket, subprotocols=protocols(self.token), max_size=None) as connection:
             yield Page(connection)
+
+    @property
+    def socket(self) -> str:
+        """The address of the connection of pages."""
+        return f"{self.base.replace('http', 'ws')}/ws"
 
     def settled(self) -> dict[str, Any]:
         """What a page is told on connecting, once the assets are read and the outcome is over."""
@@ -116,6 +124,11 @@ class Page:
         event: dict[str, Any] = json.loads(self.connection.recv(timeout=PATIENCE))
         self.events.append(event)
         return event
+
+
+def protocols(token: str) -> list[Subprotocol]:
+    """What a connection offers: the protocol of pages, and the token."""
+    return [Subprotocol(word) for word in (PROTOCOL, token) if word]
 
 
 def ok(response: httpx.Response) -> dict[str, Any]:

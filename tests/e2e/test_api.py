@@ -10,7 +10,7 @@ import pytest
 from websockets.exceptions import InvalidStatus
 from websockets.sync.client import connect
 
-from tests.e2e.studio import Studio, ok, opened
+from tests.e2e.studio import Studio, ok, opened, protocols
 from tests.loop.command import meshforge
 from tests.studio_project import demo_project
 from tests.unit.studio.packets import read_packet
@@ -144,9 +144,9 @@ def test_strangers_get_nothing(studio: Studio, headers: dict[str, str], status: 
     ("token", "origin"), [("wrong", None), ("", None), (None, "https://evil.example"), (None, "null")]
 )
 def test_strangers_get_no_connection(studio: Studio, token: str | None, origin: str | None) -> None:
-    address = f"{studio.base.replace('http', 'ws')}/ws?token={studio.token if token is None else token}"
+    offered = protocols(studio.token if token is None else token)
     headers = {"Origin": origin} if origin else None
-    with pytest.raises(InvalidStatus), connect(address, additional_headers=headers):
+    with pytest.raises(InvalidStatus), connect(studio.socket, subprotocols=offered, additional_headers=headers):
         pass
 
 

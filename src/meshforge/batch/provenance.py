@@ -152,9 +152,9 @@ def text_digest(text: str) -> str:
 
 
 def program_digest(program: Program) -> str:
-    """The digest of what a program does: its canonical form without comments."""
+    """The digest of what a program does: its canonical form without comments, and without labels that it does not use."""
     rules = tuple(replace(rule, comments=Comments()) for rule in program.rules)
-    return text_digest(str(replace(program, rules=rules, comments=HeaderComments())))
+    return text_digest(str(replace(program, labels=(), rules=rules, comments=HeaderComments())))
 
 
 def template_digests(templates: Mapping[str, Template]) -> dict[str, str]:

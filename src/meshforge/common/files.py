@@ -10,6 +10,7 @@ import shlex
 import tempfile
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
+from contextvars import ContextVar
 from pathlib import Path
 
 _DRAFT_SUFFIX = ".tmp"
@@ -74,11 +75,36 @@ def file_digest(path: Path) -> str:
 
 
 def is_file(path: Path) -> bool:
-    """Whether there is a file; of a name that no file can have (too long, with a zero byte), that there is none."""
+    """Whether there is a file; of a name that no file can have (too long, with a zero byte), that there is none.
+
+    Within `confine_reading`, there is none outside of that folder, whatever the disk holds.
+    """
     try:
-        return path.is_file()
+        return not is_beyond_reach(path) and path.is_file()
     except (OSError, ValueError):
         return False
+
+
+_REACH: ContextVar[Path | None] = ContextVar("reach", default=None)
+
+
+@contextmanager
+def confine_reading(folder: Path) -> Iterator[None]:
+    """Within the block, what files refer to outside of a folder is not there.
+
+    For files of strangers: no message then tells whether a file of that name is on the disk.
+    """
+    before = _REACH.set(plain_path(folder))
+    try:
+        yield
+    finally:
+        _REACH.reset(before)
+
+
+def is_beyond_reach(path: Path) -> bool:
+    """Whether a path leads out of the folder to which reading is confined, if it is."""
+    folder = _REACH.get()
+    return folder is not None and not plain_path(path).is_relative_to(folder)
 
 
 def relative_name(path: Path, base: Path) -> str:

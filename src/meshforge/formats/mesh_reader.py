@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import errno
+import os
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from meshforge.common import AssetError
+from meshforge.common import AssetError, is_beyond_reach
 from meshforge.formats.meshfile.surface import RawSurface, join_surfaces
 from meshforge.geometry import Piece, split_pieces
 
@@ -93,6 +95,8 @@ def read_content(path: Path) -> bytes:
     Raises AssetError: it is not there, may not be read, is no regular file, or plainly is of another kind.
     """
     try:
+        if is_beyond_reach(path):
+            raise FileNotFoundError(errno.ENOENT, os.strerror(errno.ENOENT))
         if path.exists() and not path.is_file():  # a pipe would be waited for, a device may never end
             raise AssetError("cannot be read: it is a folder, a pipe or a device", where=str(path))
         data = path.read_bytes()

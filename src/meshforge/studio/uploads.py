@@ -9,7 +9,14 @@ from threading import Lock
 from uuid import uuid4
 
 from meshforge.batch import find_assets_in
-from meshforge.common import MeshForgeError, ProjectError, UsageError, join_names, replace_atomically
+from meshforge.common import (
+    MeshForgeError,
+    ProjectError,
+    UsageError,
+    confine_reading,
+    join_names,
+    replace_atomically,
+)
 from meshforge.formats import read
 from meshforge.studio.errors import TooLargeError
 from meshforge.studio.workers import Workers
@@ -35,12 +42,18 @@ class Uploads:
             room = MOST_ALL_FILES - sum(file.stat().st_size for file in present)
         if len(present) >= MOST_FILES:
             raise TooLargeError(f"these are more than {MOST_FILES} files", remedy="Add them in several portions.")
-        await save_stream(target, chunks, min(MOST_ONE_FILE, room))
+        try:
+            await save_stream(target, chunks, min(MOST_ONE_FILE, room), path)
+        except TooLargeError as error:
+            if room >= MOST_ONE_FILE:
+                raise
+            most, remedy = f"{MOST_ALL_FILES // MB} MB", "Add them in several portions."
+            raise TooLargeError(f"these files are larger than {most} together", where=path, remedy=remedy) from error
 
-    async def put_template(self, chunks: AsyncIterator[bytes]) -> Path:
-        """Store a template, and return its path. Raises TooLargeError for its size."""
+    async def put_template(self, name: str, chunks: AsyncIterator[bytes]) -> Path:
+        """Store a template, and return its path; name: what the page calls it. Raises TooLargeError for its size."""
         path = self.folder / f"template-{uuid4().hex}"
-        await save_stream(path, chunks, MOST_TEMPLATE)
+        await save_stream(path, chunks, MOST_TEMPLATE, name)
         return path
 
     def list_files(self) -> tuple[Path, tuple[str, ...]]:
@@ -53,8 +66,8 @@ class Uploads:
         shutil.rmtree(self.folder, ignore_errors=True)
 
 
-async def save_stream(target: Path, chunks: AsyncIterator[bytes], most: int) -> None:
-    """Write a file as it comes in. Raises TooLargeError; then there is no file."""
+async def save_stream(target: Path, chunks: AsyncIterator[bytes], most: int, name: str) -> None:
+    """Write a file as it comes in; name: what messages call it. Raises TooLargeError; then there is no file."""
     size = 0
     try:
         with replace_atomically(target) as draft, draft.open("wb") as stream:
@@ -62,11 +75,11 @@ async def save_stream(target: Path, chunks: AsyncIterator[bytes], most: int) -> 
                 size += len(chunk)
                 if size > most:
                     raise TooLargeError(
-                        f"this file is larger than {most // MB} MB", where=target.name, remedy="Send a smaller one."
+                        f"this file is larger than {most // MB} MB", where=name, remedy="Send a smaller one."
                     )
                 stream.write(chunk)
     except (FileExistsError, NotADirectoryError, IsADirectoryError):
-        raise UsageError("a file and a folder have the same name", where=target.name) from None
+        raise UsageError("a file and a folder have the same name", where=name) from None
 
 
 def confine_path(path: str) -> PurePosixPath:
@@ -81,7 +94,8 @@ def confine_path(path: str) -> PurePosixPath:
 
 def find_assets(workers: Workers, home: Path) -> tuple[str, ...]:
     """The assets among uploaded files, by their paths. Raises ProjectError: there are none, or one cannot be read."""
-    found = find_assets_in(home) if home.is_dir() else []
+    with confine_reading(home):
+        found = find_assets_in(home) if home.is_dir() else []
     if not found:
         raise ProjectError("there is no asset among these files", remedy="Send URDF, MJCF, SDF, glTF or mesh files.")
     problems = [problem for path in found if (problem := _find_problem(workers, path, home))]
@@ -96,7 +110,7 @@ def find_assets(workers: Workers, home: Path) -> tuple[str, ...]:
 def _find_problem(workers: Workers, path: Path, home: Path) -> str | None:
     """Why an asset cannot be taken, None where it can."""
     try:
-        files = workers.run(_files_of, path)
+        files = workers.run(_files_of, path, home)
     except MeshForgeError as error:
         return error.message.replace(f"{home}/", "").split("\n")[0]
     outside = [file.name for file in files if not file.resolve().is_relative_to(home.resolve())]
@@ -104,5 +118,6 @@ def _find_problem(workers: Workers, path: Path, home: Path) -> str | None:
     return f"{name} refers to files that were not sent: {join_names(outside)}" if outside else None
 
 
-def _files_of(path: Path) -> tuple[Path, ...]:
-    return read(path).files
+def _files_of(path: Path, home: Path) -> tuple[Path, ...]:
+    with confine_reading(home):  # else a page could ask which files are on the disk
+        return read(path).files

@@ -118,6 +118,17 @@ def test_what_changed_since_the_output_was_made_is_named(tmp_path: Path) -> None
     assert all(a.is_done for a in of(project).assets)
 
 
+def test_a_label_that_nothing_uses_makes_no_output_stale_and_leaves_what_was_accepted(tmp_path: Path) -> None:
+    project = applied(tmp_path)
+    project.set_verdict(FIRST, "accepted")
+    project.set_vocabulary((*project.vocabulary, "wheel"))
+    project.synthesize()
+    program = project.program()
+    assert program and "wheel" in program.labels
+    assert [row.stale for row in of(project).assets] == [(), (), ()]
+    assert (asset(project, FIRST).review, asset(project, FIRST).void) == ("accepted", ())
+
+
 def test_a_file_that_was_only_touched_is_not_stale(tmp_path: Path) -> None:
     project = applied(tmp_path)
     path = tmp_path / "assets" / FIRST

@@ -1,5 +1,6 @@
 // Pictures that were fetched and decoded, by a worker that is begun with the first of them; the latest few hundred are
 // kept.
+import { getBlob } from "../server/http";
 import { waitForFirstScene } from "../store/scenes";
 import type { DecodeAnswer, DecodeRequest } from "./decoder.worker";
 import type { IdMap } from "./idMap";
@@ -27,9 +28,7 @@ export function requestPicture(url: string): { picture: Promise<IdMap>; drop: ()
 
 async function fetchPicture(url: string): Promise<IdMap> {
   await waitForFirstScene();
-  const answer = await fetch(url);
-  if (!answer.ok) throw new Error(`no picture: ${answer.status}`);
-  const map = await decodePicture(await answer.blob());
+  const map = await decodePicture(await getBlob(url));
   kept.set(url, map);
   if (kept.size > MOST) kept.delete(kept.keys().next().value ?? "");
   return map;

@@ -19,7 +19,7 @@ import type {
   ShapesHeader,
   UploadReceipt,
 } from "../wire";
-import { address, getBytes, getJson, postForBytes, postJson, putBytes } from "./http";
+import { getBytes, getJson, postForBytes, postJson, putBytes, withQuery } from "./http";
 import { readPacket, readPicture, type EditedPacket, type ShapesPacket } from "./packet";
 
 export const api = {
@@ -40,13 +40,13 @@ export const api = {
   guesses: (asset: string) => getJson<Guesses>("api/guesses", { asset }),
   picture: async (asset: string, rule: number) => readPicture(await getBytes("api/picture", { asset, rule })),
   thumbnail: (asset: string, of: "source" | "output", version: string) =>
-    address("api/thumbnail", { asset, of, v: version }),
+    withQuery("api/thumbnail", { asset, of, v: version }),
   checked: (asset: string, part: CheckResult["part"], stop: AbortSignal) =>
     getJson<CheckResult>("api/checked", { asset, part }, stop),
   checkPictures: (asset: string, part: CheckResult["part"], stop: AbortSignal) =>
     getJson<CheckPicture[]>("api/checked/pictures", { asset, part }, stop),
   checkPicture: (asset: string, name: string, version: string) =>
-    address("api/checked/picture", { asset, name, v: version }),
+    withQuery("api/checked/picture", { asset, name, v: version }),
   edit: (edit: AnyEdit) => postJson<EditReceipt>("api/edit", edit),
   undo: () => postJson<EditReceipt>("api/undo", {}),
   redo: () => postJson<EditReceipt>("api/redo", {}),

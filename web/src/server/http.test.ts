@@ -1,5 +1,6 @@
 import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
-import { address, getBytes, getJson, page, postForBytes, postJson, putBytes, ServerProblem, setToken } from "./http";
+import { api } from "./api";
+import { getBlob, getBytes, getJson, page, postForBytes, postJson, putBytes, ServerProblem, setToken, socketProtocols } from "./http";
 
 interface Call {
   path: string;
@@ -114,7 +115,15 @@ describe("a failure", () => {
   });
 });
 
-it("puts the token into addresses that an image or a socket opens", () => {
-  expect(address("ws")).toBe("ws?token=secret");
-  expect(address("api/thumbnail", { asset: "a&b", of: "source" })).toBe("api/thumbnail?asset=a%26b&of=source&token=secret");
+it("offers the token of a socket beside its protocol, where it can be one", () => {
+  expect(socketProtocols()).toEqual(["meshforge", "secret"]);
+  setToken("no token, at all");
+  expect(socketProtocols()).toEqual(["meshforge"]);
+});
+
+it("fetches pictures with the token in a header, too", async () => {
+  answer(new Uint8Array([1]));
+  expect((await getBlob(api.thumbnail("a&b", "source", "1"))).size).toBe(1);
+  expect(calls[0]?.path).toBe("api/thumbnail?asset=a%26b&of=source&v=1");
+  expect(calls[0]?.init.headers.Authorization).toBe("Bearer secret");
 });

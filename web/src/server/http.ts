@@ -18,10 +18,9 @@ export function setToken(given: string): void {
   token = given;
 }
 
-/** An address that an <img> or a WebSocket can use. */
-export function address(path: string, query: Record<string, string | number> = {}): string {
-  const words = new URLSearchParams({ ...toStrings(query), token });
-  return `${path}?${words}`;
+/** The protocols that a WebSocket asks for, which has no headers of its own; the token never stands in an address. */
+export function socketProtocols(): string[] {
+  return /^[\w-]+$/.test(token) ? ["meshforge", token] : ["meshforge"];
 }
 
 export async function getJson<T>(path: string, query: Record<string, string | number> = {}, stop?: AbortSignal): Promise<T> {
@@ -30,6 +29,10 @@ export async function getJson<T>(path: string, query: Record<string, string | nu
 
 export async function getBytes(path: string, query: Record<string, string | number> = {}): Promise<ArrayBuffer> {
   return (await request(withQuery(path, query), { method: "GET" })).arrayBuffer();
+}
+
+export async function getBlob(path: string): Promise<Blob> {
+  return (await request(path, { method: "GET" })).blob();
 }
 
 export async function postJson<T>(path: string, body: unknown, stop?: AbortSignal): Promise<T> {
@@ -49,7 +52,7 @@ function postInit(body: unknown, stop?: AbortSignal): RequestInit {
   return { ...init, body: JSON.stringify(body), ...(stop ? { signal: stop } : {}) };
 }
 
-function withQuery(path: string, query: Record<string, string | number>): string {
+export function withQuery(path: string, query: Record<string, string | number>): string {
   const words = new URLSearchParams(toStrings(query)).toString();
   return words ? `${path}?${words}` : path;
 }

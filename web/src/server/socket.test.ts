@@ -11,7 +11,10 @@ class FakeSocket {
   onclose: (() => void) | null = null;
   closed = false;
 
-  constructor(readonly url: URL) {
+  constructor(
+    readonly url: URL,
+    readonly protocols: readonly string[],
+  ) {
     FakeSocket.all.push(this);
   }
 
@@ -47,10 +50,11 @@ afterEach(() => {
 describe("the connection to the server", () => {
   it("goes to the address of the page, encrypted where the page is", () => {
     start();
-    expect(last().url.href).toBe("wss://host:1/studio/ws?token=t");
+    expect(last().url.href).toBe("wss://host:1/studio/ws");
+    expect(last().protocols).toEqual(["meshforge", "t"]);
     vi.stubGlobal("document", { baseURI: "http://host:1/" });
     start();
-    expect(last().url.href).toBe("ws://host:1/ws?token=t");
+    expect(last().url.href).toBe("ws://host:1/ws");
   });
 
   it("hands events on in their order", () => {

@@ -1,6 +1,6 @@
 // The WebSocket on which the server sends what changed; it connects again by itself.
 import type { Event } from "../wire";
-import { address } from "./http";
+import { socketProtocols } from "./http";
 
 interface Listener {
   receive(event: Event): void;
@@ -15,9 +15,9 @@ export function listen(listener: Listener): () => void {
   let timer: ReturnType<typeof setTimeout> | undefined;
 
   function connect(): void {
-    const here = new URL(address("ws"), document.baseURI);
+    const here = new URL("ws", document.baseURI);
     here.protocol = here.protocol.replace("http", "ws");
-    socket = new WebSocket(here);
+    socket = new WebSocket(here, socketProtocols());
     socket.onopen = () => {
       wait = 250;
       listener.connected(true);

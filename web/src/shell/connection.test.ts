@@ -75,12 +75,12 @@ describe("the token", () => {
     const replaced = open("http://host/?token=secret&x=1");
     const page = await load();
     page.takeToken();
-    expect(page.address("ws")).toBe("ws?token=secret");
+    expect(page.socketProtocols()).toEqual(["meshforge", "secret"]);
     expect(replaced).toEqual(["http://host/?x=1"]);
     open("http://host/?x=1");
     const again = await load();
     again.takeToken();
-    expect(again.address("ws")).toBe("ws?token=secret");
+    expect(again.socketProtocols()).toEqual(["meshforge", "secret"]);
   });
 
   it("of the address counts more than the one that was kept", async () => {
@@ -88,14 +88,14 @@ describe("the token", () => {
     open("http://host/?token=new");
     const page = await load();
     page.takeToken();
-    expect(page.address("ws")).toBe("ws?token=new");
+    expect(page.socketProtocols()).toEqual(["meshforge", "new"]);
   });
 
   it("is empty where there is none", async () => {
     open("http://host/");
     const page = await load();
     page.takeToken();
-    expect(page.address("ws")).toBe("ws?token=");
+    expect(page.socketProtocols()).toEqual(["meshforge"]);
   });
 });
 

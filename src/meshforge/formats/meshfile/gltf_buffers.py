@@ -11,7 +11,7 @@ from urllib.parse import unquote, unquote_to_bytes
 import numpy as np
 import numpy.typing as npt
 
-from meshforge.common import AssetError
+from meshforge.common import AssetError, is_beyond_reach
 from meshforge.formats.meshfile.gltf_document import Json, entries, entry, extension
 from meshforge.formats.meshfile.surface import to_doubles
 
@@ -100,10 +100,10 @@ class Buffers:
     def _file(self, uri: str) -> Path:
         """The file of a buffer. Raises OSError: a pipe would be waited for, a device may never end."""
         path = self._beside(uri)
+        if "\0" in str(path) or is_beyond_reach(path):
+            raise FileNotFoundError(uri)
         if path.exists() and not path.is_file():
             raise OSError(0, "it is a folder, a pipe or a device")
-        if "\0" in str(path):
-            raise FileNotFoundError(uri)
         return path
 
     def _beside(self, uri: str) -> Path:

@@ -98,6 +98,7 @@ def gather_model(path: Path, files: Mapping[Path, bytes] | None = None) -> MjcfT
         _refuse_fragment(plain_path(path), parse_xml(XmlText.of(read_content(path)).data, str(path)))
         raise
     _refuse_fragment(tree.main.path, tree.root.element)
+    references.refuse_beyond_reach(tree)
     return tree
 
 

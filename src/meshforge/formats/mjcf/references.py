@@ -6,10 +6,11 @@ import os
 import posixpath
 import re
 from collections.abc import Iterator
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 
-from meshforge.common import MeshForgeError, is_file, relative_name
+from meshforge.common import AssetError, MeshForgeError, is_beyond_reach, is_file, relative_name
 from meshforge.formats.mesh_reader import read_content
 from meshforge.formats.mjcf.document import MjcfDocument, MjcfNode, MjcfTree, read_tree
 from meshforge.formats.references import add_copy, find_companions, note_absolute
@@ -87,6 +88,22 @@ def iterate_file_references(tree: MjcfTree) -> Iterator[tuple[MjcfNode, str]]:
             for attribute in _OF_TEXTURE if node.tag == "texture" else ("file",):
                 if node.attributes.get(attribute):
                     yield node, attribute
+
+
+def refuse_beyond_reach(tree: MjcfTree) -> None:
+    """Raise AssetError for a file that lies where reading is not allowed to go, before MuJoCo looks for it."""
+    waiting, seen = [tree], {tree.main.path}
+    while waiting:
+        inner = waiting.pop()
+        folders = AssetFolders.of(inner)
+        for node, attribute in iterate_file_references(inner):
+            path, reference = folders.find(inner, node, attribute), node.attributes[attribute]
+            if is_beyond_reach(path):
+                raise AssetError(f"the file {reference!r} is not there", where=inner.where(node))
+            if node.tag == "model" and path not in seen and is_file(path):
+                seen.add(path)
+                with suppress(MeshForgeError):  # of another format than MJCF, or one that MuJoCo complains of
+                    waiting.append(read_tree(path))
 
 
 def find_files(tree: MjcfTree) -> tuple[tuple[Path, ...], tuple[str, ...]]:

@@ -10,7 +10,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
-from meshforge.common import AssetError, is_file
+from meshforge.common import AssetError, is_beyond_reach, is_file
 from meshforge.formats.collision_pieces import CollisionElement
 from meshforge.formats.references import Resolver, placement
 from meshforge.formats.xml import Element, XmlText, parse_numbers, parse_xml
@@ -159,7 +159,7 @@ class ModelResolver(Resolver):
 
 def _exists(path: Path, kind: str) -> bool:
     try:
-        return path.is_file() if kind == "file" else path.is_dir()
+        return not is_beyond_reach(path) and (path.is_file() if kind == "file" else path.is_dir())
     except (OSError, ValueError):  # a name longer than those of files, or with a zero byte
         return False
 

@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
-from meshforge.common import AssetError
+from meshforge.common import AssetError, is_beyond_reach
 from meshforge.formats.libraries import pxr
 from meshforge.formats.usd.crate import CRATE_MARK, refuse_harmful_crate
 from meshforge.formats.usd.crate_values import DEEPEST, NEEDLESS, REMEDY, bracket_depth
@@ -77,6 +77,8 @@ def _read_references(layer: Any, file: Path) -> Iterator[tuple[Path, bytes]]:
     """The layers beside a file that it refers to and that are there."""
     for reference in sorted(filter(None, layer.GetCompositionAssetDependencies())):
         found = _resolve_reference(file, reference)
+        if is_beyond_reach(found):
+            raise AssetError(f"it refers to {reference}, which is not beside it", where=str(file))
         try:
             if found.exists() and not found.is_file():  # a pipe would be waited for, a device may never end
                 raise AssetError(f"it refers to {reference}, which is a pipe, a folder or a device", where=str(file))

@@ -25,6 +25,9 @@ LOOPBACK = frozenset({"127.0.0.1", "localhost", "::1"})
 MOST_BYTES = 16 * 2**20
 """Bytes of the body of a request that is no upload."""
 
+PROTOCOL = "meshforge"
+"""The protocol that a WebSocket asks for; after it, it offers the token."""
+
 _REOPEN = "Open the address that `meshforge studio` has printed."
 
 
@@ -79,8 +82,13 @@ class Guard:
         return _check_length(request) if request.scope.get("method") == "POST" else None
 
     def _has_token(self, request: HTTPConnection) -> bool:
-        kind, _, given = request.headers.get("authorization", "").partition(" ")
-        token = given if kind.lower() == "bearer" else request.query_params.get("token", "")
+        """Never by the address, which ends up in logs and histories; a browser's socket has no headers of its own."""
+        if request.scope["type"] == "websocket":
+            offered = [word.strip() for word in request.headers.get("sec-websocket-protocol", "").split(",")]
+            token = offered[1] if offered[0] == PROTOCOL and len(offered) == 2 else ""
+        else:
+            kind, _, given = request.headers.get("authorization", "").partition(" ")
+            token = given if kind.lower() == "bearer" else ""
         return compare_digest(token.encode(), self._token)
 
 
@@ -146,7 +154,7 @@ def packet_response(data: bytes) -> Response:
 @router.websocket("/ws")
 async def serve_socket(connection: WebSocket, session: CurrentSession) -> None:
     """Send a page all events until it leaves, or the studio is closed."""
-    await connection.accept()
+    await connection.accept(subprotocol=PROTOCOL)
     page = PageConnection(get_running_loop())
     session.pages.join(page)
     tasks = [create_task(_send_events(connection, page)), create_task(_listen(connection))]

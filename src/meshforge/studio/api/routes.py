@@ -242,7 +242,7 @@ async def put_template(
     session: CurrentSession, request: Request, name: str, page: SenderId = None
 ) -> requests.UploadReceipt:
     """Take a hull template."""
-    file = await session.uploads.put_template(request.stream())
+    file = await session.uploads.put_template(name, request.stream())
     return await run_in_threadpool(_add_template, session, name, file, page)
 
 

@@ -3,8 +3,9 @@ import { LoaderCircle, X } from "lucide-react";
 import { Dialog } from "radix-ui";
 import { useEffect, useState } from "react";
 import { api } from "../../server/api";
-import { ServerProblem } from "../../server/http";
+import { getBlob, ServerProblem } from "../../server/http";
 import { type Part, showPictures, useShowsPictures } from "../../store/checks";
+import { reportError } from "../../store/toasts";
 import { toSentence } from "../../store/words";
 import { Button, IconButton } from "../../ui/Button";
 import { Note } from "../../ui/Section";
@@ -74,12 +75,30 @@ function focusWhole(event: Event): void {
   if (event.currentTarget instanceof HTMLElement) event.currentTarget.focus();
 }
 
+/** A picture of the server as an address that an image can show, undefined until it is there. */
+function useFetched(source: string): string | undefined {
+  const [shown, setShown] = useState<string>();
+  useEffect(() => {
+    let made: string | undefined;
+    let wanted = true;
+    getBlob(source).then((picture) => {
+      if (wanted) setShown((made = URL.createObjectURL(picture)));
+    }, reportError);
+    return () => {
+      wanted = false;
+      if (made !== undefined) URL.revokeObjectURL(made);
+    };
+  }, [source]);
+  return shown;
+}
+
 /** A picture that a click shows large, over everything else. */
 function EnlargeablePicture({ source, text }: { source: string; text: string }) {
+  const shown = useFetched(source);
   return (
     <Dialog.Root>
       <Dialog.Trigger className={css.small} title="Enlarge">
-        <img src={source} alt={text} />
+        <img src={shown} alt={text} />
       </Dialog.Trigger>
       <Dialog.Portal>
         <Dialog.Overlay className={css.shade} />
@@ -90,7 +109,7 @@ function EnlargeablePicture({ source, text }: { source: string; text: string }) 
               <IconButton icon={X} name="Close" />
             </Dialog.Close>
           </header>
-          <img src={source} alt="" />
+          <img src={shown} alt="" />
         </Dialog.Content>
       </Dialog.Portal>
     </Dialog.Root>
