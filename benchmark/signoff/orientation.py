@@ -42,7 +42,7 @@ def measure(tell: Tell, quick: bool) -> Result:
     return Result(
         "orientation",
         "Orientation withheld",
-        (_withheld_table(withheld), _needless_table(rows), _time_table(rows)),
+        (_withheld_table(withheld), _needless_table(rows)),
         (
             Goal("lessons right, or made right by a suggestion", "at least", 0.9, _share(withheld, _is_right)),
             Goal("… of those that the reference's orientation makes right", "at least", 0.9, _share(able, _is_right)),
@@ -110,26 +110,17 @@ def _needless_table(rows: Sequence[dict[str, Any]]) -> Table:
     return Table("Suggestions where nothing was wrong", columns, tuple(lines))
 
 
-def _time_table(rows: Sequence[dict[str, Any]]) -> Table:
-    with_, without = (sum(row["seconds"][key] for row in rows) for key in ("with", "without"))
-    columns = ("", "with suggestions", "switched off", "ratio")
-    return Table("Learning on tasks with their orientation, s of CPU time in all", columns,
-                 (("all lessons", with_, without, with_ / without if without else 0.0),))  # fmt: skip
-
-
 def teach_three_ways(name: str, seed: int, count: int, calibration: bool = False) -> dict[str, Any]:
     """One lesson with the task's own orientation, without it, and without it on assets that all stand upright."""
     bench = open_bench(name, SEPARATE[seed % len(SEPARATE)], calibration)
     shown = _draw_shown(bench.truth, seed)[:count]
     lesson = Lesson(bench.truth, seed, shown)
-    without, with_ = (lesson.measure_time(bench.task.program.orient, suggest) for suggest in (False, True))
     return {
         "task": name,
         "seed": seed,
         "count": count,
         "needs": needs_orientation(name, calibration),
         "given": lesson.teach(bench.task.program.orient, take=False),
-        "seconds": {"with": with_, "without": without},
         "withheld": lesson.teach(None, take=True),
         "upright": _teach_upright(bench, seed, shown) if seed % SEEDS < len(SEPARATE) else None,
     }
@@ -206,15 +197,12 @@ class Lesson:
                 return outcome, suggested, len(answers)
             answers.append(person.answers(self._desk, outcome.question, outcome.program))
 
-    def _synthesize(
-        self, orient: Orient | None, answers: Sequence[Answer] = (), suggest: bool = True
-    ) -> LearningOutcome | None:
+    def _synthesize(self, orient: Orient | None, answers: Sequence[Answer]) -> LearningOutcome | None:
         """None where it cannot be done; proposals to correct labels are refused, as all are right."""
         one = self._desk.bench.task
         options = Options(
             contact=one.program.contact,
             extremity=one.program.extremity,
-            suggest_orientation=suggest,
             clock=process_time,  # the budget ends no search because the machine has other work
         )
         try:
@@ -224,12 +212,6 @@ class Lesson:
             )  # fmt: skip
         except MeshForgeError:
             return None
-
-    def measure_time(self, orient: Orient | None, suggest: bool) -> float:
-        """The CPU time that the tool takes to learn from the demonstrations alone [s]."""
-        start = process_time()
-        self._synthesize(orient, (), suggest)
-        return process_time() - start
 
     def _is_right(self, outcome: LearningOutcome | None) -> bool:
         return outcome is not None and not self._desk.find_differences(outcome.program, self._rest)
