@@ -51,7 +51,7 @@ export function StepChip({ view, place, count, drag }: StepChipProps) {
         data-chip
         tabIndex={-1}
         title={step?.error ?? (isOpen ? `${text}: not demonstrated here, so the program decides` : text)}
-        onClick={() => showStep(view, place)}
+        onClick={({ detail }) => runInTurn(clickAction(detail, view, place))}
         onKeyDown={(event) => handleKey(event, view, place, count)}
       >
         <span className={css.number}>{place + 1}</span>
@@ -78,12 +78,17 @@ function MadeLabel({ label }: { label: string }) {
   );
 }
 
-/** Shows the asset after a step, with what is left or made of its hulls selected; an open one becomes the action in hand. */
-function showStep(view: AssetView, place: number): void {
+/** What clicks on a step do: the first shows the asset after it, with what is left or made of its hulls selected; the second,
+ * and the first on an open one, makes it the action in hand. */
+export function clickAction(clicks: number, view: AssetView, place: number): () => unknown {
   const step = view.steps[place];
-  if (step?.select == null || step.error) return runInTurn(() => draftStep(place));
-  show({ kind: "steps", steps: place + 1 });
-  select(hullsAfter(step));
+  if (step?.select == null || step.error) return () => (clicks > 1 ? undefined : draftStep(place));
+  if (clicks === 2) return () => draftStep(place);
+  return () => {
+    if (clicks > 2) return;
+    show({ kind: "steps", steps: place + 1 });
+    select(hullsAfter(step));
+  };
 }
 
 export function hullsAfter({ select: selected, made, removed }: StepView): string[] {
