@@ -47,17 +47,23 @@ export function StepChip({ view, place, count, drag }: StepChipProps) {
         type="button"
         className={css.chipButton}
         aria-pressed={shown}
-        aria-label={`Step ${place + 1}: ${text}, ${amountText(step)}${step?.error ? `, ${step.error}` : ""}`}
         data-chip
         tabIndex={-1}
         title={step?.error ?? (isOpen ? `${text}: not demonstrated here, so the program decides` : text)}
         onClick={({ detail }) => runInTurn(clickAction(detail, view, place))}
         onKeyDown={(event) => handleKey(event, view, place, count)}
       >
-        <span className={css.number}>{place + 1}</span>
+        <span className="visually-hidden">{`Step ${place + 1}: ${text}, ${amountText(step)}${step?.error ? `, ${step.error}` : ""}`}</span>
+        <span className={css.number} aria-hidden>
+          {place + 1}
+        </span>
         {step?.error ? <TriangleAlert size={14} aria-hidden /> : <Icon size={14} aria-hidden />}
-        <span className={css.action}>{action}</span>
-        <span className={css.amount}>{amountText(step)}</span>
+        <span className={css.action} aria-hidden>
+          {action}
+        </span>
+        <span className={css.amount} aria-hidden>
+          {amountText(step)}
+        </span>
         {label && <MadeLabel label={label} />}
       </button>
       <Menu
@@ -72,7 +78,7 @@ export function StepChip({ view, place, count, drag }: StepChipProps) {
 function MadeLabel({ label }: { label: string }) {
   const color = useProject((state) => state.project.vocabulary.find(({ name }) => name === label)?.color);
   return (
-    <span className={css.made} style={{ borderColor: color }}>
+    <span className={css.made} style={{ borderColor: color }} title={label} aria-hidden>
       {label}
     </span>
   );
