@@ -124,7 +124,7 @@ def test_a_person_sees_the_cost_before_asking_and_takes_it_all_back(
     with serving(right) as server, asking(tmp_path, server, "--page", str(PAGE)) as studio, chromium() as browser:
         person = hand(browser)
         person.open(address(studio))
-        person.click(person.page.get_by_role("button", name="What asking would cost"))
+        person.click(person.page.get_by_role("button", name="Cost… of asking"))
         person.sees(f"{COUNT} questions with")
         assert server.asked == []
         person.click(person.page.get_by_role("button", name=f"Ask {server.model}"))

@@ -21,7 +21,7 @@ def test_a_filled_cup_is_found_shown_and_sorted_first(tmp_path: Path) -> None:
         go_to(person, CUP)
         person.press("Shift+C")
         fit = person.region("Fit to what is seen")
-        fit.get_by_role("row", name=re.compile("Hulls stick out, at most 0 m 39.7 mm")).wait_for()
+        fit.get_by_role("row", name=re.compile("Hulls stick out, at most 0 m 0.0397 m")).wait_for()
         person.click(fit.get_by_role("button", name=re.compile("Sticks out")))
         assert person.page.get_by_test_id("selection").inner_text().startswith("1 selected")
         person.click(fit.get_by_role("button", name="Show where"))

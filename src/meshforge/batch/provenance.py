@@ -152,7 +152,7 @@ def text_digest(text: str) -> str:
 
 
 def program_digest(program: Program) -> str:
-    """The digest of what a program does: its canonical form without comments and without its list of labels."""
+    """The digest of what a program does: its canonical form without comments and without labels that are not used."""
     rules = tuple(replace(rule, comments=Comments()) for rule in program.rules)
     return text_digest(str(replace(program, labels=(), rules=rules, comments=HeaderComments())))
 

@@ -8,7 +8,8 @@ from meshforge.studio.wire.jobs import PropagationState
 from meshforge.studio.wire.program import NearestView, OutcomeView, QuestionView, RepairView
 
 BARE = Card(asset="a", hulls=2, labels=(-1, -1))
-LABELLED = Card(asset="a", hulls=2, labels=(0, -1))
+BEGUN = Card(asset="a", hulls=2, labels=(0, -1))
+LABELLED = Card(asset="a", hulls=2, labels=(0, 0))
 SHOWN = LABELLED.model_copy(update={"demonstrated": True})
 DONE = SHOWN.model_copy(update={"output": "edited"})
 FOUND = OutcomeView(number=1, status="found", program="labels leg\nIs(leg) => Delete\n")
@@ -32,6 +33,7 @@ def test_the_stages_follow_one_another() -> None:
     assert stage(Card(asset="a", hulls=0, sources=1)) == "label"
     assert stage(BARE, words=()) == "label"
     assert stage(BARE) == "label"
+    assert stage(BEGUN) == "label"
     assert stage(LABELLED) == "demonstrate"
     assert stage(SHOWN, outcome=FOUND) == "learn"
     assert stage(SHOWN, program=True, outcome=FOUND) == "review"
@@ -39,10 +41,8 @@ def test_the_stages_follow_one_another() -> None:
 
 
 def test_the_step_names_the_asset_to_go_to() -> None:
-    assert (
-        choose_next_step([BARE, LABELLED.model_copy(update={"asset": "b"})], ("leg",), False, None, None, last).asset
-        == "b"
-    )
+    begun = BEGUN.model_copy(update={"asset": "b"})
+    assert choose_next_step([BARE, begun], ("leg",), False, None, None, last).asset == "b"
     assert choose_next_step([SHOWN], ("leg",), True, ASKING, None, last).asset == "b"
     repairing = ASKING.model_copy(update={"repairs": (REPAIR,)})
     assert choose_next_step([SHOWN], ("leg",), True, repairing, None, last).asset == "c"
@@ -113,8 +113,21 @@ def test_labels_of_a_labelled_asset_are_carried_over_to_those_that_have_none() -
     step = labelling(BARE, WHOLE)
     assert (step.stage, step.say) == ("label", "a has no label: propagate labels.")
     assert labelling(BARE, BARE.model_copy(update={"asset": "b"}), WHOLE).say.startswith("2 assets have no label")
-    assert labelling(BARE, LABELLED.model_copy(update={"asset": "b"})).stage == "demonstrate", "none is whole"
-    assert labelling(BARE, WHOLE.model_copy(update={"given": 1})).stage == "demonstrate", "a machine labelled it"
+    assert "propagate" not in labelling(BARE, BEGUN.model_copy(update={"asset": "b"})).say, "none is whole"
+    assert "propagate" not in labelling(BARE, WHOLE.model_copy(update={"given": 1})).say, "a machine labelled it"
+
+
+def test_hulls_without_a_label_are_labelled_before_anything_is_demonstrated() -> None:
+    most = Card(asset="c1", hulls=100, labels=(0,) * 30 + (-1,) * 70)
+    rest = Card(asset="c2", hulls=36, labels=(0,) * 11 + (-1,) * 25)
+    step = labelling(most, rest)
+    assert (step.stage, step.asset) == ("label", "c2")
+    assert step.say == "95 of 136 hulls have no label: label those of c2."
+    assert labelling(most, rest, WHOLE).say == "95 of 138 hulls have no label: propagate labels."
+    again = labelling(most, rest, WHOLE, carried=PropagationState(unused=0))
+    assert again.asset == "c2", "propagation left them"
+    assert labelling(most, rest.model_copy(update={"demonstrated": True})).stage != "label", "who went on is let go on"
+    assert labelling(BEGUN).say == "1 of 2 hulls has no label: label those of a."
 
 
 def test_unsure_labels_are_looked_through_unless_something_else_is_less_work() -> None:

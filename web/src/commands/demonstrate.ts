@@ -1,5 +1,5 @@
 // Commands that demonstrate: actions are begun, accepted and cancelled; steps are removed; hulls are cut.
-import { acceptDraft, changeDraft, dropDraft, selectedHulls, startDraft } from "../store/draft";
+import { acceptDraft, dropDraft, selectedHulls, startDraft, toggleEach } from "../store/draft";
 import { acceptGuess, guessFor } from "../store/guesses";
 import { useScenes } from "../store/scenes";
 import { openRules, removeStep } from "../store/steps";
@@ -69,7 +69,7 @@ export const demonstrateCommands: readonly Command[] = [
     group: "Demonstrate",
     keys: ["E"],
     enabled: () => useWorkspace.getState().draft !== null,
-    run: () => changeDraft({ each: !useWorkspace.getState().draft?.each }),
+    run: toggleEach,
   },
   {
     id: "draft-accept",

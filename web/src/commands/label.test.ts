@@ -46,10 +46,18 @@ describe("a digit", () => {
     expect(useWorkspace.getState().brush).toBeNull();
   });
 
-  it("means nothing beyond the list of labels, and in other stages", () => {
+  it("means nothing beyond the list of labels, and in other stages says what it is for", () => {
     expect(command("3")).toBeUndefined();
     useWorkspace.setState({ stage: "learn" });
     expect(command("1")).toBeUndefined();
+    select(["y"]);
+    for (const key of ["2", "0", "P"]) press(key);
+    expect(useToasts.getState().toasts.map(({ text }) => text)).toEqual([
+      "2 gives the label top in the Label stage (Alt+1).",
+      "0 removes labels in the Label stage (Alt+1).",
+      "P propagates labels in the Label stage (Alt+1).",
+    ]);
+    expect([sent, useWorkspace.getState().brush]).toEqual([[], null]);
   });
 });
 

@@ -10,13 +10,19 @@ import type { Command } from "./command";
 const isLabelling = (): boolean => useWorkspace.getState().stage === "label";
 const labelAt = (place: number): string | undefined => useProject.getState().project.vocabulary[place]?.name;
 
+/** Digits that look from a side in the other stages. */
+const SIDE_DIGITS: readonly number[] = [1, 3, 7];
+
+/** Says what a key does in the stage that it is for. */
+const sayWhere = (key: string, does: string): void => notify(`${key} ${does} in the Label stage (Alt+1).`);
+
 const digitCommands: readonly Command[] = [1, 2, 3, 4, 5, 6, 7, 8, 9].map((digit) => ({
   id: `label-${digit}`,
   title: `Label ${digit}: label the selection, or paint`,
   group: "Label",
   keys: [String(digit)],
-  enabled: () => isLabelling() && labelAt(digit - 1) !== undefined,
-  run: () => applyLabel(labelAt(digit - 1) ?? null),
+  enabled: () => labelAt(digit - 1) !== undefined && (isLabelling() || !SIDE_DIGITS.includes(digit)),
+  run: () => (isLabelling() ? applyLabel(labelAt(digit - 1) ?? null) : sayWhere(String(digit), `gives the label ${labelAt(digit - 1)}`)),
 }));
 
 const isUnsureAny = (): boolean =>
@@ -44,8 +50,7 @@ export const labelCommands: readonly Command[] = [
     title: "No label: remove it from the selection, or by painting",
     group: "Label",
     keys: ["0"],
-    enabled: isLabelling,
-    run: () => applyLabel(null),
+    run: () => (isLabelling() ? applyLabel(null) : sayWhere("0", "removes labels")),
   },
   {
     id: "label-right",
@@ -76,8 +81,7 @@ export const labelCommands: readonly Command[] = [
     title: "Propagate labels to all assets",
     group: "Label",
     keys: ["P"],
-    enabled: isLabelling,
-    run: tryPropagate,
+    run: () => (isLabelling() ? tryPropagate() : sayWhere("P", "propagates labels")),
   },
   {
     id: "label-brush-down",

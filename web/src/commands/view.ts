@@ -1,5 +1,6 @@
 // Commands that look: from standard sides, at all or at the selection, in another manner, with a tool.
 import { useScenes } from "../store/scenes";
+import { notify } from "../store/toasts";
 import {
   lookFrom,
   setTool,
@@ -23,8 +24,22 @@ const SIDES: readonly { side: StandardView; digit: 1 | 3 | 7; opposite: Standard
 const sideCommands: readonly Command[] = SIDES.flatMap(({ side, digit, opposite }): Command[] => [
   lookCommand(side, [`Numpad${digit}`], isHere),
   lookCommand(opposite, [`Ctrl+Numpad${digit}`], isHere),
-  { ...lookCommand(side, [String(digit)], isNotLabelling), id: `view-${side}-digit`, title: `View from the ${side}, by digit` },
+  {
+    ...lookCommand(side, [String(digit)], isNotLabelling),
+    id: `view-${side}-digit`,
+    title: `View from the ${side}, by digit`,
+    run: () => lookByDigit(side, digit),
+  },
 ]);
+
+let isSaid = false;
+
+/** Looks from a side; says once that a digit gives labels elsewhere, as one may have meant that. */
+function lookByDigit(side: StandardView, digit: number): void {
+  lookFrom(side);
+  if (!isSaid) notify(`View from the ${side}. In the Label stage (Alt+1), ${digit} gives a label.`);
+  isSaid = true;
+}
 
 function lookCommand(side: StandardView, keys: readonly string[], enabled: () => boolean): Command {
   const title = `View from the ${side}`;

@@ -18,15 +18,17 @@ import {
 } from "lucide-react";
 import { memo, useState } from "react";
 import { Thumbnail } from "../pictures/Thumbnail";
+import { commonPartsOf } from "../store/commonParts";
 import { makeHulls, useIsDecomposing } from "../store/jobs";
 import { useLabelChangesOf } from "../store/labelChanges";
 import { doubtsText, probabilityText } from "../store/assessment";
 import { useProject } from "../store/project";
 import { openAsset, setLayout, useWorkspace } from "../store/workspace";
 import { Button } from "../ui/Button";
+import { Name } from "../ui/Name";
 import type { Card as CardData, AssetLabelUpdate } from "../wire";
 import css from "./card.module.css";
-import { type Badge, badgesOf, cardText, fitBadges, hullsText, relabelledText, shortenMiddle } from "./cardText";
+import { type Badge, badgesOf, cardText, fitBadges, hullsText, relabelledText } from "./cardText";
 
 interface CardProps {
   asset: string;
@@ -47,13 +49,14 @@ export const Card = memo(function Card({ asset, width, place, of, large }: CardP
   const engine = useWorkspace((workspace) => workspace.checks.engine);
   const title = useProject((state) => doubtsText(asset, state.confidence[asset], state.assessment?.bar ?? null));
   const sure = useProject((state) => probabilityText(state, asset));
+  const parts = useProject((state) => commonPartsOf(state.order)(asset));
   if (!card) return null;
+  const said = [cardText(card, engine), sure && sure !== "…" && `${sure} sure`, relabelled && relabelledText(relabelled)].filter(Boolean).join("; ");
   return (
     <div
       id={cardId(asset)}
       role="option"
       aria-selected={current}
-      aria-label={[cardText(card, engine), sure && sure !== "…" && `${sure} sure`, relabelled && relabelledText(relabelled)].filter(Boolean).join("; ")}
       aria-posinset={place + 1}
       aria-setsize={of}
       data-asset={asset}
@@ -64,9 +67,12 @@ export const Card = memo(function Card({ asset, width, place, of, large }: CardP
       onClick={() => openAsset(asset)}
       onDoubleClick={() => setLayout({ gallery: false })}
     >
+      <span className="visually-hidden">{said}</span>
       {card.error === null ? <Face card={card} large={large} relabelled={relabelled} /> : <Broken error={card.error} />}
-      <div className={css.foot}>
-        <span className={css.name}>{shortenMiddle(asset, Math.floor((width - 16) / 6.3))}</span>
+      <div className={css.foot} aria-hidden>
+        <span className={css.name}>
+          <Name text={asset} parts={parts} hidden />
+        </span>
         <span className={css.line}>
           <Amount card={card} />
           <Sure asset={asset} />
@@ -80,7 +86,7 @@ export const Card = memo(function Card({ asset, width, place, of, large }: CardP
 /** Why an asset cannot be read; the folder, which all assets share, is in the tooltip only. */
 function Broken({ error }: { error: string }) {
   return (
-    <p className={css.error} title={error}>
+    <p className={css.error} title={error} aria-hidden>
       {error.replace(/^\S*[/\\](?=\S+:)/, "")}
     </p>
   );
@@ -112,14 +118,14 @@ function Face({ card, large, relabelled }: FaceProps) {
   return (
     <div className={css.face} onPointerEnter={() => setOver(true)} onPointerLeave={() => setOver(false)}>
       <Thumbnail asset={card.asset} of={showing} highlight={marked} label="" />
-      {marked && isKnown && card.hulls > 0 && <span className={css.marked}>{marked.length}</span>}
+      {marked && isKnown && card.hulls > 0 && <span className={css.marked} aria-hidden>{marked.length}</span>}
       {!marked && relabelled && <LabelUpdate found={relabelled} />}
       {card.hulls === 0 && card.sources > 0 && (
         <span className={css.over}>
           <MakeHulls asset={card.asset} />
         </span>
       )}
-      {large && edited && <span className={css.which}>{showing === "output" ? "after" : "before"}</span>}
+      {large && edited && <span className={css.which} aria-hidden>{showing === "output" ? "after" : "before"}</span>}
     </div>
   );
 }
@@ -127,7 +133,7 @@ function Face({ card, large, relabelled }: FaceProps) {
 /** How many of its labels the last edit of all labels gave or changed. */
 function LabelUpdate({ found }: { found: AssetLabelUpdate }) {
   return (
-    <span className={css.relabelled} title={relabelledText(found)}>
+    <span className={css.relabelled} aria-hidden title={relabelledText(found)}>
       {found.new.length > 0 && `+${found.new.length}`}
       {found.changed.length > 0 && (
         <span className={css.swapped}>

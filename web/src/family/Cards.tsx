@@ -46,7 +46,6 @@ export function Cards({ least, large = false }: { least: number; large?: boolean
       tabIndex={0}
       aria-activedescendant={asset === null ? undefined : cardId(asset)}
       data-first
-      data-tab-assets
       data-testid="family"
       onKeyDown={(event) => moveByKey(event, shown, columns)}
     >

@@ -1,9 +1,11 @@
 // How sure the edits of the family are, in one line; and of one asset, why its edit may be wrong.
 import { CircleCheck, CircleQuestionMark, Crosshair, LoaderCircle } from "lucide-react";
+import { useMemo } from "react";
 import { lookAtHeld, showDoubt } from "../commands/question";
-import { lookText, moodOf, percentText, sureText, unseenText } from "../store/assessment";
+import { groupHeld, lookText, moodOf, percentText, sureText, unseenText } from "../store/assessment";
 import { useProject } from "../store/project";
-import { countText, shortName } from "../store/words";
+import { countText, listText, shortName } from "../store/words";
+import { openAsset } from "../store/workspace";
 import { Button } from "../ui/Button";
 import { Section } from "../ui/Section";
 import type { AssessmentView, DoubtView } from "../wire";
@@ -29,22 +31,46 @@ function Known({ assessment }: { assessment: AssessmentView }) {
   const look = lookText(assessment);
   const unseen = unseenText(assessment);
   return (
-    <p className={css.line} data-mood={mood} role="status">
-      <Icon size={14} aria-hidden />
-      <span>
-        {sureText(assessment)}
-        {assessment.aside > 0 && `; ${assessment.aside.toLocaleString("en-GB")} set aside`}
-        {unseen && `; ${unseen}`}
-        {look && (
-          <>
-            {"; "}
-            <button type="button" className={css.look} onClick={lookAtHeld}>
-              {look}
-            </button>
-          </>
-        )}
-      </span>
-    </p>
+    <>
+      <p className={css.line} data-mood={mood} role="status">
+        <Icon size={14} aria-hidden />
+        <span>
+          {sureText(assessment)}
+          {assessment.aside > 0 && `; ${assessment.aside.toLocaleString("en-GB")} set aside`}
+          {unseen && `; ${unseen}`}
+          {look && (
+            <>
+              {"; "}
+              <button type="button" className={css.look} onClick={lookAtHeld}>
+                {look}
+              </button>
+            </>
+          )}
+        </span>
+      </p>
+      <HeldReasons assessment={assessment} />
+    </>
+  );
+}
+
+/** Why assets are held, reason by reason, each with a way to the first of its assets. */
+function HeldReasons({ assessment }: { assessment: AssessmentView }) {
+  const groups = useMemo(() => groupHeld(assessment), [assessment]);
+  if (!groups.length) return null;
+  return (
+    <details className={css.reasons}>
+      <summary>{countText(groups.length, "reason")} to look</summary>
+      <ul>
+        {groups.map(({ reason, assets, share }) => (
+          <li key={reason}>
+            <button type="button" className={css.look} title={assets.join("\n")} onClick={() => openAsset(assets[0] ?? null)}>
+              {listText(assets.map(shortName), 3)}
+            </button>{" "}
+            ({share}){reason && `: ${reason}`}
+          </li>
+        ))}
+      </ul>
+    </details>
   );
 }
 

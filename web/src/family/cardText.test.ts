@@ -1,7 +1,7 @@
 // Words on cards.
 import { expect, test } from "vitest";
 import type { Card } from "../wire";
-import { badgesOf, cardText, fitBadges, relabelledText, shortenMiddle } from "./cardText";
+import { badgesOf, cardText, fitBadges, relabelledText } from "./cardText";
 
 const card: Card = {
   asset: "a.urdf",
@@ -26,13 +26,6 @@ const card: Card = {
   check: null,
   faults: null,
 };
-
-test("long names lose their middle, more of the front than of the end", () => {
-  expect(shortenMiddle("assets/robots/very/long/name/robot_17.urdf", 20)).toHaveLength(20);
-  expect(shortenMiddle("assets/robots/very/long/name/robot_17.urdf", 20)).toMatch(/^assets/);
-  expect(shortenMiddle("assets/robots/very/long/name/robot_17.urdf", 20)).toMatch(/t_17\.urdf$/);
-  expect(shortenMiddle("short", 20)).toBe("short");
-});
 
 test("every way an asset stands has a badge of its own", () => {
   expect(badgesOf(card).map((badge) => badge.name)).toEqual([

@@ -4,13 +4,6 @@ import { matchesFilter, unlabelled } from "../store/family";
 import type { FilterName } from "../store/workspace";
 import type { Card, AssetLabelUpdate } from "../wire";
 
-/** A text of at most so many letters, shortened in the middle, where ids differ least. */
-export function shortenMiddle(text: string, most: number): string {
-  if (text.length <= most || most < 5) return text;
-  const end = Math.ceil((most - 1) * 0.6);
-  return `${text.slice(0, most - 1 - end)}…${text.slice(-end)}`;
-}
-
 export const hullsText = (count: number): string => (count === 1 ? "1 hull" : `${count} hulls`);
 
 export interface Badge {

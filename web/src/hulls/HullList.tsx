@@ -3,6 +3,7 @@ import { useVirtualizer } from "@tanstack/react-virtual";
 import { ArrowDown, ArrowUp, Search } from "lucide-react";
 import { type KeyboardEvent, type MouseEvent, useEffect, useMemo, useRef, useState } from "react";
 import { tonesOf } from "../pictures/hullColors";
+import { findCommonParts } from "../store/commonParts";
 import { useFormerLabels } from "../store/labelChanges";
 import { useProject } from "../store/project";
 import { type Scene, useScenes } from "../store/scenes";
@@ -52,6 +53,7 @@ function Rows({ scene, search, order, onOrder }: RowsProps) {
   const rows = useMemo(() => rowsOf(scene.hulls, scene.contacts, search, order), [scene, search, order]);
   const former = useFormerLabels(scene.asset, scene.view.hulls);
   const names = useMemo(() => rows.map((row) => row.hull.name), [rows]);
+  const partsOf = useMemo(() => findCommonParts(scene.hulls.map((hull) => hull.name)), [scene.hulls]);
   const opaque = scene.view.opaque.filter((piece) => matchesSearch(search, piece.name, piece.reason, piece.body));
   const grid = useRef<HTMLDivElement>(null);
   const virtual = useVirtualizer({
@@ -94,7 +96,7 @@ function Rows({ scene, search, order, onOrder }: RowsProps) {
             if (row) {
               const { name } = row.hull;
               const place = { index, top: start - HEAD, active: index === at };
-              return <HullRow key={name} row={row} tone={tone(row.hull)} was={former.get(name)} {...place} />;
+              return <HullRow key={name} row={row} tone={tone(row.hull)} parts={partsOf(name)} was={former.get(name)} {...place} />;
             }
             const piece = opaque[index - rows.length];
             return piece && <OpaqueRow key={`opaque ${piece.name}`} piece={piece} index={index} top={start - HEAD} />;

@@ -1,9 +1,11 @@
 // One hull in the list; it subscribes to its own hover and selection, so that the list never renders for them.
 import { memo } from "react";
 import type { Tone } from "../pictures/hullColors";
+import { type CommonParts, NONE } from "../store/commonParts";
 import { volumeText } from "../store/units";
 import { sourceText } from "../store/words";
 import { hover, useWorkspace } from "../store/workspace";
+import { Name } from "../ui/Name";
 import { Swatch } from "../ui/Section";
 import css from "./hulls.module.css";
 import type { Row } from "./rows";
@@ -17,13 +19,15 @@ interface Place {
 interface HullRowProps extends Place {
   readonly row: Row;
   readonly tone: Tone;
+  /** What its name has in common with the others. */
+  readonly parts: CommonParts;
   /** Whether the keys are at it. */
   readonly active: boolean;
   /** The label that it had before the last edit of all labels, where that was another one. */
   readonly was: string | undefined;
 }
 
-export const HullRow = memo(function HullRow({ row, tone, active, was, index, top }: HullRowProps) {
+export const HullRow = memo(function HullRow({ row, tone, parts, active, was, index, top }: HullRowProps) {
   const { hull, neighbours } = row;
   const selected = useWorkspace((workspace) => workspace.selection.has(hull.name));
   const pointed = useWorkspace((workspace) => workspace.hover === hull.name);
@@ -45,7 +49,7 @@ export const HullRow = memo(function HullRow({ row, tone, active, was, index, to
     >
       <span role="gridcell" className={css.name} title={hidden ? `${hull.name} (hidden)` : hull.name}>
         <Swatch color={tone.color ?? "var(--hull-unlabelled)"} hatched={tone.hatched} />
-        <Shortened text={hull.name} />
+        <Name text={hull.name} parts={parts} />
       </span>
       <span role="gridcell" title={labelTitle(row, was)}>
         {hull.label ?? <i aria-label="no label">–</i>}
@@ -63,18 +67,6 @@ export const HullRow = memo(function HullRow({ row, tone, active, was, index, to
     </div>
   );
 });
-
-const TAIL = 6;
-
-/** A name that loses letters before its last ones, by which most names differ. */
-function Shortened({ text }: { text: string }) {
-  return (
-    <span className={css.shortened}>
-      <span>{text.slice(0, -TAIL)}</span>
-      <span>{text.slice(-TAIL)}</span>
-    </span>
-  );
-}
 
 function labelTitle({ hull }: Row, was: string | undefined): string {
   if (hull.label === null) return "No label";
@@ -100,7 +92,7 @@ export const OpaqueRow = memo(function OpaqueRow({ piece, index, top }: Place & 
     >
       <span role="gridcell" className={css.name} title={piece.name}>
         <Swatch color="var(--hull-pale)" hatched />
-        <Shortened text={piece.name} />
+        <Name text={piece.name} parts={NONE} />
       </span>
       <span role="gridcell" className={css.reason} title={piece.reason}>
         {piece.reason}

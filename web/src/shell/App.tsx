@@ -51,31 +51,31 @@ function Columns() {
   return (
     <div className={css.columns}>
       {open && (
-        <>
-          <aside className={css.family} style={{ width: family }} aria-label="Family" data-part data-tour="family">
-            <Family />
-          </aside>
+        <aside className={css.family} style={{ width: family }} aria-label="Family" data-part data-tour="family">
+          <Family />
           <Divider
             name="Width of the family"
             along="x"
+            edge="right"
             value={family}
             range={WIDTHS.family}
             onChange={(width) => widen({ family: width })}
             onCollapse={() => setLayout({ family: false })}
           />
-        </>
+        </aside>
       )}
       <Centre />
-      <Divider
-        name="Width of the panel"
-        along="x"
-        flipped
-        value={panel}
-        range={WIDTHS.panel}
-        onChange={(width) => widen({ panel: width })}
-      />
       <aside className={css.panel} style={{ width: panel }} aria-label="Stage" data-part data-tour="panel">
         <StageColumn />
+        <Divider
+          name="Width of the panel"
+          along="x"
+          edge="left"
+          flipped
+          value={panel}
+          range={WIDTHS.panel}
+          onChange={(width) => widen({ panel: width })}
+        />
       </aside>
     </div>
   );

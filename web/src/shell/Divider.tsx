@@ -5,6 +5,8 @@ import css from "./App.module.css";
 interface DividerProps {
   name: string;
   along: "x" | "y";
+  /** At which side of the part it lies, over it; else it has a place between two parts. */
+  edge?: "left" | "right";
   value: number;
   range: readonly [number, number];
   /** The part that is measured lies after the line. */
@@ -16,7 +18,7 @@ interface DividerProps {
   onCollapse?: () => void;
 }
 
-export function Divider({ name, along, value, range, flipped, unit, onChange, onCollapse }: DividerProps) {
+export function Divider({ name, along, edge, value, range, flipped, unit, onChange, onCollapse }: DividerProps) {
   const from = useRef<{ at: number; value: number } | null>(null);
   const [dragged, setDragged] = useState(false);
   const [least, most] = range;
@@ -51,6 +53,7 @@ export function Divider({ name, along, value, range, flipped, unit, onChange, on
       aria-valuemax={most}
       className={css.divider}
       data-along={along}
+      data-edge={edge}
       data-dragged={dragged}
       onPointerDown={(event) => {
         event.currentTarget.setPointerCapture(event.pointerId);

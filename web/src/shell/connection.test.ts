@@ -17,6 +17,7 @@ interface Socket {
 }
 
 let storage: Storage;
+let shared: Storage;
 let socket: Socket;
 
 /** The modules as a page has them that was just loaded. */
@@ -50,6 +51,8 @@ beforeEach(() => {
   vi.useFakeTimers();
   storage = new Storage();
   vi.stubGlobal("sessionStorage", storage);
+  shared = new Storage();
+  vi.stubGlobal("localStorage", shared);
   vi.stubGlobal("document", { baseURI: "http://host/" });
   vi.stubGlobal("WebSocket", function (this: Socket) {
     // eslint-disable-next-line @typescript-eslint/no-this-alias
@@ -126,6 +129,8 @@ describe("without a connection", () => {
   });
 });
 
+const draft = { action: "Merge", arguments: {}, each: true, label: "leg", editing: 1 };
+
 describe("the first word of the server", () => {
   it("opens what is next", async () => {
     const page = await load();
@@ -144,6 +149,61 @@ describe("the first word of the server", () => {
     page.connect();
     hello(page);
     expect([page.useWorkspace.getState().stage, page.useWorkspace.getState().asset]).toEqual(["review", "b"]);
+  });
+
+  it("opens in a new tab where the work is, of this project, without what is in hand in another tab", async () => {
+    const before = await load();
+    before.connect();
+    hello(before);
+    before.openStage("demonstrate");
+    before.openAsset("b");
+    before.setDraft(draft);
+    vi.stubGlobal("sessionStorage", new Storage());
+    const page = await load();
+    page.connect();
+    hello(page, { project: { ...page.emptyProject.project, next: { stage: "label", say: "", asset: "a" } } });
+    const { stage, asset, draft: inHand } = page.useWorkspace.getState();
+    expect([stage, asset, inHand]).toEqual(["demonstrate", "b", null]);
+    vi.stubGlobal("sessionStorage", new Storage());
+    const other = await load();
+    other.connect();
+    hello(other, { project: { ...page.emptyProject.project, folder: "/other", next: { stage: "learn", say: "", asset: "a" } } });
+    expect(other.useWorkspace.getState().stage).toBe("learn");
+  });
+
+  it("gives back the action in hand with its hulls after the page was loaded again", async () => {
+    const before = await load();
+    before.connect();
+    hello(before);
+    before.openStage("demonstrate");
+    before.openAsset("b");
+    before.setDraft(draft);
+    before.select(["x", "y"]);
+    const page = await load();
+    page.connect();
+    hello(page);
+    expect(page.useWorkspace.getState().draft).toEqual(draft);
+    expect([...page.useWorkspace.getState().selection]).toEqual(["x", "y"]);
+    page.setDraft(null);
+    const after = await load();
+    after.connect();
+    hello(after);
+    expect(after.useWorkspace.getState().draft).toBeNull();
+  });
+
+  it("gives back nothing that is no action in hand, or whose asset is gone", async () => {
+    for (const hand of [{ draft: {} }, { draft, selection: 3 }, "x"]) {
+      storage.setItem("meshforge.place", JSON.stringify({ asset: "b", stage: "demonstrate", hand }));
+      const page = await load();
+      page.connect();
+      hello(page);
+      expect(page.useWorkspace.getState().draft).toBeNull();
+    }
+    storage.setItem("meshforge.place", JSON.stringify({ asset: "gone", stage: "demonstrate", hand: { draft, selection: [] } }));
+    const page = await load();
+    page.connect();
+    hello(page);
+    expect(page.useWorkspace.getState().draft).toBeNull();
   });
 
   it("opens an asset that can be read where nothing else is known", async () => {

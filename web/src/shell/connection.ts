@@ -5,7 +5,16 @@ import { getJson, setToken as keep, ServerProblem } from "../server/http";
 import { listen } from "../server/socket";
 import { receive, useProject } from "../store/project";
 import { followWorkspace } from "../store/scenes";
-import { openAsset, openStage, type StageName, STAGES, useWorkspace } from "../store/workspace";
+import {
+  type Draft,
+  openAsset,
+  openStage,
+  type Showing,
+  type StageName,
+  STAGES,
+  useWorkspace,
+  type WorkspaceState,
+} from "../store/workspace";
 import type { Event } from "../wire";
 
 /** refused: the server is another one than that whose token this page has. */
@@ -41,36 +50,68 @@ async function findReason(): Promise<"lost" | "refused"> {
   }
 }
 
-/** Opens what this tab had open before it was loaded again, or what is next. */
+/** Opens what this tab had open before it was loaded again, with the action in hand; in a new tab what was open in the one
+ * before, or what is next. */
 function restorePlace(): void {
   const { cards, order, project } = useProject.getState();
-  const before = storedPlace();
+  const own = storedPlace(sessionStorage, PLACE_KEY);
+  const before = own.stage === null ? storedPlace(localStorage, lastPlaceKey()) : own;
   openStage(before.stage ?? project.next.stage);
   const known = before.asset !== null && before.asset in cards ? before.asset : null;
   const readable = order.find((asset) => cards[asset]?.error === null && cards[asset].hulls !== 0);
   openAsset(known ?? project.next.asset ?? readable ?? order[0] ?? null);
+  const { hand } = own;
+  if (hand && known !== null) useWorkspace.setState({ ...hand, selection: new Set(hand.selection) });
 }
 
 const PLACE_KEY = "meshforge.place";
 
-/** Where one was in this tab: asset and stage, so that loading the page again loses no place. */
-function storedPlace(): { asset: string | null; stage: StageName | null } {
+/** Of each project the last place is kept, for tabs that are opened later. */
+const lastPlaceKey = (): string => `${PLACE_KEY} ${useProject.getState().project.folder}`;
+
+interface Place {
+  readonly asset: string | null;
+  readonly stage: StageName | null;
+  /** The action in hand, its hulls, and in which state the asset is shown for it. */
+  readonly hand: { draft: Draft; selection: readonly string[]; asked: Showing | null } | null;
+}
+
+const nowhere: Place = { asset: null, stage: null, hand: null };
+
+/** Where one was, so that loading the page again loses no place and nothing in hand. */
+function storedPlace(storage: Storage, key: string): Place {
   try {
-    const { asset, stage } = JSON.parse(sessionStorage.getItem(PLACE_KEY) ?? "{}") as Record<string, unknown>;
+    const { asset, stage, hand } = JSON.parse(storage.getItem(key) ?? "{}") as Record<string, unknown>;
     return {
       asset: typeof asset === "string" ? asset : null,
       stage: STAGES.find((known) => known === stage) ?? null,
+      hand: isHand(hand) ? hand : null,
     };
   } catch {
-    return { asset: null, stage: null };
+    return nowhere;
   }
 }
 
+/** Whether what was kept is an action in hand, as this page knows it. */
+function isHand(value: unknown): value is NonNullable<Place["hand"]> {
+  if (typeof value !== "object" || value === null) return false;
+  const { draft, selection } = value as { draft?: Partial<Draft> | null; selection?: unknown };
+  const isDraft = typeof draft?.action === "string" && typeof draft.arguments === "object" && draft.editing !== undefined;
+  return isDraft && Array.isArray(selection) && selection.every((name) => typeof name === "string");
+}
+
 function rememberPlace(): void {
-  useWorkspace.subscribe(({ asset, stage }, before) => {
-    if (asset === before.asset && stage === before.stage) return;
-    sessionStorage.setItem(PLACE_KEY, JSON.stringify({ asset, stage }));
+  keepPlace(useWorkspace.getState());
+  useWorkspace.subscribe((now, before) => {
+    const moved = now.asset !== before.asset || now.stage !== before.stage;
+    const isOtherHand = now.draft !== before.draft || (now.draft !== null && now.selection !== before.selection);
+    if (moved || isOtherHand) keepPlace(now);
   });
+}
+
+function keepPlace({ asset, stage, draft, selection, asked }: WorkspaceState): void {
+  sessionStorage.setItem(PLACE_KEY, JSON.stringify({ asset, stage, hand: draft && { draft, selection: [...selection], asked } }));
+  localStorage.setItem(lastPlaceKey(), JSON.stringify({ asset, stage }));
 }
 
 const TOKEN_KEY = "meshforge.token";

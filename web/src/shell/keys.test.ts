@@ -25,7 +25,7 @@ interface Press {
 const body = new FakeElement();
 const field = new FakeElement(["textarea"]);
 const button = new FakeElement(["[role=slider]"]);
-const family = new FakeElement(["data-tab-assets"]);
+const family = new FakeElement(["[role=listbox]"]);
 const dialog = new FakeElement(["[role=dialog]"]);
 
 let listeners: Map<string, (event: unknown) => void>;
@@ -113,13 +113,21 @@ describe("Tab", () => {
     useProject.setState({ ...emptyProject, cards, order: ["a", "b"] }, true);
   };
 
-  it("goes to the next asset while the pointer is in use, and from the family in any case", async () => {
+  it("goes to the next asset while the pointer is in use, also from the family", async () => {
     await assets();
     expect(press({ key: "Tab", code: "Tab" })).toBe(true);
     expect(useWorkspace.getState().asset).toBe("b");
-    press({ key: "ArrowDown", code: "ArrowDown", on: family });
     expect(press({ key: "Tab", code: "Tab", on: family })).toBe(true);
     expect(useWorkspace.getState().asset).toBe("a");
+  });
+
+  it("leaves the family once a key brought one there, in which arrows move", async () => {
+    await assets();
+    press({ key: "Tab", code: "Tab", on: button });
+    press({ key: "ArrowDown", code: "ArrowDown", on: family });
+    const { asset } = useWorkspace.getState();
+    for (const shiftKey of [false, true]) expect(press({ key: "Tab", code: "Tab", on: family, shiftKey })).toBe(false);
+    expect(useWorkspace.getState().asset).toBe(asset);
   });
 
   it("moves the focus on as everywhere once keys moved it", async () => {

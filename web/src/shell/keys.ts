@@ -12,8 +12,8 @@ const FIELDS =
   "input:not([type=checkbox], [type=radio], [type=range], [type=button]), textarea, select, [contenteditable=true]";
 const ROLES = ["tab", "option", "switch", "checkbox", "radio", "slider", "row", "gridcell", "listbox", "grid"];
 const CONTROLS = ["button", "a", "summary", "input", ...ROLES.map((role) => `[role=${role}]`)].join(", ");
-/** Where Tab goes to the next asset even though a key brought one there. */
-const ASSET_TABS = "[data-tab-assets], [data-testid=viewport]";
+/** Where Tab goes to the next asset even though a key brought one there; F6 leads on. */
+const ASSET_TABS = "[data-testid=viewport]";
 
 /** Binds the keys of all commands to the window. */
 export function bindKeys(): void {

@@ -4,7 +4,8 @@ import * as draft from "../store/draft";
 import * as edits from "../store/edits";
 import * as store from "../store/steps";
 import type { AssetView } from "../wire";
-import { hullsAfter, keyAction } from "./StepChip";
+import { initialWorkspace, useWorkspace } from "../store/workspace";
+import { clickAction, hullsAfter, keyAction } from "./StepChip";
 
 const view = { asset: "a", steps: [] } as unknown as AssetView;
 const action = (key: string, place: number, altKey = false) => keyAction({ key, altKey } as never, view, place, 3);
@@ -53,4 +54,25 @@ it("after a step what is left of its hulls is selected, and what it made", () =>
   const step = { select: ["x", "y"], removed: ["x"], made: ["m"] } as never;
   expect(hullsAfter(step)).toEqual(["y", "m"]);
   expect(hullsAfter({ select: null, removed: [], made: [] } as never)).toEqual([]);
+});
+
+describe("clicks on a step", () => {
+  const shown = { asset: "a", steps: [{ select: ["x"], action: "Delete", error: null, made: ["m"], removed: ["x"] }, { select: null }] } as unknown as AssetView;
+
+  it("show the asset after it, and the second opens it for editing", () => {
+    useWorkspace.setState(initialWorkspace, true);
+    clickAction(1, shown, 0)();
+    expect(useWorkspace.getState().showing).toEqual({ kind: "steps", steps: 1 });
+    expect([...useWorkspace.getState().selection]).toEqual(["m"]);
+    expect(draft.draftStep).not.toHaveBeenCalled();
+    clickAction(2, shown, 0)();
+    clickAction(3, shown, 0)();
+    expect(vi.mocked(draft.draftStep).mock.calls).toEqual([[0]]);
+  });
+
+  it("open a step that is not demonstrated here once", () => {
+    clickAction(1, shown, 1)();
+    clickAction(2, shown, 1)();
+    expect(vi.mocked(draft.draftStep).mock.calls).toEqual([[1]]);
+  });
 });

@@ -47,17 +47,23 @@ export function StepChip({ view, place, count, drag }: StepChipProps) {
         type="button"
         className={css.chipButton}
         aria-pressed={shown}
-        aria-label={`Step ${place + 1}: ${text}, ${amountText(step)}${step?.error ? `, ${step.error}` : ""}`}
         data-chip
         tabIndex={-1}
         title={step?.error ?? (isOpen ? `${text}: not demonstrated here, so the program decides` : text)}
-        onClick={() => showStep(view, place)}
+        onClick={({ detail }) => runInTurn(clickAction(detail, view, place))}
         onKeyDown={(event) => handleKey(event, view, place, count)}
       >
-        <span className={css.number}>{place + 1}</span>
+        <span className="visually-hidden">{`Step ${place + 1}: ${text}, ${amountText(step)}${step?.error ? `, ${step.error}` : ""}`}</span>
+        <span className={css.number} aria-hidden>
+          {place + 1}
+        </span>
         {step?.error ? <TriangleAlert size={14} aria-hidden /> : <Icon size={14} aria-hidden />}
-        <span className={css.action}>{action}</span>
-        <span className={css.amount}>{amountText(step)}</span>
+        <span className={css.action} aria-hidden>
+          {action}
+        </span>
+        <span className={css.amount} aria-hidden>
+          {amountText(step)}
+        </span>
         {label && <MadeLabel label={label} />}
       </button>
       <Menu
@@ -72,18 +78,23 @@ export function StepChip({ view, place, count, drag }: StepChipProps) {
 function MadeLabel({ label }: { label: string }) {
   const color = useProject((state) => state.project.vocabulary.find(({ name }) => name === label)?.color);
   return (
-    <span className={css.made} style={{ borderColor: color }}>
+    <span className={css.made} style={{ borderColor: color }} title={label} aria-hidden>
       {label}
     </span>
   );
 }
 
-/** Shows the asset after a step, with what is left or made of its hulls selected; an open one becomes the action in hand. */
-function showStep(view: AssetView, place: number): void {
+/** What clicks on a step do: the first shows the asset after it, with what is left or made of its hulls selected; the second,
+ * and the first on an open one, makes it the action in hand. */
+export function clickAction(clicks: number, view: AssetView, place: number): () => unknown {
   const step = view.steps[place];
-  if (step?.select == null || step.error) return runInTurn(() => draftStep(place));
-  show({ kind: "steps", steps: place + 1 });
-  select(hullsAfter(step));
+  if (step?.select == null || step.error) return () => (clicks > 1 ? undefined : draftStep(place));
+  if (clicks === 2) return () => draftStep(place);
+  return () => {
+    if (clicks > 2) return;
+    show({ kind: "steps", steps: place + 1 });
+    select(hullsAfter(step));
+  };
 }
 
 export function hullsAfter({ select: selected, made, removed }: StepView): string[] {

@@ -1,6 +1,7 @@
 // How sure edits are in words, and which question is open.
 import { describe, expect, it } from "vitest";
-import { asReadings, doubtsText, familyText, moodOf, openQuestion, percentText, placesOf, probabilityText } from "./assessment";
+import type { DoubtView } from "../wire";
+import { asReadings, doubtsText, familyText, groupHeld, moodOf, openQuestion, percentText, placesOf, probabilityText } from "./assessment";
 import { filterAssets } from "./family";
 import { applyEvent, emptyProject } from "./project";
 import { sampleAssessment, sampleCard, sampleQuestion, sampleRow } from "./sample.test-help";
@@ -13,6 +14,27 @@ describe("how sure the family is", () => {
     expect(familyText(sampleAssessment(5, 0))).toBe("All 5 are at least 95% sure");
     expect(familyText(sampleAssessment(5, 0, { signed_off: 3, aside: 2 }))).toBe("3 of 5 are at least 95% sure; 2 are set aside");
     expect([sampleAssessment(5, 1), sampleAssessment(5, 0)].map(moodOf)).toEqual(["warn", "good"]);
+  });
+
+  it("is told with the bar as it was set", () => {
+    const told = [0.9999, 0.975, 0.57, 1].map((bar) => familyText(sampleAssessment(5, 0, { bar })));
+    expect(told).toEqual(["99.99%", "97.5%", "57%", "100%"].map((bar) => `All 5 are at least ${bar} sure`));
+  });
+
+  it("is told reason by reason, the least probable first", () => {
+    const doubt = (text: string): DoubtView => ({ kind: "alarm", text, hulls: [], rule: null });
+    const rows = [
+      sampleRow({ asset: "a", probability: 0.6, state: "held", doubts: [doubt("nobody looked"), doubt("nearly solid")] }),
+      sampleRow({ asset: "b", probability: 0.1, state: "held", doubts: [doubt("nearly solid")] }),
+      sampleRow({ asset: "c", probability: 0.3, state: "held", doubts: [doubt("nobody looked")] }),
+      sampleRow({ asset: "d" }),
+      sampleRow({ asset: "e", probability: 0.6, state: "held" }),
+    ];
+    expect(groupHeld({ assets: rows, bar: 0.95 })).toEqual([
+      { reason: "nearly solid", assets: ["b"], share: "10%" },
+      { reason: "nobody looked", assets: ["c", "a"], share: "30% to 60%" },
+      { reason: "", assets: ["e"], share: "60%" },
+    ]);
   });
 
   it("is not good where some assets were not looked at", () => {

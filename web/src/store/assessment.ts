@@ -12,9 +12,36 @@ export function percentText(probability: number, bar = 1): string {
   return shown < 1 ? "<1%" : `${shown}%`;
 }
 
+/** The bar as it was set: `95%`, `99.99%`. */
+export const barText = (bar: number): string => `${Number((100 * bar).toPrecision(6))}%`;
+
+/** Assets that are held for one reason. */
+export interface HeldGroup {
+  /** The weightiest doubt, empty where there is none. */
+  readonly reason: string;
+  readonly assets: readonly string[];
+  /** The least and the most of their probabilities: `0% to 45%`. */
+  readonly share: string;
+}
+
+/** The held assets by their weightiest doubt, as `meshforge review` lists them: the least probable first. */
+export function groupHeld({ assets, bar }: Pick<AssessmentView, "assets" | "bar">): readonly HeldGroup[] {
+  const held = assets.filter(({ state }) => state === "held");
+  held.sort((a, b) => a.probability - b.probability || (a.asset < b.asset ? -1 : 1));
+  const groups = new Map<string, ConfidenceView[]>();
+  for (const row of held) {
+    const reason = row.doubts[0]?.text ?? "";
+    groups.set(reason, [...(groups.get(reason) ?? []), row]);
+  }
+  return [...groups].map(([reason, rows]) => {
+    const ends = [rows[0], rows.at(-1)].map((row) => percentText(row?.probability ?? 0, bar));
+    return { reason, assets: rows.map(({ asset }) => asset), share: [...new Set(ends)].join(" to ") };
+  });
+}
+
 /** `71 of 75 are at least 95% sure`, without what is to be done about the others. */
 export function sureText({ signed_off: sure, assets, bar, unseen }: AssessmentView): string {
-  const limit = `at least ${Math.round(100 * bar)}% sure`;
+  const limit = `at least ${barText(bar)} sure`;
   const all = assets.length.toLocaleString("en-GB") + (unseen ? " looked at" : "");
   if (sure === assets.length) return sure === 1 && !unseen ? `Your one asset is ${limit}` : `All ${all} are ${limit}`;
   const some = sure === 0 ? "None" : sure.toLocaleString("en-GB");

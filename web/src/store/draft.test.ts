@@ -2,7 +2,7 @@
 import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
 import { api } from "../server/api";
 import type { AnyEdit, AssetView, LanguageView, StepView } from "../wire";
-import { acceptDraft, changeDraft, draftStep, dropDraft, startDraft, useDraftStatus } from "./draft";
+import { acceptDraft, changeDraft, draftStep, dropDraft, startDraft, toggleEach, useDraftStatus } from "./draft";
 import { acceptGuess, followGuesses, useGuesses } from "./guesses";
 import { followPreview, usePreview } from "./preview";
 import { emptyProject, receive, useProject } from "./project";
@@ -111,6 +111,25 @@ describe("an action in hand", () => {
       editing: 1,
     });
     expect(showing).toEqual({ kind: "steps", steps: 1 });
+  });
+
+  it("keeps each part separate where its rule does and the person says it once more", async () => {
+    given([step(["x"])], ["Delete", "Each(Merge)"]);
+    await startDraft("Merge");
+    const isEach = () => useWorkspace.getState().draft?.each;
+    expect(isEach()).toBe(true);
+    toggleEach();
+    expect(isEach()).toBe(true);
+    toggleEach();
+    expect(isEach()).toBe(false);
+    toggleEach();
+    expect(isEach()).toBe(true);
+    given([], []);
+    await startDraft("Merge");
+    toggleEach();
+    expect(isEach()).toBe(true);
+    toggleEach();
+    expect(isEach()).toBe(false);
   });
 
   it("is a new rule with usual arguments where none of its kind is open", async () => {

@@ -7,7 +7,7 @@ import { formOf, getLanguage } from "./language";
 import { useProject } from "./project";
 import { getDetails, type Scene, useScenes } from "./scenes";
 import { actionOf, placeFor, placeOf, setStep, skipOffer } from "./steps";
-import { reportError, reportProblem } from "./toasts";
+import { notify, reportError, reportProblem } from "./toasts";
 import { type Draft, openStage, select, setDraft, setTool, show, useWorkspace } from "./workspace";
 
 interface DraftStatus {
@@ -17,13 +17,27 @@ interface DraftStatus {
   problem: Problem | null;
   /** What is shown while an accepted step is not in it yet. */
   landing: Scene | null;
+  /** Whether the action in hand acts on each part because its rule does so elsewhere, not because the person said so. */
+  givenEach: boolean;
 }
 
-export const useDraftStatus = create<DraftStatus>()(() => ({ sending: false, problem: null, landing: null }));
+export const useDraftStatus = create<DraftStatus>()(() => ({ sending: false, problem: null, landing: null, givenEach: false }));
 
 export function changeDraft(change: Partial<Draft>): void {
   const { draft } = useWorkspace.getState();
+  if (change.each !== undefined) useDraftStatus.setState({ givenEach: false });
   if (draft) setDraft({ ...draft, ...change });
+}
+
+/** Switches whether each part is acted on separately; the first time it is said, what the rule has given is confirmed. */
+export function toggleEach(): void {
+  const { draft } = useWorkspace.getState();
+  if (!draft) return;
+  if (draft.each && useDraftStatus.getState().givenEach) {
+    useDraftStatus.setState({ givenEach: false });
+    return notify("Each connected part separately, as this rule does elsewhere: press E again to switch it off.");
+  }
+  changeDraft({ each: !draft.each });
 }
 
 /** Changes an argument of the action in hand, if it still is that one. */
@@ -114,7 +128,8 @@ export async function startDraft(action: string): Promise<void> {
     const form = formOf(action, actions);
     const parts = place === null ? null : parseAction(actionOf(place), actions);
     const usual = { action, arguments: form ? defaultArguments(form, templates) : {}, each: false, label: "" };
-    takeInHand({ ...usual, ...(parts?.action === action ? parts : {}), editing: place });
+    const given = parts?.action === action ? parts : null;
+    takeInHand({ ...usual, ...given, editing: place }, given?.each);
     if (stage !== "review") showBefore(place ?? view.steps.length, view);
   } catch (error) {
     reportError(error);
@@ -155,7 +170,8 @@ function showBefore(place: number, view: AssetView): void {
   if (showing.kind !== "steps" || showing.steps !== steps) show(before);
 }
 
-function takeInHand(draft: Draft): void {
+function takeInHand(draft: Draft, givenEach = false): void {
   setTool("select");
+  useDraftStatus.setState({ givenEach });
   setDraft(draft);
 }

@@ -37,6 +37,20 @@ describe("an extractor that is typed", () => {
     expect(useWorkspace.getState().highlight).toBeNull();
   });
 
+  it("leaves no asset pale, whatever was typed by then, and nothing that others point out", async () => {
+    typeExtractor("All");
+    await vi.runAllTimersAsync();
+    typeExtractor("Is(le");
+    leaveExtractor();
+    expect(useWorkspace.getState().highlight).toBeNull();
+    typeExtractor("All");
+    await vi.runAllTimersAsync();
+    const other = { what: "rule 1", assets: {} };
+    useWorkspace.setState({ highlight: other });
+    leaveExtractor();
+    expect(useWorkspace.getState().highlight).toBe(other);
+  });
+
   it("selects on Enter what is there, even before the answer came", async () => {
     typeExtractor("All");
     expect(await selectFound()).toBe(true);

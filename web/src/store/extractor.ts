@@ -6,7 +6,7 @@ import type { Mark, SelectionView } from "../wire";
 import { type Coverage, coverageOf } from "./outcome";
 import { useScenes } from "./scenes";
 import { reportError } from "./toasts";
-import { select, setHighlight, useWorkspace, type WorkspaceState } from "./workspace";
+import { type Highlight, select, setHighlight, useWorkspace, type WorkspaceState } from "./workspace";
 
 interface ExtractorState {
   text: string;
@@ -25,6 +25,15 @@ export const useExtractor = create<ExtractorState>()(() => emptyExtractor);
 const WAIT = 120;
 let timer: ReturnType<typeof setTimeout> | undefined;
 let stop = new AbortController();
+/** What is pointed out for the text, which may be another by now. */
+let pointed: Highlight | null = null;
+
+/** Points out what a text selects in place of what was pointed out for the one before; what others point out stays. */
+function pointOut(highlight: Highlight | null): void {
+  const isOurs = pointed !== null && useWorkspace.getState().highlight === pointed;
+  if (highlight || isOurs) setHighlight(highlight);
+  pointed = highlight;
+}
 
 /** Looks for what a text selects, a moment after the last key. */
 export function typeExtractor(text: string): void {
@@ -34,7 +43,7 @@ export function typeExtractor(text: string): void {
   const { signal } = stop;
   if (!text.trim()) {
     useExtractor.setState({ ...emptyExtractor, text });
-    return setHighlight(null);
+    return pointOut(null);
   }
   useExtractor.setState({ text });
   timer = setTimeout(() => void search(text.trim(), signal).catch(reportError), WAIT);
@@ -60,8 +69,7 @@ export async function selectFound(): Promise<boolean> {
 export function leaveExtractor(): void {
   clearTimeout(timer);
   stop.abort();
-  const { highlight } = useWorkspace.getState();
-  if (highlight?.what === useExtractor.getState().text.trim()) setHighlight(null);
+  pointOut(null);
 }
 
 async function search(extractor: string, signal: AbortSignal): Promise<void> {
@@ -71,12 +79,13 @@ async function search(extractor: string, signal: AbortSignal): Promise<void> {
   try {
     const found = await api.select({ asset, steps: stepsOf(showing), extractor }, signal);
     useExtractor.setState({ found, of, family: null });
-    if (found.mark) return setHighlight(null);
+    if (found.mark) return pointOut(null);
     void searchFamily(extractor, stepsOf(showing) + 1, signal).catch(reportError);
   } catch (error) {
     if (signal.aborted) return;
     if (!(error instanceof ServerProblem)) throw error;
     useExtractor.setState({ found: { select: [], sentence: "", mark: markOf(error) }, of, family: null });
+    pointOut(null);
   }
 }
 
@@ -85,7 +94,7 @@ async function searchFamily(extractor: string, rule: number, signal: AbortSignal
   const { assets } = await api.generalise(extractor, rule, signal);
   if (signal.aborted) return;
   useExtractor.setState({ family: coverageOf(Object.values(assets).map((hulls) => hulls.length)) });
-  setHighlight({ what: extractor, assets });
+  pointOut({ what: extractor, assets });
 }
 
 /** What an answer belongs to. */

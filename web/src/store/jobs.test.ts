@@ -44,5 +44,6 @@ it("is one key in the stage of labels, which says where it cannot be done", asyn
   expect(begun).toHaveBeenCalledTimes(1);
   expect(useToasts.getState().toasts.map(({ text }) => text)).toEqual(["Type the names of the labels first."]);
   useWorkspace.setState({ stage: "review" });
-  expect(commandFor("P", labelCommands)).toBeUndefined();
+  await commandFor("P", labelCommands)?.run();
+  expect(useToasts.getState().toasts.at(-1)?.text).toBe("P propagates labels in the Label stage (Alt+1).");
 });

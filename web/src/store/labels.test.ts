@@ -3,9 +3,10 @@ import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
 import { labelCommands } from "../commands/label";
 import { api } from "../server/api";
 import type { AnyEdit } from "../wire";
-import { addLabels, labelHulls, moveItem, paint } from "./labels";
+import { addLabels, countLabels, labelHulls, moveItem, paint } from "./labels";
 import { emptyProject, useProject } from "./project";
 import { applyLabel } from "./unsureHulls";
+import { sampleCard } from "./sample.test-help";
 import { useScenes } from "./scenes";
 import { initialWorkspace, select, setBrush, useWorkspace } from "./workspace";
 
@@ -99,4 +100,14 @@ it("moves a line up, down, and no further than the ends", () => {
   expect(moveItem(["a", "b", "c"], 2, 0)).toEqual(["c", "a", "b"]);
   expect(moveItem(["a", "b", "c"], 0, 1)).toEqual(["b", "a", "c"]);
   expect(moveItem(["a", "b", "c"], 0, 9)).toEqual(["b", "c", "a"]);
+});
+
+describe("how many hulls have a label", () => {
+  it("is not known, rather than 0, while assets are still to be read", () => {
+    const read = sampleCard({ labels: [0, 0, -1] });
+    const coming = sampleCard({ asset: "b", hulls: null });
+    expect(countLabels({ a: read, b: coming })).toBeNull();
+    expect(countLabels({ a: read, b: { ...coming, error: "no mesh" } })?.get(0)).toBe(2);
+    expect(countLabels({ a: read })?.get(1)).toBeUndefined();
+  });
 });

@@ -1,4 +1,5 @@
 // Labels given to hulls, at once in what is shown, one by one or stroke by stroke; and the list of labels.
+import type { Card } from "../wire";
 import { perform } from "./edits";
 import { type Scene, useScenes } from "./scenes";
 import { select, useWorkspace } from "./workspace";
@@ -68,6 +69,15 @@ export function selectLabel(label: string | null): void {
 export function ownHulls(names: ReadonlySet<string>): string[] {
   const { scene } = useScenes.getState();
   return scene?.view.hulls.map((hull) => hull.name).filter((name) => names.has(name)) ?? [];
+}
+
+/** How many hulls have each label, by its place in the vocabulary; null while assets are still to be read. */
+export function countLabels(cards: Readonly<Record<string, Card>>): ReadonlyMap<number, number> | null {
+  const all = Object.values(cards);
+  if (all.some((card) => card.hulls === null && card.error === null)) return null;
+  const counts = new Map<number, number>();
+  for (const place of all.flatMap((card) => card.labels)) counts.set(place, (counts.get(place) ?? 0) + 1);
+  return counts;
 }
 
 /** The labels with those of a typed list added, which stand between commas; ones already there are left out. */

@@ -46,6 +46,12 @@ const reach = {
 };
 
 describe("the summary of a outcome", () => {
+  it("names a way on where learning failed", () => {
+    const { title, more } = summarizeOutcome(outcome({ status: "error", error: "its process died", program: null }), 3);
+    expect(title).toBe("Learning failed");
+    expect(more).toMatch(/^its process died\nLearn again\. .*undo/);
+  });
+
   it("says that all readings agree once it is unambiguous", () => {
     const sure = { assessment: sampleAssessment(60, 0), assessing: false };
     const said = summarizeOutcome(outcome({ settled: true, looked_at: 60 }), 60, sure);

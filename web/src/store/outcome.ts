@@ -37,9 +37,11 @@ export function summarizeOutcome(
     case "timeout":
       return summary("warn", `Stopped at rule ${outcome.rules.length + 1}`, "The earlier rules are learned. Learn again, or demonstrate this rule on another asset.");
     case "error":
-      return summary("bad", "Learning failed", outcome.error);
+      return summary("bad", "Learning failed", [outcome.error, AFTER_FAILURE].filter(Boolean).join("\n"));
   }
 }
+
+const AFTER_FAILURE = "Learn again. If it fails again, undo your last change (Ctrl+Z), or demonstrate on another asset.";
 
 /** A program that fits: how sure its edits are; readings: what is known of those. */
 function summarizeFamily(readings: string | null, { assessment, assessing }: Sureness): Summary {

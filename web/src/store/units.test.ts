@@ -1,13 +1,13 @@
 import { expect, it } from "vitest";
 import { figureText } from "./units";
 
-it("has three digits, in a unit that leaves few zeros", () => {
-  expect(figureText(0.0397, "m")).toBe("39.7 mm");
+it("has three digits, in the unit in which findings are told, however small", () => {
+  expect(figureText(0.0397, "m")).toBe("0.0397 m");
   expect(figureText(1.23456, "m")).toBe("1.23 m");
   expect(figureText(0.558, "l")).toBe("0.558 l");
-  expect(figureText(0.00119, "l")).toBe("1.19 ml");
+  expect(figureText(0.00119, "l")).toBe("0.00119 l");
   expect(figureText(12345, "l")).toBe("12,300 l");
-  expect(figureText(0.0424, "kg")).toBe("42.4 g");
+  expect(figureText(0.0424, "kg")).toBe("0.0424 kg");
   expect(figureText(33.333, "%")).toBe("33.3%");
   expect(figureText(180, "°")).toBe("180°");
   expect(figureText(3, "")).toBe("3");

@@ -1,23 +1,13 @@
-// Measured figures as engineers read them: three digits, in a unit that leaves few zeros.
+// Measured figures as engineers read them: three digits, in the units in which findings are told.
 import type { Figure } from "../wire";
 
 type Unit = Figure["unit"];
-/** A smaller unit, how many of them one is, and from where on the unit itself is used. */
-const SMALLER: Partial<Record<Unit, readonly [string, number]>> = {
-  m: ["mm", 1000],
-  "m/s": ["mm/s", 1000],
-  l: ["ml", 1000],
-  kg: ["g", 1000],
-};
 const NOTHING = 1e-6; // of a unit: rounding, or less than anyone measures
 
-/** `9.27 mm`, `0.558 l`, `12%`, `3`; null: `–`. */
+/** `0.00927 m`, `0.558 l`, `12%`, `3`; null: `–`. One unit throughout, so that figures and findings can be compared. */
 export function figureText(value: number | null, unit: Unit): string {
   if (value === null) return "–";
-  const size = Math.abs(value);
-  const small = SMALLER[unit];
-  if (size < NOTHING) return withUnit("0", unit);
-  return small && size < 0.1 ? withUnit(threeDigits(value * small[1]), small[0]) : withUnit(threeDigits(value), unit);
+  return withUnit(Math.abs(value) < NOTHING ? "0" : threeDigits(value), unit);
 }
 
 const withUnit = (number: string, unit: string): string => (unit === "" || unit === "%" || unit === "°" ? number + unit : `${number} ${unit}`);

@@ -19,6 +19,7 @@ export function ExtractorField() {
   const mark = useExtractor((state) => state.found?.mark ?? null);
   const marks = useMemo(() => (mark && text ? [mark] : []), [mark, text]);
   useEffect(loadLanguage, []);
+  useEffect(() => leaveExtractor, []);
   const box = useEditor(text, marks, () => [
     Prec.high(
       keymap.of([

@@ -80,9 +80,12 @@ def _step_before_learning(
 
 def _step_for_propagation(cards: Sequence[Card], propagated: PropagationState | None) -> Next | None:
     """What leads to sure labels with the least work."""
-    bare = [card for card in cards if card.hulls and all(place < 0 for place in card.labels)]
-    if bare and any(card.hulls and card.given == card.hulls for card in cards):
+    bare = [card for card in cards if card.hulls and _count_unlabelled(card) == len(card.labels)]
+    is_one_whole = any(card.hulls and card.given == card.hulls for card in cards)
+    if bare and is_one_whole:
         return Next(stage="label", say=f"{_count_assets(bare, 'has', 'have')} no label: propagate labels.")
+    if step := _step_for_unlabelled(cards, is_one_whole and propagated is None):
+        return step
     doubtful = [card for card in cards if card.unsure]
     unsure = sum(len(card.unsure) for card in doubtful)
     if not unsure:
@@ -95,6 +98,24 @@ def _step_for_propagation(cards: Sequence[Card], propagated: PropagationState | 
     if best and len(best.labels) - best.given < unsure:
         return Next(stage="label", say=f"{are}: label {best.asset} next.", asset=best.asset)
     return Next(stage="label", say=f"{are}: press N.", asset=doubtful[0].asset)
+
+
+def _step_for_unlabelled(cards: Sequence[Card], can_propagate: bool) -> Next | None:
+    """To label what has no label yet, on the asset that lacks least of those that are begun."""
+    lacking = {card.asset: count for card in cards if (count := _count_unlabelled(card))}
+    if not lacking:
+        return None
+    lack, every = sum(lacking.values()), sum(len(card.labels) for card in cards)
+    say = f"{lack} of {pluralize(every, 'hull')} {'has' if lack == 1 else 'have'} no label"
+    if can_propagate:
+        return Next(stage="label", say=f"{say}: propagate labels.")
+    begun = {card.asset for card in cards if 0 < _count_unlabelled(card) < len(card.labels)}
+    best = min((asset for asset in lacking if asset in begun or not begun), key=lambda asset: lacking[asset])
+    return Next(stage="label", say=f"{say}: label those of {best}.", asset=best)
+
+
+def _count_unlabelled(card: Card) -> int:
+    return sum(place < 0 for place in card.labels)
 
 
 def _step_for_learning(outcome: OutcomeView | None, has_program: bool) -> Next | None:
@@ -116,7 +137,7 @@ def _step_for_learning(outcome: OutcomeView | None, has_program: bool) -> Next |
 def _explain_failure(outcome: OutcomeView) -> str:
     """What to do where there is no program; the panel of the learning run says why."""
     if outcome.status == "error":
-        return "Learning failed: see why."
+        return "Learning failed: see why, then learn again."
     if outcome.status == "timeout":
         return "Learning was stopped: learn again, or show the steps on another asset."
     if outcome.nearest:

@@ -124,11 +124,13 @@ function PropagateReady({ job }: { job: Job | null }) {
       look={why === null && (!carried || unused > 0) ? "primary" : "plain"}
       disabled={why !== null}
       onClick={() => void propagateLabels()}
-      aria-label={carried ? "Propagate labels again" : "Propagate labels"}
       tip="Label all other hulls like the labelled hulls that they resemble most"
       keys="P"
     >
-      {carried ? "Propagate again" : "Propagate"}
+      <span>
+        Propagate<span className="visually-hidden"> labels</span>
+        {carried && " again"}
+      </span>
     </Button>
   );
   const text = why ?? (carried ? sinceThen(unused) : given);
@@ -239,7 +241,7 @@ function ModelReady({ model, asked, chosen, choose }: ModelReadyProps) {
     <Button
       disabled={model.why !== null}
       onClick={() => void count()}
-      aria-label="What asking would cost"
+      aria-label="Cost… of asking"
       tip="Counts questions, pictures and tokens; nothing is sent"
     >
       Cost…

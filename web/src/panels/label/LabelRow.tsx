@@ -1,6 +1,6 @@
 // One label: its colour, its key, its name, how often it is used, and what can be done with it.
 import { Ellipsis } from "lucide-react";
-import { type KeyboardEvent, useState } from "react";
+import { type KeyboardEvent, useEffect, useState } from "react";
 import { perform } from "../../store/edits";
 import { selectLabel } from "../../store/labels";
 import { useProject } from "../../store/project";
@@ -15,17 +15,19 @@ import css from "./label.module.css";
 
 interface LabelRowProps {
   label: VocabularyLabel;
+  /** How many hulls have it; null while that is not known yet. */
+  used: number | null;
   place: number;
   names: readonly string[];
   move: (to: number) => void;
   drag: object;
 }
 
-export function LabelRow({ label, place, names, move, drag }: LabelRowProps) {
-  const { name, color, used } = label;
+export function LabelRow({ label, used, place, names, move, drag }: LabelRowProps) {
+  const { name, color } = label;
   const [state, setState] = useState<"shown" | "renamed" | "asked">("shown");
   const armed = useWorkspace((workspace) => workspace.brush === name);
-  const remove = () => (used ? setState("asked") : removeLabel(names, name));
+  const remove = () => (used !== 0 ? setState("asked") : removeLabel(names, name));
   const onKeyDown = (event: KeyboardEvent) => {
     const act = keyAction(event, place, move, () => setState("renamed"), remove);
     if (!act) return;
@@ -47,8 +49,9 @@ export function LabelRow({ label, place, names, move, drag }: LabelRowProps) {
         <kbd data-empty={place > 8}>{place < 9 ? place + 1 : ""}</kbd>
         <Swatch color={color} />
         <span className={css.name}>{name}</span>
-        <span className={css.count} aria-label={`${used} hulls have it`}>
-          {used.toLocaleString("en-GB")}
+        <span className={css.count}>
+          {used === null ? "…" : used.toLocaleString("en-GB")}
+          <span className="visually-hidden">{used === null ? " being counted" : ` ${used === 1 ? "hull has" : "hulls have"} it`}</span>
         </span>
       </button>
       <Menu
@@ -62,7 +65,7 @@ export function LabelRow({ label, place, names, move, drag }: LabelRowProps) {
           { label: "Remove", onSelect: remove },
         ]}
       />
-      {state === "asked" && <InUse label={label} place={place} onClose={() => setState("shown")} />}
+      {state === "asked" && <InUse name={name} used={used} place={place} onClose={() => setState("shown")} />}
     </li>
   );
 }
@@ -118,30 +121,35 @@ function Rename({ label: { name, color }, onDone }: { label: VocabularyLabel; on
   );
 }
 
+const inUseText = (used: number): string =>
+  used === 0
+    ? "No hull has it any more: remove it now."
+    : `${countText(used, "hull")} ${used === 1 ? "has" : "have"} it; give ${used === 1 ? "it" : "them"} another label first.`;
+
 /** Why a label cannot be removed, and a way to the hulls that have it. */
 function InUse({
-  label: { name, used },
+  name,
+  used,
   place,
   onClose,
 }: {
-  label: VocabularyLabel;
+  name: string;
+  used: number | null;
   place: number;
   onClose: () => void;
 }) {
+  useEffect(() => () => conceal(name), [name]);
   return (
     <div className={css.inUse} role="status">
       <Note mood="warn">
-        {countText(used, "hull")} {used === 1 ? "has" : "have"} it; give {used === 1 ? "it" : "them"} another label first.
+        {used === null ? "The assets are still being read: wait until it is known whether hulls have it." : inUseText(used)}
         <div className={css.buttons}>
           <Button look="quiet" onClick={() => reveal(name, place)}>
             Show them
           </Button>
           <Button
             look="quiet"
-            onClick={() => {
-              conceal(name);
-              onClose();
-            }}
+            onClick={onClose}
           >
             Close
           </Button>

@@ -1,8 +1,8 @@
 // The labels that hulls can have: clicked to label or to paint, renamed, put in order, added and removed.
 import { Plus } from "lucide-react";
-import { type FormEvent, useState } from "react";
+import { type FormEvent, useMemo, useState } from "react";
 import { perform } from "../../store/edits";
-import { addLabels, moveItem, selectLabel } from "../../store/labels";
+import { addLabels, countLabels, moveItem, selectLabel } from "../../store/labels";
 import { useProject } from "../../store/project";
 import { applyLabel, labelProgress } from "../../store/unsureHulls";
 import { countText } from "../../store/words";
@@ -15,6 +15,8 @@ import { LabelRow } from "./LabelRow";
 
 export function Vocabulary() {
   const vocabulary = useProject((state) => state.project.vocabulary);
+  const cards = useProject((state) => state.cards);
+  const counts = useMemo(() => countLabels(cards), [cards]);
   const names = vocabulary.map((label) => label.name);
   const move = (from: number, to: number) => void perform({ kind: "vocabulary", labels: moveItem(names, from, to) });
   const reorder = useReorder("y", move);
@@ -28,6 +30,7 @@ export function Vocabulary() {
           <LabelRow
             key={label.name}
             label={label}
+            used={counts && (counts.get(place) ?? 0)}
             place={place}
             names={names}
             move={(to) => to >= 0 && to < names.length && move(place, to)}

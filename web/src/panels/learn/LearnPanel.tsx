@@ -116,7 +116,7 @@ function NextDemonstration({ hint }: { hint: HintView }) {
           Demonstrate next: <strong title={hint.asset}>{shortName(hint.asset)}</strong>
           <span className={css.dim}> ({hint.why})</span>
         </p>
-        <Button icon={ArrowRight} aria-label={`Demonstrate ${hint.asset}`} onClick={() => demonstrate(hint.asset)}>
+        <Button icon={ArrowRight} aria-label={`Go and demonstrate ${hint.asset}`} onClick={() => demonstrate(hint.asset)}>
           Go
         </Button>
       </div>
