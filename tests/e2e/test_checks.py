@@ -44,7 +44,7 @@ def test_a_filled_cup_is_found_shown_and_sorted_first(tmp_path: Path) -> None:
         person.page.wait_for_function(
             "first => document.querySelector('[data-testid=family] [role=option]')?.dataset.asset === first", arg=CUP
         )
-        assert "findings of the checks" in (cards.first.get_attribute("aria-label") or "")
+        assert "findings of the checks" in (cards.first.text_content() or "")
         person.page.reload()
         person.drawn()
         cards.first.get_by_title(re.compile("findings of the checks, by the edit")).wait_for()

@@ -45,7 +45,7 @@ def show_alike(person: Hand, hull: str, *keys: str, steps: int) -> None:
 
 def stepped(person: Hand, steps: int) -> None:
     """Wait until the asset that is open says something about so many rules."""
-    shown = '[aria-label="Steps of this asset"] li:not([data-open]) button[aria-label^="Step "]'
+    shown = '[aria-label="Steps of this asset"] li:not([data-open]):not(:first-child) [data-chip]'
     person.page.wait_for_function(f"count => document.querySelectorAll('{shown}').length === count", arg=steps)
 
 
