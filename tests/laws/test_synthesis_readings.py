@@ -82,6 +82,7 @@ def test_every_reading_selects_what_was_shown_and_what_it_says(
     assert sum(weighed.beliefs) == pytest.approx(1.0)
 
 
+@pytest.mark.slow
 @examples(150)
 @given(batches, shown_on, extractors(LABELS, max_leaves=4))
 def test_what_was_meant_is_among_the_readings(batch: list[SymbolicMesh], shown: int, hidden: Extractor) -> None:

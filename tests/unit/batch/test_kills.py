@@ -47,6 +47,7 @@ def test_whenever_a_run_is_killed_each_file_is_the_old_or_the_new_and_the_next_r
     assert tree(out) == tree(tmp_path / "new")
 
 
+@pytest.mark.slow
 @needs_fork
 def test_a_killed_run_is_finished_or_done_again(tmp_path: Path) -> None:
     assets, out = tmp_path / "robots", tmp_path / "out"

@@ -166,6 +166,7 @@ def test_a_second_pair_is_found_where_one_is_not_enough() -> None:
     assert found.sizes == (2, 2)
 
 
+@pytest.mark.slow
 def test_a_pair_that_is_given_is_kept_where_a_second_one_is_enough() -> None:
     found = suggested(*[shown(mesh, "top", "front") for mesh in FRONTS], now=UP)
     assert found and found.orient.pairs[0] == parse_orient(UP).pairs[0]
@@ -205,6 +206,7 @@ def test_of_pairs_as_good_the_one_is_suggested_that_holds_on_most_of_the_batch()
     assert directive(suggested(*demos, batch=legless)) == "orient +Z: Is(panel) -> Is(misc)"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("meshes", [TOPS, TILTED, FRONTS[:3]])
 def test_the_order_of_the_demonstrations_does_not_matter(meshes: list[SymbolicMesh]) -> None:
     found = [suggested(*[shown(mesh, "top") for mesh in order]) for order in permutations(meshes)]
