@@ -131,5 +131,6 @@ def _result(contestants: dict[str, Contestant], found: dict[str, list[tuple[floa
             f"{len(list(TABLES.glob('*.obj')))} bundled tables: it splits them, picks parts by label, replaces, merges "
             "and writes them. It checks nothing of what it writes, and reads nothing back.",
             "Start of Python and all imports are within the times; compiled files are there.",
+            "Seconds of processors count workers that are forks of the command, not those of a server process.",
         ),
     )
