@@ -69,8 +69,7 @@ def save(
     """
     asset = _to_asset(what)
     out = Path(os.path.normpath(out))
-    known = format_for(out, asset.format)
-    known = format_with_names(known, names) if names else known
+    known = _format_of_output(out, asset, names)
     where = _place_collision(asset, known, names, collision)
     output, report = _make_output(asset, known, out.name, mass, where)
     limits = _note_limits(asset, known, where, output.names)
@@ -110,13 +109,18 @@ def _to_asset(what: SymbolicMesh | Asset) -> Asset:
     return what if isinstance(what, Asset) else what.to_asset() if what.asset else _asset_of_mesh(what)
 
 
+def _format_of_output(out: Path, asset: Asset, names: MarkName | None) -> Format:
+    """The format that an asset is written in, which may mark collision in a way of its own."""
+    known = format_for(out, asset.format)
+    return format_with_names(known, names) if names else known
+
+
 def describe_collision(
     what: SymbolicMesh, out: Path, names: MarkName | None, collision: Collision | None
 ) -> tuple[str, ...]:
     """What `save` would say of where it writes hulls, for a scene in which nothing is marked as collision."""
     asset = what.to_asset()
-    known = format_for(out, asset.format)
-    known = format_with_names(known, names) if names else known
+    known = _format_of_output(out, asset, names)
     return _note_collision(asset, known, _place_collision(asset, known, names, collision))
 
 
