@@ -8,16 +8,16 @@ class FakeSocket {
   static all: FakeSocket[] = [];
   onopen: (() => void) | null = null;
   onmessage: ((message: { data: string }) => void) | null = null;
-  onclose: (() => void) | null = null;
+  onclose: ((event: { code: number }) => void) | null = null;
   closed = false;
 
   constructor(readonly url: URL) {
     FakeSocket.all.push(this);
   }
 
-  close(): void {
+  close(code = 1006): void {
     this.closed = true;
-    this.onclose?.();
+    this.onclose?.({ code });
   }
 }
 
@@ -45,6 +45,13 @@ afterEach(() => {
 });
 
 describe("the connection to the server", () => {
+  it("is made anew at once, and not called lost, where another project is opened", () => {
+    start();
+    last().onopen?.();
+    last().onclose?.({ code: 4000 });
+    expect([FakeSocket.all.length, heard]).toEqual([2, [true]]);
+  });
+
   it("goes to the address of the page, encrypted where the page is", () => {
     start();
     expect(last().url.href).toBe("wss://host:1/studio/ws?token=t");
@@ -64,7 +71,7 @@ describe("the connection to the server", () => {
   it("is made again by itself once it is lost", () => {
     start();
     last().onopen?.();
-    last().onclose?.();
+    last().onclose?.({ code: 1006 });
     expect(heard).toEqual([true, false]);
     vi.advanceTimersByTime(249);
     expect(FakeSocket.all).toHaveLength(1);
@@ -76,7 +83,7 @@ describe("the connection to the server", () => {
     start();
     const waits = [250, 500, 1000, 2000, 4000, 4000, 4000];
     for (const [k, wait] of waits.entries()) {
-      last().onclose?.();
+      last().onclose?.({ code: 1006 });
       vi.advanceTimersByTime(wait - 1);
       expect(FakeSocket.all).toHaveLength(k + 1);
       vi.advanceTimersByTime(1);
@@ -87,11 +94,11 @@ describe("the connection to the server", () => {
   it("is tried at once again after it was there", () => {
     start();
     for (const wait of [250, 500, 1000]) {
-      last().onclose?.();
+      last().onclose?.({ code: 1006 });
       vi.advanceTimersByTime(wait);
     }
     last().onopen?.();
-    last().onclose?.();
+    last().onclose?.({ code: 1006 });
     vi.advanceTimersByTime(250);
     expect(FakeSocket.all).toHaveLength(5);
   });
@@ -107,7 +114,7 @@ describe("the connection to the server", () => {
 
   it("is not made again where listening ends while it waits", () => {
     start();
-    last().onclose?.();
+    last().onclose?.({ code: 1006 });
     stop();
     vi.advanceTimersByTime(10_000);
     expect(FakeSocket.all).toHaveLength(1);
