@@ -33,6 +33,8 @@ class Host:
         self._hub = PageHub()
         self.is_closing = False
         self._start = StartPage(state_folder())
+        if options.folder is None:
+            self._start.begin()
 
     @property
     def session(self) -> Session:

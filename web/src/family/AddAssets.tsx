@@ -131,12 +131,16 @@ export function pickedFiles(files: FileList | null): PlacedFile[] {
   return [...(files ?? [])].map((file) => ({ path: file.webkitRelativePath || file.name, file }));
 }
 
+// Chromium has no constructors of that name that one could ask by `instanceof`
+const isFile = (entry: FileSystemEntry): entry is FileSystemFileEntry => entry.isFile;
+const isFolder = (entry: FileSystemEntry): entry is FileSystemDirectoryEntry => entry.isDirectory;
+
 async function filesOf(entry: FileSystemEntry): Promise<PlacedFile[]> {
-  if (entry instanceof FileSystemFileEntry) {
+  if (isFile(entry)) {
     const file = await new Promise<File>((good, bad) => entry.file(good, bad));
     return [{ path: entry.fullPath.replace(/^\//, ""), file }];
   }
-  if (!(entry instanceof FileSystemDirectoryEntry)) return [];
+  if (!isFolder(entry)) return [];
   const inside = await Promise.all((await entriesOf(entry.createReader())).map(filesOf));
   return inside.flat();
 }

@@ -10,7 +10,7 @@ from pathlib import Path
 from time import monotonic
 
 from meshforge.batch import expand, find_sources
-from meshforge.common import MeshForgeError, describe_error
+from meshforge.common import MeshForgeError, StoppedError, describe_error
 from meshforge.formats import read
 from meshforge.studio.start.folders import check_folder, suggest_project
 from meshforge.studio.wire.start import AssetsFound
@@ -56,30 +56,38 @@ def look_at_assets(workers: Workers, folder: Path, paths: Sequence[Path], name: 
 
 def _look_at_some(workers: Workers, paths: Sequence[Path]) -> list[_Look]:
     """The first assets, in order, until the time is up; one at least."""
-    until = monotonic() + LOOK_SECONDS
     futures: list[Future[_Look]] = [workers.start(_look, path) for path in paths[:MOST_READ]]
-    looks = list[_Look]()
-    try:
-        for future in futures:
-            if looks and monotonic() > until and not future.done():
-                break
-            looks.append(_wait_until(future, until if looks else None))
-    except TimeoutError:
-        pass
-    finally:
-        for future in futures:
-            future.cancel()
+    looks, until = list[_Look](), None
+    for future in futures:
+        try:
+            looks.append(_wait_until(future, until))
+        except TimeoutError:
+            break
+        until = until or monotonic() + LOOK_SECONDS  # the process of the first one had to start
+    for future in futures:
+        future.cancel()
     return looks
 
 
 def _wait_until(future: Future[_Look], until: float | None) -> _Look:
-    """What came of one. Raises TimeoutError where it is not known in time."""
-    if until is not None:
+    """What came of one. Raises TimeoutError where it is not known in time, StoppedError where nobody waits any more."""
+    if until is not None and not future.done():
         future.exception(timeout=max(until - monotonic(), 0.01))
     try:
         return wait_for(future)
+    except StoppedError:
+        raise
     except MeshForgeError as error:  # its process died
         return _Look(problem=error.message)
+
+
+def warm_up(workers: Workers) -> None:
+    """Start the processes that look at assets, so that the first look is quick."""
+    workers.start(_is_ready)
+
+
+def _is_ready() -> bool:
+    return True
 
 
 def _look(path: Path) -> _Look:

@@ -14,7 +14,7 @@ from meshforge.batch import hold_lock
 from meshforge.common import MeshForgeError
 from meshforge.samples import FAMILIES
 from meshforge.studio.start import create, folders
-from meshforge.studio.start.assets import look_at_assets, look_at_folder
+from meshforge.studio.start.assets import look_at_assets, look_at_folder, warm_up
 from meshforge.studio.start.building import clean_up
 from meshforge.studio.start.recent import RecentProjects
 from meshforge.studio.uploads import Uploads, find_assets
@@ -35,6 +35,10 @@ class StartPage:
         self._workers = Workers(READERS)
         self._stack = ExitStack()
         self._uploads: Uploads | None = None
+
+    def begin(self) -> None:
+        """Get ready for people, as no project is open."""
+        warm_up(self._workers)
 
     @property
     def view(self) -> wire.StartView:
