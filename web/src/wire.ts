@@ -21,7 +21,9 @@ export type AnyEdit =
   | Unprepare
   | ReviewAssets
   | CorrectByHand
-  | DropCorrections;
+  | DropCorrections
+  | LeaveOut
+  | RemoveAssets;
 export type Event =
   | Start
   | Hello
@@ -106,6 +108,7 @@ export interface Everything {
   LabelUpdate: LabelUpdate;
   LabelUpdateChanged: LabelUpdateChanged;
   LanguageView: LanguageView;
+  LeaveOut: LeaveOut;
   Mark: Mark;
   Model: Model;
   MoveRule: MoveRule;
@@ -136,6 +139,7 @@ export interface Everything {
   ReachChanged: ReachChanged;
   ReadingView: ReadingView;
   RecentProject: RecentProject;
+  RemoveAssets: RemoveAssets;
   RenameLabel: RenameLabel;
   RepairView: RepairView;
   ReviewAssets: ReviewAssets;
@@ -382,6 +386,21 @@ export interface CorrectByHand {
 export interface DropCorrections {
   asset: string;
   kind: "drop-corrections";
+}
+/**
+ * Leave assets out of the family, or put them back; what is kept for them stays.
+ */
+export interface LeaveOut {
+  kind: "leave-out";
+  ids: string[];
+  out?: boolean;
+}
+/**
+ * Remove assets from the project, with their labels, demonstrations and corrections; their own files stay.
+ */
+export interface RemoveAssets {
+  kind: "remove-assets";
+  ids: string[];
 }
 /**
  * Run the program on all assets, or on some.
@@ -854,7 +873,7 @@ export interface Hello {
  *
  * rules: what is demonstrated, by rule; templates: hull templates that actions can name; carried: the last propagation
  * of labels, null where there was none; problem: why the program cannot be applied; lost: ids that files are kept for
- * though there is no such asset.
+ * though there is no such asset; left_out: ids of assets that are kept, but not as part of the family.
  */
 export interface ProjectView {
   name: string;
@@ -871,6 +890,7 @@ export interface ProjectView {
   next: Next;
   problem: string | null;
   lost: string[];
+  left_out: string[];
 }
 /**
  * A label of the vocabulary. color: `#rrggbb`, by its place; used: how many hulls of the family have it.

@@ -4,7 +4,7 @@ in place, and the report."""
 from meshforge.batch.apply import apply, inputs_of
 from meshforge.batch.check import CheckJournal, CheckOutcome, CheckTask, check_asset, check_assets, open_journal
 from meshforge.batch.corrections import Correction, replay_corrections
-from meshforge.batch.discovery import OWN_FOLDERS, SETTINGS, STATE, AssetSet, asset_id, expand, find_assets_in
+from meshforge.batch.discovery import ADDED, OWN_FOLDERS, SETTINGS, STATE, AssetSet, asset_id, expand, find_assets_in
 from meshforge.batch.engine_trial import ENGINES_TO_ASK, examine_file
 from meshforge.batch.execution import execute
 from meshforge.batch.jobs import (
@@ -92,6 +92,7 @@ from meshforge.batch.workers import (
 )
 
 __all__ = [
+    "ADDED",
     "APPLY_DEFAULTS",
     "ENGINES_TO_ASK",
     "EXECUTION_DEFAULTS",
