@@ -26,7 +26,7 @@ export function FolderDialog({ title, open, onClose, ...rest }: FolderDialogProp
     <Dialog.Root open={open} onOpenChange={(is) => !is && onClose()}>
       <Dialog.Portal>
         <Dialog.Overlay className={css.shade} />
-        <Dialog.Content className={css.dialog} aria-describedby={undefined}>
+        <Dialog.Content className={css.dialog} aria-describedby={undefined} onOpenAutoFocus={focusField}>
           <Dialog.Title className={css.title}>{title}</Dialog.Title>
           <Folders {...rest} onClose={onClose} />
         </Dialog.Content>
@@ -73,7 +73,7 @@ function Folders({ from, wants, onClose, onChoose }: Omit<FolderDialogProps, "ti
       <ul ref={list} className={css.list} aria-label="Folders" onKeyDown={moveFocus}>
         {view?.entries.map(({ name, project }) => (
           <li key={name}>
-            <button type="button" className={css.entry} onClick={() => void go(joinPath(view.folder, name))}>
+            <button type="button" className={css.entry} onClick={() => void go(joinPath(view.folder, name)).then(() => focusFirst(list.current))}>
               {project ? <FolderCheck size={15} aria-hidden /> : <Folder size={15} aria-hidden />}
               <span className={css.name}>{name}</span>
               {project && <span className={css.badge}>project</span>}
@@ -133,6 +133,17 @@ function useFolder(from: string, places: readonly string[]) {
     void beginning();
   }, []);
   return { view, text, setText, problem, go };
+}
+
+/** Puts the focus on the path, so that one can type at once. */
+function focusField(event: Event): void {
+  event.preventDefault();
+  if (event.target instanceof Element) event.target.querySelector("input")?.focus();
+}
+
+/** Puts the focus on the first folder once it is there, or on the field above where there is none. */
+function focusFirst(list: HTMLElement | null): void {
+  setTimeout(() => (list?.querySelector("button") ?? list?.parentElement?.querySelector("input"))?.focus());
 }
 
 /** Arrow keys go through the folders. */

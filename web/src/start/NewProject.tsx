@@ -25,7 +25,9 @@ export function NewProject() {
       <header className={css.head}>
         <h2 id="new-project">New project</h2>
       </header>
-      <Choice name="Where the assets come from" value={source} options={SOURCES} onChange={chooseSource} />
+      <div>
+        <Choice name="Where the assets come from" value={source} options={SOURCES} onChange={chooseSource} />
+      </div>
       {source === "folder" && <FolderSource />}
       {source === "upload" && <UploadSource />}
       {source === "family" && <Families />}

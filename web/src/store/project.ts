@@ -69,6 +69,7 @@ export const emptyProject: ProjectState = {
     next: { stage: "label", say: "", asset: null },
     problem: null,
     lost: [],
+    left_out: [],
   },
   cards: {},
   order: [],
