@@ -2,10 +2,15 @@
 
 from __future__ import annotations
 
+import os
 import signal
+import tempfile
 
 pytest_plugins = ["tests.slow_tests"]
 
 # A job in the background is started with Ctrl-C ignored, and so would be all processes that tests start and interrupt.
 if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
     signal.signal(signal.SIGINT, signal.default_int_handler)
+
+# No studio that a test starts is to be among the recent projects of whoever runs the tests.
+os.environ.setdefault("MESHFORGE_STATE", tempfile.mkdtemp(prefix="meshforge-state-"))

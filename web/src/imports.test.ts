@@ -17,6 +17,7 @@ const LAYERS = [
   "steps",
   "viewport",
   "panels",
+  "start",
   "shell",
   "page",
   "main",

@@ -21,8 +21,11 @@ export type AnyEdit =
   | Unprepare
   | ReviewAssets
   | CorrectByHand
-  | DropCorrections;
+  | DropCorrections
+  | LeaveOut
+  | RemoveAssets;
 export type Event =
+  | Start
   | Hello
   | CardsChanged
   | ProjectChanged
@@ -35,6 +38,7 @@ export type Event =
   | ProgramChanged
   | JobChanged;
 export type JobRequest = ApplyJob | DecomposeJob | ExportJob | PropagateJob | ForecastJob | AskJob | CheckJob;
+export type NewProject = ProjectOfFolder | ProjectOfUpload | ProjectOfFamily;
 
 export interface Everything {
   ActionForm: ActionForm;
@@ -49,6 +53,7 @@ export interface Everything {
   AssetLabelUpdate: AssetLabelUpdate;
   AssetView: AssetView;
   AssetsChanged: AssetsChanged;
+  AssetsFound: AssetsFound;
   Card: Card;
   CardsChanged: CardsChanged;
   CheckFinding: CheckFinding;
@@ -72,9 +77,13 @@ export interface Everything {
   EngineView: EngineView;
   Event: Event;
   ExportJob: ExportJob;
+  FamilyOffer: FamilyOffer;
   Fault: Fault;
   Figure: Figure;
   FindingView: FindingView;
+  FolderEntry: FolderEntry;
+  FolderRequest: FolderRequest;
+  FolderView: FolderView;
   ForecastJob: ForecastJob;
   GeneraliseRequest: GeneraliseRequest;
   Guess: Guess;
@@ -99,13 +108,16 @@ export interface Everything {
   LabelUpdate: LabelUpdate;
   LabelUpdateChanged: LabelUpdateChanged;
   LanguageView: LanguageView;
+  LeaveOut: LeaveOut;
   Mark: Mark;
   Model: Model;
   MoveRule: MoveRule;
   NearMiss: NearMiss;
   NearestView: NearestView;
+  NewProject: NewProject;
   Next: Next;
   OpaqueView: OpaqueView;
+  OpenReceipt: OpenReceipt;
   Operator: Operator;
   OutcomeChanged: OutcomeChanged;
   OutcomeView: OutcomeView;
@@ -115,6 +127,9 @@ export interface Everything {
   ProgramCheck: ProgramCheck;
   ProgramView: ProgramView;
   ProjectChanged: ProjectChanged;
+  ProjectOfFamily: ProjectOfFamily;
+  ProjectOfFolder: ProjectOfFolder;
+  ProjectOfUpload: ProjectOfUpload;
   ProjectView: ProjectView;
   PropagateJob: PropagateJob;
   PropagationState: PropagationState;
@@ -123,6 +138,8 @@ export interface Everything {
   Reach: Reach;
   ReachChanged: ReachChanged;
   ReadingView: ReadingView;
+  RecentProject: RecentProject;
+  RemoveAssets: RemoveAssets;
   RenameLabel: RenameLabel;
   RepairView: RepairView;
   ReviewAssets: ReviewAssets;
@@ -138,6 +155,8 @@ export interface Everything {
   SettleRepair: SettleRepair;
   ShapeRow: ShapeRow;
   ShapesHeader: ShapesHeader;
+  Start: Start;
+  StartView: StartView;
   StepText: StepText;
   StepView: StepView;
   TakeBack: TakeBack;
@@ -369,6 +388,21 @@ export interface DropCorrections {
   kind: "drop-corrections";
 }
 /**
+ * Leave assets out of the family, or put them back; what is kept for them stays.
+ */
+export interface LeaveOut {
+  kind: "leave-out";
+  ids: string[];
+  out?: boolean;
+}
+/**
+ * Remove assets from the project, with their labels, demonstrations and corrections; their own files stay.
+ */
+export interface RemoveAssets {
+  kind: "remove-assets";
+  ids: string[];
+}
+/**
  * Run the program on all assets, or on some.
  */
 export interface ApplyJob {
@@ -565,6 +599,25 @@ export interface AssetsChanged {
   shapes: boolean;
 }
 /**
+ * What a folder or an upload holds, before a project is made of it.
+ *
+ * folder: where it lies; kinds: how many of which format, in words; assets: how many; read: how many of them were
+ * looked at, the first ones. Of these, pieces: how many pieces and bodies have no hulls and can be decomposed; bare:
+ * how many assets have such pieces; broken: how many cannot be read; problem: why the first of them cannot be read.
+ * project: the folder that is offered for the new project.
+ */
+export interface AssetsFound {
+  folder: string;
+  kinds: string;
+  assets: number;
+  read: number;
+  pieces: number;
+  bare: number;
+  broken: number;
+  problem: string | null;
+  project: string;
+}
+/**
  * One asset in the gallery.
  *
  * hulls: how many, null until the asset is read or where it cannot be read. labels: for each hull, in order, its
@@ -759,8 +812,43 @@ export interface EngineView {
   title: string;
 }
 /**
+ * No project is open; sent when a page connects.
+ */
+export interface Start {
+  kind: "start";
+  start: StartView;
+}
+/**
+ * What the start page shows. places: folders to begin looking for assets in.
+ */
+export interface StartView {
+  version: string;
+  recent: RecentProject[];
+  families: FamilyOffer[];
+  places: string[];
+}
+/**
+ * A project that was open before. assets: how many it had then; opened: when, as ISO 8601; gone: whether there is
+ * no project in that folder any more.
+ */
+export interface RecentProject {
+  folder: string;
+  name: string;
+  assets: number;
+  opened: string;
+  gone: boolean;
+}
+/**
+ * A bundled family. about: what it is, in a line; project: the folder that is offered for it.
+ */
+export interface FamilyOffer {
+  name: string;
+  about: string;
+  project: string;
+}
+/**
  * The whole state, sent when a page connects. tour: whether the page shows the guided tour; engines: those whose
- * limits can be checked.
+ * limits can be checked; leave: whether the page can leave the project for the start page.
  */
 export interface Hello {
   kind: "hello";
@@ -778,13 +866,14 @@ export interface Hello {
   jobs: Job[];
   tour: boolean;
   engines: EngineView[];
+  leave: boolean;
 }
 /**
  * The project. orient: the text of the directive, empty for none; orient_sentence: that in words.
  *
  * rules: what is demonstrated, by rule; templates: hull templates that actions can name; carried: the last propagation
  * of labels, null where there was none; problem: why the program cannot be applied; lost: ids that files are kept for
- * though there is no such asset.
+ * though there is no such asset; left_out: ids of assets that are kept, but not as part of the family.
  */
 export interface ProjectView {
   name: string;
@@ -801,6 +890,7 @@ export interface ProjectView {
   next: Next;
   problem: string | null;
   lost: string[];
+  left_out: string[];
 }
 /**
  * A label of the vocabulary. color: `#rrggbb`, by its place; used: how many hulls of the family have it.
@@ -1061,6 +1151,31 @@ export interface ExportJob {
   folder?: string;
 }
 /**
+ * A folder in another. project: whether it is a project.
+ */
+export interface FolderEntry {
+  name: string;
+  project: boolean;
+}
+/**
+ * A folder, by its path.
+ */
+export interface FolderRequest {
+  folder: string;
+}
+/**
+ * A folder of this machine. parent: the one it lies in, null at the root; entries: the folders in it by name, but
+ * for hidden ones; more: how many are left out; files: how many files of assets and meshes lie in it itself.
+ */
+export interface FolderView {
+  folder: string;
+  parent: string | null;
+  project: boolean;
+  entries: FolderEntry[];
+  more: number;
+  files: number;
+}
+/**
  * Work out what asking a model for labels would send and cost, without sending anything.
  */
 export interface ForecastJob {
@@ -1146,6 +1261,38 @@ export interface Mark {
   line: number;
   column: number;
   message: string;
+}
+/**
+ * Make a project of the assets in a folder, which stay where they are. project: the folder to make; decompose: the
+ * tool that makes hulls of what has none, null to leave it as it is.
+ */
+export interface ProjectOfFolder {
+  kind: "folder";
+  folder: string;
+  project: string;
+  decompose?: ("coacd" | "vhacd") | null;
+}
+/**
+ * Make a project of the files that were sent, which come into its own folder; fields as in `ProjectOfFolder`.
+ */
+export interface ProjectOfUpload {
+  kind: "upload";
+  project: string;
+  decompose?: ("coacd" | "vhacd") | null;
+}
+/**
+ * Make a project of a bundled family, whose files are written into its own folder.
+ */
+export interface ProjectOfFamily {
+  kind: "family";
+  family: string;
+  project: string;
+}
+/**
+ * A project is open now.
+ */
+export interface OpenReceipt {
+  folder: string;
 }
 /**
  * What would an action do? steps: how many of the asset's own steps come before it; result: apply it to what the

@@ -10,7 +10,16 @@ from meshforge.common.exports import export_lazily
 if TYPE_CHECKING:
     from meshforge.batch.check import CheckJournal, CheckOutcome, CheckTask, check_asset, check_assets, open_journal
     from meshforge.batch.corrections import Correction, replay_corrections
-    from meshforge.batch.discovery import OWN_FOLDERS, SETTINGS, STATE, AssetSet, asset_id, expand, find_assets_in
+    from meshforge.batch.discovery import (
+        ADDED,
+        OWN_FOLDERS,
+        SETTINGS,
+        STATE,
+        AssetSet,
+        asset_id,
+        expand,
+        find_assets_in,
+    )
     from meshforge.batch.edit import apply
     from meshforge.batch.engine_trial import ENGINES_TO_ASK, examine_file
     from meshforge.batch.execution import execute
@@ -103,6 +112,7 @@ else:
     __getattr__ = export_lazily(__name__)
 
 __all__ = [
+    "ADDED",
     "APPLY_DEFAULTS",
     "ENGINES_TO_ASK",
     "EXECUTION_DEFAULTS",

@@ -20,12 +20,22 @@ OWN_FOLDERS = ("templates", "labels", "demonstrations", "corrections", "prepared
 """The folders of a project that hold no assets of the user."""
 
 
+ADDED = "added"
+"""The folder for assets that are added to a project, below its own folder or below the one that ids count from."""
+
+
 @dataclass(frozen=True)
 class AssetSet:
-    """Assets in sorted order without repetition; base: the common folder of the arguments, from which ids count."""
+    """Assets in sorted order without repetition; base: the common folder of the arguments, from which ids count.
+
+    home: the folder of a project whose assets lie elsewhere; the ids of those in its `added/` count from it. left_out:
+    the ids of assets that a project keeps, but not as part of the family.
+    """
 
     base: Path
     paths: tuple[Path, ...]
+    home: Path | None = None
+    left_out: tuple[str, ...] = ()
 
     def __iter__(self) -> Iterator[Path]:
         return iter(self.paths)
@@ -36,7 +46,17 @@ class AssetSet:
     @cached_property
     def ids(self) -> Mapping[str, Path]:
         """The assets by id: the path below the common folder, with forward slashes."""
-        return {asset_id(path, self.base): path for path in self.paths}
+        return {asset_id(path, self.base_of(path)): path for path in self.paths}
+
+    def base_of(self, path: Path) -> Path:
+        """The folder that the id of an asset counts from."""
+        is_own = self.home is not None and path.is_relative_to(self.added) and not path.is_relative_to(self.base)
+        return self.home if self.home is not None and is_own else self.base
+
+    @property
+    def added(self) -> Path:
+        """The folder that assets come to which are added: never one of somebody's sources, in a project."""
+        return (self.home or self.base) / ADDED
 
 
 def expand(patterns: Iterable[str | Path], root: Path | None = None) -> AssetSet:

@@ -77,7 +77,8 @@ def make_jobs(found: AssetSet, labels: Path | None = None) -> tuple[AssetJob, ..
         remedy = "Give a folder that mirrors theirs."
         raise UsageError(f"one labels file cannot serve {len(found)} assets", where=str(labels), remedy=remedy)
     return tuple(
-        AssetJob(key, path, found.base, find_labels_file(path, labels, found.base)) for key, path in found.ids.items()
+        AssetJob(key, path, found.base_of(path), find_labels_file(path, labels, found.base_of(path)))
+        for key, path in found.ids.items()
     )
 
 

@@ -13,7 +13,9 @@ from meshforge.studio.session.session import StudioOptions
 
 
 def studio(
-    project: Annotated[Path, typer.Argument(help="A project folder.")],
+    project: Annotated[
+        Path | None, typer.Argument(help="A project folder; without it, the start page.", show_default=False)
+    ] = None,
     port: Port = 0,
     browser: Browser = True,
     export: Annotated[
@@ -24,7 +26,8 @@ def studio(
 ) -> None:
     """See, label, demonstrate, learn and review in the browser; stops with Ctrl-C.
 
-    The studio answers on this machine only, to the address with its token that is printed.
+    Without a project it opens the start page: recent projects, and new ones from a folder, from dropped files or from a
+    bundled family. The studio answers on this machine only, to the address with its token that is printed.
     """
     open_studio(StudioOptions(project, export), port=port, browser=browser, page=page)
 

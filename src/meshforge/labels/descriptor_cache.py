@@ -75,12 +75,12 @@ class DescriptorCache:
 
     def __init__(self, store: Store, facts: Mapping[str, AssetFacts], execution: batch.ExecutionOptions) -> None:
         contact = store.settings.thresholds.contact or EPSILON
-        layout, base, software = store.layout, store.found.base, batch.software_version()
+        layout, software = store.layout, batch.software_version()
         self._execution = execution
         self._work = {
             asset: _Work(
                 store.path(asset),
-                base,
+                store.found.base_of(store.path(asset)),
                 own.files,
                 layout.preparation(asset),
                 own.preparation,

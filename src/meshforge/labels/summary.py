@@ -158,7 +158,7 @@ def describe_label_plan(store: Store) -> str:
     layout, found = store.layout, store.found
     places = {asset: layout.labels(asset) for asset in found.ids}
     jobs = [
-        AssetJob(asset, path, found.base, places[asset] if places[asset].exists() else None)
+        AssetJob(asset, path, found.base_of(path), places[asset] if places[asset].exists() else None)
         for asset, path in found.ids.items()
     ]
     by_people = sum(_has_human_label(store, job.id) for job in jobs if job.labels)

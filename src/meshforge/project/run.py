@@ -22,12 +22,12 @@ from meshforge.synthesis import Demonstration, advance, begin_replay
 
 def build_jobs(store: Store, only: Collection[str] | None = None) -> tuple[batch.AssetJob, ...]:
     """A job for each asset, or for some, with the project's labels and edits by hand."""
-    layout, base = store.layout, store.found.base
+    layout = store.layout
     return tuple(
         batch.AssetJob(
             asset,
             path,
-            base,
+            store.found.base_of(path),
             layout.labels(asset) if layout.labels(asset).exists() else None,
             store.corrections(asset),
             layout.preparation(asset) if (layout.preparation(asset) / batch.RECORD_FILE).exists() else None,

@@ -81,7 +81,7 @@ def iterate_survey(
     """
     known = _FactsMemory(layout.survey, found.ids)
     wanted = {key: path for key, path in found.ids.items() if only is None or key in only}
-    work = {key: _AssetPaths(path, found.base, layout.preparation(key)) for key, path in wanted.items()}
+    work = {key: _AssetPaths(path, found.base_of(path), layout.preparation(key)) for key, path in wanted.items()}
     fresh = {key for key, own in work.items() if key in known.facts and _is_current(known.facts[key], own)}
     todo = tuple(own for key, own in work.items() if key not in fresh)
     results = batch.execute(_read_facts, todo, replace(execution or batch.ExecutionOptions(), progress=progress))

@@ -7,6 +7,7 @@ from __future__ import annotations
 import os
 import tomllib
 from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
@@ -14,7 +15,7 @@ import tomlkit
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 from tomlkit.items import InlineTable
 
-from meshforge.batch import SETTINGS, AssetSet, expand
+from meshforge.batch import SETTINGS, AssetSet, asset_id, expand
 from meshforge.common import MeshForgeError, ProjectError, UsageError, plain_path, write_atomically
 from meshforge.formats import all_suffixes, is_asset
 from meshforge.language import Orient, Program, show
@@ -71,6 +72,8 @@ class Settings(BaseModel):
     assets: files, folders and globs, relative to the project; base: the folder that ids count from.
     orient: the directive as a program has it, without the word `orient`; empty for none.
     names: the label that names mean, by patterns of names, in their order; empty for none.
+    left_out: ids of assets that are kept, but not as part of the family; removed: ids of assets that `assets` means and
+    that do not belong to the project.
     """
 
     model_config = ConfigDict(extra="allow", frozen=True)
@@ -83,6 +86,8 @@ class Settings(BaseModel):
     thresholds: Thresholds = Thresholds()
     vlm: VlmSettings = VlmSettings()
     names: dict[str, str] = {}
+    left_out: tuple[str, ...] = ()
+    removed: tuple[str, ...] = ()
 
 
 def read_settings(folder: Path) -> Settings:
@@ -239,9 +244,10 @@ def find_assets(folder: Path) -> AssetSet:
     settings = read_settings(folder)
     base = Path(os.path.normpath(folder / settings.base))
     try:
-        found = AssetSet(base, expand(settings.assets, folder).paths)
+        paths = expand(settings.assets, folder).paths
     except UsageError as error:
         raise ProjectError(f"assets: {error.message}", where=str(folder / SETTINGS)) from None
+    found = AssetSet(base, paths, None if base.is_relative_to(folder) else folder)
     for key in found.ids:
         if key.startswith("../"):
             raise ProjectError(
@@ -249,7 +255,28 @@ def find_assets(folder: Path) -> AssetSet:
                 where=str(folder / SETTINGS),
                 remedy="Make another project for it, or move it there.",
             )
-    return found
+    return _without_left_out(folder, settings, found)
+
+
+def _without_left_out(folder: Path, settings: Settings, found: AssetSet) -> AssetSet:
+    """The family. Raises ProjectError where nothing is left of it."""
+    away = {*settings.left_out, *settings.removed}
+    if not away:
+        return found
+    kept = tuple(path for key, path in found.ids.items() if key not in away)
+    if not kept:
+        remedy = "Take an id out of left_out or removed."
+        raise ProjectError("every asset is left out of the family", where=str(folder / SETTINGS), remedy=remedy)
+    left_out = tuple(key for key in found.ids if key in settings.left_out and key not in settings.removed)
+    return replace(found, paths=kept, left_out=left_out)
+
+
+def take_back(folder: Path, assets: Iterable[str]) -> None:
+    """Let assets belong to the project again that were removed or left out."""
+    settings, wanted = read_settings(folder), set(assets)
+    for key, ids in (("removed", settings.removed), ("left_out", settings.left_out)):
+        if wanted & set(ids):
+            change_setting(folder, key, tuple(one for one in ids if one not in wanted))
 
 
 def add_assets(folder: Path, found: AssetSet, paths: Iterable[str | Path]) -> None:
@@ -258,7 +285,8 @@ def add_assets(folder: Path, found: AssetSet, paths: Iterable[str | Path]) -> No
     Assets that a pattern would pass over because of the new files, such as mesh files in a folder that gets a URDF,
     are named as well. Raises ProjectError for a file that is no asset, or lies outside of the folder of the ids.
     """
-    wanted = [_check_path(found.base, plain_path(Path(path))) for path in paths]
+    wanted = [_check_path(found, plain_path(Path(path))) for path in paths]
+    take_back(folder, (asset_id(path, found.base_of(path)) for path in wanted))
     present = set(find_assets(folder).paths)
     had = (path for path in found if path.exists())
     more = [path for path in dict.fromkeys([*had, *wanted]) if path not in present]
@@ -267,10 +295,12 @@ def add_assets(folder: Path, found: AssetSet, paths: Iterable[str | Path]) -> No
         change_setting(folder, "assets", (*read_settings(folder).assets, *names))
 
 
-def _check_path(base: Path, path: Path) -> Path:
-    if not path.is_relative_to(base):
+def _check_path(found: AssetSet, path: Path) -> Path:
+    if not path.is_relative_to(found.base_of(path)):
         remedy = "Put it there, or make another project for it."
-        raise ProjectError(f"it lies outside of {base}, the folder that ids count from", where=str(path), remedy=remedy)
+        raise ProjectError(
+            f"it lies outside of {found.base}, the folder that ids count from", where=str(path), remedy=remedy
+        )
     if not is_asset(path):
         remedy = f"Known suffixes: {', '.join(all_suffixes())}."
         raise ProjectError("this is no asset that can be read", where=str(path), remedy=remedy)

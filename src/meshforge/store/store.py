@@ -8,9 +8,18 @@ from contextlib import AbstractContextManager
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from meshforge.batch import AssetSet, Correction, Preparation, hold_lock, load_named_templates, read_preparation
+from meshforge.batch import (
+    AssetSet,
+    Correction,
+    Preparation,
+    hold_lock,
+    load_named_templates,
+    read_preparation,
+    remove_preparation,
+)
 from meshforge.common import MeshForgeError, ProjectError, nearest_name, write_atomically
 from meshforge.language import Orient, Program, Template
+from meshforge.store import membership
 from meshforge.store import program as program_files
 from meshforge.store import settings as settings_file
 from meshforge.store.feedback import AnswersFile, Review, ReviewFile
@@ -117,6 +126,32 @@ class Store:
         """What is done to an asset before the program. Raises AssetError where its files are damaged."""
         self.path(asset)
         return read_preparation(self.layout.preparation(asset)) or Preparation()
+
+    def leave_out(self, assets: Collection[str]) -> None:
+        """Leave assets out of the family; their files stay, and what is kept for them. Raises ProjectError for the last
+        one."""
+        with self.lock():
+            membership.leave_out(self.folder, self.found, assets)
+
+    def put_back(self, assets: Collection[str]) -> None:
+        """Let assets that were left out be part of the family again."""
+        with self.lock():
+            membership.put_back(self.folder, assets)
+
+    def remove_assets(self, assets: Collection[str]) -> None:
+        """Remove assets from the project, with what it keeps for them; their own files stay. Raises ProjectError for
+        the last one of the family."""
+        with self.lock():
+            membership.remove_from_settings(self.folder, self.found, assets)
+            for asset in assets:
+                for path in (
+                    self.layout.labels(asset),
+                    self.layout.demonstration(asset),
+                    self.layout.corrections(asset),
+                ):
+                    path.unlink(missing_ok=True)
+                remove_preparation(self.layout.preparation(asset))
+            self.write_reviews(dict.fromkeys(assets))
 
     # Labels
 

@@ -183,7 +183,8 @@ def _is_unchanged(project: Project, asset: str, stamp: Stamp) -> bool:
     made = stamp.inputs
     if made is None or record_digest(project.layout.preparation(asset)) != made.preparation:
         return False
-    return has_same_files(made.asset, project.path(asset), project.found.base)
+    path = project.path(asset)
+    return has_same_files(made.asset, path, project.found.base_of(path))
 
 
 def check_key(stamp: Stamp | None) -> str | None:

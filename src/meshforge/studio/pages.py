@@ -26,7 +26,16 @@ MOST_BEHIND = 2000
 class PageState:
     """What all pages show now. Each change is sent with it, under one lock, so that every page sees all in order."""
 
-    def __init__(self, hub: PageHub, project: ProjectView, history: HistoryView, version: str, tour: bool) -> None:
+    def __init__(
+        self,
+        hub: PageHub,
+        project: ProjectView,
+        history: HistoryView,
+        version: str,
+        *,
+        tour: bool = False,
+        leave: bool = False,
+    ) -> None:
         self._lock, self._hub = RLock(), hub
         self._cards: dict[str, Card] = {}
         self._jobs: dict[str, Job] = {}
@@ -37,6 +46,7 @@ class PageState:
             history=history,
             program=ProgramView(),
             tour=tour,
+            leave=leave,
             engines=tuple(EngineView(name=engine.name, title=engine.title) for engine in ENGINES.values()),
         )
 

@@ -4,14 +4,15 @@ from __future__ import annotations
 
 from collections import OrderedDict
 from collections.abc import Callable
-from concurrent.futures import Future, TimeoutError
+from concurrent.futures import CancelledError, Future, TimeoutError
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from threading import Lock
-from typing import TYPE_CHECKING, ParamSpec, TypeVar
+from typing import TYPE_CHECKING, Any, ParamSpec, TypeVar
+from weakref import WeakSet
 
 from meshforge.batch import AssetSet, count_processors, read_prepared, record_digest, server_context, source_files
-from meshforge.common import FileStates, MeshForgeError, file_states
+from meshforge.common import FileStates, MeshForgeError, StoppedError, file_states
 from meshforge.project import Project
 from meshforge.symbolic import Asset, SymbolicMesh
 
@@ -38,6 +39,7 @@ class Workers:
         self._lock = Lock()
         self._pool: ProcessPool | None = None
         self._closed = False
+        self._futures: WeakSet[Future[Any]] = WeakSet()
 
     def start(self, function: Callable[Params, Result], *args: Params.args, **kwargs: Params.kwargs) -> Future[Result]:
         """Start some work. Its result raises what the function raises; see `wait_for`."""
@@ -48,6 +50,7 @@ class Workers:
                 raise MeshForgeError("the studio is being closed")
             self._pool = self._pool or ProcessPool(max_workers=self.count, context=server_context())
             future: Future[Result] = self._pool.schedule(function, args=args, kwargs=kwargs, timeout=self._timeout)
+            self._futures.add(future)
         return future
 
     def run(self, function: Callable[Params, Result], *args: Params.args, **kwargs: Params.kwargs) -> Result:
@@ -58,6 +61,9 @@ class Workers:
         """Stop all work at once."""
         with self._lock:
             pool, self._pool, self._closed = self._pool, None, True
+            futures = list(self._futures)
+        for future in futures:  # a pool that is stopped leaves who waits for it waiting
+            future.cancel()
         if pool:
             pool.stop()  # type: ignore[no-untyped-call]  # pebble has no types
             pool.join()
@@ -72,15 +78,17 @@ def future_of(result: Result) -> Future[Result]:
 
 def project_of_one(project: Project, asset: str) -> Project:
     """The same project with one asset, for a worker process."""
-    return Project(project.folder, AssetSet(project.found.base, (project.path(asset),)))
+    return Project(project.folder, replace(project.found, paths=(project.path(asset),)))
 
 
 def wait_for(future: Future[Result]) -> Result:
-    """The result of some work. Raises MeshForgeError where its process died, or took too long."""
+    """The result of some work. Raises MeshForgeError where its process died, took too long or was stopped."""
     from pebble import ProcessExpired  # lazy: as above
 
     try:
         return future.result()
+    except CancelledError:
+        raise StoppedError("the studio is being closed") from None
     except ProcessExpired as error:
         raise MeshForgeError(f"the process that worked on this died (exit code {error.exitcode})") from None
     except TimeoutError:

@@ -6,6 +6,7 @@ import { demonstrateCommands } from "./demonstrate";
 import { goCommands } from "./navigate";
 import { labelCommands } from "./label";
 import { learnCommands } from "./learn";
+import { memberCommands } from "./members";
 import { reviewCommands } from "./review";
 import { selectCommands } from "./select";
 import { viewCommands } from "./view";
@@ -16,6 +17,7 @@ export const allCommands: readonly Command[] = [
   ...learnCommands,
   ...reviewCommands,
   ...goCommands,
+  ...memberCommands,
   ...viewCommands,
   ...selectCommands,
 ];

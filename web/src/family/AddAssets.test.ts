@@ -1,8 +1,9 @@
 // Files that were picked or dropped, folders with all that lies in them.
-import { beforeEach, describe, expect, it, vi } from "vitest";
+import { describe, expect, it } from "vitest";
 import { droppedFiles, pickedFiles } from "./AddAssets";
 
 class FileEntry {
+  readonly isFile = true;
   constructor(readonly fullPath: string) {}
   file(good: (file: File) => void): void {
     good(new File([], this.fullPath.split("/").at(-1) ?? ""));
@@ -11,6 +12,7 @@ class FileEntry {
 
 /** A folder whose entries the browser hands out a few at a time. */
 class FolderEntry {
+  readonly isDirectory = true;
   constructor(
     private readonly inside: readonly (FileEntry | FolderEntry)[],
     private readonly some = 100,
@@ -24,11 +26,6 @@ class FolderEntry {
 const drop = (...entries: (FileEntry | FolderEntry | null)[]) =>
   ({ items: entries.map((entry) => ({ webkitGetAsEntry: () => entry })), files: [new File([], "plain.obj")] }) as unknown as DataTransfer;
 const paths = async (data: DataTransfer) => (await droppedFiles(data)).map(({ path }) => path);
-
-beforeEach(() => {
-  vi.stubGlobal("FileSystemFileEntry", FileEntry);
-  vi.stubGlobal("FileSystemDirectoryEntry", FolderEntry);
-});
 
 describe("what is dropped", () => {
   it("keeps where it lies in its folder", async () => {

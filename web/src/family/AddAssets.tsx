@@ -33,9 +33,11 @@ interface PickerProps {
   input: RefObject<HTMLInputElement | null>;
   name: string;
   folder?: boolean;
+  take?: (files: readonly PlacedFile[]) => Promise<void>;
 }
 
-function Picker({ input, name, folder = false }: PickerProps) {
+/** The browser's own dialog for files, or for a folder with all that lies in it. */
+export function Picker({ input, name, folder = false, take = addAssets }: PickerProps) {
   return (
     <input
       ref={(element) => {
@@ -47,16 +49,22 @@ function Picker({ input, name, folder = false }: PickerProps) {
       hidden
       aria-label={name}
       onChange={(event) => {
-        void addAssets(pickedFiles(event.target.files));
+        void take(pickedFiles(event.target.files));
         event.target.value = "";
       }}
     />
   );
 }
 
+interface DropZoneProps {
+  words?: string;
+  /** What becomes of the files; the same function each time. */
+  take?: (files: readonly PlacedFile[]) => Promise<void>;
+}
+
 /** Files dropped anywhere on the window become assets; the way there is shown. */
-export function DropZone() {
-  const over = useDrop();
+export function DropZone({ words = "Drop to add to the family", take = addAssets }: DropZoneProps) {
+  const over = useDrop(take);
   const sending = useUpload((state) => state.sending);
   return (
     <>
@@ -64,7 +72,7 @@ export function DropZone() {
         <div className={css.zone} aria-hidden>
           <div className={css.frame}>
             <CloudUpload size={32} />
-            <b>Drop to add to the family</b>
+            <b>{words}</b>
             <span>Files or folders: URDF, MJCF, SDF, GLB, OBJ, STL, PLY or VRML, with all files that they refer to</span>
           </div>
         </div>
@@ -83,7 +91,7 @@ export function DropZone() {
 }
 
 /** Whether files hover over the window; those that are dropped are added, unless a part took them itself. */
-function useDrop(): boolean {
+function useDrop(take: (files: readonly PlacedFile[]) => Promise<void>): boolean {
   const [over, setOver] = useState(false);
   useEffect(() => {
     const hasFiles = (event: DragEvent) => event.dataTransfer?.types.includes("Files") ?? false;
@@ -97,7 +105,7 @@ function useDrop(): boolean {
       setOver(false);
       if (!hasFiles(event) || event.defaultPrevented || !event.dataTransfer) return;
       event.preventDefault();
-      droppedFiles(event.dataTransfer).then(addAssets).catch(reportError);
+      droppedFiles(event.dataTransfer).then(take).catch(reportError);
     };
     window.addEventListener("dragover", drag);
     window.addEventListener("dragleave", leave);
@@ -107,7 +115,7 @@ function useDrop(): boolean {
       window.removeEventListener("dragleave", leave);
       window.removeEventListener("drop", drop);
     };
-  }, []);
+  }, [take]);
   return over;
 }
 
@@ -123,12 +131,16 @@ export function pickedFiles(files: FileList | null): PlacedFile[] {
   return [...(files ?? [])].map((file) => ({ path: file.webkitRelativePath || file.name, file }));
 }
 
+// Chromium has no constructors of that name that one could ask by `instanceof`
+const isFile = (entry: FileSystemEntry): entry is FileSystemFileEntry => entry.isFile;
+const isFolder = (entry: FileSystemEntry): entry is FileSystemDirectoryEntry => entry.isDirectory;
+
 async function filesOf(entry: FileSystemEntry): Promise<PlacedFile[]> {
-  if (entry instanceof FileSystemFileEntry) {
+  if (isFile(entry)) {
     const file = await new Promise<File>((good, bad) => entry.file(good, bad));
     return [{ path: entry.fullPath.replace(/^\//, ""), file }];
   }
-  if (!(entry instanceof FileSystemDirectoryEntry)) return [];
+  if (!isFolder(entry)) return [];
   const inside = await Promise.all((await entriesOf(entry.createReader())).map(filesOf));
   return inside.flat();
 }

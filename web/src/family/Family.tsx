@@ -11,6 +11,7 @@ import { AddMenu } from "./AddAssets";
 import { Cards } from "./Cards";
 import css from "./family.module.css";
 import { Filters } from "./Filters";
+import { AssetMenu, LeftOut } from "./Members";
 import { SureLine } from "./Sureness";
 
 export function Family() {
@@ -25,6 +26,7 @@ export function Family() {
           <SureLine />
           <Filters />
           <Cards least={112} />
+          <LeftOut />
         </>
       )}
     </div>
@@ -44,6 +46,7 @@ export function Gallery() {
         <LabelChanges />
       </div>
       <Cards least={216} large />
+      <LeftOut />
     </div>
   );
 }
@@ -60,6 +63,7 @@ function FamilyHead() {
         {shown === all ? all : `${shown} of ${all}`}
       </span>
       <AddMenu />
+      <AssetMenu />
       <IconButton
         icon={LayoutGrid}
         name={gallery ? "Back to the view of one asset" : "Show the family in the centre"}

@@ -77,7 +77,7 @@ async function request(path: string, init: RequestInit): Promise<Response> {
 const unreachable: Problem = {
   message: "The studio's server does not answer.",
   where: null,
-  remedy: "Start it again in the terminal: meshforge studio PROJECT. No confirmed edit is lost.",
+  remedy: "Start it again in the terminal: meshforge studio. No confirmed edit is lost.",
   conflict: false,
 };
 

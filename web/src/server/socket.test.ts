@@ -8,7 +8,7 @@ class FakeSocket {
   static all: FakeSocket[] = [];
   onopen: (() => void) | null = null;
   onmessage: ((message: { data: string }) => void) | null = null;
-  onclose: (() => void) | null = null;
+  onclose: ((event: { code: number }) => void) | null = null;
   closed = false;
 
   constructor(
@@ -18,9 +18,9 @@ class FakeSocket {
     FakeSocket.all.push(this);
   }
 
-  close(): void {
+  close(code = 1006): void {
     this.closed = true;
-    this.onclose?.();
+    this.onclose?.({ code });
   }
 }
 
@@ -48,6 +48,13 @@ afterEach(() => {
 });
 
 describe("the connection to the server", () => {
+  it("is made anew at once, and not called lost, where another project is opened", () => {
+    start();
+    last().onopen?.();
+    last().onclose?.({ code: 4000 });
+    expect([FakeSocket.all.length, heard]).toEqual([2, [true]]);
+  });
+
   it("goes to the address of the page, encrypted where the page is", () => {
     start();
     expect(last().url.href).toBe("wss://host:1/studio/ws");
@@ -68,7 +75,7 @@ describe("the connection to the server", () => {
   it("is made again by itself once it is lost", () => {
     start();
     last().onopen?.();
-    last().onclose?.();
+    last().onclose?.({ code: 1006 });
     expect(heard).toEqual([true, false]);
     vi.advanceTimersByTime(249);
     expect(FakeSocket.all).toHaveLength(1);
@@ -80,7 +87,7 @@ describe("the connection to the server", () => {
     start();
     const waits = [250, 500, 1000, 2000, 4000, 4000, 4000];
     for (const [k, wait] of waits.entries()) {
-      last().onclose?.();
+      last().onclose?.({ code: 1006 });
       vi.advanceTimersByTime(wait - 1);
       expect(FakeSocket.all).toHaveLength(k + 1);
       vi.advanceTimersByTime(1);
@@ -91,11 +98,11 @@ describe("the connection to the server", () => {
   it("is tried at once again after it was there", () => {
     start();
     for (const wait of [250, 500, 1000]) {
-      last().onclose?.();
+      last().onclose?.({ code: 1006 });
       vi.advanceTimersByTime(wait);
     }
     last().onopen?.();
-    last().onclose?.();
+    last().onclose?.({ code: 1006 });
     vi.advanceTimersByTime(250);
     expect(FakeSocket.all).toHaveLength(5);
   });
@@ -111,7 +118,7 @@ describe("the connection to the server", () => {
 
   it("is not made again where listening ends while it waits", () => {
     start();
-    last().onclose?.();
+    last().onclose?.({ code: 1006 });
     stop();
     vi.advanceTimersByTime(10_000);
     expect(FakeSocket.all).toHaveLength(1);

@@ -2,6 +2,9 @@
 import type { Event } from "../wire";
 import { socketProtocols } from "./http";
 
+/** The code of a connection that ends because another project is open now, or none: what follows comes by a new one. */
+const CHANGED = 4000;
+
 interface Listener {
   receive(event: Event): void;
   connected(is: boolean): void;
@@ -23,8 +26,9 @@ export function listen(listener: Listener): () => void {
       listener.connected(true);
     };
     socket.onmessage = (message: MessageEvent<string>) => listener.receive(JSON.parse(message.data) as Event);
-    socket.onclose = () => {
+    socket.onclose = (event: CloseEvent) => {
       if (stopped) return;
+      if (event.code === CHANGED) return connect();
       listener.connected(false);
       timer = setTimeout(connect, wait);
       wait = Math.min(2 * wait, 4000);

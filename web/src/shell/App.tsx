@@ -4,7 +4,9 @@ import { Tooltip } from "radix-ui";
 import { AddMenu, DropZone } from "../family/AddAssets";
 import { Family, Gallery } from "../family/Family";
 import { StepStrip } from "../steps/StepStrip";
+import { StartPage } from "../start/StartPage";
 import { useProject } from "../store/project";
+import { useStart } from "../store/start";
 import { setLayout, useLayout, useWorkspace } from "../store/workspace";
 import { Viewport } from "../viewport/Viewport";
 import css from "./App.module.css";
@@ -21,9 +23,10 @@ import { ConnectionBar, Welcome } from "./ConnectionState";
 
 export function App() {
   const ready = useProject((state) => state.ready);
+  const start = useStart((state) => state.view !== null);
   return (
     <Tooltip.Provider delayDuration={400} skipDelayDuration={150}>
-      {ready ? <Window /> : <Welcome />}
+      {ready ? <Window /> : start ? <StartPage /> : <Welcome />}
       <Toasts />
     </Tooltip.Provider>
   );

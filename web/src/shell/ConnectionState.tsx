@@ -28,7 +28,7 @@ export function Welcome() {
         <p role="alert">{REFUSED}</p>
       ) : state === "lost" ? (
         <p role="alert">
-          The studio does not answer; trying again. Start it in a terminal: <code>meshforge studio PROJECT</code>
+          The studio does not answer; trying again. Start it in a terminal: <code>meshforge studio</code>
         </p>
       ) : (
         <p role="status" className={css.opening}>

@@ -1,13 +1,14 @@
 // The bar above: project, search, undo and redo, what works in the background, theme, help.
-import { CircleQuestionMark, Monitor, Moon, PanelLeftOpen, Redo2, Search, Sun, Undo2 } from "lucide-react";
+import { CircleQuestionMark, FolderOpen, PanelLeftOpen, Redo2, Search, Undo2 } from "lucide-react";
 import { Popover } from "radix-ui";
 import { api } from "../server/api";
 import { redo, undo } from "../store/edits";
+import { leaveProject } from "../store/start";
 import { useProject } from "../store/project";
 import { reportError } from "../store/toasts";
-import { setLayout, useLayout, useWorkspace, type WorkspaceState } from "../store/workspace";
+import { setLayout, useLayout, useWorkspace } from "../store/workspace";
 import { Button, IconButton } from "../ui/Button";
-import { Menu } from "../ui/Menu";
+import { ThemeMenu } from "../ui/ThemeMenu";
 import { Wordmark } from "../ui/Wordmark";
 import type { Job } from "../wire";
 import css from "./TopBar.module.css";
@@ -15,6 +16,7 @@ import css from "./TopBar.module.css";
 export function TopBar() {
   const { name, folder } = useProject((state) => state.project);
   const hidden = useLayout((layout) => !layout.family && !layout.gallery);
+  const leave = useProject((state) => state.leave);
   return (
     <header className={css.bar} data-part>
       {hidden && (
@@ -25,6 +27,7 @@ export function TopBar() {
       <h1 className={css.name} title={folder}>
         {name}
       </h1>
+      {leave && <IconButton icon={FolderOpen} name="Projects: leave this one for the start page" onClick={() => void leaveProject()} />}
       <SearchButton />
       <History />
       <span className={css.space} />
@@ -159,23 +162,5 @@ function JobRow({ job }: { job: Job }) {
         </ul>
       )}
     </li>
-  );
-}
-
-type Theme = WorkspaceState["theme"];
-const THEME_NAMES: Readonly<Record<Theme, string>> = { light: "Light", dark: "Dark", system: "Like the system" };
-const ICONS = { light: Sun, dark: Moon, system: Monitor } as const;
-
-/** Theme: light, dark, or like the system has it. */
-function ThemeMenu() {
-  const theme = useWorkspace((workspace) => workspace.theme);
-  return (
-    <Menu
-      trigger={<IconButton icon={ICONS[theme]} name={`Theme: ${THEME_NAMES[theme].toLowerCase()}`} />}
-      lines={(["light", "dark", "system"] as const).map((value) => ({
-        label: value === theme ? `✓ ${THEME_NAMES[value]}` : THEME_NAMES[value],
-        onSelect: () => useWorkspace.setState({ theme: value }),
-      }))}
-    />
   );
 }

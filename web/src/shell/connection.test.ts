@@ -12,7 +12,7 @@ class Storage {
 
 interface Socket {
   onopen: () => void;
-  onclose: () => void;
+  onclose: (event: { code: number }) => void;
   onmessage: (message: { data: string }) => void;
 }
 
@@ -43,7 +43,7 @@ function answer(status: number): void {
 const hello = (page: Awaited<ReturnType<typeof load>>, change: object = {}) => {
   const cards = ["a", "b"].map((asset) => page.sampleCard({ asset }));
   const { project, history, program } = page.emptyProject;
-  const event = { kind: "hello", version: "1", project, cards, history, relabelled: null, program, outcome: null, learning: false, reach: [], assessment: null, assessing: false, jobs: [], tour: false, engines: [], ...change };
+  const event = { kind: "hello", version: "1", project, cards, history, relabelled: null, program, outcome: null, learning: false, reach: [], assessment: null, assessing: false, jobs: [], tour: false, engines: [], leave: true, ...change };
   socket.onmessage({ data: JSON.stringify(event) });
 };
 
@@ -106,7 +106,7 @@ describe("without a connection", () => {
   it("the page knows that it is lost, where the server answers again or not at all", async () => {
     const page = await load();
     page.connect();
-    socket.onclose();
+    socket.onclose({ code: 1006 });
     await vi.waitFor(() => expect(page.useConnection.getState().state).toBe("lost"));
   });
 
@@ -114,14 +114,14 @@ describe("without a connection", () => {
     answer(status);
     const page = await load();
     page.connect();
-    socket.onclose();
+    socket.onclose({ code: 1006 });
     await vi.waitFor(() => expect(page.useConnection.getState().state).toBe("refused"));
   });
 
   it("the page is open again as soon as the server answers", async () => {
     const page = await load();
     page.connect();
-    socket.onclose();
+    socket.onclose({ code: 1006 });
     socket.onopen();
     await Promise.resolve();
     expect(page.useConnection.getState().state).toBe("open");

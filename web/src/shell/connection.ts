@@ -5,6 +5,7 @@ import { getJson, setToken as keep, ServerProblem } from "../server/http";
 import { listen } from "../server/socket";
 import { receive, useProject } from "../store/project";
 import { followWorkspace } from "../store/scenes";
+import { hideStart, showStart } from "../store/start";
 import {
   type Draft,
   openAsset,
@@ -25,6 +26,9 @@ export const useConnection = create<{ state: "connecting" | "open" | "lost" | "r
 export function connect(): void {
   let followed = false;
   function heard(event: Event): void {
+    if (isElsewhere(event)) return startAnew();
+    if (event.kind === "start") return showStart(event.start);
+    if (event.kind === "hello") hideStart();
     receive(event);
     if (followed || event.kind !== "hello") return;
     followed = true;
@@ -33,6 +37,19 @@ export function connect(): void {
     rememberPlace();
   }
   listen({ receive: heard, connected: setConnected });
+}
+
+/** Whether the server has another project open than the one that this page shows, or none. */
+function isElsewhere(event: Event): boolean {
+  const { ready, project } = useProject.getState();
+  if (!ready) return false;
+  return event.kind === "start" || (event.kind === "hello" && event.project.folder !== project.folder);
+}
+
+/** Loads the page again, so that nothing of the project before is left. */
+function startAnew(): void {
+  sessionStorage.removeItem(PLACE_KEY);
+  location.reload();
 }
 
 function setConnected(is: boolean): void {

@@ -2,6 +2,7 @@
 import { pressedKeys } from "../commands/command";
 import { allCommands, commandFor } from "../commands/list";
 import { isBusy, runKey } from "../commands/queue";
+import { useStart } from "../store/start";
 import { useWorkspace } from "../store/workspace";
 
 const IN_FIELDS = new Set(["Escape", "Ctrl+Enter", "Ctrl+K"]);
@@ -22,7 +23,7 @@ export function bindKeys(): void {
   let byKey = false;
   window.addEventListener("pointerdown", () => (byKey = false), true);
   window.addEventListener("keydown", (event) => {
-    if (event.defaultPrevented || event.isComposing) return;
+    if (event.defaultPrevented || event.isComposing || useStart.getState().view !== null) return;
     const key = pressedKeys(event);
     const { target } = event;
     const open = isOpen(key, target, byKey && target !== document.body);

@@ -20,6 +20,7 @@ const hello: Hello = {
   assessing: false,
   jobs: [],
   tour: false,
+  leave: false,
   engines: [],
 };
 const begun = applyEvent(emptyProject, hello);

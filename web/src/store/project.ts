@@ -27,6 +27,8 @@ export interface ProjectState {
   confidence: Readonly<Record<string, ConfidenceView>>;
   jobs: readonly Job[];
   tour: boolean;
+  /** Whether one can leave the project for the start page. */
+  leave: boolean;
   /** Engines whose limits can be checked. */
   engines: readonly EngineView[];
   /** How often everything was sent anew, and of how many edits of this page. */
@@ -67,6 +69,7 @@ export const emptyProject: ProjectState = {
     next: { stage: "label", say: "", asset: null },
     problem: null,
     lost: [],
+    left_out: [],
   },
   cards: {},
   order: [],
@@ -81,6 +84,7 @@ export const emptyProject: ProjectState = {
   confidence: {},
   jobs: [],
   tour: false,
+  leave: false,
   engines: [],
   hellos: 0,
   own: 0,
@@ -112,6 +116,7 @@ export function applyEvent(state: ProjectState, event: Event): ProjectState {
         confidence: byAsset(event.assessment?.assets ?? []),
         jobs: event.jobs,
         tour: event.tour,
+        leave: event.leave,
         engines: event.engines,
         hellos: state.hellos + 1,
         // what is kept of an asset may be old after a time without connection

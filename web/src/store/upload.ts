@@ -22,21 +22,30 @@ export function stopUpload(): void {
   useUpload.setState({ stopped: true });
 }
 
+type SendFile = (path: string, file: Blob) => Promise<unknown>;
+
 /** Sends files and has them taken as assets; notifies what came of it. */
-export async function addAssets(given: readonly PlacedFile[]): Promise<void> {
+export const addAssets = (given: readonly PlacedFile[]): Promise<void> => sendFiles(given, api.stageAssetFile, takeAll);
+
+/** Sends files one by one, then does what follows, unless it was stopped or none arrived; notifies what goes wrong. */
+export async function sendFiles(
+  given: readonly PlacedFile[],
+  send: SendFile,
+  then: () => Promise<unknown>,
+): Promise<void> {
   if (useUpload.getState().sending) return notify("Other files are being added. Add these when they are done.");
   const files = given.filter(({ path }) => !isHidden(path));
   if (files.length === 0) return notify("There are no files to add.");
   useUpload.setState({ stopped: false });
   try {
-    if (await sendAll(files)) await takeAll();
+    if (await sendAll(files, send)) await then();
   } finally {
     useUpload.setState({ sending: null });
   }
 }
 
 /** Whether all went well, or enough of it; one that is refused keeps no other from going. */
-async function sendAll(files: readonly PlacedFile[]): Promise<boolean> {
+async function sendAll(files: readonly PlacedFile[], send: SendFile): Promise<boolean> {
   const refused: ServerProblem[] = [];
   for (const [done, { path, file }] of files.entries()) {
     if (useUpload.getState().stopped) {
@@ -45,7 +54,7 @@ async function sendAll(files: readonly PlacedFile[]): Promise<boolean> {
     }
     useUpload.setState({ sending: { done, total: files.length, path } });
     try {
-      await api.stageAssetFile(path, file);
+      await send(path, file);
     } catch (error) {
       if (!(error instanceof ServerProblem) || error.status === 0) {
         reportError(error);

@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Literal
 
-from meshforge.batch import AssetSet, ExecutionOptions, WorkerFailure, asset_id, execute, read_prepared
+from meshforge.batch import AssetSet, ExecutionOptions, WorkerFailure, execute, read_prepared
 from meshforge.common import AssetError, MeshForgeError, UsageError, describe_error
 from meshforge.formats import POINTS_SUFFIXES, SEMANTICS_FILE, labels_beside, points_beside, read_semantics
 from meshforge.labels.from_files import points
@@ -38,7 +38,7 @@ def find_label_files(found: AssetSet, source: Path | None) -> dict[str, Path]:
             raise UsageError(problem, where=str(source), remedy="Give a folder that mirrors theirs.")
         files = dict.fromkeys(found.ids, source)
     elif source.is_dir():
-        files = {asset: _file_in_mirror(source / asset_id(path, found.base), path) for asset, path in found.ids.items()}
+        files = {asset: _file_in_mirror(source / asset, path) for asset, path in found.ids.items()}
     else:
         raise UsageError("there is no such labels file or folder", where=str(source))
     return {asset: file for asset, file in files.items() if file}

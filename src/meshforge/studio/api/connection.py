@@ -17,6 +17,7 @@ from starlette.requests import HTTPConnection
 from starlette.responses import JSONResponse
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
+from meshforge.studio.host import Host
 from meshforge.studio.pages import PageConnection
 from meshforge.studio.session.session import Session
 from meshforge.studio.wire.events import Problem
@@ -27,6 +28,8 @@ MOST_BYTES = 16 * 2**20
 
 PROTOCOL = "meshforge"
 """The protocol that a WebSocket asks for; after it, it offers the token."""
+CHANGED = 4000
+"""The code of a closed WebSocket whose page is to connect again at once."""
 
 _REOPEN = "Open the address that `meshforge studio` has printed."
 
@@ -136,14 +139,22 @@ SenderId = Annotated[str | None, Header(alias="X-Page")]
 router = APIRouter()
 
 
-def _get_session(connection: HTTPConnection) -> Session:
-    session: Any = connection.app.state.session
-    assert isinstance(session, Session)
-    return session
+def _get_host(connection: HTTPConnection) -> Host:
+    host: Any = connection.app.state.host
+    assert isinstance(host, Host)
+    return host
+
+
+CurrentHost = Annotated[Host, Depends(_get_host)]
+"""The studio's open project, or its start page."""
+
+
+def _get_session(host: CurrentHost) -> Session:
+    return host.session
 
 
 CurrentSession = Annotated[Session, Depends(_get_session)]
-"""The session that the studio serves."""
+"""The project that is open. Raises ConflictError, which the page gets, where none is."""
 
 
 def packet_response(data: bytes) -> Response:
@@ -152,25 +163,25 @@ def packet_response(data: bytes) -> Response:
 
 
 @router.websocket("/ws")
-async def serve_socket(connection: WebSocket, session: CurrentSession) -> None:
-    """Send a page all events until it leaves, or the studio is closed."""
+async def serve_socket(connection: WebSocket, host: CurrentHost) -> None:
+    """Send a page all events until it leaves, another project is opened, or the studio is closed."""
     await connection.accept(subprotocol=PROTOCOL)
     page = PageConnection(get_running_loop())
-    session.pages.join(page)
-    tasks = [create_task(_send_events(connection, page)), create_task(_listen(connection))]
+    hub = host.join(page)
+    tasks = [create_task(_send_events(connection, page, host)), create_task(_listen(connection))]
     try:
         await wait(tasks, return_when=FIRST_COMPLETED)
     finally:
-        session.hub.leave(page)
+        hub.leave(page)
         for task in tasks:
             task.cancel()
 
 
-async def _send_events(connection: WebSocket, page: PageConnection) -> None:
+async def _send_events(connection: WebSocket, page: PageConnection, host: Host) -> None:
     try:
         while (text := await page.events.get()) is not None:
             await connection.send_text(text)
-        await connection.close(code=1012)
+        await connection.close(code=1012 if host.is_closing else CHANGED)
     except (WebSocketDisconnect, RuntimeError):  # it has left meanwhile
         return
 

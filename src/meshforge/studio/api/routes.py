@@ -5,6 +5,7 @@ change the project: edits, undo and redo, learning, jobs, and uploaded templates
 from __future__ import annotations
 
 from asyncio import wait, wrap_future
+from collections.abc import Collection
 from concurrent.futures import Future
 from pathlib import Path
 from typing import Annotated, Literal, TypeVar
@@ -12,6 +13,7 @@ from typing import Annotated, Literal, TypeVar
 from fastapi import APIRouter, Body, Request, Response
 from starlette.concurrency import run_in_threadpool
 
+from meshforge.batch import ADDED
 from meshforge.common import ProjectError, StoppedError, join_names
 from meshforge.language import Program
 from meshforge.studio.api.connection import CurrentSession, SenderId, packet_response
@@ -180,10 +182,6 @@ async def _wait_while_connected(request: Request, future: Future[Result]) -> Res
     return wait_for(future)
 
 
-ADDED_FOLDER = "added"
-"""The folder for new assets, below that of the project's assets."""
-
-
 @router.post("/edit")
 def make_edit(
     session: CurrentSession, change: Annotated[AnyEdit, Body()], page: SenderId = None
@@ -269,17 +267,17 @@ def add_assets(session: CurrentSession, page: SenderId = None) -> requests.Uploa
     try:
         staged, files = session.uploads.list_files()
         added = find_assets(session.readers, staged)
-        home = session.project.found.base / ADDED_FOLDER
-        _check_free(home, files)
+        home = session.project.found.added
+        _check_free(home, files, session.project.found.ids)
         session.edit(AddAssets(staged=str(staged), files=files, added=added, home=str(home)), page)
     finally:
         session.uploads.clear()
-    return requests.UploadReceipt(names=tuple(f"{ADDED_FOLDER}/{name}" for name in added))
+    return requests.UploadReceipt(names=tuple(f"{ADDED}/{name}" for name in added))
 
 
-def _check_free(home: Path, files: tuple[str, ...]) -> None:
+def _check_free(home: Path, files: tuple[str, ...], ids: Collection[str]) -> None:
     if not home.resolve().is_relative_to(home.parent.resolve()):
         raise ProjectError("this folder is a link to somewhere else", where=str(home), remedy="Remove the link.")
-    taken = [name for name in files if (home / name).exists()]
+    taken = [name for name in files if (home / name).exists() or f"{ADDED}/{name}" in ids]
     if taken:
         raise ProjectError(f"there is a file of that name already: {join_names(taken)}", remedy="Give it another name.")

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import logging
-import multiprocessing
 import signal
 import socket
 import webbrowser
@@ -24,18 +23,15 @@ from starlette.responses import Response
 from starlette.staticfiles import StaticFiles
 from starlette.types import ASGIApp, Scope
 
-from meshforge.batch import STATE, hold_lock
-from meshforge.common import MeshForgeError, ProjectError, UsageError, describe_invalid_field
-from meshforge.project import Project
-from meshforge.studio.api import connection, routes
+from meshforge.common import MeshForgeError, UsageError, describe_invalid_field
+from meshforge.studio.api import connection, routes, start
 from meshforge.studio.api.connection import Guard
 from meshforge.studio.errors import problem_of, status_of
-from meshforge.studio.session.session import Session, StudioOptions
+from meshforge.studio.host import Host
+from meshforge.studio.session.session import StudioOptions
 from meshforge.studio.wire.events import Problem
 
 ADDRESS = "127.0.0.1"
-EXIT_TIMEOUT = 3.0
-"""Seconds that a worker process is waited for."""
 _LOG = logging.getLogger(__name__)
 
 PAGE_FOLDER = Path(__file__).parent.parent / "static"
@@ -49,19 +45,18 @@ def serve(
     browser: bool = True,
     page: Path = PAGE_FOLDER,
 ) -> None:
-    """Serve a project until Ctrl-C or SIGTERM. announce: called with the address; port: 0 takes a free one; page: the
-    built page.
+    """Serve a project, or the start page, until Ctrl-C or SIGTERM. announce: called with the address; port: 0 takes a
+    free one; page: the built page.
 
     Raises MeshForgeError: no project, no page, the port is taken, or the studio is open on the project already.
     """
     open_page(page)
-    project, token = Project.open(options.folder), token_urlsafe(24)
+    host, token = Host(options), token_urlsafe(24)
     with _stop_on_signal(), ExitStack() as stack:
-        _lock_studio(stack, project)
+        stack.callback(host.close)
+        if options.folder is not None:
+            host.open(options.folder)
         listening = stack.enter_context(closing(_listen(port)))
-        session = Session(options)
-        stack.callback(_wait_for_processes)
-        stack.callback(session.close)
         address = f"http://{ADDRESS}:{listening.getsockname()[1]}/?token={token}"
 
         def ready() -> None:
@@ -69,8 +64,7 @@ def serve(
             if browser:
                 Thread(target=webbrowser.open, args=(address,), daemon=True).start()
 
-        session.start()
-        _Server(_make_config(session, token, page), ready).run(sockets=[listening])
+        _Server(_make_config(host, token, page), ready).run(sockets=[listening])
 
 
 class _Server(uvicorn.Server):
@@ -86,9 +80,9 @@ class _Server(uvicorn.Server):
             self._ready()
 
 
-def _make_config(session: Session, token: str, page: Path) -> uvicorn.Config:
+def _make_config(host: Host, token: str, page: Path) -> uvicorn.Config:
     return uvicorn.Config(
-        build_app(session, token, page),
+        build_app(host, token, page),
         log_level="info" if _LOG.isEnabledFor(logging.DEBUG) else "critical",
         access_log=False,
         lifespan="off",
@@ -97,21 +91,6 @@ def _make_config(session: Session, token: str, page: Path) -> uvicorn.Config:
         timeout_graceful_shutdown=2,
         server_header=False,
     )
-
-
-def _wait_for_processes() -> None:
-    """Wait for worker processes: one that is just starting would fail if its locks went with this process."""
-    for process in multiprocessing.active_children():
-        process.join(EXIT_TIMEOUT)
-
-
-def _lock_studio(stack: ExitStack, project: Project) -> None:
-    """Lock the project for this studio: two would each have half of its history."""
-    try:
-        stack.enter_context(hold_lock(project.folder / STATE / "studio" / "lock", str(project.folder), wait=0))
-    except MeshForgeError as error:
-        remedy = "Use the page that is open, or stop that studio first."
-        raise ProjectError("the studio is open on this project already", where=error.where, remedy=remedy) from None
 
 
 def _listen(port: int) -> socket.socket:
@@ -138,11 +117,11 @@ def _stop_on_signal() -> Iterator[None]:
         signal.signal(signal.SIGTERM, before)
 
 
-def build_app(session: Session, token: str, page: Path) -> ASGIApp:
-    """The web application of a session. page: the folder of the built page. Raises MeshForgeError as `open_page`."""
+def build_app(host: Host, token: str, page: Path) -> ASGIApp:
+    """The web application of a studio. page: the folder of the built page. Raises MeshForgeError as `open_page`."""
     app = FastAPI(title="MeshForge studio", docs_url=None, redoc_url=None, openapi_url=None)
-    app.state.session = session
-    for module in (routes, connection):
+    app.state.host = host
+    for module in (routes, start, connection):
         app.include_router(module.router)
     app.mount("/", open_page(page))
     app.add_exception_handler(MeshForgeError, _handle_error)

@@ -29,6 +29,8 @@ AnyEdit = Annotated[
     | assets.Unprepare
     | assets.ReviewAssets
     | assets.CorrectByHand
-    | assets.DropCorrections,
+    | assets.DropCorrections
+    | assets.LeaveOut
+    | assets.RemoveAssets,
     Field(discriminator="kind"),
 ]

@@ -216,8 +216,7 @@ class ReviewAssets(Edit):
         project.set_verdict(self.ids, self.verdict, self.note)
 
     def describe(self, project: Project) -> str:
-        what = self.ids[0] if len(self.ids) == 1 else pluralize(len(self.ids), "asset")
-        return f"{what} {self.verdict or 'not reviewed'}"
+        return f"{_count_or_name(self.ids)} {self.verdict or 'not reviewed'}"
 
 
 class _CorrectionEdit(Edit):
@@ -270,6 +269,47 @@ class AddTemplate(Edit):
 
     def describe(self, project: Project) -> str:
         return f"template {self.name} added"
+
+
+class LeaveOut(Edit):
+    """Leave assets out of the family, or put them back; what is kept for them stays."""
+
+    kind: Literal["leave-out"] = "leave-out"
+    touches = (SETTINGS,)
+    ids: tuple[str, ...]
+    out: bool = True
+
+    def apply(self, project: Project) -> None:
+        if self.out:
+            project.leave_out(self.ids)
+        else:
+            project.put_back(self.ids)
+
+    def describe(self, project: Project) -> str:
+        return f"{_count_or_name(self.ids)} {'left out' if self.out else 'put back'}"
+
+
+class RemoveAssets(Edit):
+    """Remove assets from the project, with their labels, demonstrations and corrections; their own files stay."""
+
+    kind: Literal["remove-assets"] = "remove-assets"
+    touches = (SETTINGS, "review.json")
+    ids: tuple[str, ...]
+
+    def apply(self, project: Project) -> None:
+        project.remove_assets(self.ids)
+
+    def list_paths(self, project: Project) -> tuple[Path, ...]:
+        layout = project.layout
+        kinds = (layout.labels, layout.demonstration, layout.corrections, layout.preparation)
+        return (*super().list_paths(project), *(kind(asset) for asset in self.ids for kind in kinds))
+
+    def describe(self, project: Project) -> str:
+        return f"{_count_or_name(self.ids)} removed from the project"
+
+
+def _count_or_name(ids: tuple[str, ...]) -> str:
+    return ids[0] if len(ids) == 1 else pluralize(len(ids), "asset")
 
 
 class AddAssets(Edit):

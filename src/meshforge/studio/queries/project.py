@@ -198,6 +198,7 @@ def build_project_view(
         next=next_step,
         problem=problem,
         lost=lost,
+        left_out=project.found.left_out,
     )
 
 

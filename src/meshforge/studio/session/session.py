@@ -41,10 +41,10 @@ READERS = 2
 
 @dataclass(frozen=True, slots=True)
 class StudioOptions:
-    """How a studio is opened. export: a folder that outputs may be exported to besides those in the project; tour:
-    whether pages show the guided tour."""
+    """How a studio is opened. folder: of the project, None for the start page; export: a folder that outputs may be
+    exported to besides those in the project; tour: whether pages show the guided tour."""
 
-    folder: Path
+    folder: Path | None = None
     export: Path | None = None
     tour: bool = False
 
@@ -52,22 +52,24 @@ class StudioOptions:
 class Session:
     """One open project: changes it, and keeps all pages in step with it."""
 
-    def __init__(self, options: StudioOptions) -> None:
+    def __init__(self, folder: Path, options: StudioOptions) -> None:
         self.options = options
         self._mutex = RLock()
         self.readers, self._drawers, self._checkers = Workers(READERS), Workers(), Workers(1)
-        project = ProjectWithCache.of(Project.open(options.folder), MeshCache(self.readers))
-        folder = project.folder / STATE / "studio"
+        project = ProjectWithCache.of(Project.open(folder), MeshCache(self.readers))
+        own = project.folder / STATE / "studio"
         self.history = History(project, _list_learned_files)
         self.label_changes = LabelChanges(self.history)
         self.hub = PageHub()
         view = initial_view(project)
-        self.pages = PageState(self.hub, view, self.history.view, version("meshforge"), options.tour)
+        self.pages = PageState(
+            self.hub, view, self.history.view, version("meshforge"), tour=options.tour, leave=options.folder is None
+        )
         self.offers = OfferCache()
         self.jobs = JobRunner(self.pages.set_job)
-        self.thumbnails = Thumbnails(folder / "thumbnails", self._drawers)
-        self.checks = OutputChecks(folder / "checks", self._checkers)
-        self.uploads = Uploads(folder / "uploads")
+        self.thumbnails = Thumbnails(own / "thumbnails", self._drawers)
+        self.checks = OutputChecks(own / "checks", self._checkers)
+        self.uploads = Uploads(own / "uploads")
         learner = Learner(project.folder)
         self.learning = LearningScheduler(learner, self.pages, self._has_demonstrations, self._end_learning)
         # the queue's thread must see the project that is open when it works, not the first one

@@ -12,6 +12,7 @@ from meshforge.studio.wire.family import Card, HistoryView, ProjectView
 from meshforge.studio.wire.jobs import Job, LabelUpdate
 from meshforge.studio.wire.program import OutcomeView, ProgramView, Reach
 from meshforge.studio.wire.signoff import AssessmentView
+from meshforge.studio.wire.start import StartView
 
 
 class Problem(Wire):
@@ -24,9 +25,16 @@ class Problem(Wire):
     conflict: bool = False
 
 
+class Start(Wire):
+    """No project is open; sent when a page connects."""
+
+    kind: Literal["start"] = "start"
+    start: StartView
+
+
 class Hello(Wire):
     """The whole state, sent when a page connects. tour: whether the page shows the guided tour; engines: those whose
-    limits can be checked."""
+    limits can be checked; leave: whether the page can leave the project for the start page."""
 
     kind: Literal["hello"] = "hello"
     version: str
@@ -43,6 +51,7 @@ class Hello(Wire):
     jobs: tuple[Job, ...] = ()
     tour: bool = False
     engines: tuple[EngineView, ...] = ()
+    leave: bool = False
 
 
 class CardsChanged(Wire):
@@ -126,7 +135,8 @@ class JobChanged(Wire):
 
 
 Event = Annotated[
-    Hello
+    Start
+    | Hello
     | CardsChanged
     | ProjectChanged
     | HistoryChanged

@@ -89,7 +89,7 @@ class ProjectView(Wire):
 
     rules: what is demonstrated, by rule; templates: hull templates that actions can name; carried: the last propagation
     of labels, null where there was none; problem: why the program cannot be applied; lost: ids that files are kept for
-    though there is no such asset.
+    though there is no such asset; left_out: ids of assets that are kept, but not as part of the family.
     """
 
     name: str
@@ -106,6 +106,7 @@ class ProjectView(Wire):
     next: Next
     problem: str | None = None
     lost: tuple[str, ...] = ()
+    left_out: tuple[str, ...] = ()
 
 
 class HistoryView(Wire):

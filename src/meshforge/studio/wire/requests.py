@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+from typing import Annotated, Literal
+
+from pydantic import Field
+
 from meshforge.studio.wire import Wire
 from meshforge.studio.wire.jobs import Model
 
@@ -65,3 +69,47 @@ class LabelSources(Wire):
     files: int
     names: int
     model: Model | None
+
+
+class FolderRequest(Wire):
+    """A folder, by its path."""
+
+    folder: str
+
+
+Method = Literal["coacd", "vhacd"]
+
+
+class ProjectOfFolder(Wire):
+    """Make a project of the assets in a folder, which stay where they are. project: the folder to make; decompose: the
+    tool that makes hulls of what has none, null to leave it as it is."""
+
+    kind: Literal["folder"] = "folder"
+    folder: str
+    project: str
+    decompose: Method | None = None
+
+
+class ProjectOfUpload(Wire):
+    """Make a project of the files that were sent, which come into its own folder; fields as in `ProjectOfFolder`."""
+
+    kind: Literal["upload"] = "upload"
+    project: str
+    decompose: Method | None = None
+
+
+class ProjectOfFamily(Wire):
+    """Make a project of a bundled family, whose files are written into its own folder."""
+
+    kind: Literal["family"] = "family"
+    family: str
+    project: str
+
+
+NewProject = Annotated[ProjectOfFolder | ProjectOfUpload | ProjectOfFamily, Field(discriminator="kind")]
+
+
+class OpenReceipt(Wire):
+    """A project is open now."""
+
+    folder: str

@@ -1,0 +1,92 @@
+"""Routes of the start page: recent projects, folders of this machine, files that are sent, and opening a project."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+from fastapi import APIRouter, Body, Depends, Request
+
+from meshforge.studio.api.connection import CurrentHost
+from meshforge.studio.jobs import start_job
+from meshforge.studio.start import folders
+from meshforge.studio.start.page import StartPage
+from meshforge.studio.wire import requests
+from meshforge.studio.wire.jobs import DecomposeJob
+from meshforge.studio.wire.start import AssetsFound, FolderView, StartView
+
+router = APIRouter(prefix="/api/start")
+
+
+def _get_start(host: CurrentHost) -> StartPage:
+    return host.start
+
+
+CurrentStart = Annotated[StartPage, Depends(_get_start)]
+"""The start page. Raises ConflictError, which the page gets, where it is not open."""
+
+
+@router.get("/folder")
+def get_folder(start: CurrentStart, folder: str) -> FolderView:
+    """The folders in a folder."""
+    return folders.list_folder(folders.parse_path(folder))
+
+
+@router.get("/look")
+def look_at_folder(start: CurrentStart, folder: str) -> AssetsFound:
+    """The assets in a folder."""
+    return start.look_at_folder(folder)
+
+
+@router.put("/files")
+async def put_file(start: CurrentStart, request: Request, path: str) -> requests.UploadReceipt:
+    """Keep a file for a new project."""
+    await start.uploads.put(path, request.stream())
+    return requests.UploadReceipt(names=(path,))
+
+
+@router.post("/files")
+def look_at_files(start: CurrentStart) -> AssetsFound:
+    """The assets among the files that were sent; where one cannot be taken, all are thrown away, with an error."""
+    return start.look_at_upload()
+
+
+@router.post("/files/clear")
+def clear_files(start: CurrentStart) -> requests.UploadReceipt:
+    """Throw away the files that were sent."""
+    start.uploads.clear()
+    return requests.UploadReceipt(names=())
+
+
+@router.post("/forget")
+def forget(start: CurrentStart, request: requests.FolderRequest) -> StartView:
+    """Take a project off the list of recent ones."""
+    start.recent.forget(request.folder)
+    return start.view
+
+
+@router.post("/open")
+def open_project(host: CurrentHost, start: CurrentStart, request: requests.FolderRequest) -> requests.OpenReceipt:
+    """Open a project."""
+    folder = folders.parse_path(request.folder, "the folder of the project")
+    folders.check_folder(folder)
+    host.open(folder)
+    return requests.OpenReceipt(folder=str(folder))
+
+
+@router.post("/new")
+def make_project(
+    host: CurrentHost, request: Annotated[requests.NewProject, Body(discriminator="kind")]
+) -> requests.OpenReceipt:
+    """Make a project and open it; hulls are made in a job, as far as that is asked for."""
+    session = host.create(lambda start: start.create(request))
+    method = None if isinstance(request, requests.ProjectOfFamily) else request.decompose
+    if method:
+        start_job(session, DecomposeJob(assets=session.project.assets(), method=method))
+    return requests.OpenReceipt(folder=str(session.project.folder))
+
+
+@router.post("/leave")
+def leave_project(host: CurrentHost) -> requests.OpenReceipt:
+    """Close the project, and show the start page."""
+    host.leave()
+    return requests.OpenReceipt(folder="")

@@ -1,0 +1,129 @@
+"""Builds the folder of a new project beside the place it will have: after a kill or an error there is either the whole
+project or nothing of it.
+"""
+
+from __future__ import annotations
+
+import shutil
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
+from pathlib import Path
+from secrets import token_hex
+
+from pydantic import BaseModel, ConfigDict, ValidationError
+
+from meshforge.batch import hold_lock
+from meshforge.common import MeshForgeError, ProjectError, UsageError, write_atomically
+from meshforge.studio.start.folders import is_project
+
+_SUFFIX = ".new-project"
+
+
+class _Journal(BaseModel):
+    """What is being built. draft: the folder; parents: folders made for it, the innermost first."""
+
+    model_config = ConfigDict(frozen=True)
+
+    draft: str
+    parents: tuple[str, ...] = ()
+
+
+def check_place(folder: Path) -> None:
+    """Raises UsageError where no new project can be made: something is there already, or it cannot be written."""
+    try:
+        if is_project(folder):
+            raise UsageError(
+                "there is a project here already", where=str(folder), remedy="Open it, or name another folder."
+            )
+        if folder.is_symlink() or (folder.exists() and not folder.is_dir()):
+            raise UsageError("there is a file or a link of this name", where=str(folder), remedy="Name another folder.")
+        if other := next(folder.iterdir(), None) if folder.exists() else None:
+            problem = f"this folder holds something already: {other.name}"
+            raise UsageError(problem, where=str(folder), remedy="Name a new folder, or an empty one.")
+        above = next(parent for parent in folder.parents if parent.exists())
+    except OSError as error:
+        raise _describe_refusal(folder, error) from None
+    if not above.is_dir():
+        raise UsageError("this is a file", where=str(above), remedy="Name a folder that lies in no file.")
+
+
+@contextmanager
+def build_project(folder: Path, state: Path) -> Iterator[Path]:
+    """A new folder to fill; then it takes the place of `folder`, or goes where an error came up.
+
+    state: the user's state folder, which knows what is being built, so that the next studio removes it after a kill.
+    Raises UsageError where no project can be made there, ProjectError while another studio makes one.
+    """
+    check_place(folder)
+    with _hold_journal(state) as journal:
+        remove_remains(journal)
+        parents = tuple(parent for parent in folder.parents if not parent.exists())
+        draft = folder.parent / f".{folder.name[:80]}.{token_hex(4)}{_SUFFIX}"
+        _write_journal(journal, _Journal(draft=str(draft), parents=tuple(map(str, parents))))
+        try:
+            draft.mkdir(parents=True)
+            yield draft
+            if folder.exists():
+                folder.rmdir()  # it is empty
+            draft.rename(folder)
+        except OSError as error:
+            remove_remains(journal)
+            raise _describe_refusal(folder, error) from None
+        except BaseException:
+            remove_remains(journal)
+            raise
+        journal.unlink(missing_ok=True)
+
+
+def clean_up(state: Path) -> None:
+    """Remove what a killed studio left half-built. Never raises."""
+    with suppress(OSError, MeshForgeError), _hold_journal(state) as journal:
+        remove_remains(journal)
+
+
+@contextmanager
+def _hold_journal(state: Path) -> Iterator[Path]:
+    """The journal, which one studio at a time may use."""
+    busy = "another studio is making a project now"
+    with _explain_busy(busy), hold_lock(state / "building.lock", str(state), wait=2.0):
+        yield state / "building.json"
+
+
+@contextmanager
+def _explain_busy(problem: str) -> Iterator[None]:
+    try:
+        yield
+    except MeshForgeError as error:
+        if "another meshforge" not in error.problem:
+            raise
+        raise ProjectError(problem, remedy="Wait until it is done, then try again.") from None
+
+
+def remove_remains(journal: Path) -> None:
+    """Remove what a journal says was being built, and the journal."""
+    try:
+        found = _Journal.model_validate_json(journal.read_bytes())
+    except FileNotFoundError:
+        return
+    except ValidationError:  # never written by us
+        journal.unlink(missing_ok=True)
+        return
+    draft = Path(found.draft)
+    if draft.name.endswith(_SUFFIX) and draft.name.startswith(".") and not draft.is_symlink():
+        shutil.rmtree(draft, ignore_errors=True)
+    for parent in found.parents:
+        with suppress(OSError):  # something else is in it by now
+            Path(parent).rmdir()
+    journal.unlink(missing_ok=True)
+
+
+def _write_journal(path: Path, journal: _Journal) -> None:
+    try:
+        write_atomically(path, journal.model_dump_json())
+    except OSError as error:
+        raise _describe_refusal(path.parent, error) from None
+
+
+def _describe_refusal(folder: Path, error: OSError) -> UsageError:
+    remedy = "Name a folder that you may write, on a disk with room."
+    return UsageError(f"the project cannot be written here: {error.strerror}", where=str(folder), remedy=remedy)

@@ -1,0 +1,128 @@
+"""The start page of a studio: what it shows, and what can be asked there."""
+
+from __future__ import annotations
+
+import shutil
+from collections.abc import Iterable
+from contextlib import ExitStack, suppress
+from importlib.metadata import version
+from pathlib import Path
+from typing import assert_never
+from uuid import uuid4
+
+from meshforge.batch import hold_lock
+from meshforge.common import MeshForgeError
+from meshforge.samples import FAMILIES
+from meshforge.studio.start import create, folders
+from meshforge.studio.start.assets import look_at_assets, look_at_folder, warm_up
+from meshforge.studio.start.building import clean_up
+from meshforge.studio.start.recent import RecentProjects
+from meshforge.studio.uploads import Uploads, find_assets
+from meshforge.studio.wire import requests
+from meshforge.studio.wire import start as wire
+from meshforge.studio.workers import Workers
+
+READERS = 2
+"""Processes that look at assets before a project is made of them."""
+
+
+class StartPage:
+    """Lists projects and folders, takes uploads, and makes projects. state: the user's state folder."""
+
+    def __init__(self, state: Path) -> None:
+        self.recent = RecentProjects(state)
+        self._state = state
+        self._workers = Workers(READERS)
+        self._stack = ExitStack()
+        self._uploads: Uploads | None = None
+
+    def begin(self) -> None:
+        """Get ready for people, as no project is open."""
+        warm_up(self._workers)
+
+    @property
+    def view(self) -> wire.StartView:
+        """What the start page shows."""
+        return wire.StartView(
+            version=version("meshforge"),
+            recent=self.recent.list(),
+            families=tuple(
+                wire.FamilyOffer(name=one.name, about=one.about, project=str(folders.suggest_project(one.name)))
+                for one in FAMILIES
+            ),
+            places=tuple(map(str, folders.default_places())),
+        )
+
+    @property
+    def uploads(self) -> Uploads:
+        """Files that were sent for a new project; in a folder that goes with this studio."""
+        if self._uploads is None:
+            clean_up(self._state)
+            self._uploads = Uploads(_take_folder(self._stack, self._state / "uploads"))
+        return self._uploads
+
+    def look_at_folder(self, folder: str) -> wire.AssetsFound:
+        """What a folder holds. Raises UsageError where there is no such folder, or no asset in it."""
+        return look_at_folder(self._workers, folders.parse_path(folder, "the folder of assets"))
+
+    def look_at_upload(self) -> wire.AssetsFound:
+        """What was sent. Raises ProjectError, and throws it away, where no project can be made of it."""
+        home, files = self.uploads.list_files()
+        try:
+            found = find_assets(self._workers, home)
+        except MeshForgeError:
+            self.uploads.clear()
+            raise
+        tops = {name.split("/")[0] for name in files}
+        first = min(tops, key=str.casefold)
+        name = first if len(tops) == 1 and (home / first).is_dir() else Path(found[0]).stem
+        return look_at_assets(self._workers, home, [home / path for path in found], name)
+
+    def create(self, request: requests.NewProject) -> Path:
+        """Make a project, and give its folder. Raises MeshForgeError where that cannot be; then nothing is written."""
+        project = folders.parse_path(request.project, "the folder of the project")
+        match request:
+            case requests.ProjectOfFolder():
+                assets = folders.parse_path(request.folder, "the folder of assets")
+                create.create_of_folder(assets, project, self._state)
+            case requests.ProjectOfUpload():
+                home, _ = self.uploads.list_files()
+                find_assets(self._workers, home)  # raises ProjectError where nothing was sent
+                create.create_of_upload(home, project, self._state)
+            case requests.ProjectOfFamily():
+                create.create_of_family(request.family, project, self._state)
+            case _:
+                assert_never(request)
+        return project
+
+    def rest(self) -> None:
+        """Free what only the start page needs, as a project is open."""
+        self._workers.close()
+        self._workers = Workers(READERS)
+        if self._uploads:
+            self._uploads.clear()
+
+    def close(self) -> None:
+        """Stop all work, and remove what was sent."""
+        self._workers.close()
+        if self._uploads:
+            self._uploads.clear()
+        self._stack.close()
+
+
+def _take_folder(stack: ExitStack, home: Path) -> Path:
+    """A folder that no other studio uses; those of studios that are gone are removed."""
+    key = uuid4().hex
+    stack.enter_context(hold_lock(home / f"{key}.lock", str(home)))
+    stack.callback((home / f"{key}.lock").unlink, missing_ok=True)
+    _remove_stale(home.glob("*.lock"), key)
+    return home / key
+
+
+def _remove_stale(locks: Iterable[Path], own: str) -> None:
+    for lock in locks:
+        with suppress(MeshForgeError, OSError):  # its studio runs
+            if lock.stem != own:
+                with hold_lock(lock, str(lock), wait=0):
+                    shutil.rmtree(lock.with_suffix(""), ignore_errors=True)
+                    lock.unlink(missing_ok=True)

@@ -1,0 +1,72 @@
+"""The start page: recent projects, folders of this machine, and what a new project would be made of."""
+
+from __future__ import annotations
+
+from meshforge.studio.wire import Wire
+
+
+class RecentProject(Wire):
+    """A project that was open before. assets: how many it had then; opened: when, as ISO 8601; gone: whether there is
+    no project in that folder any more."""
+
+    folder: str
+    name: str
+    assets: int = 0
+    opened: str = ""
+    gone: bool = False
+
+
+class FamilyOffer(Wire):
+    """A bundled family. about: what it is, in a line; project: the folder that is offered for it."""
+
+    name: str
+    about: str
+    project: str
+
+
+class StartView(Wire):
+    """What the start page shows. places: folders to begin looking for assets in."""
+
+    version: str
+    recent: tuple[RecentProject, ...]
+    families: tuple[FamilyOffer, ...]
+    places: tuple[str, ...]
+
+
+class FolderEntry(Wire):
+    """A folder in another. project: whether it is a project."""
+
+    name: str
+    project: bool = False
+
+
+class FolderView(Wire):
+    """A folder of this machine. parent: the one it lies in, null at the root; entries: the folders in it by name, but
+    for hidden ones; more: how many are left out; files: how many files of assets and meshes lie in it itself."""
+
+    folder: str
+    parent: str | None
+    project: bool
+    entries: tuple[FolderEntry, ...]
+    more: int = 0
+    files: int = 0
+
+
+class AssetsFound(Wire):
+    """What a folder or an upload holds, before a project is made of it.
+
+    folder: where it lies; kinds: how many of which format, in words; assets: how many; read: how many of them were
+    looked at, the first ones. Of these, pieces: how many pieces and bodies have no hulls and can be decomposed; bare:
+    how many assets have such pieces; broken: how many cannot be read; problem: why the first of them cannot be read.
+    project: the folder that is offered for the new project.
+    """
+
+    folder: str
+    kinds: str
+    assets: int
+    read: int
+    pieces: int = 0
+    bare: int = 0
+    broken: int = 0
+    problem: str | None = None
+    project: str

@@ -1,0 +1,55 @@
+"""The studio without a project: a person drops a folder on the start page, and has a project of it."""
+
+from __future__ import annotations
+
+import shutil
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+from meshforge.samples import TABLES
+from tests.e2e.hand import Hand, chromium, hand
+from tests.e2e.studio import Studio, ending, started
+from tests.e2e.walk import PAGE, address
+
+
+@pytest.fixture
+def studio() -> Iterator[Studio]:
+    with ending(started("studio", "--page", str(PAGE))) as found:
+        yield found
+
+
+def drop(person: Hand, *paths: Path) -> None:
+    """Drop files or folders of this machine on the page, as from a file manager."""
+    session = person.page.context.new_cdp_session(person.page)
+    data = {"items": [], "files": [str(path) for path in paths], "dragOperationsMask": 1}
+    for kind in ("dragEnter", "dragOver", "drop"):
+        session.send("Input.dispatchDragEvent", {"type": kind, "x": 400, "y": 500, "data": data})
+
+
+@pytest.mark.slow
+def test_a_dropped_folder_becomes_a_project_with_its_assets(studio: Studio, tmp_path: Path) -> None:
+    source = tmp_path / "desks"
+    source.mkdir()
+    for name in ("table_01.obj", "table_02.obj"):
+        shutil.copyfile(TABLES / name, source / name)
+    before = sorted(tmp_path.rglob("*"))
+    project = tmp_path / "projects" / "my desks"
+    with chromium() as browser:
+        person = hand(browser)
+        person.page.goto(address(studio))
+        person.page.get_by_role("heading", name="Recent projects").wait_for()
+        drop(person, source)
+        person.sees("2 OBJ")
+        assert sorted(tmp_path.rglob("*")) == before
+        person.page.get_by_label("Project folder").fill(str(project))
+        person.press("Enter")
+        person.page.get_by_role("option", name="table_01.obj").wait_for()
+        person.drawn("table_01.obj")
+        assert person.page.get_by_role("heading", name="my desks").is_visible()
+        person.click("Projects: leave this one for the start page")
+        person.page.get_by_role("button", name="my desks").first.wait_for()
+        assert person.complaints == []
+    assert sorted(path.name for path in (project / "assets" / "desks").iterdir()) == ["table_01.obj", "table_02.obj"]
+    assert sorted(path.name for path in source.iterdir()) == ["table_01.obj", "table_02.obj"]

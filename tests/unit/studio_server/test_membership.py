@@ -1,0 +1,112 @@
+"""Assets that are left out, removed and added, each undone: the settings, the ids, and what is kept for them."""
+
+from __future__ import annotations
+
+import shutil
+from pathlib import Path
+
+import pytest
+
+from meshforge.common import ProjectError
+from meshforge.project import Project
+from meshforge.studio.edits.assets import AddAssets, LeaveOut, RemoveAssets
+from meshforge.studio.history import History
+from tests.unit.batch.families import tree
+from tests.unit.project.tables import FIRST, SECOND, THIRD, demonstrated, fresh
+
+
+def _kept(project: Project) -> dict[str, bytes]:
+    return {name: data for name, data in tree(project.folder).items() if not name.startswith(".meshforge")}
+
+
+def _now(project: Project) -> tuple[str, ...]:
+    return Project.open(project.folder).assets()
+
+
+def test_an_asset_that_is_left_out_keeps_what_is_known_of_it(tmp_path: Path) -> None:
+    project = demonstrated(tmp_path)
+    before, history = _kept(project), History(project)
+    history.do(project, LeaveOut(ids=(FIRST,)))
+    found = Project.open(project.folder)
+    assert (found.assets(), found.found.left_out) == ((SECOND, THIRD), (FIRST,))
+    assert found.status().lost == ()
+    assert {name: data for name, data in _kept(project).items() if name != "meshforge.toml"} == {
+        name: data for name, data in before.items() if name != "meshforge.toml"
+    }
+    history.do(found, LeaveOut(ids=(FIRST,), out=False))
+    assert _now(project) == (FIRST, SECOND, THIRD)
+    history.undo(found)
+    history.undo(found)
+    assert _kept(project) == before
+
+
+def test_an_asset_that_is_removed_goes_with_all_that_is_kept_for_it_and_its_own_file_stays(tmp_path: Path) -> None:
+    project = demonstrated(tmp_path)
+    before, sources, history = _kept(project), tree(tmp_path / "assets"), History(project)
+    history.do(project, RemoveAssets(ids=(FIRST,)))
+    found = Project.open(project.folder)
+    assert (found.assets(), found.found.left_out, found.status().lost) == ((SECOND, THIRD), (), ())
+    assert not [name for name in _kept(project) if FIRST in name]
+    assert tree(tmp_path / "assets") == sources
+    history.undo(found)
+    assert _kept(project) == before and _now(project) == (FIRST, SECOND, THIRD)
+
+
+def test_an_asset_that_is_named_outright_is_no_more_named(tmp_path: Path) -> None:
+    fresh(tmp_path)
+    project = Project.create(tmp_path / "named", [tmp_path / "assets" / FIRST, tmp_path / "assets" / SECOND])
+    first, second = project.assets()
+    project.remove_assets([first])
+    settings = Project.open(project.folder).settings
+    assert len(settings.assets) == 1 and settings.removed == ()
+    assert _now(project) == (second,)
+
+
+def test_an_asset_that_was_removed_can_be_added_again(tmp_path: Path) -> None:
+    project = fresh(tmp_path)
+    path = project.path(FIRST)
+    project.remove_assets([FIRST])
+    assert Project.open(project.folder).add_assets([path]).assets() == (FIRST, SECOND, THIRD)
+
+
+@pytest.mark.parametrize("edit", [LeaveOut(ids=(FIRST, SECOND, THIRD)), RemoveAssets(ids=(FIRST, SECOND, THIRD))])
+def test_the_last_asset_of_a_family_stays(tmp_path: Path, edit: LeaveOut | RemoveAssets) -> None:
+    project = fresh(tmp_path)
+    before = _kept(project)
+    with pytest.raises(ProjectError, match="would be left"):
+        History(project).do(project, edit)
+    assert _kept(project) == before
+
+
+def test_settings_that_leave_out_every_asset_say_so(tmp_path: Path) -> None:
+    project = fresh(tmp_path)
+    toml = project.folder / "meshforge.toml"
+    toml.write_text(toml.read_text() + f'left_out = ["{FIRST}", "{SECOND}", "{THIRD}"]\n')
+    with pytest.raises(ProjectError, match="left_out"):
+        Project.open(project.folder)
+
+
+def test_the_rest_of_the_settings_stays_as_its_owner_wrote_it(tmp_path: Path) -> None:
+    project = fresh(tmp_path)
+    toml = project.folder / "meshforge.toml"
+    toml.write_text(toml.read_text() + "\n# mine\n[thresholds]\ncontact = 0.01\n")
+    project.leave_out([FIRST])
+    settings = Project.open(project.folder).settings
+    assert settings.left_out == (FIRST,) and settings.thresholds.contact == 0.01
+    assert "# mine" in toml.read_text()
+
+
+def test_an_asset_that_is_added_lands_in_the_folder_of_the_project(tmp_path: Path) -> None:
+    project = fresh(tmp_path)
+    staged, sources = tmp_path / "staged", tree(tmp_path / "assets")
+    (staged / "new").mkdir(parents=True)
+    shutil.copyfile(project.path(FIRST), staged / "new" / "x.obj")
+    home, history = project.found.added, History(project)
+    edit = AddAssets(staged=str(staged), files=("new/x.obj",), added=("new/x.obj",), home=str(home))
+    history.do(project, edit)
+    found = Project.open(project.folder)
+    assert home == project.folder / "added"
+    assert "added/new/x.obj" in found.assets() and tree(tmp_path / "assets") == sources
+    assert found.mesh("added/new/x.obj").hulls
+    history.undo(found)
+    assert _now(project) == (FIRST, SECOND, THIRD) and not (home / "new" / "x.obj").exists()

@@ -1,0 +1,274 @@
+"""The start page: recent projects, folders, and new projects that are there whole or not at all."""
+
+from __future__ import annotations
+
+import asyncio
+import json
+import os
+import signal
+import subprocess
+import sys
+from collections.abc import AsyncIterator, Iterator
+from pathlib import Path
+
+import pytest
+
+from meshforge.common import MeshForgeError, UsageError
+from meshforge.project import Project
+from meshforge.samples import TABLES
+from meshforge.studio.errors import ConflictError
+from meshforge.studio.host import Host
+from meshforge.studio.session.session import StudioOptions
+from meshforge.studio.start import folders
+from meshforge.studio.start.building import build_project, clean_up
+from meshforge.studio.start.create import create_of_family, create_of_folder
+from meshforge.studio.start.page import StartPage
+from meshforge.studio.start.recent import RecentProjects, state_folder
+from meshforge.studio.wire.requests import ProjectOfUpload
+from tests.unit.batch.families import tree
+
+
+@pytest.fixture
+def state(tmp_path: Path) -> Path:
+    return tmp_path / "state"
+
+
+@pytest.fixture
+def assets(tmp_path: Path) -> Path:
+    folder = tmp_path / "desks"
+    folder.mkdir()
+    (folder / "table_01.obj").write_bytes((TABLES / "table_01.obj").read_bytes())
+    return folder
+
+
+# Recent projects
+
+
+def test_the_state_folder_is_that_of_the_user() -> None:
+    assert state_folder({"MESHFORGE_STATE": "/s"}) == Path("/s")
+    assert state_folder({"XDG_STATE_HOME": "/x"}) == Path("/x/meshforge")
+    assert state_folder({}) == Path.home() / ".local/state/meshforge"
+
+
+def test_the_project_that_was_opened_last_comes_first_and_once(state: Path) -> None:
+    recent = RecentProjects(state)
+    for name in "aba":
+        recent.add(Path("/projects") / name, name, 3)
+    assert [one.name for one in recent.list()] == ["a", "b"]
+
+
+def test_a_project_that_is_gone_is_shown_as_gone_and_can_be_forgotten(state: Path, tmp_path: Path) -> None:
+    recent, there = RecentProjects(state), tmp_path / "there"
+    there.mkdir()
+    (there / "meshforge.toml").write_text("")
+    recent.add(tmp_path / "gone", "gone", 1)
+    recent.add(there, "there", 1)
+    assert [(one.name, one.gone) for one in recent.list()] == [("there", False), ("gone", True)]
+    recent.forget(str(tmp_path / "gone"))
+    assert [one.name for one in recent.list()] == ["there"]
+
+
+@pytest.mark.parametrize("text", ["", "{broken", '{"projects": 3}', "[]"])
+def test_a_damaged_list_of_projects_is_an_empty_one(state: Path, text: str) -> None:
+    state.mkdir()
+    (state / "recent.json").write_text(text)
+    assert RecentProjects(state).list() == ()
+    RecentProjects(state).add(Path("/a"), "a", 1)
+    assert [one.name for one in RecentProjects(state).list()] == ["a"]
+
+
+def test_what_a_newer_version_keeps_of_a_project_stays(state: Path) -> None:
+    state.mkdir()
+    rows = [{"folder": "/a", "name": "a", "colour": "red"}]
+    (state / "recent.json").write_text(json.dumps({"projects": rows, "more": 1}))
+    RecentProjects(state).add(Path("/b"), "b", 1)
+    kept = json.loads((state / "recent.json").read_text())
+    assert kept["more"] == 1 and kept["projects"][1]["colour"] == "red"
+
+
+def test_a_list_that_cannot_be_written_keeps_nobody_from_opening(tmp_path: Path) -> None:
+    (tmp_path / "file").write_text("")
+    RecentProjects(tmp_path / "file").add(Path("/a"), "a", 1)
+    assert RecentProjects(tmp_path / "file").list() == ()
+
+
+# Folders
+
+
+@pytest.mark.parametrize("text", ["", "  ", "relative/path", "a\0b", "/a\nb", "~nobody-of-that-name/x"])
+def test_what_is_no_whole_path_is_refused_with_a_remedy(text: str) -> None:
+    with pytest.raises(UsageError) as refusal:
+        folders.parse_path(text)
+    assert refusal.value.remedy
+
+
+def test_a_tilde_is_the_home_folder() -> None:
+    assert folders.parse_path(" ~/x/../y ") == Path.home() / "y"
+
+
+def test_a_folder_lists_folders_projects_and_how_many_files_there_are(tmp_path: Path, assets: Path) -> None:
+    Project.create(tmp_path / "project", [assets])
+    (tmp_path / ".hidden").mkdir()
+    found = folders.list_folder(tmp_path)
+    assert [(one.name, one.project) for one in found.entries] == [("desks", False), ("project", True)]
+    assert folders.list_folder(assets).files == 1
+
+
+@pytest.mark.parametrize("name", ["gone", "desks/table_01.obj", "x" * 300])
+def test_what_is_no_folder_is_one_sentence_with_a_remedy(tmp_path: Path, assets: Path, name: str) -> None:
+    with pytest.raises(UsageError) as refusal:
+        folders.list_folder(tmp_path / name)
+    assert refusal.value.remedy and "\n" not in refusal.value.problem
+
+
+# Making projects
+
+
+def test_a_project_of_a_folder_leaves_the_assets_where_they_are(tmp_path: Path, assets: Path, state: Path) -> None:
+    before = tree(assets)
+    create_of_folder(assets, tmp_path / "new" / "project", state)
+    project = Project.open(tmp_path / "new" / "project")
+    assert (project.name, project.assets()) == ("project", ("table_01.obj",))
+    assert tree(assets) == before
+
+
+def test_a_project_of_a_family_has_its_files_and_its_vocabulary(tmp_path: Path, state: Path) -> None:
+    family = create_of_family("tables", tmp_path / "tables", state)
+    project = Project.open(tmp_path / "tables")
+    assert len(project.assets()) == 14 and project.vocabulary == family.vocabulary
+    assert all(path.is_relative_to(project.folder) for path in project.found.paths)
+
+
+async def _chunks(data: bytes) -> AsyncIterator[bytes]:
+    yield data
+
+
+def test_a_project_of_an_upload_has_the_files_in_its_own_folder(tmp_path: Path, state: Path) -> None:
+    page = StartPage(state)
+    try:
+        asyncio.run(page.uploads.put("desks/table_01.obj", _chunks((TABLES / "table_01.obj").read_bytes())))
+        found = page.look_at_upload()
+        assert (found.assets, Path(found.project).name.split("-")[0]) == (1, "desks")
+        project = Project.open(page.create(ProjectOfUpload(project=str(tmp_path / "p"))))
+        assert project.path("table_01.obj") == tmp_path / "p" / "assets" / "desks" / "table_01.obj"
+    finally:
+        page.close()
+    assert not [path for path in (state / "uploads").rglob("*") if path.is_file()]
+
+
+def test_an_upload_without_assets_is_one_sentence_and_leaves_nothing(tmp_path: Path, state: Path) -> None:
+    page = StartPage(state)
+    try:
+        asyncio.run(page.uploads.put("readme.txt", _chunks(b"hello")))
+        with pytest.raises(MeshForgeError, match="no asset"):
+            page.look_at_upload()
+        with pytest.raises(MeshForgeError, match="no asset"):
+            page.create(ProjectOfUpload(project=str(tmp_path / "p")))
+    finally:
+        page.close()
+    assert not (tmp_path / "p").exists()
+
+
+@pytest.mark.parametrize("what", ["project", "other files", "file", "below a file"])
+def test_a_place_that_is_taken_is_refused_and_left_as_it_is(
+    tmp_path: Path, assets: Path, state: Path, what: str
+) -> None:
+    place = tmp_path / "place"
+    if what == "project":
+        Project.create(place, [assets])
+    elif what == "other files":
+        place.mkdir()
+        (place / "notes.txt").write_text("mine")
+    else:
+        place.write_text("mine")
+    before = tree(tmp_path)
+    with pytest.raises(UsageError) as refusal:
+        create_of_folder(assets, place / "x" if what == "below a file" else place, state)
+    assert refusal.value.remedy
+    assert {name: data for name, data in tree(tmp_path).items() if not name.startswith("state/")} == before
+
+
+def test_an_error_while_a_project_is_made_leaves_nothing(tmp_path: Path, state: Path) -> None:
+    with pytest.raises(ZeroDivisionError), build_project(tmp_path / "a" / "b" / "c", state) as draft:
+        (draft / "half").write_text("x")
+        raise ZeroDivisionError
+    assert not (tmp_path / "a").exists()
+
+
+_KILLED = """
+import os, signal, sys
+from pathlib import Path
+from meshforge.studio.start.building import build_project
+with build_project(Path(sys.argv[1]), Path(sys.argv[2])) as draft:
+    (draft / "half").write_text("x")
+    os.kill(os.getpid(), signal.SIGKILL)
+"""
+
+
+@pytest.mark.slow
+def test_a_kill_while_a_project_is_made_leaves_nothing_once_the_studio_starts_again(
+    tmp_path: Path, state: Path
+) -> None:
+    place = tmp_path / "a" / "place"
+    done = subprocess.run([sys.executable, "-c", _KILLED, str(place), str(state)], check=False)
+    assert done.returncode == -signal.SIGKILL
+    assert not place.exists()
+    clean_up(state)
+    assert not (tmp_path / "a").exists()
+
+
+def test_the_remains_of_a_kill_are_not_removed_where_a_journal_names_other_folders(tmp_path: Path, state: Path) -> None:
+    mine = tmp_path / "mine"
+    mine.mkdir()
+    (mine / "file").write_text("x")
+    state.mkdir()
+    (state / "building.json").write_text(json.dumps({"draft": str(mine), "parents": [str(mine)]}))
+    clean_up(state)
+    assert (mine / "file").exists()
+
+
+# Opening and leaving
+
+
+@pytest.fixture
+def host(monkeypatch: pytest.MonkeyPatch, state: Path) -> Iterator[Host]:
+    monkeypatch.setitem(os.environ, "MESHFORGE_STATE", str(state))
+    found = Host(StudioOptions())
+    yield found
+    found.close()
+
+
+@pytest.mark.slow
+def test_a_project_that_is_open_closes_the_start_page_until_it_is_left(
+    host: Host, tmp_path: Path, assets: Path
+) -> None:
+    folder = Project.create(tmp_path / "project", [assets]).folder
+    with pytest.raises(ConflictError):
+        _ = host.session
+    host.open(folder)
+    assert host.session.project.folder == folder
+    with pytest.raises(ConflictError):
+        _ = host.start
+    with pytest.raises(ConflictError):
+        host.open(folder)
+    host.leave()
+    assert [one.folder for one in host.start.recent.list()] == [str(folder)]
+    host.open(folder)  # its lock was let go of
+
+
+def test_a_folder_that_is_no_project_is_refused_and_the_start_page_stays(host: Host, tmp_path: Path) -> None:
+    with pytest.raises(MeshForgeError, match="no project"):
+        host.open(tmp_path)
+    assert host.start.recent.list() == ()
+
+
+def test_a_studio_that_was_started_on_a_project_has_no_start_page(
+    monkeypatch: pytest.MonkeyPatch, state: Path, tmp_path: Path
+) -> None:
+    monkeypatch.setitem(os.environ, "MESHFORGE_STATE", str(state))
+    host = Host(StudioOptions(tmp_path))
+    with pytest.raises(ConflictError):
+        _ = host.start
+    with pytest.raises(ConflictError):
+        host.leave()
+    host.close()

@@ -1,0 +1,33 @@
+// What a folder or an upload holds, and whether hulls are to be made of what has none.
+import { Boxes } from "lucide-react";
+import { useStart } from "../store/start";
+import { Check } from "../ui/fields";
+import { Note } from "../ui/Section";
+import css from "./start.module.css";
+import { brokenText, decomposeText, foundText } from "./words";
+
+export function Found() {
+  const found = useStart((state) => state.found);
+  const busy = useStart((state) => state.busy);
+  const decompose = useStart((state) => state.decompose);
+  const bare = found && decomposeText(found);
+  const broken = found && brokenText(found);
+  return (
+    <div role="status">
+      {busy === "look" && <p className={css.dim}>Looking at the assets…</p>}
+      {found && (
+        <div className={css.found}>
+          <p className={css.kinds}>
+            <Boxes size={16} aria-hidden /> <b>{foundText(found)}</b>
+          </p>
+          {broken && <Note mood="warn">{broken} The project can be made all the same.</Note>}
+          {bare && (
+            <Check checked={decompose} onChange={(is) => useStart.setState({ decompose: is })}>
+              <b>Make convex hulls.</b> {bare}
+            </Check>
+          )}
+        </div>
+      )}
+    </div>
+  );
+}

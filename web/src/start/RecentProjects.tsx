@@ -1,0 +1,74 @@
+// Projects that were open before; one that is gone says so and can be taken off the list.
+import { FolderOpen, FolderX, X } from "lucide-react";
+import { useState } from "react";
+import { forgetProject, openProject, useStart } from "../store/start";
+import { countText } from "../store/words";
+import { Button, IconButton } from "../ui/Button";
+import type { RecentProject } from "../wire";
+import { FolderDialog } from "./FolderDialog";
+import { ProblemNote } from "./ProblemNote";
+import css from "./start.module.css";
+import { openedText } from "./words";
+
+export function RecentProjects() {
+  const recent = useStart((state) => state.view?.recent ?? NONE);
+  const busy = useStart((state) => state.busy !== null);
+  const [browsing, setBrowsing] = useState(false);
+  return (
+    <section className={css.recent} aria-labelledby="recent-projects">
+      <header className={css.head}>
+        <h2 id="recent-projects">Recent projects</h2>
+        <Button icon={FolderOpen} disabled={busy} onClick={() => setBrowsing(true)}>
+          Open…
+        </Button>
+      </header>
+      <ProblemNote place="open" />
+      {recent.length === 0 && <p className={css.dim}>None yet. Make one here, or open one that is on this machine.</p>}
+      <ul className={css.projects}>
+        {recent.map((project) => (
+          <Row key={project.folder} project={project} busy={busy} />
+        ))}
+      </ul>
+      <FolderDialog
+        title="Open a project"
+        open={browsing}
+        from=""
+        wants="project"
+        onClose={() => setBrowsing(false)}
+        onChoose={(folder) => void openProject(folder)}
+      />
+    </section>
+  );
+}
+
+const NONE: readonly RecentProject[] = [];
+
+function Row({ project, busy }: { project: RecentProject; busy: boolean }) {
+  const { name, folder, gone, assets, opened } = project;
+  const [now] = useState(Date.now);
+  const facts = gone ? "There is no project in this folder any more" : [countText(assets, "asset"), openedText(opened, now)].filter(Boolean).join(" · ");
+  const words = (
+    <>
+      <span className={css.name}>
+        {gone && <FolderX size={14} aria-hidden />}
+        {name}
+      </span>
+      <span className={css.path} title={folder}>
+        {folder}
+      </span>
+      <span className={css.facts}>{facts}</span>
+    </>
+  );
+  return (
+    <li className={css.project} data-gone={gone}>
+      {gone ? (
+        <div className={css.open}>{words}</div>
+      ) : (
+        <button type="button" className={css.open} disabled={busy} onClick={() => void openProject(folder)}>
+          {words}
+        </button>
+      )}
+      <IconButton icon={X} name={`Remove ${name} from this list; its files stay`} onClick={() => void forgetProject(folder)} />
+    </li>
+  );
+}

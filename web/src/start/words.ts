@@ -1,0 +1,45 @@
+// What the start page says of assets that were found, and of when a project was open.
+import { countText } from "../store/words";
+import type { AssetsFound } from "../wire";
+
+/** `12 URDF`, and how many of them were looked at where that is not all. */
+export function foundText({ kinds, assets, read }: AssetsFound): string {
+  return read < assets ? `${kinds}; the first ${read} were looked at` : kinds;
+}
+
+/** What making hulls would do, null where there is nothing to decompose. */
+export function decomposeText({ assets, read, bare, pieces }: AssetsFound): string | null {
+  if (!bare) return null;
+  const of = read < assets ? `${bare} of the first ${read}` : `${bare} of ${assets}`;
+  const have = bare === 1 ? "has" : "have";
+  return (
+    `${of} ${have} geometry that is not convex, or no collision geometry: ${countText(pieces, "piece")}. ` +
+    "CoACD makes convex hulls of it in the background; you can stop it, and undo it. The files of the assets stay as they are."
+  );
+}
+
+/** What cannot be read, null where all can. */
+export function brokenText({ broken, problem }: AssetsFound): string | null {
+  if (!broken) return null;
+  return `${countText(broken, "asset")} cannot be read. ${problem ?? ""}`.trim();
+}
+
+const DAY = 86_400_000;
+
+/** When a project was open last, as people say it; now: [ms]. */
+export function openedText(opened: string, now: number): string {
+  const then = Date.parse(opened);
+  if (Number.isNaN(then)) return "";
+  const days = startOfDay(now) - startOfDay(then);
+  if (days <= 0) return "today";
+  if (days < 2 * DAY - DAY / 2) return "yesterday";
+  return new Date(then).toLocaleDateString("en", { day: "numeric", month: "long", year: "numeric" });
+}
+
+const startOfDay = (time: number) => new Date(time).setHours(0, 0, 0, 0);
+
+/** A folder of another parent that has the last name of a path. */
+export function moveInto(parent: string, path: string, name = "project"): string {
+  const last = path.split(/[/\\]/).filter(Boolean).at(-1) ?? name;
+  return `${parent.replace(/[/\\]$/, "")}/${last}`;
+}

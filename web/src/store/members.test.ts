@@ -1,0 +1,48 @@
+// Assets that leave the family: what is sent, and which asset is open then.
+import { beforeEach, describe, expect, it, vi } from "vitest";
+import { perform } from "./edits";
+import { leaveOut, putBack, removeAsset, whyNotLeave } from "./members";
+import { emptyProject, useProject } from "./project";
+import { initialWorkspace, useWorkspace } from "./workspace";
+
+vi.mock("./edits", () => ({ perform: vi.fn() }));
+const sent = vi.mocked(perform);
+
+beforeEach(() => {
+  vi.clearAllMocks();
+  sent.mockResolvedValue(true);
+  useProject.setState({ ...emptyProject, order: ["a", "b", "c"] }, true);
+  useWorkspace.setState({ ...initialWorkspace, asset: "b" }, true);
+});
+
+describe("an asset that leaves the family", () => {
+  it("is left out by one edit, and the next one is open then", async () => {
+    await leaveOut("b");
+    expect(sent.mock.calls).toEqual([[{ kind: "leave-out", ids: ["b"], out: true }]]);
+    expect(useWorkspace.getState().asset).toBe("c");
+  });
+
+  it("stays open where that is refused", async () => {
+    sent.mockResolvedValue(false);
+    await removeAsset("b");
+    expect(useWorkspace.getState().asset).toBe("b");
+  });
+
+  it("leaves the person where they are, if they look at another one", async () => {
+    await removeAsset("a");
+    expect(sent.mock.calls).toEqual([[{ kind: "remove-assets", ids: ["a"] }]]);
+    expect(useWorkspace.getState().asset).toBe("b");
+  });
+
+  it("comes back by one edit", async () => {
+    await putBack(["a", "b"]);
+    expect(sent.mock.calls).toEqual([[{ kind: "leave-out", ids: ["a", "b"], out: false }]]);
+  });
+
+  it("must not be the last one, nor none", () => {
+    expect(whyNotLeave("b")).toBe(null);
+    expect(whyNotLeave(null)).toBe("No asset is open.");
+    useProject.setState({ order: ["b"] });
+    expect(whyNotLeave("b")).toBe("It is the only asset of the family.");
+  });
+});
