@@ -1,20 +1,20 @@
 // Which assets belong to the family: a menu that takes the open one out, and the list of those that are left out.
 import { Ellipsis, Undo } from "lucide-react";
+import { commonPartsOf, splitName } from "../store/commonParts";
 import { leaveOut, putBack, removeAsset, whyNotLeave } from "../store/members";
 import { useProject } from "../store/project";
 import { countText } from "../store/words";
 import { useWorkspace } from "../store/workspace";
 import { Button, IconButton } from "../ui/Button";
 import { Menu } from "../ui/Menu";
-import { shortenMiddle } from "./cardText";
 import css from "./members.module.css";
 
 /** What can be done with the asset that is open. */
 export function AssetMenu() {
   const asset = useWorkspace((workspace) => workspace.asset);
-  const count = useProject((state) => state.order.length);
-  const name = asset === null ? "the open asset" : shortenMiddle(asset, 32);
-  const disabled = count === 0 || whyNotLeave(asset) !== null;
+  const order = useProject((state) => state.order);
+  const name = asset === null ? "the open asset" : ownName(asset, order);
+  const disabled = order.length === 0 || whyNotLeave(asset) !== null;
   return (
     <Menu
       trigger={<IconButton icon={Ellipsis} name="Leave out or remove the open asset" />}
@@ -24,6 +24,12 @@ export function AssetMenu() {
       ]}
     />
   );
+}
+
+/** What tells an asset from the others of its family. */
+function ownName(asset: string, order: readonly string[]): string {
+  const [, own, end] = splitName(asset, commonPartsOf(order)(asset));
+  return own + end;
 }
 
 /** Assets that are kept, but not part of the family. */
