@@ -10,8 +10,9 @@ from collections import deque
 from collections.abc import Callable, Generator, Mapping, Sequence
 from concurrent.futures import Future, TimeoutError, wait
 from concurrent.futures.process import BrokenProcessPool
-from contextlib import suppress
+from contextlib import closing, suppress
 from dataclasses import dataclass
+from functools import partial
 from multiprocessing import get_context
 from multiprocessing.process import current_process
 from pathlib import Path
@@ -37,6 +38,7 @@ _END: Any = object()
 _function: Callable[[Any], Any]
 _memory: int | None = None
 
+_BARREN_POOLS = 2  # so many in a row that give nothing are the last
 _POOL_CYCLE = 0.01  # seconds between two looks of a pool at its workers, all of which its end waits for
 _THREADS = Path("/proc/self/task")
 _USABLE_SHARE = 0.9  # of the machine's memory, for all workers together
@@ -89,7 +91,7 @@ def run_isolated(
     """
     workers = min(count_processors() if options.workers is None else options.workers, len(items))
     if workers > 0:
-        yield from _run_pool(function, items, workers, options)
+        yield from _run_pools(function, items, workers, options)
         return
     for item in items:
         raise_if_stopped(options.stop)
@@ -102,6 +104,26 @@ def run_isolated(
 def count_processors() -> int:
     """How many processors this process may use."""
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+
+
+def _run_pools(
+    function: Callable[[Item], Result], items: Sequence[Item], workers: int, options: ExecutionOptions
+) -> Generator[Result | WorkerFailure, None, None]:
+    """The results of one pool, or of several: pebble gives a pool up where a worker dies before it said what it works
+    on; another one goes on with what is left. Raises MeshForgeError where two in a row give nothing."""
+    done = barren = 0
+    while barren < _BARREN_POOLS:
+        before = done
+        try:
+            with closing(_run_pool(function, items[done:], workers, options)) as results:
+                for result in results:
+                    done += 1
+                    yield result
+            return
+        except BrokenProcessPool as error:
+            barren = 0 if done > before else barren + 1
+            last = error
+    raise _start_error(last) from last
 
 
 def _run_pool(
@@ -124,7 +146,7 @@ def _run_pool(
             while len(waiting) < ITEMS_AHEAD * workers and (item := next(rest, _END)) is not _END:
                 future = _schedule(pool, item, options.timeout)
                 if progress:
-                    future.add_done_callback(lambda _: progress())
+                    future.add_done_callback(partial(_count_done, progress))
                 waiting.append(future)
             if not waiting:
                 break
@@ -164,7 +186,13 @@ def _schedule(pool: ProcessPool, item: Any, timeout: float | None) -> Future[Any
     try:
         return pool.schedule(_run_item, args=[item], timeout=timeout)
     except RuntimeError as error:  # the pool has given up
-        raise _start_error(error) from error
+        raise BrokenProcessPool(str(error)) from error
+
+
+def _count_done(progress: Callable[[], object], future: Future[Any]) -> None:
+    """Count an item that is done, not one that waits for another pool."""
+    if future.cancelled() or not isinstance(future.exception(), BrokenProcessPool):
+        progress()
 
 
 def worker_context() -> Any:
@@ -233,8 +261,6 @@ def _collect(future: Future[Result], timeout: float | None) -> Result | WorkerFa
         return WorkerFailure(f"it took longer than {timeout:g} seconds and was stopped", timeout or 0.0)
     except ProcessExpired as error:
         return WorkerFailure(f"its worker process died ({_describe_exit(error.exitcode)})")
-    except BrokenProcessPool as error:
-        raise _start_error(error) from error
 
 
 def _start_error(error: Exception) -> MeshForgeError:

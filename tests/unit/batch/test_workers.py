@@ -6,12 +6,15 @@ import subprocess
 import sys
 import time
 import weakref
+from collections.abc import Iterator, Sequence
+from concurrent.futures.process import BrokenProcessPool
 from pathlib import Path
 from threading import current_thread, main_thread
 
 import pytest
 
 from meshforge.batch import ExecutionOptions, WorkerFailure, hold_lock, run_isolated, worker_context, workers
+from meshforge.common import MeshForgeError
 
 
 @pytest.fixture(params=["server", "fork"], autouse=True)
@@ -105,6 +108,23 @@ def test_every_item_that_kills_its_worker_is_named_and_no_other_one() -> None:
     results = list(run_isolated(die_if_odd, range(12), ExecutionOptions(2, None)))
     assert [k for k, result in enumerate(results) if isinstance(result, WorkerFailure)] == list(range(1, 12, 2))
     assert results[1] == WorkerFailure("its worker process died (exit code 3)")
+
+
+def test_where_a_pool_is_given_up_another_one_goes_on(monkeypatch: pytest.MonkeyPatch) -> None:
+    """As pebble does where a worker dies before it said what it works on."""
+    begun: list[tuple[int, ...]] = []
+
+    def run_one(_function: object, items: Sequence[int], *_: object) -> Iterator[int]:
+        begun.append(tuple(items))
+        yield from map(square, items[:2])
+        raise BrokenProcessPool("All workers expired")
+
+    monkeypatch.setattr(workers, "_run_pool", run_one)
+    results = run_isolated(square, [1, 2, 3, 4], ExecutionOptions(2))
+    assert [next(results) for _ in range(4)] == [1, 4, 9, 16]
+    with pytest.raises(MeshForgeError, match="worker processes do not start: All workers expired"):
+        next(results)
+    assert begun == [(1, 2, 3, 4), (3, 4), (), ()]
 
 
 def test_a_lock_is_not_held_by_the_workers_of_who_holds_it(tmp_path: Path) -> None:
