@@ -216,7 +216,7 @@ export interface LabelHulls {
   label: string | null;
 }
 /**
- * Give hulls of several assets one label.
+ * Give hulls of several assets one label, but for exceptions among them.
  */
 export interface LabelGroup {
   kind: "label-group";
@@ -224,11 +224,12 @@ export interface LabelGroup {
   label: string;
 }
 /**
- * A hull of an asset, both by name.
+ * A hull of an asset, both by name. label: that it gets where it is an exception among others.
  */
 export interface HullOfAsset {
   asset: string;
   hull: string;
+  label?: string | null;
 }
 /**
  * Take over the labels files beside the assets.

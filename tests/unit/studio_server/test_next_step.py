@@ -2,10 +2,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+import pytest
+
 from meshforge.studio.queries.project import choose_next_step
 from meshforge.studio.wire.family import Card, Next
 from meshforge.studio.wire.jobs import PropagationState
 from meshforge.studio.wire.program import NearestView, OutcomeView, QuestionView, RepairView
+from meshforge.studio.wire.signoff import AssessmentView, ConfidenceView, QuestionKind, ReviewQuestionView
 
 BARE = Card(asset="a", hulls=2, labels=(-1, -1))
 BEGUN = Card(asset="a", hulls=2, labels=(0, -1))
@@ -150,3 +153,42 @@ def test_who_has_begun_to_demonstrate_is_not_told_to_label() -> None:
     assert labelling(BARE, WHOLE, DOUBTFUL, program=True).stage == "review"
     shown = WHOLE.model_copy(update={"demonstrated": True})
     assert labelling(BARE, shown, DOUBTFUL, carried=PropagationState(unused=9)).stage != "label"
+
+
+def signed_off(probabilities: Sequence[float], *, asked: QuestionKind | None = None, unseen: int = 0) -> AssessmentView:
+    rows = [
+        ConfidenceView(asset=name, probability=p, state="signed" if p >= 0.95 else "held")
+        for name, p in zip("abcd", probabilities, strict=False)
+    ]
+    held = sum(row.state == "held" for row in rows)
+    question = ReviewQuestionView(id="q", kind=asked, text="?", seconds=1.0, gain=1.0, asset="b") if asked else None
+    return AssessmentView(
+        number=1, bar=0.95, signed_off=len(rows) - held, held=held, unseen=unseen, assets=tuple(rows), question=question
+    )
+
+
+@pytest.mark.parametrize(
+    ("assessment", "step"),
+    [
+        (signed_off([0.99, 0.4], asked="group"), ("learn", "1 of 2 results held: answer the question.", "b")),
+        (signed_off([0.1, 0.4], asked="result"), ("review", "2 of 2 results held: look at one result.", "b")),
+        (signed_off([0.6, 0.4, 0.99]), ("review", "2 of 3 results held: look at them, first b.", "b")),
+        (signed_off([0.99, 0.98], asked="group"), ("review", "2 results signed off: export.", None)),
+        (signed_off([0.99], unseen=3), ("review", "Look through the results: 1 asset to accept or flag.", "a")),
+    ],
+)
+def test_nothing_is_exported_before_all_is_signed_off(
+    assessment: AssessmentView, step: tuple[str, str, str | None]
+) -> None:
+    found = choose_next_step([DONE], ("leg",), True, FOUND, None, last, None, assessment)
+    assert (found.stage, found.say, found.asset) == step
+
+
+def test_what_is_asked_comes_before_results_are_written_and_what_was_flagged_before_the_end() -> None:
+    held, done = signed_off([0.1, 0.99], asked="reading"), signed_off([0.99, 0.99])
+    assert choose_next_step([SHOWN], ("leg",), True, FOUND, None, last, None, held).say.startswith(
+        "1 of 2 results held"
+    )
+    assert choose_next_step([SHOWN], ("leg",), True, FOUND, None, last, None, done).say.startswith("Apply the program")
+    flagged = DONE.model_copy(update={"asset": "d", "review": "flagged"})
+    assert choose_next_step([DONE, flagged], ("leg",), True, FOUND, None, last, None, done).asset == "d"

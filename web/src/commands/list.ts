@@ -7,6 +7,7 @@ import { goCommands } from "./navigate";
 import { labelCommands } from "./label";
 import { learnCommands } from "./learn";
 import { memberCommands } from "./members";
+import { questionCommands } from "./question";
 import { reviewCommands } from "./review";
 import { selectCommands } from "./select";
 import { viewCommands } from "./view";
@@ -15,6 +16,7 @@ export const allCommands: readonly Command[] = [
   ...labelCommands,
   ...demonstrateCommands,
   ...learnCommands,
+  ...questionCommands,
   ...reviewCommands,
   ...goCommands,
   ...memberCommands,

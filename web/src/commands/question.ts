@@ -1,8 +1,13 @@
-// Replies to the question of the family's assessment, each an edit that undo takes back.
+// Replies to the question of the family's assessment, each an edit that undo takes back, and the way to its card.
+import { create } from "zustand";
+import { type Exceptions, isAsked } from "../store/assessment";
 import { perform } from "../store/edits";
-import { setFilters, setHighlight, setLayout, visit } from "../store/workspace";
+import { applyTo } from "../store/jobs";
+import { useProject } from "../store/project";
+import { isUpToDate } from "../store/reviews";
+import { openStage, setFilters, setHighlight, setLayout, useWorkspace, visit } from "../store/workspace";
 import type { AnyEdit, DoubtView, ReviewQuestionView } from "../wire";
-import { demonstrate } from "./learn";
+import type { Command } from "./command";
 import { flag } from "./review";
 
 /** Takes one of a question's choices, counted from 0, or none of them. */
@@ -30,7 +35,7 @@ export function editsFor(question: ReviewQuestionView, place: number | null): An
       return [{ kind: "answer", rule: rule ?? 1, asset, select: choice?.select ?? null, refused }];
     }
     case "group":
-      return choice?.label ? [{ kind: "label-group", hulls: hulls.map((one) => ({ asset: one.asset, hull: one.hull })), label: choice.label }] : [later];
+      return choice?.label ? [{ kind: "label-group", hulls: hulls.map(({ asset, hull }) => ({ asset, hull })), label: choice.label }] : [later];
     case "repair": {
       const [first] = hulls;
       const to = choices[0]?.label;
@@ -49,8 +54,42 @@ export function editsFor(question: ReviewQuestionView, place: number | null): An
   }
 }
 
-/** The result of an asset is wrong: it is to be demonstrated. */
-export const sayWrong = (asset: string): void => demonstrate(asset);
+/** Labels a group: those of some assets otherwise, or not at all. */
+export function labelGroup({ hulls }: ReviewQuestionView, label: string, exceptions: Exceptions): Promise<boolean> {
+  setHighlight(null);
+  const kept = hulls.filter(({ asset }) => !(asset in exceptions) || exceptions[asset] !== null);
+  const rows = kept.map(({ asset, hull }) => ({ asset, hull, label: exceptions[asset] ?? null }));
+  return perform({ kind: "label-group", hulls: rows, label });
+}
+
+/** How long a result may take that is made before it is accepted [ms]. */
+const PATIENCE = 120_000;
+
+/** Accepts the result of an asset; one that is not there as it would be now is made first. */
+export async function acceptResult(asset: string): Promise<boolean> {
+  if (!isUpToDate(useProject.getState().cards[asset]) && !((await applyTo([asset])) && (await whenMade(asset)))) return false;
+  return perform({ kind: "review", ids: [asset], verdict: "accepted" });
+}
+
+/** Whether a result came within the time that it may take. */
+function whenMade(asset: string): Promise<boolean> {
+  return new Promise((pass) => {
+    const end = (made: boolean) => {
+      stop();
+      clearTimeout(late);
+      pass(made);
+    };
+    const look = () => {
+      const { cards, jobs } = useProject.getState();
+      if (isUpToDate(cards[asset])) end(true);
+      else if (jobs.findLast((job) => job.kind === "apply")?.state === "failed") end(false);
+    };
+    const late = setTimeout(() => end(false), PATIENCE);
+    const stop = useProject.subscribe(look);
+    look();
+  });
+}
+
 export const setAside = (asset: string): Promise<boolean> => flag(asset, "set aside");
 
 /** Opens what a question is about. */
@@ -65,5 +104,25 @@ export const showDoubt = (asset: string, doubt: DoubtView): void => visit(asset,
 /** Shows the held assets alone, the least probable first. */
 export function lookAtHeld(): void {
   setLayout({ family: true });
-  setFilters({ search: "", only: ["held"], sort: "probability" });
+  setFilters({ search: "", only: ["held"], sort: "probability", chosen: true });
 }
+
+/** Counts how often the card was called for. */
+export const useCardCalls = create<{ count: number }>()(() => ({ count: 0 }));
+
+function goToCard(): void {
+  const { stage } = useWorkspace.getState();
+  if (stage !== "learn" && stage !== "review") openStage("learn");
+  useCardCalls.setState(({ count }) => ({ count: count + 1 }));
+}
+
+export const questionCommands: readonly Command[] = [
+  {
+    id: "question",
+    title: "Go to the question: 1 to 9 choose, Y accept, N reject, L later, S show",
+    group: "Learn",
+    keys: ["J"],
+    enabled: () => isAsked(useProject.getState()),
+    run: goToCard,
+  },
+];

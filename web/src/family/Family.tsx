@@ -12,7 +12,7 @@ import { Cards } from "./Cards";
 import css from "./family.module.css";
 import { Filters } from "./Filters";
 import { AssetMenu, LeftOut } from "./Members";
-import { SureLine } from "./Sureness";
+import { SignOff } from "./Sureness";
 
 export function Family() {
   const any = useProject((state) => state.order.length > 0);
@@ -23,7 +23,7 @@ export function Family() {
       {any && (
         <>
           <MissingHulls />
-          <SureLine />
+          <SignOff />
           <Filters />
           <Cards least={112} />
           <LeftOut />
@@ -40,7 +40,7 @@ export function Gallery() {
       <FamilyHead />
       <ReadProgress />
       <MissingHulls />
-      <SureLine />
+      <SignOff />
       <Filters />
       <div className={css.outcome}>
         <LabelChanges />

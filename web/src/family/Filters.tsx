@@ -45,7 +45,7 @@ function SearchField() {
         trigger={<IconButton icon={ArrowDownUp} name={`Order: ${SORTS[sort].toLowerCase()}`} />}
         lines={Object.entries(SORTS).map(([value, label]) => ({
           label: value === sort ? `✓ ${label}` : label,
-          onSelect: () => setFilters({ sort: value as FiltersState["sort"] }),
+          onSelect: () => setFilters({ sort: value as FiltersState["sort"], chosen: true }),
         }))}
       />
     </div>

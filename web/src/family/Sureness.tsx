@@ -2,7 +2,7 @@
 import { CircleCheck, CircleQuestionMark, Crosshair, LoaderCircle } from "lucide-react";
 import { useMemo } from "react";
 import { lookAtHeld, showDoubt } from "../commands/question";
-import { groupHeld, lookText, moodOf, percentText, sureText, unseenText } from "../store/assessment";
+import { barText, groupHeld, lookText, moodOf, percentText, signedText, unseenText } from "../store/assessment";
 import { useProject } from "../store/project";
 import { countText, listText, shortName } from "../store/words";
 import { openAsset } from "../store/workspace";
@@ -11,8 +11,8 @@ import { Section } from "../ui/Section";
 import type { AssessmentView, DoubtView } from "../wire";
 import css from "./sureness.module.css";
 
-/** `71 of 75 are at least 95% sure; look at these 4`. */
-export function SureLine() {
+/** `Signed off 71 of 75`, as a bar and in words, with the way to those that are not. */
+export function SignOff() {
   const assessment = useProject((state) => state.assessment);
   const assessing = useProject((state) => state.assessing);
   if (assessment?.assets.length) return <Known assessment={assessment} />;
@@ -26,30 +26,43 @@ export function SureLine() {
 }
 
 function Known({ assessment }: { assessment: AssessmentView }) {
+  const { bar, aside } = assessment;
   const mood = moodOf(assessment);
   const Icon = mood === "good" ? CircleCheck : CircleQuestionMark;
   const look = lookText(assessment);
-  const unseen = unseenText(assessment);
+  const more = [`at least ${barText(bar)} sure, or accepted by you`, aside > 0 && `${aside.toLocaleString("en-GB")} set aside`, unseenText(assessment)];
   return (
     <>
-      <p className={css.line} data-mood={mood} role="status">
+      <div className={css.line} data-mood={mood} role="status">
         <Icon size={14} aria-hidden />
-        <span>
-          {sureText(assessment)}
-          {assessment.aside > 0 && `; ${assessment.aside.toLocaleString("en-GB")} set aside`}
-          {unseen && `; ${unseen}`}
-          {look && (
-            <>
-              {"; "}
-              <button type="button" className={css.look} onClick={lookAtHeld}>
-                {look}
-              </button>
-            </>
-          )}
-        </span>
-      </p>
+        <div className={css.words}>
+          <strong>{signedText(assessment)}</strong>
+          <Meter assessment={assessment} />
+          <span>
+            {more.filter(Boolean).join("; ")}
+            {look && (
+              <>
+                {"; "}
+                <button type="button" className={css.look} onClick={lookAtHeld}>
+                  {look}
+                </button>
+              </>
+            )}
+          </span>
+        </div>
+      </div>
       <HeldReasons assessment={assessment} />
     </>
+  );
+}
+
+/** The shares of the family that are signed off, set aside, held, and not looked at; the words beside it say the same. */
+function Meter({ assessment: { signed_off, aside, held, unseen } }: { assessment: AssessmentView }) {
+  const shares = { signed: signed_off, aside, held, unseen };
+  return (
+    <span className={css.meter} aria-hidden>
+      {Object.entries(shares).map(([what, count]) => count > 0 && <i key={what} data-what={what} style={{ flexGrow: count }} />)}
+    </span>
   );
 }
 

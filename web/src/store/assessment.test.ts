@@ -1,24 +1,24 @@
 // How sure edits are in words, and which question is open.
 import { describe, expect, it } from "vitest";
 import type { DoubtView } from "../wire";
-import { asReadings, doubtsText, familyText, groupHeld, moodOf, openQuestion, percentText, placesOf, probabilityText } from "./assessment";
+import { asReadings, doubtsText, groupHeld, leftText, moodOf, openQuestion, percentText, placesOf, probabilityText, signedText } from "./assessment";
 import { filterAssets } from "./family";
 import { applyEvent, emptyProject } from "./project";
 import { sampleAssessment, sampleCard, sampleQuestion, sampleRow } from "./sample.test-help";
 
 describe("how sure the family is", () => {
   it("is told by counts, and good only where nothing is held", () => {
-    expect(familyText(sampleAssessment(75, 4))).toBe("71 of 75 are at least 95% sure; look at these 4");
-    expect(familyText(sampleAssessment(2, 1))).toBe("1 of 2 is at least 95% sure; look at this one");
-    expect(familyText(sampleAssessment(5, 5))).toBe("None of 5 are at least 95% sure; look at these 5");
-    expect(familyText(sampleAssessment(5, 0))).toBe("All 5 are at least 95% sure");
-    expect(familyText(sampleAssessment(5, 0, { signed_off: 3, aside: 2 }))).toBe("3 of 5 are at least 95% sure; 2 are set aside");
+    const told = (...family: Parameters<typeof sampleAssessment>) => [signedText(sampleAssessment(...family)), leftText(sampleAssessment(...family))];
+    expect(told(75, 4)).toEqual(["Signed off 71 of 75", "4 are less than 95% sure: look at these 4."]);
+    expect(told(2, 1)).toEqual(["Signed off 1 of 2", "1 is less than 95% sure: look at this one."]);
+    expect(told(5, 0)).toEqual(["Signed off 5 of 5", null]);
+    expect(told(5, 1, { signed_off: 2, aside: 2 })[1]).toBe("1 is less than 95% sure: look at this one; 2 are set aside.");
     expect([sampleAssessment(5, 1), sampleAssessment(5, 0)].map(moodOf)).toEqual(["warn", "good"]);
   });
 
   it("is told with the bar as it was set", () => {
-    const told = [0.9999, 0.975, 0.57, 1].map((bar) => familyText(sampleAssessment(5, 0, { bar })));
-    expect(told).toEqual(["99.99%", "97.5%", "57%", "100%"].map((bar) => `All 5 are at least ${bar} sure`));
+    const told = [0.9999, 0.975, 0.57, 1].map((bar) => leftText(sampleAssessment(5, 1, { bar })));
+    expect(told).toEqual(["99.99%", "97.5%", "57%", "100%"].map((bar) => `1 is less than ${bar} sure: look at this one.`));
   });
 
   it("is told reason by reason, the least probable first", () => {
@@ -39,8 +39,8 @@ describe("how sure the family is", () => {
 
   it("is not good where some assets were not looked at", () => {
     const some = sampleAssessment(400, 0, { unseen: 9600 });
-    expect(familyText(some)).toBe("All 400 looked at are at least 95% sure; 9,600 were not looked at");
-    expect(familyText(sampleAssessment(5, 0, { unseen: 1 }))).toBe("All 5 looked at are at least 95% sure; 1 was not looked at");
+    expect([signedText(some), leftText(some)]).toEqual(["Signed off 400 of 10,000", "9,600 were not looked at."]);
+    expect(leftText(sampleAssessment(5, 0, { unseen: 1 }))).toBe("1 was not looked at.");
     expect(moodOf(some)).toBe("warn");
   });
 
@@ -71,7 +71,7 @@ describe("how sure the family is", () => {
       c: sampleRow({ asset: "c", probability: 0.1, state: "aside" }),
     };
     const shown = (only: readonly "held"[]) =>
-      filterAssets(cards, Object.keys(cards), { search: "", only, sort: "probability" }, emptyProject.project, "", confidence);
+      filterAssets(cards, Object.keys(cards), { search: "", only, sort: "probability", chosen: true }, emptyProject.project, "", confidence);
     expect(shown([])).toEqual(["b", "a", "c", "d"]);
     expect(shown(["held"])).toEqual(["b"]);
   });

@@ -1,6 +1,6 @@
 // How sure the edits of the family are, in words, and which question is open; knows neither DOM nor three.js.
 import type { AssessmentView, ConfidenceView, OutcomeView, QuestionView, ReviewQuestionView } from "../wire";
-import { type ProjectState, useProject } from "./project";
+import type { ProjectState } from "./project";
 import { countText } from "./words";
 
 /** A probability as people read it. One below the bar never looks as if it reached it, and none looks certain. */
@@ -39,13 +39,10 @@ export function groupHeld({ assets, bar }: Pick<AssessmentView, "assets" | "bar"
   });
 }
 
-/** `71 of 75 are at least 95% sure`, without what is to be done about the others. */
-export function sureText({ signed_off: sure, assets, bar, unseen }: AssessmentView): string {
-  const limit = `at least ${barText(bar)} sure`;
-  const all = assets.length.toLocaleString("en-GB") + (unseen ? " looked at" : "");
-  if (sure === assets.length) return sure === 1 && !unseen ? `Your one asset is ${limit}` : `All ${all} are ${limit}`;
-  const some = sure === 0 ? "None" : sure.toLocaleString("en-GB");
-  return `${some} of ${all} ${sure === 1 ? "is" : "are"} ${limit}`;
+/** `Signed off 71 of 75`: of all assets, those that were not looked at counted. */
+export function signedText({ signed_off: signed, assets, unseen }: AssessmentView): string {
+  const [done, all] = [signed, assets.length + unseen].map((count) => count.toLocaleString("en-GB"));
+  return `Signed off ${done} of ${all}`;
 }
 
 /** `look at these 4`; null where none is held. */
@@ -59,10 +56,15 @@ export function unseenText({ unseen }: Pick<AssessmentView, "unseen">): string |
   return unseen ? `${unseen.toLocaleString("en-GB")} ${unseen === 1 ? "was" : "were"} not looked at` : null;
 }
 
-/** How the family stands in one sentence. */
-export function familyText(assessment: AssessmentView): string {
-  const aside = assessment.aside && `${assessment.aside.toLocaleString("en-GB")} ${assessment.aside === 1 ? "is" : "are"} set aside`;
-  return [sureText(assessment), aside, unseenText(assessment), lookText(assessment)].filter(Boolean).join("; ");
+/** What of the family is not signed off, as a sentence; null where all is. */
+export function leftText(assessment: AssessmentView): string | null {
+  const { held, aside, bar } = assessment;
+  const parts = [
+    held > 0 && `${held.toLocaleString("en-GB")} ${held === 1 ? "is" : "are"} less than ${barText(bar)} sure: ${lookText(assessment)}`,
+    aside > 0 && `${aside.toLocaleString("en-GB")} ${aside === 1 ? "is" : "are"} set aside`,
+    unseenText(assessment),
+  ].filter(Boolean);
+  return parts.length ? `${parts.join("; ")}.` : null;
 }
 
 /** Good only where nothing is held, and all were looked at. */
@@ -94,24 +96,19 @@ export function openQuestion({ assessment, outcome }: Pick<ProjectState, "assess
   return asked && !(outcome && asksSame(asked, outcome)) ? asked : null;
 }
 
-export const useOpenQuestion = (): ReviewQuestionView | null => useProject(openQuestion);
+/** Whether a question is open, of learning itself or of the assessment. */
+export const isAsked = (state: Pick<ProjectState, "assessment" | "outcome">): boolean =>
+  (state.outcome?.question ?? openQuestion(state)) !== null;
 
-function asksSame(asked: ReviewQuestionView, { question, repairs, hint, suggested_orientation: orient }: OutcomeView): boolean {
-  switch (asked.kind) {
-    case "reading":
-    case "label":
-      return question !== null; // learning asks about readings itself: one card at a time
-    case "group":
-    case "repair":
-      return asked.hulls.length === 1 && repairs.some(({ asset, hull }) => asset === asked.hulls[0]?.asset && hull === asked.hulls[0].hull);
-    case "orientation":
-      return orient !== null && asked.choices.some((choice) => choice.orient === orient);
-    case "demonstrate":
-      return hint?.asset === asked.asset;
-    case "result":
-    case "selection":
-      return false;
-  }
+/** Assets of a group whose hulls get another label than the others, or, with null, none. */
+export type Exceptions = Readonly<Record<string, string | null>>;
+
+/** Whether learning asks the same itself, beside its program or as a repair that it proposes. */
+function asksSame({ kind, hulls }: ReviewQuestionView, { question, repairs }: OutcomeView): boolean {
+  if (kind === "reading" || kind === "label") return question !== null; // one card at a time
+  const [first] = hulls;
+  if ((kind !== "group" && kind !== "repair") || !first || hulls.length > 1) return false;
+  return repairs.some(({ asset, hull }) => asset === first.asset && hull === first.hull);
 }
 
 /** A question about readings as learning asks its own, for the same card; null for other questions. */

@@ -55,13 +55,13 @@ describe("the summary of a outcome", () => {
   it("says that all readings agree once it is unambiguous", () => {
     const sure = { assessment: sampleAssessment(60, 0), assessing: false };
     const said = summarizeOutcome(outcome({ settled: true, looked_at: 60 }), 60, sure);
-    expect(said).toEqual({ mood: "good", title: "All 60 are at least 95% sure", more: "All readings select the same hulls on your 60 assets." });
+    expect(said).toEqual({ mood: "good", title: "Signed off 60 of 60", more: "All readings select the same hulls on your 60 assets." });
   });
 
   it("says so where not all assets were looked at", () => {
     const said = summarizeOutcome(outcome({ settled: true, looked_at: 400 }), 12_000, { assessment: sampleAssessment(400, 4), assessing: false });
-    expect(said).toMatchObject({ mood: "warn", title: "396 of 400 are at least 95% sure; look at these 4" });
-    expect(said.more).toBe("All readings select the same hulls on the 400 assets looked at, of your 12,000 assets.");
+    expect(said).toMatchObject({ mood: "warn", title: "Signed off 396 of 400" });
+    expect(said.more).toBe("4 are less than 95% sure: look at these 4.\nAll readings select the same hulls on the 400 assets looked at, of your 12,000 assets.");
     const spread = { hulls: 12, assets: 9, lookedAt: 400 };
     expect([coverageText(spread, 12_000), coverageText(spread, 400), coverageText({ ...spread, hulls: 0 }, 400)]).toEqual([
       "12 hulls on 9 assets of the 400 looked at",
@@ -72,7 +72,7 @@ describe("the summary of a outcome", () => {
 
   it("names where a less believable reading differs", () => {
     const readings = [reading({ differs_on: ["a/x", "a/y"] }), reading({ rule: 2, belief: 0.001, differs_on: ["z"] })];
-    expect(summarizeOutcome(outcome({ readings }), 3, { assessment: sampleAssessment(3, 1), assessing: false }).more).toBe("Rule 1 may select other hulls on x and y.");
+    expect(summarizeOutcome(outcome({ readings }), 3, { assessment: sampleAssessment(3, 1), assessing: false }).more).toContain("\nRule 1 may select other hulls on x and y.");
   });
 
   it("says nothing good of a program of which it is not known how sure it is", () => {

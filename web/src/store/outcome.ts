@@ -1,6 +1,6 @@
 // What a outcome came to, in words, and what a rule reaches; knows neither DOM nor three.js.
 import type { AssessmentView, OutcomeView, Reach } from "../wire";
-import { familyText, moodOf } from "./assessment";
+import { leftText, moodOf, signedText } from "./assessment";
 import { sampleText, countText, listText, shortName } from "./words";
 
 /** How learning stands: a title, what more there is to say, and whether that is good. */
@@ -45,7 +45,7 @@ const AFTER_FAILURE = "Learn again. If it fails again, undo your last change (Ct
 
 /** A program that fits: how sure its edits are; readings: what is known of those. */
 function summarizeFamily(readings: string | null, { assessment, assessing }: Sureness): Summary {
-  if (assessment?.assets.length) return summary(moodOf(assessment), familyText(assessment), readings);
+  if (assessment?.assets.length) return summary(moodOf(assessment), signedText(assessment), [leftText(assessment), readings].filter(Boolean).join("\n") || null);
   const wait = assessing ? "How sure its edits are is being worked out…" : "How sure its edits are is not known.";
   return summary("plain", "A program fits all your demonstrations", wait);
 }

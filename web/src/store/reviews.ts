@@ -54,6 +54,10 @@ export function listOutdated(cards: readonly Card[]): readonly string[] {
 
 const isOutdated = (card: Card): boolean => card.hulls !== null && (card.output === "none" || card.stale.length > 0);
 
+/** Whether the output of an asset is there as it would be now. */
+export const isUpToDate = (card: Card | undefined): boolean =>
+  card !== undefined && (card.output === "edited" || card.output === "unchanged") && card.stale.length === 0;
+
 /** How many outputs an export takes. */
 export function countExportable(cards: readonly Card[], acceptedOnly: boolean): number {
   const written = cards.filter((card) => card.output === "edited" || card.output === "unchanged");

@@ -3,6 +3,7 @@ import { beforeEach, expect, test } from "vitest";
 import type { Card } from "../wire";
 import { initialWorkspace, useWorkspace } from "./workspace";
 import { emptyProject, useProject } from "./project";
+import { sampleAssessment, sampleCard } from "./sample.test-help";
 import { useScenes } from "./scenes";
 import { startTour, endTour, followTour, TOUR_STOPS, moveTour, useTour } from "./tour";
 
@@ -50,10 +51,20 @@ test("doing what a mark asks for goes on by itself", () => {
   const card = { demonstrated: true, output: "none" } as Card;
   useProject.setState({ cards: { a: card, b: card } });
   useWorkspace.setState({ stage: "learn" });
-  useWorkspace.setState({ stage: "review" });
-  expect(title()).toBe("Apply to all tables");
-  useProject.setState({ cards: { a: { ...card, output: "edited" } } });
-  expect(title()).toBe("Look before you export");
+  expect(title()).toBe("MeshForge has learned"); // how sure it is, is not known yet
+  useProject.setState({ assessment: sampleAssessment(2, 2) });
+  expect(title()).toBe("The first program is not right yet");
+  useProject.setState(({ project }) => ({ project: { ...project, said: [{ kind: "answer", id: "1", text: "", asset: "a" }] } }));
+  expect(title()).toBe("Answer until nothing is held");
+  useProject.setState({ assessment: sampleAssessment(2, 0, { unseen: 1 }) });
+  expect(title()).toBe("Answer until nothing is held");
+  useProject.setState({ assessment: sampleAssessment(2, 0) });
+  expect(title()).toBe("Write the tables");
+  const written: Card = { ...sampleCard(), output: "edited" };
+  useProject.setState({ order: ["a", "b"], cards: { a: written, b: { ...written, stale: ["labels"] } } });
+  expect(title()).toBe("Write the tables");
+  useProject.setState({ cards: { a: written, b: written } });
+  expect(title()).toBe("Look, then export");
   stop();
 });
 

@@ -1,8 +1,9 @@
 // The guided tour of the demo: its marks, and how far one is; knows no DOM.
 import { create } from "zustand";
-import { sureText } from "./assessment";
+import { leftText, signedText } from "./assessment";
 import { type WorkspaceState, useWorkspace } from "./workspace";
 import { type ProjectState, useProject } from "./project";
+import { isUpToDate } from "./reviews";
 import { useScenes } from "./scenes";
 
 interface TourStop {
@@ -26,12 +27,18 @@ const onlyHas = (workspace: WorkspaceState, label: string) => {
   return labels.size === 1 && labels.has(label);
 };
 
-/** How the tables came out, with nothing said of what is not known. */
+/** Whether a first program is learned, and it is known how sure its edits are. */
+const isAssessed = ({ assessment }: ProjectState) => (assessment?.assets.length ?? 0) > 0;
+const isSignedOff = ({ assessment }: ProjectState) =>
+  assessment !== null && assessment.assets.length > 0 && assessment.held === 0 && assessment.unseen === 0 && assessment.aside === 0;
+/** Whether the person has answered what the program asked first. */
+const hasAnswered = ({ project, assessment, cards }: ProjectState) =>
+  project.said.length > 0 || Object.values(cards).some((card) => card.review === "accepted") || assessment?.held === 0;
+
+/** How the tables stand, with nothing said of what is not known. */
 function tablesText({ assessment }: ProjectState): string {
-  if (!assessment?.assets.length) return "MeshForge still works out how sure it is of each table.";
-  if (!assessment.held) return `${sureText(assessment)}.`;
-  const rest = assessment.held === 1 ? "the other one may be wrong" : `the other ${assessment.held} may be wrong`;
-  return `${sureText(assessment)}; ${rest}. Look at these first, and answer what 3 Learn asks about them.`;
+  if (!assessment?.assets.length) return "MeshForge is working out how sure it is of each table.";
+  return [`${signedText(assessment)}.`, leftText(assessment)].filter(Boolean).join(" ");
 }
 
 export const TOUR_STOPS: readonly TourStop[] = [
@@ -77,28 +84,36 @@ export const TOUR_STOPS: readonly TourStop[] = [
   {
     at: "stages",
     title: "MeshForge has learned",
-    text: "Open 3 Learn to see the program.",
-    done: (_, workspace) => workspace.stage === "learn",
+    text: "Open 3 Learn to see the program, and what MeshForge asks about it.",
+    done: (project, workspace) => workspace.stage === "learn" && isAssessed(project),
   },
   {
     at: "panel",
-    title: "The program, in words",
+    title: "The first program is not right yet",
     text:
-      "Point at a rule to highlight its hulls on all tables. " +
-      "MeshForge asks what is still ambiguous: choose the right picture. Then open 4 Review.",
-    done: (_, workspace) => workspace.stage === "review",
+      "Some tables have a shelf, and the boards of a shelf are panels, too: the program would make one solid block of them. " +
+      "MeshForge holds these tables, and asks. Choose the picture with the table top alone.",
+    done: hasAnswered,
   },
   {
     at: "panel",
-    title: "Apply to all tables",
-    text: "Press Apply to all. The program edits every table and writes each to its own file.",
-    done: (project) => Object.values(project.cards).some((card) => card.output === "edited"),
-  },
-  {
-    at: "panel",
-    title: "Look before you export",
+    title: "Answer until nothing is held",
     text: (project) =>
-      `${tablesText(project)} Compare before and after. Accept what is right; flag or correct what is wrong; then export. ` +
+      `${tablesText(project)} One card at a time: press Y where it is right; where it is not, choose another reply, or N to ` +
+      "correct the table. S shows what a card is about, L puts it off.",
+    done: isSignedOff,
+  },
+  {
+    at: "panel",
+    title: "Write the tables",
+    text: "Every table is signed off. Open 4 Review and press Apply to all: each table is written to its own file.",
+    done: ({ cards, order }) => order.length > 0 && order.every((asset) => isUpToDate(cards[asset])),
+  },
+  {
+    at: "panel",
+    title: "Look, then export",
+    text: (project) =>
+      `${tablesText(project)} Compare before and after as you like, then export the tables under Export. ` +
       "Press ? for all keys. You can undo everything.",
   },
 ];

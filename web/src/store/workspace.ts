@@ -53,6 +53,8 @@ export interface Filters {
   search: string;
   only: readonly FilterName[];
   sort: "name" | "hulls" | "unlabelled" | "unsure" | "changed" | "findings" | "probability";
+  /** Whether a person chose the order. */
+  chosen?: boolean;
 }
 export type FilterName =
   | "unlabelled"
@@ -153,7 +155,14 @@ export function visit(asset: string, showing: Showing, names: Iterable<string> =
 
 export function openStage(stage: StageName): void {
   if (useWorkspace.getState().stage === stage) return;
+  if (stage === "review") sortForReview();
   set({ stage, asked: null, selection: new Set(), draft: null, brush: null, landmarks: [], tool: "select" });
+}
+
+/** In review, the least sure come first, unless the person has chosen an order. */
+function sortForReview(): void {
+  const { filters } = useWorkspace.getState();
+  if (filters.sort === "name" && !filters.chosen) setFilters({ sort: "probability" });
 }
 
 export function show(showing: Showing): void {

@@ -58,14 +58,15 @@ class LabelByName(Edit):
 
 
 class HullOfAsset(Wire):
-    """A hull of an asset, both by name."""
+    """A hull of an asset, both by name. label: that it gets where it is an exception among others."""
 
     asset: str
     hull: str
+    label: str | None = None
 
 
 class LabelGroup(Edit):
-    """Give hulls of several assets one label."""
+    """Give hulls of several assets one label, but for exceptions among them."""
 
     kind: Literal["label-group"] = "label-group"
     touches = ()
@@ -74,7 +75,8 @@ class LabelGroup(Edit):
 
     def apply(self, project: Project) -> None:
         for asset in self._assets:
-            project.set_labels(asset, {one.hull: self.label for one in self.hulls if one.asset == asset})
+            own = [one for one in self.hulls if one.asset == asset]
+            project.set_labels(asset, {one.hull: one.label or self.label for one in own})
 
     def list_paths(self, project: Project) -> tuple[Path, ...]:
         return tuple(project.layout.labels(asset) for asset in self._assets)
@@ -82,7 +84,9 @@ class LabelGroup(Edit):
     def describe(self, project: Project) -> str:
         count = len(self._assets)
         where = self._assets[0] if count == 1 else pluralize(count, "asset")
-        return f"{pluralize(len(self.hulls), 'hull')} of {where} labelled {self.label}"
+        counts = Counter(one.label or self.label for one in self.hulls)
+        labels = [f"{pluralize(n, 'hull')} labelled {label}" for label, n in counts.items()]
+        return f"{where}: {', '.join(labels)}"
 
     @property
     def _assets(self) -> tuple[str, ...]:

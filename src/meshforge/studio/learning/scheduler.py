@@ -27,7 +27,8 @@ class LearningScheduler:
     """Starts learning runs, takes their outcomes and has the edits judged; of several runs only the last one counts.
 
     can_learn: whether anything is demonstrated; on_outcome: called when a run is over, before pages see that and its
-    reach is measured, so that a page that sees the end of the run sees its program, too.
+    reach is measured, so that a page that sees the end of the run sees its program, too; on_assessment: called once
+    pages see how sure the edits are.
     """
 
     def __init__(
@@ -36,9 +37,10 @@ class LearningScheduler:
         pages: PageState,
         can_learn: Callable[[], bool],
         on_outcome: Callable[[OutcomeView], None],
+        on_assessment: Callable[[], None],
     ) -> None:
         self._learner, self._pages = learner, pages
-        self._can_learn, self._on_outcome = can_learn, on_outcome
+        self._can_learn, self._on_outcome, self._on_assessment = can_learn, on_outcome, on_assessment
         self._lock = RLock()
         self._number, self._paused = 0, False
         self._timer: Timer | None = None
@@ -162,8 +164,10 @@ class LearningScheduler:
 
     def _show_assessment(self, number: int, found: AssessmentView | None) -> None:
         with self._lock:  # so that no change makes it old meanwhile
-            if number == self._number:
-                self._pages.set_assessment(found, assessing=False)
+            if number != self._number:
+                return
+            self._pages.set_assessment(found, assessing=False)
+        self._on_assessment()
 
     def _show_reach(self, number: int, future: Future[tuple[Reach, ...]]) -> None:
         try:

@@ -17,6 +17,7 @@ from meshforge.studio.wire.asset import Fault
 from meshforge.studio.wire.family import AnswerView, Card, Next, ProjectView, RuleLine, VocabularyLabel
 from meshforge.studio.wire.jobs import Model, PropagationState
 from meshforge.studio.wire.program import OutcomeView
+from meshforge.studio.wire.signoff import AssessmentView
 from meshforge.symbolic import GIVEN_SOURCES
 from meshforge.synthesis import Step
 
@@ -29,11 +30,13 @@ def choose_next_step(
     problem: str | None,
     suggest: Callable[[Sequence[str]], str | None],
     propagated: PropagationState | None = None,
+    assessment: AssessmentView | None = None,
 ) -> Next:
     """The first thing that is missing on the way from assets to exported outputs.
 
     outcome: the outcome of the last learning run; problem: why the program cannot be applied; suggest: which of some
-    assets, by id, to demonstrate first; propagated: what is known of the last propagation of labels.
+    assets, by id, to demonstrate first; propagated: what is known of the last propagation of labels; assessment: how
+    sure the edits are, as far as it is known.
     """
     return (
         _step_for_hulls(cards)
@@ -41,7 +44,9 @@ def choose_next_step(
         or _step_before_learning(cards, has_program, suggest, propagated)
         or _step_for_learning(outcome, has_program)
         or (Next(stage="learn", say=f"The program cannot be applied: {problem.splitlines()[0]}") if problem else None)
+        or _step_for_question(assessment)
         or _step_for_outputs(cards)
+        or _step_for_sign_off(cards, assessment)
         or _step_for_reviews(cards, outcome.sample if outcome else ())
     )
 
@@ -154,6 +159,37 @@ def _step_for_outputs(cards: Sequence[Card]) -> Next | None:
         say = f"The program fails on {pluralize(len(failed), 'asset')}: fix what is named, then apply it again."
         return Next(stage="review", say=say, asset=failed[0].asset)
     return None
+
+
+def _step_for_question(assessment: AssessmentView | None) -> Next | None:
+    """To answer what makes most results right for a person's time, as long as some are held."""
+    asked = assessment.question if assessment and assessment.held else None
+    if not assessment or not asked:
+        return None
+    say = (
+        f"{assessment.held} of {_count_results(assessment)} held: {_WHAT_TO_DO.get(asked.kind, 'answer the question')}."
+    )
+    return Next(stage="review" if asked.kind == "result" else "learn", say=say, asset=asked.asset)
+
+
+_WHAT_TO_DO = {"result": "look at one result", "demonstrate": "demonstrate one more asset"}
+
+
+def _count_results(assessment: AssessmentView) -> str:
+    return pluralize(len(assessment.assets), "result")
+
+
+def _step_for_sign_off(cards: Sequence[Card], assessment: AssessmentView | None) -> Next | None:
+    """What is left to be signed off, and nothing more where nothing is; where some were not looked at, None."""
+    if not assessment or not assessment.assets or any(card.review == "flagged" for card in cards):
+        return None
+    if assessment.held:
+        least = min((one for one in assessment.assets if one.state == "held"), key=lambda one: one.probability)
+        say = f"{assessment.held} of {_count_results(assessment)} held: look at them, first {least.asset}."
+        return Next(stage="review", say=say, asset=least.asset)
+    if assessment.unseen:
+        return None
+    return Next(stage="review", say=f"{pluralize(assessment.signed_off, 'result')} signed off: export.")
 
 
 def _step_for_reviews(cards: Sequence[Card], sample: Sequence[str]) -> Next:

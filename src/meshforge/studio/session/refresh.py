@@ -80,7 +80,14 @@ class Refresher:
         suggest = partial(suggest_first_demonstration, project)
         propagated = self._label_changes.propagation_state(project, cards)
         next_step = choose_next_step(
-            cards, status.vocabulary, has_program, self._pages.outcome, status.problem, suggest, propagated
+            cards,
+            status.vocabulary,
+            has_program,
+            self._pages.outcome,
+            status.problem,
+            suggest,
+            propagated,
+            self._pages.assessment,
         )
         return build_project_view(project, cards, next_step, status.problem, status.lost, propagated)
 

@@ -70,10 +70,11 @@ class Session:
         self.thumbnails = Thumbnails(own / "thumbnails", self._drawers)
         self.checks = OutputChecks(own / "checks", self._checkers)
         self.uploads = Uploads(own / "uploads")
-        learner = Learner(project.folder)
-        self.learning = LearningScheduler(learner, self.pages, self._has_demonstrations, self._end_learning)
         # the queue's thread must see the project that is open when it works, not the first one
         self.refresh_queue = Refresher(lambda: self.project, self.pages, self.checks, self.label_changes).queue
+        self.learning = LearningScheduler(
+            Learner(project.folder), self.pages, self._has_demonstrations, self._end_learning, self.refresh_queue.add
+        )
         self._watcher = FileWatcher(self._poll_files)
         self._file_sync = FileSync(project, self.pages, self.learning, self.refresh_queue)
         self._take_learned = False

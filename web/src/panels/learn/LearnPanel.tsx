@@ -14,6 +14,7 @@ import {
   X,
 } from "lucide-react";
 import { demonstrate, learnNow, orientBy, showNearest, stopLearning, withdraw } from "../../commands/learn";
+import { openQuestion } from "../../store/assessment";
 import { summarizeOutcome, type Summary } from "../../store/outcome";
 import { countReadable, useProject } from "../../store/project";
 import { useWorkspace } from "../../store/workspace";
@@ -24,24 +25,21 @@ import { Section } from "../../ui/Section";
 import type { HintView, OutcomeView, NearestView, AnswerView } from "../../wire";
 import css from "./learn.module.css";
 import { ProgramSection } from "./Program";
-import { QuestionCard } from "./Question";
-import { Repairs } from "./Repairs";
-import { ReviewCard } from "./ReviewCard";
+import { Questions } from "../questions/Questions";
 import { RuleText } from "./RuleText";
 
 export function LearnPanel() {
   const outcome = useProject((state) => state.outcome);
+  const asked = useProject((state) => openQuestion(state)?.kind);
   return (
     <>
       <LearnHead />
-      {outcome?.question && <QuestionCard key={outcome.question.id} question={outcome.question} />}
-      <ReviewCard />
-      {outcome && outcome.repairs.length > 0 && <Repairs repairs={outcome.repairs} />}
+      <Questions />
       {outcome && <NoProgram outcome={outcome} />}
-      {outcome?.suggested_orientation && <SuggestedOrientation outcome={outcome} orient={outcome.suggested_orientation} />}
+      {outcome?.suggested_orientation && asked !== "orientation" && <SuggestedOrientation outcome={outcome} orient={outcome.suggested_orientation} />}
       <OpenDoubts />
       <ProgramSection />
-      {outcome?.hint && <NextDemonstration hint={outcome.hint} />}
+      {outcome?.hint && asked !== "demonstrate" && <NextDemonstration hint={outcome.hint} />}
       <AnswerList />
     </>
   );

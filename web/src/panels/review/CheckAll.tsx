@@ -42,7 +42,7 @@ export function CheckAll() {
 function WorstFirst() {
   const on = useWorkspace((workspace) => workspace.filters.sort === "findings");
   return (
-    <Button icon={ArrowDownWideNarrow} aria-pressed={on} onClick={() => setFilters({ sort: on ? "name" : "findings" })}>
+    <Button icon={ArrowDownWideNarrow} aria-pressed={on} onClick={() => setFilters({ sort: on ? "name" : "findings", chosen: true })}>
       {on ? "Family by name again" : "All are checked: worst first in the family"}
     </Button>
   );

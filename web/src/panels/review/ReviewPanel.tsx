@@ -1,15 +1,17 @@
 // The review stage: apply the program, look at what came of it, accept, flag, correct, export.
 import { Play } from "lucide-react";
 import { useMemo, useState } from "react";
-import { SureLine } from "../../family/Sureness";
+import { SignOff } from "../../family/Sureness";
 import { applyTo, useJob, whyNotApply } from "../../store/jobs";
 import { useProject } from "../../store/project";
 import { groupCards, listOutdated } from "../../store/reviews";
 import { countText } from "../../store/words";
+import { useLayout } from "../../store/workspace";
 import { Button } from "../../ui/Button";
 import { Choice } from "../../ui/fields";
 import { Note } from "../../ui/Section";
 import type { Card } from "../../wire";
+import { Questions } from "../questions/Questions";
 import { AssetReview } from "./AssetReview";
 import { ExportSection } from "./ExportSection";
 import { JobProgress } from "./JobProgress";
@@ -25,9 +27,11 @@ type Part = (typeof PARTS)[number]["value"];
 
 export function ReviewPanel() {
   const [part, setPart] = useState<Part>("asset");
+  const hidden = useLayout((layout) => !layout.family && !layout.gallery);
   return (
     <div className={css.panel}>
-      <SureLine />
+      {hidden && <SignOff />}
+      <Questions />
       <ApplySection />
       <div className={css.parts}>
         <Choice name="What to review" value={part} options={PARTS} onChange={setPart} />

@@ -7,8 +7,8 @@ import { confidenceText, countText, shortName } from "../../store/words";
 import { Button } from "../../ui/Button";
 import { Section, Swatch } from "../../ui/Section";
 import type { RepairView } from "../../wire";
-import css from "./learn.module.css";
-import { HullsPicture, useRulePicture } from "./RulePicture";
+import { HullsPicture, useRulePicture } from "../learn/RulePicture";
+import css from "../learn/learn.module.css";
 
 export function Repairs({ repairs }: { repairs: readonly RepairView[] }) {
   return (

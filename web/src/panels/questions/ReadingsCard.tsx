@@ -1,0 +1,97 @@
+// The question which hulls a rule should take: pictures to choose from.
+import { answer, showQuestion } from "../../commands/learn";
+import { putOff } from "../../commands/question";
+import { worthText } from "../../store/assessment";
+import { choiceText, differing } from "../../store/readings";
+import { listText, shareText, shortName } from "../../store/words";
+import type { QuestionView, ReviewQuestionView } from "../../wire";
+import { HullsPicture, type RulePictureView, useRulePicture } from "../learn/RulePicture";
+import { useExtractorHighlight } from "../learn/RuleText";
+import { useCardKeys } from "./cardKeys";
+import css from "./questions.module.css";
+import { LaterReply, Reply, ShowReply } from "./Replies";
+
+interface ReadingsCardProps {
+  question: QuestionView;
+  /** Where the assessment asks it. */
+  review?: ReviewQuestionView;
+  /** Puts a question of learning itself off, which only this page knows. */
+  onLater?: () => void;
+}
+
+export function ReadingsCard({ question, review, onLater }: ReadingsCardProps) {
+  const { rule, asset, choices, harm } = question;
+  const worth = review ? worthText(review) : `Without an answer ${shareText(harm)} would be edited wrongly.`;
+  const picture = useRulePicture(asset, rule);
+  const later = review ? () => void putOff(review) : onLater;
+  const reject = () => void answer(question, null);
+  const show = () => showQuestion(question);
+  const picks = choices.map((_, k) => () => void answer(question, k));
+  const doing = useCardKeys({ choices: picks, reject, show, ...(later && { later }) });
+  return (
+    <section className={css.card} aria-labelledby={`question-${question.id}`}>
+      <h3 id={`question-${question.id}`}>
+        On <span title={asset}>{shortName(asset)}</span>, which hulls should rule {rule} take?
+      </h3>
+      <div className={css.choices} data-many={choices.length > 2}>
+        {choices.map((choice, k) => (
+          <ChoiceButton key={choice.reading} question={question} place={k} picture={picture} onClick={doing(picks[k])} />
+        ))}
+      </div>
+      <div className={css.row}>
+        <Reply keyName="N" tip="MeshForge looks for another reading" onClick={doing(reject)}>
+          {choices.length > 2 ? "None of these" : "Neither"}
+        </Reply>
+        <ShowReply onClick={doing(show)} />
+        {later && <LaterReply onClick={doing(later)} />}
+      </div>
+      {worth && <p className={css.dim}>{worth}</p>}
+    </section>
+  );
+}
+
+interface ChoiceButtonProps {
+  question: QuestionView;
+  place: number;
+  picture: RulePictureView | "failed" | null;
+  onClick: () => void;
+}
+
+/** One choice: a picture with its hulls, and what it is in words; pointing at it lights it up everywhere. */
+function ChoiceButton({ question, place, picture, onClick }: ChoiceButtonProps) {
+  const { choices, rule } = question;
+  const choice = choices[place];
+  const point = useExtractorHighlight(choice?.extractor ?? "", rule);
+  if (!choice) return null;
+  const hidden = outOfSight(question, place, picture);
+  return (
+    <button
+      type="button"
+      className={css.choice}
+      aria-keyshortcuts={String(place + 1)}
+      onClick={onClick}
+      onPointerEnter={point.on}
+      onPointerLeave={point.off}
+      onFocus={point.on}
+      onBlur={point.off}
+    >
+      <HullsPicture picture={picture} hulls={choice.select} label="" />
+      <span className={css.choiceText}>
+        <strong>
+          <kbd>{place + 1}</kbd> {choiceText(choices, place)}
+        </strong>
+        <span className={css.dim}>{choice.sentence}</span>
+        {hidden.length > 0 && <span className={css.facts}>{listText(hidden, 2)} not visible here</span>}
+      </span>
+    </button>
+  );
+}
+
+/** Hulls by which a choice differs from others, where its picture does not show most of them. */
+function outOfSight({ choices }: QuestionView, place: number, picture: RulePictureView | "failed" | null): string[] {
+  if (!picture || picture === "failed") return [];
+  const matters = new Set(differing(choices.map((choice) => choice.select)));
+  const own = (choices[place]?.select ?? []).filter((name) => matters.has(name));
+  const hidden = own.filter((name) => !picture.inSight.has(name));
+  return 2 * hidden.length > own.length ? hidden : [];
+}

@@ -1,0 +1,50 @@
+// What keys mean on the card of the open question, and how it keeps the focus from one question to the next.
+import { createContext, type KeyboardEvent, useContext, useLayoutEffect, useRef } from "react";
+
+/** What can be done with a question: its choices in order, and what Y, N, L and S do. */
+export interface CardKeys {
+  readonly choices?: readonly (() => void)[];
+  readonly accept?: () => void;
+  readonly reject?: () => void;
+  readonly later?: () => void;
+  readonly show?: () => void;
+}
+
+interface CardFocus {
+  /** Set by the card that is there. */
+  readonly keys: { current: CardKeys };
+  /** Keeps the focus on the card's place while a reply takes the card away. */
+  readonly hold: () => void;
+}
+
+export const CardFocusContext = createContext<CardFocus>({ keys: { current: {} }, hold: () => undefined });
+
+const LETTERS: Readonly<Record<string, Exclude<keyof CardKeys, "choices">>> = { Y: "accept", N: "reject", L: "later", S: "show" };
+
+/** Tells what keys mean on a card, and gives a function that does a thing and keeps the focus here. */
+export function useCardKeys(own: CardKeys): (run: (() => void) | undefined) => () => void {
+  const { keys, hold } = useContext(CardFocusContext);
+  const mine = useRef(own);
+  useLayoutEffect(() => {
+    mine.current = own;
+    keys.current = own;
+    return () => {
+      if (keys.current === mine.current) keys.current = {};
+    };
+  });
+  return (run) => () => {
+    hold();
+    run?.();
+  };
+}
+
+/** Does what a key means on the card. Digits and the letters of cards mean nothing else here, also while none is there. */
+export function pressOnCard(event: KeyboardEvent, keys: CardKeys, hold: () => void): void {
+  if (event.ctrlKey || event.altKey || event.metaKey) return;
+  const key = event.key.toUpperCase();
+  const letter = LETTERS[key];
+  if (!letter && !/^[1-9]$/.test(key)) return;
+  event.preventDefault();
+  hold();
+  (letter ? keys[letter] : keys.choices?.[Number(key) - 1])?.();
+}
