@@ -1,7 +1,9 @@
 // What a reply to a question becomes: edits that there are already, where there are any.
-import { describe, expect, it } from "vitest";
-import { sampleQuestion } from "../store/sample.test-help";
-import { editsFor } from "./question";
+import { afterEach, describe, expect, it, vi } from "vitest";
+import { api } from "../server/api";
+import { emptyProject, useProject } from "../store/project";
+import { sampleCard, sampleQuestion } from "../store/sample.test-help";
+import { acceptResult, editsFor, labelGroup } from "./question";
 
 const choice = (text: string, more: object = {}) => ({ text, label: null, select: null, sentence: "", orient: null, ...more });
 const hulls = [{ asset: "a", hull: "x", place: 0 }, { asset: "b", hull: "y", place: 1 }];
@@ -43,5 +45,42 @@ describe("a reply", () => {
     const orient = sampleQuestion({ kind: "orientation", choices: [choice("yes", { orient: "+Z: Is(a) -> Is(b)" }), choice("no")] });
     expect(editsFor(orient, 0)[0]).toEqual({ kind: "orient", text: "+Z: Is(a) -> Is(b)" });
     expect(editsFor(orient, 1)).toEqual([{ kind: "put-off", id: "group-1" }]);
+  });
+});
+
+describe("a reply with more to it", () => {
+  afterEach(() => vi.restoreAllMocks());
+
+  const edits = () => vi.spyOn(api, "edit").mockResolvedValue({ said: "", nothing: true } as never);
+
+  it("labels exceptions otherwise, and leaves out what is left out", async () => {
+    const edit = edits();
+    const three = [...hulls, { asset: "c", hull: "z", place: 0 }];
+    await labelGroup(sampleQuestion({ hulls: three }), "leg", { a: "panel", c: null });
+    const rows = [{ asset: "a", hull: "x", label: "panel" }, { asset: "b", hull: "y", label: null }];
+    expect(edit).toHaveBeenCalledExactlyOnceWith({ kind: "label-group", hulls: rows, label: "leg" });
+  });
+
+  it("makes a result that is not there, and accepts it once it is", async () => {
+    const edit = edits();
+    const start = vi.spyOn(api, "startJob").mockResolvedValue({ id: "1" } as never);
+    useProject.setState({ ...emptyProject, cards: { a: sampleCard({ output: "edited", stale: ["program"] }) } });
+    const accepted = acceptResult("a");
+    await vi.waitFor(() => expect(start).toHaveBeenCalledWith({ kind: "apply", assets: ["a"] }));
+    expect(edit).not.toHaveBeenCalled();
+    useProject.setState({ cards: { a: sampleCard({ output: "edited" }) } });
+    expect(await accepted).toBe(true);
+    expect(edit).toHaveBeenCalledExactlyOnceWith({ kind: "review", ids: ["a"], verdict: "accepted" });
+  });
+
+  it("accepts nothing that could not be made", async () => {
+    const edit = edits();
+    vi.spyOn(api, "startJob").mockResolvedValue({ id: "1" } as never);
+    const failed = { id: "1", kind: "apply", state: "failed" };
+    useProject.setState({ ...emptyProject, cards: { a: sampleCard() }, jobs: [failed as never] });
+    expect(await acceptResult("a")).toBe(false);
+    useProject.setState({ cards: { a: sampleCard({ output: "failed" }) }, jobs: [{ ...failed, state: "done" } as never] }); // the program fails on it
+    expect(await acceptResult("a")).toBe(false);
+    expect(edit).not.toHaveBeenCalled();
   });
 });

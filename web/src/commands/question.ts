@@ -2,7 +2,7 @@
 import { create } from "zustand";
 import { type Exceptions, isAsked } from "../store/assessment";
 import { perform } from "../store/edits";
-import { applyTo } from "../store/jobs";
+import { makeResult } from "../store/jobs";
 import { useProject } from "../store/project";
 import { isUpToDate } from "../store/reviews";
 import { openStage, setFilters, setHighlight, setLayout, useWorkspace, visit } from "../store/workspace";
@@ -62,32 +62,10 @@ export function labelGroup({ hulls }: ReviewQuestionView, label: string, excepti
   return perform({ kind: "label-group", hulls: rows, label });
 }
 
-/** How long a result may take that is made before it is accepted [ms]. */
-const PATIENCE = 120_000;
-
 /** Accepts the result of an asset; one that is not there as it would be now is made first. */
 export async function acceptResult(asset: string): Promise<boolean> {
-  if (!isUpToDate(useProject.getState().cards[asset]) && !((await applyTo([asset])) && (await whenMade(asset)))) return false;
-  return perform({ kind: "review", ids: [asset], verdict: "accepted" });
-}
-
-/** Whether a result came within the time that it may take. */
-function whenMade(asset: string): Promise<boolean> {
-  return new Promise((pass) => {
-    const end = (made: boolean) => {
-      stop();
-      clearTimeout(late);
-      pass(made);
-    };
-    const look = () => {
-      const { cards, jobs } = useProject.getState();
-      if (isUpToDate(cards[asset])) end(true);
-      else if (jobs.findLast((job) => job.kind === "apply")?.state === "failed") end(false);
-    };
-    const late = setTimeout(() => end(false), PATIENCE);
-    const stop = useProject.subscribe(look);
-    look();
-  });
+  const made = isUpToDate(useProject.getState().cards[asset]) || (await makeResult(asset));
+  return made && perform({ kind: "review", ids: [asset], verdict: "accepted" });
 }
 
 export const setAside = (asset: string): Promise<boolean> => flag(asset, "set aside");

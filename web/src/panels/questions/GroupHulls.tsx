@@ -73,7 +73,7 @@ function Label({ name }: { name: string | null }) {
 }
 
 /** From one label of a question to the next, then left out, then as the others again. */
-function nextException(exceptions: Exceptions, asset: string, labels: readonly string[]): Exceptions {
+export function nextException(exceptions: Exceptions, asset: string, labels: readonly string[]): Exceptions {
   const { [asset]: now, ...others } = exceptions;
   const row = [...labels.slice(1), null];
   const next = asset in exceptions ? row[row.indexOf(now ?? null) + 1] : row[0];

@@ -1,0 +1,32 @@
+// Keys on the card of a question: replies, and nothing that the rest of the window means by them.
+import { describe, expect, it, vi } from "vitest";
+import { pressOnCard } from "./cardKeys";
+
+function press(key: string, more: object = {}) {
+  const keys = { choices: [vi.fn(), vi.fn()], accept: vi.fn(), reject: vi.fn(), later: vi.fn(), show: vi.fn() };
+  const [preventDefault, hold] = [vi.fn(), vi.fn()];
+  pressOnCard({ key, preventDefault, ctrlKey: false, altKey: false, metaKey: false, ...more } as never, keys, hold);
+  const { choices, ...letters } = keys;
+  const done = [...choices.map((run, k) => [String(k + 1), run] as const), ...Object.entries(letters)];
+  return { done: done.flatMap(([name, run]) => (run.mock.calls.length ? [name] : [])), taken: preventDefault.mock.calls.length, held: hold.mock.calls.length };
+}
+
+describe("a key on the card", () => {
+  it("replies, and the focus stays for the next question", () => {
+    const done = ["1", "2", "y", "N", "l", "S"].map((key) => press(key));
+    expect(done.map((one) => one.done)).toEqual([["1"], ["2"], ["accept"], ["reject"], ["later"], ["show"]]);
+    expect(done.every((one) => one.taken === 1 && one.held === 1)).toBe(true);
+  });
+
+  it("means nothing else while no card is there, so that what is typed ahead moves no camera", () => {
+    expect(press("7")).toEqual({ done: [], taken: 1, held: 1 });
+    const [preventDefault, hold] = [vi.fn(), vi.fn()];
+    pressOnCard({ key: "3", preventDefault } as never, {}, hold);
+    expect(preventDefault).toHaveBeenCalledOnce();
+  });
+
+  it("leaves all other keys to the window", () => {
+    for (const key of ["Tab", "x", "0", "Escape", "?"]) expect(press(key).taken).toBe(0);
+    expect(press("y", { ctrlKey: true })).toEqual({ done: [], taken: 0, held: 0 });
+  });
+});
