@@ -94,6 +94,7 @@ if TYPE_CHECKING:
         read_again,
         read_job,
     )
+    from meshforge.batch.report.outcomes import choose_outcomes, compare_outcomes
     from meshforge.batch.report.page import MOST_PICTURED, REPORT_DEFAULTS, ReportHeader, ReportOptions, write_report
     from meshforge.batch.workers import (
         EXECUTION_DEFAULTS,
@@ -164,6 +165,8 @@ __all__ = [
     "asset_id",
     "check_asset",
     "check_assets",
+    "choose_outcomes",
+    "compare_outcomes",
     "count_processors",
     "cut_hull",
     "decompose_asset",
