@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from meshforge.common.exports import export_lazily
 
 if TYPE_CHECKING:
+    from meshforge.batch.archive import write_archive
     from meshforge.batch.check import CheckJournal, CheckOutcome, CheckTask, check_asset, check_assets, open_journal
     from meshforge.batch.corrections import Correction, replay_corrections
     from meshforge.batch.discovery import (
@@ -210,6 +211,7 @@ __all__ = [
     "text_digest",
     "to_json_line",
     "worker_context",
+    "write_archive",
     "write_preparation",
     "write_report",
 ]

@@ -20,8 +20,8 @@ if TYPE_CHECKING:
     from meshforge.project.review import ProjectReview
     from meshforge.project.run import make_correction, output_digest, run_with_corrections
     from meshforge.project.run_report import add_standings, build_run_report, summarize_outputs
+    from meshforge.project.sign_off_text import format_review, format_share, format_standing, format_status
     from meshforge.project.sign_offs import AssessmentBasis, digest_lesson, keep_assessment
-    from meshforge.project.standing_text import format_review, format_share, format_standing, format_status
     from meshforge.project.status import AssetStatus, Status
 else:
     __getattr__ = export_lazily(__name__)

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 from meshforge import batch
 from meshforge.checks import CheckOptions
 from meshforge.language import Program
-from meshforge.project.standing_text import format_standing, format_status
+from meshforge.project.sign_off_text import format_standing, format_status
 from meshforge.project.status import AssetStatus, Status
 
 if TYPE_CHECKING:
