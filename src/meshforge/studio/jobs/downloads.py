@@ -203,5 +203,5 @@ def _start_turntable(session: Session, written: Sequence[Card], request: Downloa
         return f"{what}, before and after."
 
     words = [session.project.name, *([ids[0]] if request.asset else []), "turntable"]
-    title = f"Drawing {pluralize(len(ids), 'turning asset')}"
+    title = f"Drawing a turntable of {ids[0] if len(ids) == 1 else pluralize(len(ids), 'asset')}"
     return _start(session, f"{to_file_name(*words)}.gif", title, len(ids) * len(list_turns()), write)
