@@ -88,7 +88,7 @@ PAGES = (
     Page(
         "studio",
         "# The studio\n\nWritten by `script/bench` from the JSON files beside it, measured in a real Chromium.\n",
-        ("opening", "moving", "relearning", "scrolling"),
+        ("opening", "moving", "relearning", "replies", "scrolling", "thousands"),
         ("fastapi", "uvicorn", "playwright"),
     ),
 )

@@ -17,5 +17,5 @@ export default defineConfig({
     emptyOutDir: true,
     chunkSizeWarningLimit: 2000,
   },
-  server: { proxy: { "/api": server, "/ws": { ...server, ws: true } } },
+  server: { proxy: { "/api": server, "/download": server, "/ws": { ...server, ws: true } } },
 });

@@ -6,6 +6,7 @@ import os
 import re
 import subprocess
 import sys
+import tempfile
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -24,6 +25,8 @@ FLAGS = (
     "--disable-sync",
     "--no-first-run",
 )
+PATIENCE = 180_000
+"""Milliseconds that anything may take before a measurement gives up."""
 WATCH = """
 window.watched = { ready: {}, keys: [] };
 new MutationObserver(() => {
@@ -37,17 +40,20 @@ addEventListener('keydown', () => window.watched.keys.push(performance.now()), t
 
 @contextmanager
 def studio(project: Path) -> Iterator[str]:
-    """The address of a studio that serves a project."""
+    """The address of a studio that serves a project, which the user's list of recent projects does not get."""
     command = [str(Path(sys.executable).with_name("meshforge")), "studio", str(project), "--no-browser"]
-    server = subprocess.Popen(command, stdout=subprocess.PIPE, text=True)
-    assert server.stdout
-    try:
-        found = re.search(r"http://\S+", server.stdout.readline())
-        assert found, "the studio does not tell its address"
-        yield found[0]
-    finally:
-        server.terminate()
-        server.wait(30)
+    with tempfile.TemporaryDirectory() as state:
+        server = subprocess.Popen(
+            command, stdout=subprocess.PIPE, text=True, env={**os.environ, "MESHFORGE_STATE": state}
+        )
+        assert server.stdout
+        try:
+            found = re.search(r"http://\S+", server.stdout.readline())
+            assert found, "the studio does not tell its address"
+            yield found[0]
+        finally:
+            server.terminate()
+            server.wait(30)
 
 
 @contextmanager
@@ -64,6 +70,7 @@ def chromium() -> Iterator[Browser]:
 def open_asset(browser: Browser, address: str, asset: str, watch: str = "") -> Page:
     """A page of a browser that knows nothing of the studio yet, once it shows an asset; watch: a script more."""
     page = browser.new_context(viewport={"width": 1440, "height": 900}).new_page()
+    page.set_default_timeout(PATIENCE)
     page.add_init_script(WATCH + watch)
     page.goto(address)
     page.wait_for_function("id => id in window.watched.ready", arg=asset)

@@ -13,6 +13,8 @@ from benchmark.studio.browser import chromium, open_asset, studio, warm
 from benchmark.studio.families import project_of
 
 HULLS, ASSETS = 60, 12
+FAMILY, FAMILY_HULLS = 70, 24
+"""A family of usual size, of assets of usual size."""
 
 
 def measure(tell: Tell, quick: bool) -> Result:
@@ -25,10 +27,12 @@ def measure(tell: Tell, quick: bool) -> Result:
             times = [_open(browser, address, first) for _ in range(2 if quick else 7)]
             tell(f"opening: {len(times)} times opened")
             switches = _switch(browser, address, project.assets(), tell)
-    opening, switching = statistics.median(times), statistics.median(switches)
+    turns = _switch_in_family(tell, quick)
+    opening, switching, turning = statistics.median(times), statistics.median(switches), statistics.median(turns)
     rows = (
         (f"first picture of {HULLS} hulls after opening", opening, max(times)),
         ("next asset after Tab", switching, max(switches)),
+        (f"next asset after Tab, {FAMILY} assets of {FAMILY_HULLS} hulls", turning, max(turns)),
     )
     return Result(
         "opening",
@@ -37,12 +41,23 @@ def measure(tell: Tell, quick: bool) -> Result:
         (
             Goal(f"ms until the first picture of {HULLS} hulls, server warm", "at most", 1500, opening),
             Goal("ms until the next asset is drawn", "at most", 150, switching),
+            Goal(f"ms until the next asset is drawn, {FAMILY} assets", "at most", 60, turning),
         ),
         (
             "Headless Chromium with software rendering; the page's own time, from the start of its navigation. "
             "The studio was opened once before; each page starts with an empty cache.",
         ),
     )
+
+
+def _switch_in_family(tell: Tell, quick: bool) -> list[float]:
+    """From asset to asset in a family of usual size, whose pictures are drawn."""
+    with tempfile.TemporaryDirectory() as folder:
+        project = project_of(Path(folder), FAMILY, FAMILY_HULLS)
+        assets = project.assets()[: 5 if quick else FAMILY]
+        with studio(project.folder) as address, chromium() as browser:
+            warm(browser, address, assets[0])
+            return _switch(browser, address, assets, tell)
 
 
 def _open(browser: Browser, address: str, asset: str) -> float:

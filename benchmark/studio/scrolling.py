@@ -10,7 +10,7 @@ from benchmark.report import Goal, Result, Table, Tell
 from benchmark.studio.browser import chromium, open_asset, studio
 from benchmark.studio.families import project_of
 
-_SCROLL = """
+SCROLL = """
 async (milliseconds) => {
   const gallery = document.querySelector('[data-testid=family]');
   const gaps = [];
@@ -42,7 +42,7 @@ def measure(tell: Tell, quick: bool) -> Result:
             for turn in ("thumbnails not drawn yet", "thumbnails drawn before"):
                 tell(f"scrolling: {turn}")
                 page.evaluate("document.querySelector('[data-testid=family]').scrollTop = 0")
-                gaps = page.evaluate(_SCROLL, 2000 if quick else 8000)
+                gaps = page.evaluate(SCROLL, 2000 if quick else 8000)
                 slow = sum(gap > 50 for gap in gaps) / len(gaps)
                 rows.append((turn, 1000 / statistics.mean(gaps), statistics.median(gaps), max(gaps), 100 * slow))
                 page.wait_for_timeout(3000)

@@ -37,7 +37,8 @@ export type Event =
   | AssessmentChanged
   | ProgramChanged
   | JobChanged;
-export type JobRequest = ApplyJob | DecomposeJob | ExportJob | PropagateJob | ForecastJob | AskJob | CheckJob;
+export type JobRequest =
+  ApplyJob | DecomposeJob | ExportJob | PropagateJob | ForecastJob | AskJob | CheckJob | DownloadJob;
 export type NewProject = ProjectOfFolder | ProjectOfUpload | ProjectOfFamily;
 
 export interface Everything {
@@ -71,6 +72,9 @@ export interface Everything {
   DecomposeJob: DecomposeJob;
   DeleteRule: DeleteRule;
   DoubtView: DoubtView;
+  DownloadJob: DownloadJob;
+  DownloadRequest: DownloadRequest;
+  DownloadTicket: DownloadTicket;
   DropCorrections: DropCorrections;
   EditHeader: EditHeader;
   EditReceipt: EditReceipt;
@@ -751,6 +755,29 @@ export interface DecomposeJob {
   method?: "coacd" | "vhacd";
 }
 /**
+ * Make a file that the browser fetches then. what: a zip of outputs, the report, or a GIF in which assets turn,
+ * before and after; accepted_only: of the zip; asset: the one that turns, null for the first `count` with outputs.
+ */
+export interface DownloadJob {
+  kind: "download";
+  what: "results" | "report" | "turntable";
+  accepted_only?: boolean;
+  asset?: string | null;
+  count?: number;
+}
+/**
+ * Fetch the file that a job has made.
+ */
+export interface DownloadRequest {
+  job: string;
+}
+/**
+ * Where the file is, below the studio's own address: good once, and for a minute.
+ */
+export interface DownloadTicket {
+  address: string;
+}
+/**
  * The header of a packet of an edited asset: all of its hulls, with the shapes of those that the asset has not.
  *
  * made, removed: names of hulls, compared with the asset as it comes; trace: what each rule did; findings: of the
@@ -1067,11 +1094,11 @@ export interface Reach {
 /**
  * Work that takes long. lines: what became of assets, those that failed first, at most 200.
  *
- * message: its result in a sentence; out: the folder that was written.
+ * message: its result in a sentence; out: the folder that was written, or of a download the name of the file.
  */
 export interface Job {
   id: string;
-  kind: "read" | "apply" | "decompose" | "export" | "add" | "propagate" | "forecast" | "ask" | "check";
+  kind: "read" | "apply" | "decompose" | "export" | "add" | "propagate" | "forecast" | "ask" | "check" | "download";
   title: string;
   done: number;
   total: number;

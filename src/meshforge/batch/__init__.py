@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from meshforge.common.exports import export_lazily
 
 if TYPE_CHECKING:
+    from meshforge.batch.archive import write_archive
     from meshforge.batch.check import CheckJournal, CheckOutcome, CheckTask, check_asset, check_assets, open_journal
     from meshforge.batch.corrections import Correction, replay_corrections
     from meshforge.batch.discovery import (
@@ -94,6 +95,7 @@ if TYPE_CHECKING:
         read_again,
         read_job,
     )
+    from meshforge.batch.report.outcomes import choose_outcomes, compare_outcomes
     from meshforge.batch.report.page import MOST_PICTURED, REPORT_DEFAULTS, ReportHeader, ReportOptions, write_report
     from meshforge.batch.workers import (
         EXECUTION_DEFAULTS,
@@ -164,6 +166,8 @@ __all__ = [
     "asset_id",
     "check_asset",
     "check_assets",
+    "choose_outcomes",
+    "compare_outcomes",
     "count_processors",
     "cut_hull",
     "decompose_asset",
@@ -207,6 +211,7 @@ __all__ = [
     "text_digest",
     "to_json_line",
     "worker_context",
+    "write_archive",
     "write_preparation",
     "write_report",
 ]

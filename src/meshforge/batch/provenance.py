@@ -6,6 +6,7 @@ from __future__ import annotations
 import hashlib
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
+from dataclasses import fields as dataclass_fields
 from importlib.metadata import version
 from pathlib import Path
 from typing import Literal
@@ -104,6 +105,14 @@ class Stamp(BaseModel):
             self.measures,
             self.labels_before,
         )
+
+    def to_outcome(self, folder: Path) -> Edited | Unchanged | Failed:
+        """What the run that wrote this output made of the asset."""
+        if self.status == "failed":
+            return Failed(self.asset, self.error or "", 0.0)
+        kept = self.to_skipped(folder)
+        fields = {field.name: getattr(kept, field.name) for field in dataclass_fields(kept)}
+        return Edited(**fields) if self.status == "edited" else Unchanged(**fields)
 
     def is_whole(self, folder: Path) -> bool:
         """Whether all files of this output are there, as they were written."""

@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-from collections import Counter
-from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
-from tempfile import TemporaryDirectory
 from time import perf_counter
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
@@ -18,21 +16,13 @@ from meshforge.batch import apply as run_program
 from meshforge.checks import CheckOptions
 from meshforge.cli import options
 from meshforge.cli.console import progress
-from meshforge.cli.report import (
-    NOTHING_WRITTEN,
-    add_standings,
-    compare_outcomes,
-    describe_failure,
-    word_of,
-    write_report_page,
-)
-from meshforge.cli.review_text import format_share, format_status
+from meshforge.cli.report import NOTHING_WRITTEN, describe_failure, write_report_page
 from meshforge.cli.terminal import print_json, remark
 from meshforge.common import UsageError, pluralize
 from meshforge.language import Program, Template
 
 if TYPE_CHECKING:
-    from meshforge.project import AssetStatus, Project
+    from meshforge.project import Project
     from meshforge.signoff import Assessment
 
 
@@ -148,16 +138,15 @@ def _sign_nothing_off(alarms: Alarms) -> Mapping[str, str]:
 
 @dataclass(frozen=True, slots=True)
 class _ApplyWork:
-    """What is to be run on what. readers: of assets before the run, by id; demonstrated: those that somebody edited;
-    held: those that are held back; finish: called with all alarms when all is written, says what is no longer signed
-    off, and why, by asset; project: None with a bare program."""
+    """What is to be run on what. readers: of assets before the run, by id; held: those that are held back;
+    finish: called with all alarms when all is written, says what is no longer signed off, and why, by asset; project:
+    None with a bare program."""
 
     program: Program
     jobs: Sequence[batch.AssetJob]
     out: Path
     templates: Mapping[str, Template]
     readers: Callable[[Iterable[str]], Sequence[batch.MeshReader]]
-    demonstrated: Collection[str] = ()
     held: Sequence[batch.Held] = ()
     finish: Callable[[Alarms], Mapping[str, str]] = _sign_nothing_off
     project: Project | None = None
@@ -181,9 +170,8 @@ def _work_of_project(given: ApplyArguments) -> _ApplyWork:
     held = _hold_back(project, out, given.sure) if given.sure is not None else ()
     names = {one.asset for one in held}
     program, jobs, templates = project.work(frozenset(project.assets()) - names if names else None)
-    demonstrated = frozenset(project.layout.ids_with("demonstrations"))
     finish = project.renew_sign_offs if out.absolute() == project.layout.edited else _sign_nothing_off
-    return _ApplyWork(program, jobs, out, templates, project.readers, demonstrated, held, finish, project)
+    return _ApplyWork(program, jobs, out, templates, project.readers, held, finish, project)
 
 
 def _hold_back(project: Project, out: Path, bar: float) -> tuple[batch.Held, ...]:
@@ -198,6 +186,8 @@ def _hold_back(project: Project, out: Path, bar: float) -> tuple[batch.Held, ...
 
 
 def _hold(name: str, assessment: Assessment, out: Path) -> batch.Held:
+    from meshforge.project import format_share  # lazy: 170 modules that a program file does not need
+
     one = assessment.assets.get(name)
     written = batch.read_stamp(out, name)
     kept = str(out / written.out) if written and written.out else None
@@ -238,42 +228,15 @@ def _describe_outcome(outcome: batch.AssetOutcome) -> str:
 def _write_report(
     path: Path, work: _ApplyWork, summary: batch.RunSummary, seconds: float, measures: CheckOptions | None
 ) -> None:
-    """Draw what a run made; of a project what is held comes first, and what was held back is shown as it would be."""
-    title, figures, text, found = work.out.resolve().name, batch.RunFigures.of_run(summary), None, None
+    """Draw what a run made; of a project with how sure each result is."""
     if work.project:
-        found = work.project.status()
-        title, text, standings = (
-            found.name,
-            format_status(found, work.project.folder),
-            Counter(map(word_of, found.assets)),
-        )
-        figures = replace(figures, first="those that failed or are held", standings=standings)
-    back = [held.asset for held in work.held]
-    with TemporaryDirectory() as folder:
-        held = work.project.apply(back[: batch.MOST_SHOWN], out=Path(folder)) if work.project and back else ()
-        outcomes = _choose_outcomes(work.out, summary, tuple(held), found.open_assets if found else ())
-        readers, alarms = work.readers(outcome.asset for outcome in outcomes), summary.find_alarms()
-        assets = list(compare_outcomes(outcomes, work.program, readers, work.demonstrated, measures, alarms))
-    if found:
-        assets = add_standings(assets, found, back)
-    header = batch.ReportHeader(title, seconds=seconds, figures=figures, standing=text)
+        from meshforge.project import build_run_report  # lazy: 170 modules that a program file does not need
+
+        made = build_run_report(work.project, work.program, work.out, summary, seconds=seconds, measures=measures)
+        write_report_page(path, made.header, made.assets, made.program)
+        return
+    outcomes = batch.choose_outcomes(work.out, summary)
+    readers, alarms = work.readers(outcome.asset for outcome in outcomes), summary.find_alarms()
+    assets = list(batch.compare_outcomes(outcomes, work.program, readers, (), measures, alarms))
+    header = batch.ReportHeader(work.out.resolve().name, seconds=seconds, figures=batch.RunFigures.of_run(summary))
     write_report_page(path, header, assets, work.program)
-
-
-def _choose_outcomes(
-    out: Path, summary: batch.RunSummary, held: Sequence[batch.AssetOutcome], doubted: Sequence[AssetStatus]
-) -> list[batch.AssetOutcome]:
-    """Those that a report shows; of too many failed ones, then those in doubt or with alarms, then the first others.
-
-    held: what would have become of those that were held back; alarms are looked for among these, too.
-    """
-    known = {outcome.asset: outcome for outcome in (*held, *summary.outcomes_to_show)}
-    summary.measures |= {one.asset: one.measures for one in held if not isinstance(one, batch.Failed) and one.measures}
-    odd = [*(asset.id for asset in doubted), *summary.find_alarms()]
-    for name in odd[: batch.MOST_SHOWN]:
-        stamp = None if name in known else batch.read_stamp(out, name)
-        if stamp and stamp.is_whole(out):
-            known[name] = stamp.to_skipped(out)
-    order = dict.fromkeys([*(failed.asset for failed in summary.failed), *odd, *known])
-    chosen = set([name for name in order if name in known][: batch.MOST_SHOWN])
-    return [outcome for name, outcome in known.items() if name in chosen]

@@ -12,7 +12,7 @@ import typer
 
 from meshforge import batch
 from meshforge.cli.console import progress
-from meshforge.cli.report import NOTHING_WRITTEN, compare_outcomes, describe_failure, write_report_page
+from meshforge.cli.report import NOTHING_WRITTEN, describe_failure, write_report_page
 from meshforge.cli.terminal import print_json, remark
 from meshforge.common import pluralize
 from meshforge.language import Program
@@ -61,7 +61,7 @@ def _write_report(
 ) -> None:
     by_id = {job.id: job for job in jobs}
     readers = [partial(batch.read_job, by_id[outcome.asset]) for outcome in summary.outcomes_to_show]
-    shown = compare_outcomes(summary.outcomes_to_show, Program(), readers)
+    shown = batch.compare_outcomes(summary.outcomes_to_show, Program(), readers)
     write_report_page(
         path,
         batch.ReportHeader(

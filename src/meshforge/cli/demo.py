@@ -11,15 +11,20 @@ from typing import Annotated
 
 import typer
 
-from meshforge.batch import ExecutionOptions, ReportAsset, ReportHeader, ReportOptions, write_report
+from meshforge.batch import (
+    ExecutionOptions,
+    ReportAsset,
+    ReportHeader,
+    ReportOptions,
+    compare_outcomes,
+    write_report,
+)
 from meshforge.checks import check
 from meshforge.cli.console import progress
 from meshforge.cli.options import Browser, Port, Workers
-from meshforge.cli.report import add_standings, compare_outcomes
-from meshforge.cli.review_text import format_status
 from meshforge.cli.terminal import remark
 from meshforge.common import UsageError
-from meshforge.project import Project
+from meshforge.project import Project, add_standings, format_status
 from meshforge.samples import TABLES, family_of, write_family
 
 _OUT, _STUDIO = Path("meshforge-demo"), Path("meshforge-demo-studio")

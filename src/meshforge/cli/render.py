@@ -18,13 +18,17 @@ from meshforge.rendering import (
     View,
     check_picture_path,
     draw_labeling_pictures,
+    draw_turn,
+    list_turns,
     make_contact_sheet,
+    write_gif,
     write_picture,
     write_png,
 )
 from meshforge.symbolic import SymbolicMesh
 
 _LABELLING = "labelling"
+_PLAIN = "iso"
 
 _SHEET_COLUMNS = 4  # a numbered picture and its plain one, twice
 
@@ -35,8 +39,13 @@ class RenderArguments:
 
     asset: AssetFile
     out: Annotated[
-        Path, typer.Option("-o", "--out", help="The PNG or JPEG to write; for `--views labelling` it may be a folder.")
-    ]
+        Path | None,
+        typer.Option("-o", "--out", help="The PNG or JPEG to write; for `--views labelling` it may be a folder."),
+    ] = None
+    turntable: Annotated[
+        Path | None,
+        typer.Option("--turntable", help="A GIF to write, in place of a picture: the camera goes once round."),
+    ] = None
     labels: LabelsPath = None
     project: InProject = None
     color_by: Annotated[
@@ -51,10 +60,13 @@ class RenderArguments:
             "front-right-above, back-left-below and so on; or `labelling`: views chosen so that each hull is seen and "
             "numbered in one, each beside the asset as it looks.",
         ),
-    ] = "iso"
+    ] = _PLAIN
     size: Annotated[
         str | None,
-        typer.Option("--size", help="Pixels of the picture, by default 900x700; for labelling of each, 1024x1024."),
+        typer.Option(
+            "--size",
+            help="Pixels of the picture, by default 900x700; for labelling of each, 1024x1024; of a turntable 480x400.",
+        ),
     ] = None
     ghost: Annotated[bool, typer.Option("--ghost", help="Show the visual mesh as a ghost.")] = False
     names: Annotated[
@@ -65,7 +77,12 @@ class RenderArguments:
 
 @takes(RenderArguments)
 def render(given: RenderArguments) -> None:
-    """Draw an asset as a PNG or JPEG, one colour a hull or a label; needs no display."""
+    """Draw an asset as a PNG or JPEG, or as a GIF that turns, one colour a hull or a label; needs no display."""
+    if given.turntable:
+        _write_turntable(given, given.turntable)
+        return
+    if given.out is None:
+        raise UsageError("nothing says what to write", remedy="Give --out FILE.png, or --turntable FILE.gif.")
     if given.views.strip() == _LABELLING:
         _refuse_looks(given)
         if _is_sheet(given.out):
@@ -81,6 +98,27 @@ def render(given: RenderArguments) -> None:
         mesh, given.out, views=views, color_by=given.color_by, size=size, ghost=given.ghost, names=given.names
     )
     remark(f"wrote {given.out}")
+
+
+def _write_turntable(given: RenderArguments, path: Path) -> None:
+    """Write the GIF. Raises UsageError for what does not go with one, and where it cannot be written."""
+    has_views = given.views.strip() != _PLAIN
+    for option, value in {
+        "--out": given.out,
+        "--views": has_views,
+        "--ghost": given.ghost,
+        "--names": given.names,
+    }.items():
+        if value:
+            raise UsageError(f"{option} does not go with --turntable", remedy="Leave it out.")
+    if path.suffix.lower() != ".gif":
+        raise UsageError("a turntable is a GIF", where=str(path), remedy="Give it a name that ends in .gif.")
+    size = _parse_pixels(given.size or "480x400")
+    mesh = open_asset(given.asset, given.labels, given.project)
+    color_by = given.color_by or ("label" if mesh.labels else "hull")
+    pictures = draw_turn([mesh], list_turns(), size=size, color_by=color_by)
+    write_gif(path, [image for (image,) in pictures])
+    remark(f"wrote {path}")
 
 
 def _refuse_looks(given: RenderArguments) -> None:

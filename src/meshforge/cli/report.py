@@ -1,30 +1,23 @@
-"""The page that `--report` asks for: assets before and after a run as it shows them; and what checks found of assets,
-where a hundred thousand need not be kept for that.
-"""
+"""The page that `--report` asks for: with a progress bar; and what checks found of assets, where a hundred thousand
+need not be kept for that."""
 
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from meshforge import batch
 from meshforge.checks import CheckOptions, Examination, Finding, Severity
 from meshforge.cli.console import progress
-from meshforge.cli.review_text import format_standing
 from meshforge.cli.terminal import remark
 from meshforge.formats import load
-from meshforge.language import Program, RuleTrace, to_canonical_frame
-from meshforge.symbolic import SymbolicMesh
-
-if TYPE_CHECKING:
-    from meshforge.project import AssetStatus, Status
+from meshforge.language import Program
 
 NOTHING_WRITTEN = " (nothing was written)"
-_HELD_BACK = "Nothing was written: this is what the program would make of it."
 
 
 def write_report_page(
@@ -38,83 +31,6 @@ def write_report_page(
     with progress(len(assets), "drawing") as advance:
         batch.write_report(path, header, assets, program=program, options=replace(options, progress=advance))
     remark(f"report: {path}")
-
-
-def compare_outcomes(
-    outcomes: Sequence[batch.AssetOutcome],
-    program: Program,
-    readers: Sequence[batch.MeshReader],
-    demonstrated: Collection[str] = (),
-    measures: CheckOptions | None = None,
-    alarms: Mapping[str, tuple[str, ...]] | None = None,
-) -> Iterator[batch.ReportAsset]:
-    """Each asset before and after, standing upright where the program orients it; readers: of the assets before.
-
-    measures: what is measured of it after; such assets are shown as they lie, for what they show was not turned.
-    alarms: sentences about results that stand out, by asset.
-    """
-    made = [None if isinstance(outcome, batch.Failed) else partial(load, outcome.out) for outcome in outcomes]
-    meshes = batch.read_again([*readers, *made])
-    pairs = list(zip(outcomes, meshes[: len(made)], meshes[len(made) :], strict=True))
-    todo = [
-        (Path(outcome.out), after, measures, before)
-        for outcome, before, after in pairs
-        if measures and before and after and not isinstance(outcome, batch.Failed)
-    ]
-    found = batch.execute(_examine, todo, batch.ExecutionOptions(timeout=batch.READ_TIMEOUT))
-    for outcome, was, now in pairs:
-        name, is_shown = outcome.asset, outcome.asset in demonstrated
-        if isinstance(outcome, batch.Failed) or was is None or now is None:
-            error = outcome.error if isinstance(outcome, batch.Failed) else "it cannot be read any more"
-            yield batch.ReportAsset(name, was, status="failed", error=error, demonstrated=is_shown)
-            continue
-        checked, notes = None, outcome.notes
-        if measures:
-            checked, problem = _split_checks(next(found))
-            notes = (*notes, *problem)
-        else:
-            was, pose = to_canonical_frame(was, program.orient, program.contact)
-            now = replace(now, hulls=tuple(hull.move(pose) for hull in now.hulls))
-        trace = tuple(RuleTrace(line.rule, line.selected, line.made, line.note) for line in outcome.rules)
-        told = (alarms or {}).get(name, ())
-        yield batch.ReportAsset(name, was, now, trace, batch.status_of(outcome), None, is_shown, notes, checked, told)
-
-
-def add_standings(
-    assets: Iterable[batch.ReportAsset], found: Status, held_back: Collection[str] = ()
-) -> list[batch.ReportAsset]:
-    """The assets of a project with how sure each result is; alarms of the run take the place of those of a review."""
-    known = {asset.id: asset for asset in found.assets}
-    return [_add_standing(asset, known[asset.name], asset.name in held_back) for asset in assets]
-
-
-def _add_standing(shown: batch.ReportAsset, asset: AssetStatus, is_held_back: bool) -> batch.ReportAsset:
-    alarms = tuple(doubt.text for doubt in asset.doubts if doubt.kind == "alarm")
-    doubts = tuple(doubt.text for doubt in asset.doubts if doubt.kind != "alarm")
-    standing = batch.AssetStanding(word_of(asset), format_standing(asset), asset.probability, doubts)
-    if shown.error:
-        return replace(shown, standing=standing)
-    if is_held_back:
-        shown = replace(shown, status="held back", notes=(_HELD_BACK, *shown.notes))
-    return replace(shown, standing=standing, alarms=shown.alarms or alarms)
-
-
-def word_of(asset: AssetStatus) -> batch.StandingWord:
-    """How an asset of a project stands, in a word."""
-    state = asset.sign_off
-    return "held" if state == "held" or state == "void" or state == "unknown" else state
-
-
-def _split_checks(found: Examination | batch.WorkerFailure) -> tuple[Examination | None, tuple[str, ...]]:
-    """What was measured, or why it was not."""
-    if isinstance(found, batch.WorkerFailure):
-        return None, (f"the checks did not come to an end: {found.why}",)
-    return found, ()
-
-
-def _examine(work: tuple[Path, SymbolicMesh, CheckOptions, SymbolicMesh | None]) -> Examination:
-    """In a process of its own, since MuJoCo may crash."""
-    return batch.examine_file(*work)
 
 
 def describe_failure(outcome: batch.Failed) -> str:

@@ -15,10 +15,10 @@ from meshforge.cli import options
 from meshforge.cli.console import show_status
 from meshforge.cli.review_answers import find_contradictions, parse_reply, read_replies
 from meshforge.cli.review_pictures import draw_question
-from meshforge.cli.review_text import format_prompt, format_question, format_reply_help, format_review
+from meshforge.cli.review_text import format_prompt, format_question, format_reply_help
 from meshforge.cli.terminal import print_json, remark
 from meshforge.common import MeshForgeError, UsageError
-from meshforge.project import Project, ProjectReview
+from meshforge.project import Project, ProjectReview, format_review
 from meshforge.signoff import BAR, ReviewQuestion, ReviewReply
 from meshforge.signoff.question import WRONG
 

@@ -1,119 +1,14 @@
-"""What `review`, `status`, `apply` and reports say of how sure results are."""
+"""What `review` says of its questions, and of how one replies to them."""
 
 from __future__ import annotations
 
 import json
 import shlex
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
 
-from meshforge.common import join_names, pluralize, quote_path
-from meshforge.signoff import AssetConfidence, ReviewQuestion
-from meshforge.signoff.assessment import NO_LOOK
-
-if TYPE_CHECKING:
-    from meshforge.project import AssetStatus, ProjectReview, Status
-
-MOST_HELD = 12
-"""Lines on assets that are held, one for each reason."""
-
-
-def format_counts(signed_off: int, total: int, held: int, aside: int, bar: float) -> str:
-    """The sentence that says how far a family is signed off."""
-    if not total:
-        return "There is no asset."
-    are, were = ("is", "was") if signed_off == 1 else ("are", "were")
-    some = f"{signed_off} of {total} {are} at least {100 * bar:g}% sure, or {were} looked at"
-    aside_text = f"; {aside} set aside" if aside else ""
-    if held:
-        return f"{some}{aside_text}; look at {'this one' if held == 1 else f'these {held}'}:"
-    return f"{some}{aside_text}: signed off."
-
-
-def format_review(found: ProjectReview, folder: Path, held: int = MOST_HELD) -> str:
-    """How the family stands: the counts, then why assets are held, the least probable first; held: lines at most."""
-    one = found.assessment
-    names = one.held
-    lines = [format_counts(len(one.signed_off), len(one.assets), len(names), len(one.aside), one.bar)]
-    lines += _format_held([_hold(one.assets[name]) for name in names], folder, held, " (all with --json)")
-    if names and one.question is None:
-        lines.append(
-            "Nothing is left to ask: show the edit on one of these (meshforge demonstrate), or mend its result."
-        )
-    return "\n".join(lines)
-
-
-def format_status(found: Status, folder: Path) -> str:
-    """How far a project is signed off by its last review, and what is not, the least sure first."""
-    waits = found.count(lambda asset: asset.sign_off == "sure")
-    done = waits + found.count(lambda asset: asset.sign_off == "signed off")
-    aside = found.count(lambda asset: asset.sign_off == "set aside")
-    lines = [format_counts(done, len(found.assets), len(found.open_assets), aside, found.bar)]
-    if waits:
-        lines.append(f"  {waits} of them will be signed off when their outputs are up to date (meshforge apply)")
-    lines += _format_held([_hold_of_status(asset) for asset in found.open_assets], folder, MOST_HELD)
-    return "\n".join(lines)
-
-
-@dataclass(frozen=True, slots=True)
-class _AssetDoubt:
-    """An asset that is held, and its weightiest doubt; probability: that its edit is right, None where not known."""
-
-    name: str
-    probability: float | None
-    reason: str
-
-
-def _hold(one: AssetConfidence) -> _AssetDoubt:
-    return _AssetDoubt(one.asset, one.probability, one.doubts[0].text if one.doubts else "")
-
-
-def _hold_of_status(asset: AssetStatus) -> _AssetDoubt:
-    if asset.probability is None or asset.void:
-        return _AssetDoubt(asset.id, None, format_standing(asset))
-    return _hold(AssetConfidence(asset.id, asset.probability, asset.doubts))
-
-
-def _format_held(held: Sequence[_AssetDoubt], folder: Path, most: int, rest: str = "") -> Iterator[str]:
-    """A line for each reason with the assets held for it, in the order given; most: lines; rest: after the others."""
-    reasons: dict[str, list[_AssetDoubt]] = {}
-    for one in held:
-        reasons.setdefault(one.reason, []).append(one)
-    for reason, some in list(reasons.items())[:most]:
-        shares = [one.probability for one in some if one.probability is not None]
-        share = f" ({_format_range(shares)})" if shares else ""
-        yield f"  {join_names([one.name for one in some])}{share}{': ' if reason else ''}{reason}"
-        if reason == NO_LOOK:
-            freed = "it" if len(some) == 1 else "most of them"
-            yield f"    One look at a result frees {freed}: meshforge review {quote_path(folder)}"
-    more = sum(map(len, list(reasons.values())[most:]))
-    if more:
-        yield f"  and {more} more{rest}"
-
-
-def _format_range(shares: Sequence[float]) -> str:
-    """The least and the most of some probabilities."""
-    return " to ".join(dict.fromkeys(map(format_share, (min(shares), max(shares)))))
-
-
-def format_standing(asset: AssetStatus) -> str:
-    """How one asset stands: how sure its result is, and whether it is signed off, and by whom."""
-    if asset.sign_off == "void":
-        return f"void, {join_names(asset.void)} changed since it was signed off"
-    if asset.sign_off == "unknown":
-        return "not looked at as it is now (meshforge review)"
-    share = "" if asset.probability is None else f"{format_share(asset.probability)} sure, "
-    if asset.sign_off == "sure":
-        return f"{share}signed off when its output is up to date (meshforge apply)"
-    who = {"tool": " by MeshForge", "person": " by a person", None: ""}[asset.signed_by]
-    return f"{share}{asset.sign_off}{who}"
-
-
-def format_share(share: float) -> str:
-    """A probability in whole percent, rounded down, so that none below the bar looks as if it were at it."""
-    return f"{int(share * 100)}%"
+from meshforge.common import join_names, pluralize
+from meshforge.signoff import ReviewQuestion
 
 
 def format_question(question: ReviewQuestion, pictures: Sequence[Path]) -> str:

@@ -9,10 +9,9 @@ import typer
 
 from meshforge.cli.console import print_table, progress
 from meshforge.cli.options import Json
-from meshforge.cli.review_text import format_status
 from meshforge.cli.terminal import print_json
 from meshforge.common import pluralize
-from meshforge.project import AssetStatus, Project, Status
+from meshforge.project import AssetStatus, Project, Status, format_status
 
 
 def status(

@@ -19,6 +19,8 @@ if TYPE_CHECKING:
     from meshforge.project.project import Project
     from meshforge.project.review import ProjectReview
     from meshforge.project.run import make_correction, output_digest, run_with_corrections
+    from meshforge.project.run_report import add_standings, build_run_report, summarize_outputs
+    from meshforge.project.sign_off_text import format_review, format_share, format_standing, format_status
     from meshforge.project.sign_offs import AssessmentBasis, digest_lesson, keep_assessment
     from meshforge.project.status import AssetStatus, Status
 else:
@@ -33,7 +35,13 @@ __all__ = [
     "Project",
     "ProjectReview",
     "Status",
+    "add_standings",
+    "build_run_report",
     "digest_lesson",
+    "format_review",
+    "format_share",
+    "format_standing",
+    "format_status",
     "keep_assessment",
     "make_correction",
     "measure_results",
@@ -42,4 +50,5 @@ __all__ = [
     "sees_whole_family",
     "select_assets",
     "suggest_first_demonstration",
+    "summarize_outputs",
 ]

@@ -40,6 +40,7 @@ if TYPE_CHECKING:
     from meshforge.rendering.labeling.series import draw_labeling_pictures, hull_numbers
     from meshforge.rendering.picture import render, up_axis
     from meshforge.rendering.scene import RenderMesh, to_render_mesh
+    from meshforge.rendering.turntable import draw_turn, encode_gif, list_turns, write_gif
 else:
     __getattr__ = export_lazily(__name__)
 
@@ -63,18 +64,22 @@ __all__ = [
     "draw_difference",
     "draw_heat_map",
     "draw_labeling_pictures",
+    "draw_turn",
     "draw_volumes",
+    "encode_gif",
     "encode_png",
     "encode_webp",
     "hull_numbers",
     "label_color",
     "label_colors",
+    "list_turns",
     "make_contact_sheet",
     "render",
     "render_id_buffer",
     "render_thumbnail",
     "to_render_mesh",
     "up_axis",
+    "write_gif",
     "write_picture",
     "write_png",
 ]

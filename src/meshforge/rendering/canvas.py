@@ -191,15 +191,16 @@ def check_picture_path(path: Path) -> None:
 def write_picture(path: Path, image: Image) -> None:
     """Writes a picture as its suffix says. Raises UsageError for another suffix, and where it cannot be written."""
     check_picture_path(path)
-    _write(path, PICTURE_FORMATS[path.suffix.lower()](image))
+    write_file(path, PICTURE_FORMATS[path.suffix.lower()](image))
 
 
 def write_png(path: Path, image: Image) -> None:
     """Writes a picture as a PNG file. Raises UsageError where it cannot be written."""
-    _write(path, encode_png(image))
+    write_file(path, encode_png(image))
 
 
-def _write(path: Path, data: bytes) -> None:
+def write_file(path: Path, data: bytes) -> None:
+    """Writes an encoded picture. Raises UsageError where it cannot be written."""
     try:
         write_atomically(path, data)
     except OSError as error:

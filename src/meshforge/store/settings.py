@@ -8,6 +8,7 @@ import os
 import tomllib
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
+from functools import lru_cache
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
@@ -95,11 +96,17 @@ def read_settings(folder: Path) -> Settings:
     path = folder / SETTINGS
     text = _read_text(path)
     try:
-        return Settings.model_validate(tomllib.loads(text))
+        return _parse_settings(text)
     except tomllib.TOMLDecodeError as error:
         raise ProjectError(f"this is no TOML: {error}", where=str(path), remedy="Correct the file by hand.") from error
     except ValidationError as error:
         raise invalid_file(path, error, "Correct the file by hand.") from error
+
+
+@lru_cache(maxsize=8)
+def _parse_settings(text: str) -> Settings:
+    """The settings in a text; they are asked for several times for every asset. Raises as its two steps do."""
+    return Settings.model_validate(tomllib.loads(text))
 
 
 def write_settings(folder: Path, settings: Settings) -> None:

@@ -119,7 +119,7 @@ def test_what_was_held_back_is_shown_as_it_would_be(run: Run) -> None:
 
 
 def test_of_very_many_what_is_held_is_shown_though_it_came_last(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
-    for module in ("meshforge.batch", "meshforge.batch.outcome"):
+    for module in ("meshforge.batch.report.outcomes", "meshforge.batch.outcome"):
         monkeypatch.setattr(f"{module}.MOST_SHOWN", 1)
     run("review", "tables", "--sure", "1")
     run("apply", "tables", "--report", "r.html")

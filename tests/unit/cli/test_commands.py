@@ -147,6 +147,12 @@ def test_a_label_of_the_family_need_not_be_on_the_asset(run: Run) -> None:
     assert told.err == "0 of 3 hulls\nno hull here is labelled 'door'\n"
 
 
+def test_render_writes_a_turntable(run: Run) -> None:
+    assert run("render", "row.obj", "--turntable", "row.gif", "--size", "64x48").code == 0
+    with Image.open("row.gif") as turning:
+        assert (turning.size, turning.n_frames) == ((64, 48), 24)  # type: ignore[attr-defined]
+
+
 def test_render_writes_a_picture_of_the_size_asked_for(run: Run) -> None:
     assert run("render", "row.obj", "-o", "row.png", "--size", "300x200", "--views", "iso,top").code == 0
     with Image.open("row.png") as picture:
@@ -417,6 +423,9 @@ def test_apply_dry_run_writes_nothing(run: Run) -> None:
         (("info", "nope.obj"), "nope.obj"),
         (("render", "row.obj", "-o", "x.png", "--size", "big"), "--size big is not a size"),
         (("render", "row.obj", "-o", "x.png", "--views", "under"), "there is no view 'under'"),
+        (("render", "row.obj"), "nothing says what to write"),
+        (("render", "row.obj", "--turntable", "x.png"), "a turntable is a GIF"),
+        (("render", "row.obj", "--turntable", "x.gif", "-o", "x.png"), "--out does not go with --turntable"),
         (("select", "Geo(Is(leg), +W)", "row.obj"), "+W"),
         (("apply", "row.mf", "row.obj"), "--out DIR is missing"),
         (("status", "."), "this is no project"),

@@ -5,8 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import cast
 
-from meshforge.cli.review_text import format_review
-from meshforge.project import ProjectReview
+from meshforge.project import ProjectReview, format_review
 from meshforge.signoff import Assessment, AssetConfidence, Doubt
 from meshforge.signoff.assessment import NO_LOOK
 

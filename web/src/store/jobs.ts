@@ -1,6 +1,6 @@
 // Long work that a person starts: propagating labels, applying the program, checking, exporting.
 import { api } from "../server/api";
-import type { Job, JobRequest, Model } from "../wire";
+import type { DownloadJob, Job, JobRequest, Model } from "../wire";
 import { useProject } from "./project";
 import { isUpToDate } from "./reviews";
 import { reportError } from "./toasts";
@@ -78,6 +78,9 @@ export const askModel = (mode: Model["mode"], max_cost: number | null): Promise<
 
 export const exportTo = (folder: string, accepted_only: boolean): Promise<boolean> =>
   startJob({ kind: "export", folder, accepted_only });
+
+/** Has a file made for the browser to save; gives the id of the job. */
+export const makeFile = (request: Omit<DownloadJob, "kind">): Promise<string | null> => requestJob({ kind: "download", ...request });
 
 /** Why results cannot be checked, null where they can. */
 export function whyNotCheck(): string | null {

@@ -5,14 +5,14 @@ from __future__ import annotations
 import base64
 from collections import Counter, defaultdict
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from itertools import chain
 from typing import TYPE_CHECKING, Generic, Literal, TypeVar
 
 from meshforge.batch.execution import execute
 from meshforge.batch.jobs import AssetJob
 from meshforge.batch.outcome import MOST_SHOWN, RunSummary
-from meshforge.batch.workers import ExecutionOptions, WorkerFailure
+from meshforge.batch.workers import EXECUTION_DEFAULTS, ExecutionOptions, WorkerFailure
 from meshforge.checks import Examination, Finding, draw_examination
 from meshforge.formats import load
 from meshforge.language import RuleTrace
@@ -187,12 +187,14 @@ class TopItems(Generic[Item]):
         return chain.from_iterable(self._ranks[rank] for rank in sorted(self._ranks))
 
 
-def read_again(readers: Sequence[MeshReader | None]) -> list[SymbolicMesh | None]:
+def read_again(
+    readers: Sequence[MeshReader | None], execution: ExecutionOptions = EXECUTION_DEFAULTS
+) -> list[SymbolicMesh | None]:
     """The meshes, in their order, read in worker processes: one that crashes or hangs costs no more than itself.
 
-    None for what cannot be read any more, or has no reader.
+    None for what cannot be read any more, or has no reader. Raises StoppedError where `execution.stop` says so.
     """
-    found = execute(_try_read, [reader for reader in readers if reader], ExecutionOptions(timeout=READ_TIMEOUT))
+    found = execute(_try_read, [reader for reader in readers if reader], replace(execution, timeout=READ_TIMEOUT))
     meshes = [next(found) if reader else None for reader in readers]
     return [None if isinstance(mesh, WorkerFailure) else mesh for mesh in meshes]
 

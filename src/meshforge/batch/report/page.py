@@ -11,7 +11,9 @@ from importlib.resources import files
 from pathlib import Path
 from typing import Any, NamedTuple, get_args
 
+from meshforge.batch.execution import execute
 from meshforge.batch.report import contents
+from meshforge.batch.workers import IN_PROCESS, ExecutionOptions, WorkerFailure
 from meshforge.checks import Finding
 from meshforge.common import join_names, pluralize, write_atomically
 from meshforge.language import ACTIONS, OPERATORS, Program, Rule, explain, show, show_label
@@ -71,13 +73,14 @@ class ReportOptions:
 
     vocabulary: where it is about labels, those that hulls can have; changes: whether with pictures of what became of
     each hull, by its name; pictured: how many assets get pictures, demonstrated and failed ones first; progress: called
-    for each asset.
+    for each asset; execution: where pictures are drawn, by default here, one after the other.
     """
 
     vocabulary: Sequence[str] = ()
     changes: bool = True
     pictured: int = MOST_PICTURED
     progress: Callable[[], None] | None = None
+    execution: ExecutionOptions = IN_PROCESS
 
 
 REPORT_DEFAULTS = ReportOptions()
@@ -95,6 +98,7 @@ def write_report(
 
     Of a project, assets that are held or failed come first, the least sure before others. Elsewhere those that failed
     come first, then those with findings, where assets were checked. The page refers to no other file.
+    Raises StoppedError where `options.execution.stop` says so.
     """
     if any(asset.standing for asset in assets):
         assets = sorted(assets, key=lambda asset: asset.rank)
@@ -108,8 +112,12 @@ def write_report(
     order = sorted(range(len(assets)), key=lambda k: not (assets[k].demonstrated or assets[k].is_held))
     chosen = frozenset(order[: options.pictured])
     cards: list[tuple[contents.ReportAsset, contents.AssetPictures | None]] = []
+    drawing = execute(
+        partial(contents.draw_asset, options=pictures), [assets[k] for k in sorted(chosen)], options.execution
+    )
     for k, asset in enumerate(assets):
-        cards.append((asset, contents.draw_asset(asset, pictures) if k in chosen else None))
+        made = next(drawing) if k in chosen else None
+        cards.append((asset, None if isinstance(made, WorkerFailure) else made))
         if options.progress:
             options.progress()
     drawn = [shown for _, shown in cards if shown]

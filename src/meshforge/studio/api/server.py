@@ -24,7 +24,7 @@ from starlette.staticfiles import StaticFiles
 from starlette.types import ASGIApp, Scope
 
 from meshforge.common import MeshForgeError, UsageError, describe_invalid_field
-from meshforge.studio.api import connection, routes, start
+from meshforge.studio.api import connection, downloads, routes, start
 from meshforge.studio.api.connection import Guard
 from meshforge.studio.errors import problem_of, status_of
 from meshforge.studio.host import Host
@@ -121,7 +121,7 @@ def build_app(host: Host, token: str, page: Path) -> ASGIApp:
     """The web application of a studio. page: the folder of the built page. Raises MeshForgeError as `open_page`."""
     app = FastAPI(title="MeshForge studio", docs_url=None, redoc_url=None, openapi_url=None)
     app.state.host = host
-    for module in (routes, start, connection):
+    for module in (routes, downloads, start, connection):
         app.include_router(module.router)
     app.mount("/", open_page(page))
     app.add_exception_handler(MeshForgeError, _handle_error)

@@ -14,6 +14,7 @@ from meshforge.batch import STATE, stamp_path
 from meshforge.common import UsageError, relative_name
 from meshforge.labels import OfferCache
 from meshforge.project import Project
+from meshforge.studio.downloads import Downloads
 from meshforge.studio.edits.base import LEARNED_BEFORE, LEARNED_FILE, PREVIOUS_FILE, PROGRAM_FILE, Edit
 from meshforge.studio.edits.program import TakeLearned
 from meshforge.studio.errors import NotHereError
@@ -69,7 +70,7 @@ class Session:
         self.jobs = JobRunner(self.pages.set_job)
         self.thumbnails = Thumbnails(own / "thumbnails", self._drawers)
         self.checks = OutputChecks(own / "checks", self._checkers)
-        self.uploads = Uploads(own / "uploads")
+        self.uploads, self.downloads = Uploads(own / "uploads"), Downloads(own / "downloads")
         # the queue's thread must see the project that is open when it works, not the first one
         self.refresh_queue = Refresher(lambda: self.project, self.pages, self.checks, self.label_changes).queue
         self.learning = LearningScheduler(
@@ -103,6 +104,7 @@ class Session:
         self._drawers.close()
         self._checkers.close()
         self.hub.close()
+        self.downloads.clear()
 
     # Reading
 

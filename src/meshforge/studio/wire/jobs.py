@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from typing import Literal
+from typing import Annotated, Literal
+
+from pydantic import Field
 
 from meshforge.studio.wire import Wire
 
-JobKind = Literal["read", "apply", "decompose", "export", "add", "propagate", "forecast", "ask", "check"]
+JobKind = Literal["read", "apply", "decompose", "export", "add", "propagate", "forecast", "ask", "check", "download"]
 
 VlmMode = Literal["cheap", "balanced", "exact"]
 """How many pictures and questions a model gets for each hull."""
@@ -25,7 +27,7 @@ class JobLine(Wire):
 class Job(Wire):
     """Work that takes long. lines: what became of assets, those that failed first, at most 200.
 
-    message: its result in a sentence; out: the folder that was written.
+    message: its result in a sentence; out: the folder that was written, or of a download the name of the file.
     """
 
     id: str
@@ -89,7 +91,18 @@ class CheckJob(Wire):
     kind: Literal["check"] = "check"
 
 
-JobRequest = ApplyJob | DecomposeJob | ExportJob | PropagateJob | ForecastJob | AskJob | CheckJob
+class DownloadJob(Wire):
+    """Make a file that the browser fetches then. what: a zip of outputs, the report, or a GIF in which assets turn,
+    before and after; accepted_only: of the zip; asset: the one that turns, null for the first `count` with outputs."""
+
+    kind: Literal["download"] = "download"
+    what: Literal["results", "report", "turntable"]
+    accepted_only: bool = True
+    asset: str | None = None
+    count: Annotated[int, Field(ge=1, le=12)] = 4
+
+
+JobRequest = ApplyJob | DecomposeJob | ExportJob | PropagateJob | ForecastJob | AskJob | CheckJob | DownloadJob
 
 
 class AssetLabelUpdate(Wire):

@@ -49,6 +49,18 @@ class JobCancel(Wire):
     id: str
 
 
+class DownloadRequest(Wire):
+    """Fetch the file that a job has made."""
+
+    job: str
+
+
+class DownloadTicket(Wire):
+    """Where the file is, below the studio's own address: good once, and for a minute."""
+
+    address: str
+
+
 class UploadReceipt(Wire):
     """An upload is stored. names: of a template, as actions write it; or the paths of asset files."""
 

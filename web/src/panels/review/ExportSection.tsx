@@ -1,4 +1,4 @@
-// Copying outputs into a folder, and where they lie then.
+// Which outputs leave the project: by the browser, or copied into a folder, and where they lie then.
 import { Copy, FolderOutput } from "lucide-react";
 import { useState } from "react";
 import { exportTo, useJob } from "../../store/jobs";
@@ -10,6 +10,7 @@ import { Button, IconButton } from "../../ui/Button";
 import { Choice } from "../../ui/fields";
 import { Note, Section } from "../../ui/Section";
 import type { Job } from "../../wire";
+import { DownloadSection } from "./DownloadSection";
 import { JobLines, JobProgress } from "./JobProgress";
 import css from "./review.module.css";
 
@@ -18,17 +19,20 @@ type What = "accepted" | "all";
 export function ExportSection() {
   const job = useJob("export");
   const running = job?.state === "running";
+  const [what, setWhat] = useState<What>("accepted");
   return (
     <>
-      <Section title="Export">{running ? <JobProgress job={job} unit="asset" /> : <Form />}</Section>
+      <Section title="Export">
+        {running ? <JobProgress job={job} unit="asset" /> : <Form what={what} setWhat={setWhat} />}
+      </Section>
       {job && !running && <Outcome job={job} />}
+      <DownloadSection acceptedOnly={what === "accepted"} />
     </>
   );
 }
 
-function Form() {
+function Form({ what, setWhat }: { what: What; setWhat: (what: What) => void }) {
   const [folder, setFolder] = useState("export");
-  const [what, setWhat] = useState<What>("accepted");
   const project = useProject((state) => state.project.folder);
   const counts = {
     accepted: useProject((state) => countExportable(Object.values(state.cards), true)),

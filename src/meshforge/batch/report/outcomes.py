@@ -1,0 +1,91 @@
+"""Which outcomes of a run its report shows, and the meshes before and after of each."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from dataclasses import replace
+from functools import partial
+from pathlib import Path
+
+from meshforge.batch.engine_trial import examine_file
+from meshforge.batch.execution import execute
+from meshforge.batch.outcome import MOST_SHOWN, AssetOutcome, Failed, RunSummary, status_of
+from meshforge.batch.provenance import read_stamp
+from meshforge.batch.report.contents import READ_TIMEOUT, MeshReader, ReportAsset, read_again
+from meshforge.batch.workers import EXECUTION_DEFAULTS, ExecutionOptions, WorkerFailure
+from meshforge.checks import CheckOptions, Examination
+from meshforge.formats import load
+from meshforge.language import Program, RuleTrace, to_canonical_frame
+from meshforge.symbolic import SymbolicMesh
+
+
+def choose_outcomes(
+    out: Path, summary: RunSummary, held: Sequence[AssetOutcome] = (), doubted: Sequence[str] = ()
+) -> list[AssetOutcome]:
+    """Those that a report shows; of too many failed ones, then those in doubt or with alarms, then the first others.
+
+    held: what would have become of those that were held back; alarms are looked for among these, too. doubted: ids.
+    """
+    known = {outcome.asset: outcome for outcome in (*held, *summary.outcomes_to_show)}
+    summary.measures |= {one.asset: one.measures for one in held if not isinstance(one, Failed) and one.measures}
+    odd = [*doubted, *summary.find_alarms()]
+    for name in odd[:MOST_SHOWN]:
+        stamp = None if name in known else read_stamp(out, name)
+        if stamp and stamp.is_whole(out):
+            known[name] = stamp.to_skipped(out)
+    order = dict.fromkeys([*(failed.asset for failed in summary.failed), *odd, *known])
+    chosen = set([name for name in order if name in known][:MOST_SHOWN])
+    return [outcome for name, outcome in known.items() if name in chosen]
+
+
+def compare_outcomes(
+    outcomes: Sequence[AssetOutcome],
+    program: Program,
+    readers: Sequence[MeshReader],
+    demonstrated: Collection[str] = (),
+    measures: CheckOptions | None = None,
+    alarms: Mapping[str, tuple[str, ...]] | None = None,
+    execution: ExecutionOptions = EXECUTION_DEFAULTS,
+) -> Iterator[ReportAsset]:
+    """Each asset before and after, standing upright where the program orients it; readers: of the assets before.
+
+    measures: what is measured of it after; such assets are shown as they lie, for what they show was not turned.
+    alarms: sentences about results that stand out, by asset. Raises StoppedError where `execution.stop` says so.
+    """
+    made = [None if isinstance(outcome, Failed) else partial(load, outcome.out) for outcome in outcomes]
+    meshes = read_again([*readers, *made], execution)
+    pairs = list(zip(outcomes, meshes[: len(made)], meshes[len(made) :], strict=True))
+    todo = [
+        (Path(outcome.out), after, measures, before)
+        for outcome, before, after in pairs
+        if measures and before and after and not isinstance(outcome, Failed)
+    ]
+    found = execute(_examine, todo, replace(execution, timeout=READ_TIMEOUT))
+    for outcome, was, now in pairs:
+        name, is_shown = outcome.asset, outcome.asset in demonstrated
+        if isinstance(outcome, Failed) or was is None or now is None:
+            error = outcome.error if isinstance(outcome, Failed) else "it cannot be read any more"
+            yield ReportAsset(name, was, status="failed", error=error, demonstrated=is_shown)
+            continue
+        checked, notes = None, outcome.notes
+        if measures:
+            checked, problem = _split_checks(next(found))
+            notes = (*notes, *problem)
+        else:
+            was, pose = to_canonical_frame(was, program.orient, program.contact)
+            now = replace(now, hulls=tuple(hull.move(pose) for hull in now.hulls))
+        trace = tuple(RuleTrace(line.rule, line.selected, line.made, line.note) for line in outcome.rules)
+        told = (alarms or {}).get(name, ())
+        yield ReportAsset(name, was, now, trace, status_of(outcome), None, is_shown, notes, checked, told)
+
+
+def _split_checks(found: Examination | WorkerFailure) -> tuple[Examination | None, tuple[str, ...]]:
+    """What was measured, or why it was not."""
+    if isinstance(found, WorkerFailure):
+        return None, (f"the checks did not come to an end: {found.why}",)
+    return found, ()
+
+
+def _examine(work: tuple[Path, SymbolicMesh, CheckOptions, SymbolicMesh | None]) -> Examination:
+    """In a process of its own, since MuJoCo may crash."""
+    return examine_file(*work)

@@ -1,0 +1,24 @@
+"""Routes of files that the browser takes away."""
+
+from __future__ import annotations
+
+from fastapi import APIRouter
+from fastapi.responses import FileResponse
+
+from meshforge.studio.api.connection import CurrentSession
+from meshforge.studio.wire import requests
+
+router = APIRouter()
+
+
+@router.post("/api/download")
+def get_ticket(session: CurrentSession, request: requests.DownloadRequest) -> requests.DownloadTicket:
+    """An address that is good for one download of what a job has made."""
+    return requests.DownloadTicket(address=f"download/{session.downloads.give_ticket(request.job)}")
+
+
+@router.get("/download/{ticket}")
+def download(session: CurrentSession, ticket: str) -> FileResponse:
+    """The file itself, never shown as a page. The ticket takes the place of the token."""
+    path = session.downloads.redeem(ticket)
+    return FileResponse(path, filename=path.name, headers={"Cache-Control": "no-store"})

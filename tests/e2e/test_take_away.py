@@ -1,0 +1,74 @@
+"""What the browser saves from the Export panel, opened again: a zip of the results, the report, a turntable."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from zipfile import ZipFile
+
+import pytest
+import trimesh
+from PIL import Image
+from playwright.sync_api import Download
+
+from meshforge.formats import load
+from tests.e2e.hand import Hand, chromium, hand
+from tests.e2e.studio import opened
+from tests.e2e.walk import PAGE, address
+from tests.unit.project.tables import FIRST, SECOND, THIRD, applied
+
+
+def save(person: Hand, button: str, folder: Path) -> Path:
+    """Press a button by the keyboard, and keep what the browser saves for it."""
+    with person.page.expect_download() as found:
+        person.page.get_by_role("button", name=button).focus()
+        person.press("Enter")
+    saved: Download = found.value
+    assert "token" not in saved.url
+    path = folder / saved.suggested_filename
+    saved.save_as(path)
+    return path
+
+
+def test_results_report_and_turntable_are_saved_by_the_browser_and_can_be_opened(tmp_path: Path) -> None:
+    project = applied(tmp_path)
+    project.set_verdict([FIRST, SECOND], "accepted")
+    with opened(tmp_path, project.folder, "--page", str(PAGE)) as studio, chromium() as browser:
+        studio.settled()
+        person = hand(browser)
+        person.open(address(studio))
+        person.press("Alt+4")
+        person.click(person.page.get_by_role("radio", name="Export"))
+
+        zipped = save(person, "Download the results", tmp_path)
+        assert zipped.name == "tables-results.zip"
+        person.sees("2 of 3 results; not in it: 1 ")
+        with ZipFile(zipped) as archive:
+            archive.extractall(tmp_path / "results")
+        assert not (tmp_path / "results" / THIRD).exists()
+        for asset in (FIRST, SECOND):
+            loaded = trimesh.load_scene(tmp_path / "results" / asset).to_mesh()
+            output = load(project.layout.edited / asset)
+            assert len(loaded.faces) >= 12 * len(output.hulls) > 12
+            assert output.aabb and loaded.extents == pytest.approx(output.aabb.max - output.aabb.min)
+            assert (tmp_path / "results" / asset).read_bytes() == (project.layout.edited / asset).read_bytes()
+
+        report = save(person, "Download the report", tmp_path)
+        page = browser.new_page()
+        page.goto(report.as_uri())
+        shown = page.locator("body").inner_text()
+        assert all(asset in shown for asset in (FIRST, SECOND, THIRD))
+        assert page.locator("img").count() >= 6
+        page.close()
+
+        assert person.page.evaluate("document.activeElement.ariaLabel") == "Download the report", "the focus stays"
+        person.click(person.page.get_by_role("radio", name="Several"))
+        with Image.open(save(person, "Download the turntable", tmp_path)) as gif:
+            assert gif.n_frames > 12  # type: ignore[attr-defined]
+            gif.seek(0)
+            first = gif.convert("RGB").tobytes()
+            gif.seek(gif.n_frames // 3)  # type: ignore[attr-defined]
+            assert gif.convert("RGB").tobytes() != first
+        person.sees("3 assets, before and after.")
+        again = save(person, "Save again", tmp_path)
+        assert again.name == "tables-turntable.gif"
+        assert not person.complaints
