@@ -102,7 +102,7 @@ def _sees_what_is_held(person: Hand, studio: Studio) -> None:
 def _choose(person: Hand, studio: Studio, extractor: str) -> None:
     """Take the picture of what is meant, by its key."""
     question = _assessed(studio)["question"]
-    person.press("j", str([choice["text"] for choice in question["choices"]].index(extractor) + 1))
+    person.press("u", str([choice["text"] for choice in question["choices"]].index(extractor) + 1))
     studio.until(partial(_is_another, question["id"]))
 
 

@@ -99,7 +99,7 @@ export const questionCommands: readonly Command[] = [
     id: "question",
     title: "Go to the question: 1 to 9 choose, Y accept, N reject, L later, S show",
     group: "Learn",
-    keys: ["J"],
+    keys: ["U"],
     enabled: () => isAsked(useProject.getState()),
     run: goToCard,
   },
