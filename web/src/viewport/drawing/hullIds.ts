@@ -8,9 +8,8 @@ const VERTEX = /* glsl */ `
   flat out int number;
   void main() {
     vec4 state = texelFetch(states, place(), 0);
-    vec4 at = placed(state);
     number = int(owner + 0.5) + 1;
-    gl_Position = state.r < 0.5 ? at : projectionMatrix * at;
+    gl_Position = projected(state);
   }
 `;
 

@@ -37,10 +37,14 @@ export function shareUniforms(colors: ByteTable, states: ByteTable, ink: ThemeCo
   };
 }
 
+/** How much farther away each layer is drawn, of the whole depth from near to far: more than depths are rounded by. */
+const LAYER = 1e-5;
+
 /** Puts a vertex where its hull is, or out of sight; also used by lines and by the picture of places. */
 export const PLACE_VERTEX = /* glsl */ `
   in float owner;
   in vec3 away;
+  in float layer;
   uniform sampler2D colors;
   uniform sampler2D states;
   uniform float explode;
@@ -48,6 +52,12 @@ export const PLACE_VERTEX = /* glsl */ `
   vec4 placed(vec4 state) {
     if (state.r < 0.5) return vec4(0.0, 0.0, -2.0, 1.0);
     return modelViewMatrix * vec4(position + explode * away, 1.0);
+  }
+  vec4 projected(vec4 state) {
+    if (state.r < 0.5) return placed(state);
+    vec4 at = projectionMatrix * placed(state);
+    at.z += ${LAYER} * layer * at.w;
+    return at;
   }
 `;
 
@@ -84,8 +94,7 @@ const FACE_VERTEX = /* glsl */ `
     color = sRGBTransferOETF(vec4(mix(base.rgb, glow, share) * lit, base.a));
     stripe = color.rgb;
     if (base.a < 0.5) stripe = sRGBTransferOETF(vec4(mix(mix(base.rgb, vec3(1.0), 0.62), glow, share) * lit, 1.0)).rgb;
-    vec4 at = placed(state);
-    gl_Position = state.r < 0.5 ? at : projectionMatrix * at;
+    gl_Position = projected(state);
   }
 `;
 
