@@ -1,8 +1,10 @@
-// One state of the asset in three.js: its hulls with outlines, non-convex pieces, ghost, contact graph.
+// One state of the asset in three.js: its hulls with outlines and shadows, non-convex pieces, ghost, contact graph.
 import { Group, Scene as ThreeScene, Vector3 } from "three";
 import { boxAround, boxOf, matrixOf, type Point } from "../geometry/triangles";
 import type { Shape } from "../../server/packet";
 import type { Scene } from "../../store/scenes";
+import { AmbientOcclusion } from "./ambientOcclusion";
+import { GroundShadow } from "./groundShadow";
 import { type Appearance, hullLooks } from "./hullLooks";
 import { HullSet } from "./hullSet";
 import { dressed, outlineColors, type OutlineName } from "./outlines";
@@ -17,6 +19,8 @@ export class AssetDrawing {
   readonly turned = new Group();
   readonly hulls: HullSet;
   readonly opaque: Surfaces;
+  readonly occlusion: AmbientOcclusion;
+  readonly shadow: GroundShadow;
   private readonly outlines: Readonly<Record<Exclude<OutlineName, "made">, Strokes>>;
 
   constructor(
@@ -32,7 +36,9 @@ export class AssetDrawing {
     this.outlines = { lit: one("lit"), removed: one("removed"), selected: one("selected"), hover: one("hover") };
     const strokes = Object.values(this.outlines).map(({ object }) => object);
     this.turned.add(this.hulls.object, this.opaque.object, ...strokes);
-    this.root.add(this.turned);
+    this.occlusion = new AmbientOcclusion(this.hulls);
+    this.shadow = new GroundShadow(this.hulls);
+    this.root.add(this.turned, this.occlusion.object, this.shadow.object);
     this.root.updateMatrixWorld(true);
   }
 
@@ -74,6 +80,8 @@ export class AssetDrawing {
   dispose(): void {
     this.hulls.dispose();
     this.opaque.dispose();
+    this.occlusion.dispose();
+    this.shadow.dispose();
     for (const strokes of Object.values(this.outlines)) strokes.dispose();
   }
 }

@@ -31,7 +31,9 @@ export class Stage {
   /** What lies over the picture [px]. */
   covers: () => readonly Rect[] = () => [];
   private screenPixel = 1;
-  private readonly pace = new FrameRate(() => this.invalidate());
+  private readonly pace: FrameRate;
+  /** Whether there is time for shadows in this frame. */
+  hasTime = true;
   private wantsFit = false;
   /** The panes and their sizes as they were drawn last. */
   private layout = "";
@@ -44,7 +46,9 @@ export class Stage {
   constructor(
     public settings: Settings,
     private readonly smooth: boolean,
-  ) {}
+  ) {
+    this.pace = new FrameRate(() => this.invalidate(), !smooth);
+  }
 
   get shown(): AssetDrawing | null {
     return this.contents.shown;
@@ -63,6 +67,7 @@ export class Stage {
     this.invalidate();
     if (!isOther || !scene) return;
     this.pace.restart();
+    this.pace.settle(performance.now() / 1000);
     this.wantsFit = true;
     if (this.wanted?.asset !== scene.asset) this.wanted = null;
   }
@@ -142,6 +147,7 @@ export class Stage {
   draw(gl: WebGLRenderer, now: number): void {
     this.gl = gl;
     this.refine(gl, this.pace.begin(now));
+    this.hasTime = this.pace.hasTime(now);
     const panes = this.panes();
     this.view.resize(panes[0]?.width ?? this.width, this.height);
     const layout = `${panes.map(({ which, width }) => `${which} ${width}`)} ${this.height}`;
@@ -216,7 +222,20 @@ function drawPane(gl: WebGLRenderer, stage: Stage, pane: Pane): void {
   stage.contents.graph.measure(frame);
   stage.contents.cut.measure(frame);
   stage.contents.made?.measure(frame);
+  shade(gl, stage, side, pane.width, camera);
   gl.render(side.root, camera);
+}
+
+/** Shadows between hulls and on the ground; a wireframe has none. */
+function shade(gl: WebGLRenderer, stage: Stage, { occlusion, shadow }: AssetDrawing, width: number, camera: Camera): void {
+  const { settings: { explode, wireframe }, height, contents: { bounds, ink }, hasTime } = stage;
+  if (wireframe) {
+    occlusion.hide();
+    shadow.hide();
+    return;
+  }
+  occlusion.update(gl, camera, { width, height, explode, radius: stage.view.radius }, hasTime);
+  shadow.update(gl, bounds, explode, ink.dark, hasTime);
 }
 
 /** Edges from which on a scene is too much for thin lines where drawing is slow. */
