@@ -1,6 +1,6 @@
 // The question that is open: which hulls should a rule take? Pictures to choose from; 1, 2 and N are keys.
 import { Crosshair } from "lucide-react";
-import type { KeyboardEvent, ReactNode } from "react";
+import { type KeyboardEvent, type ReactNode, useMemo } from "react";
 import { answer, showQuestion } from "../../commands/learn";
 import { choiceText, differing } from "../../store/readings";
 import { listText, shareText, shortName } from "../../store/words";
@@ -21,7 +21,8 @@ interface QuestionCardProps {
 export function QuestionCard({ question, worth, later }: QuestionCardProps) {
   const { rule, asset, choices, harm } = question;
   const why = worth === undefined ? worthText(harm) : worth;
-  const picture = useRulePicture(asset, rule);
+  const telling = useMemo(() => differing(choices.map((choice) => choice.select)), [choices]);
+  const picture = useRulePicture(asset, rule, telling);
   return (
     <section className={css.card} aria-labelledby={`question-${question.id}`} onKeyDown={(event) => answerByKey(event, question)}>
       <h3 id={`question-${question.id}`}>

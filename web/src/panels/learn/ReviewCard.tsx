@@ -14,6 +14,7 @@ import { Swatch } from "../../ui/Section";
 import type { ReviewQuestionView } from "../../wire";
 import css from "./learn.module.css";
 import { QuestionCard } from "./Question";
+import { HullsPicture, useRulePicture } from "./RulePicture";
 
 export function ReviewCard() {
   const question = useOpenQuestion();
@@ -37,7 +38,7 @@ function PlainCard({ question }: { question: ReviewQuestionView }) {
       onBlur={() => setHighlight(null)}
     >
       <h3 id="asked">{question.text}</h3>
-      {question.hulls.length > 0 && <GroupPictures question={question} places={places} />}
+      {question.hulls.length > 0 && <GroupPictures question={question} assets={Object.keys(places)} />}
       {question.kind === "result" && <ResultPictures asset={question.asset} />}
       <Replies question={question} />
       {worth && <p className={css.dim}>{worth}</p>}
@@ -48,25 +49,32 @@ function PlainCard({ question }: { question: ReviewQuestionView }) {
 const MOST = 6;
 
 /** The assets of the hulls in question, with these highlighted. */
-function GroupPictures({ question, places }: { question: ReviewQuestionView; places: Readonly<Record<string, readonly number[]>> }) {
-  const assets = Object.keys(places);
+function GroupPictures({ question, assets }: { question: ReviewQuestionView; assets: readonly string[] }) {
   return (
     <ul className={css.group}>
       {assets.slice(0, MOST).map((asset) => {
         const names = question.hulls.filter((one) => one.asset === asset).map((one) => one.hull);
         return (
           <li key={asset}>
-            <button type="button" className={css.groupAsset} title={`${asset}: ${names.join(", ")}`} onClick={() => visit(asset, { kind: "source" }, names)}>
-              <Thumbnail asset={asset} of="source" highlight={places[asset]} label="" />
-              <span>
-                {shortName(asset)} <b>{names.length}</b>
-              </span>
-            </button>
+            <GroupAsset asset={asset} names={names} />
           </li>
         );
       })}
       {assets.length > MOST && <li className={css.dim}>and {countText(assets.length - MOST, "more asset")}</li>}
     </ul>
+  );
+}
+
+/** An asset from a side where the hulls in question are seen, or through what hides them. */
+function GroupAsset({ asset, names }: { asset: string; names: readonly string[] }) {
+  const picture = useRulePicture(asset, 1, names);
+  return (
+    <button type="button" className={css.groupAsset} title={`${asset}: ${names.join(", ")}`} onClick={() => visit(asset, { kind: "source" }, names)}>
+      <HullsPicture picture={picture} hulls={names} label="" />
+      <span>
+        {shortName(asset)} <b>{names.length}</b>
+      </span>
+    </button>
   );
 }
 

@@ -54,7 +54,7 @@ const POINT = /* glsl */ `
   }
 `;
 
-const SAMPLES = 12;
+const SAMPLES = 14;
 
 const FRAGMENT = /* glsl */ `
   ${POINT}
@@ -78,10 +78,10 @@ const FRAGMENT = /* glsl */ `
       vec3 away = pointAt(there, texture(depths, there).r) - here;
       float far = dot(away, away);
       float open = max(reach * reach - far, 0.0);
-      sum += open * open * open * max((dot(away, up) - 0.012 * reach) / (far + 1e-4 * reach * reach), 0.0);
+      sum += open * open * open * max((dot(away, up) - 0.02 * reach) / (far + 0.02 * reach * reach), 0.0);
     }
     float r6 = reach * reach * reach * reach * reach * reach;
-    gl_FragColor = vec4(vec3(max(0.0, 1.0 - sum * reach * 1.9 / (r6 * ${SAMPLES}.0))), 1.0);
+    gl_FragColor = vec4(vec3(max(0.0, 1.0 - sum * reach * 2.4 / (r6 * ${SAMPLES}.0))), 1.0);
   }
 `;
 
@@ -97,7 +97,7 @@ const BLUR_FRAGMENT = /* glsl */ `
     vec3 up = 2.0 * texture(normals, spot).xyz - 1.0;
     vec2 sum = vec2(0.0);
     for (int k = 0; k < 16; k++) {
-      vec2 there = spot + (vec2(k & 3, k >> 2) - 1.5) / size;
+      vec2 there = spot + (vec2(k & 3, k >> 2) - 1.0) / size;
       vec3 away = pointAt(there, texture(depths, there).r) - here;
       vec3 other = 2.0 * texture(normals, there).xyz - 1.0;
       float same = step(abs(dot(away, up)), 0.15 * reach) * step(0.8, dot(up, other));
