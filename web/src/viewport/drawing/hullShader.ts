@@ -37,14 +37,22 @@ export function shareUniforms(colors: ByteTable, states: ByteTable, ink: ThemeCo
   };
 }
 
-/** How much farther away each layer is drawn, of the whole depth from near to far: more than depths are rounded by. */
-const LAYER = 1e-5;
+/**
+ * How much farther away each layer is drawn, of half the depth from near to far, at one pixel of the drawing for one of
+ * the page. Vertices are moved to a grid in each pixel, so depths are wrong by a share of what a face rises in a pixel:
+ * graphics cards have 256 steps, software has 16. (An offset by slope, as OpenGL has it, would differ by triangle.)
+ */
+export const LAYER_STEP = { card: 2e-5, software: 1.6e-4 } as const;
+/** The step of all materials; `getCanvas` sets it. */
+export const layerStep: IUniform<number> = { value: LAYER_STEP.card };
 
 /** Puts a vertex where its hull is, or out of sight; also used by lines and by the picture of places. */
 export const PLACE_VERTEX = /* glsl */ `
   in float owner;
   in vec3 away;
   in float layer;
+  uniform float pixel;
+  uniform float layerStep;
   uniform sampler2D colors;
   uniform sampler2D states;
   uniform float explode;
@@ -56,7 +64,7 @@ export const PLACE_VERTEX = /* glsl */ `
   vec4 projected(vec4 state) {
     if (state.r < 0.5) return placed(state);
     vec4 at = projectionMatrix * placed(state);
-    at.z += ${LAYER} * layer * at.w;
+    at.z += layerStep / pixel * layer * at.w;
     return at;
   }
 `;
@@ -122,13 +130,16 @@ export function hullMaterial(common: SharedUniforms, opacity = 1): ShaderMateria
     transparent: opacity < 1,
     depthWrite: opacity === 1,
     side: FrontSide,
-    polygonOffset: true,
-    polygonOffsetFactor: 1,
-    polygonOffsetUnits: 1,
   });
 }
 
-export const placeUniforms = ({ colors, states, explode, pixel }: SharedUniforms) => ({ colors, states, explode, pixel });
+export const placeUniforms = ({ colors, states, explode, pixel }: SharedUniforms) => ({
+  colors,
+  states,
+  explode,
+  pixel,
+  layerStep,
+});
 
 const LINE_VERTEX = /* glsl */ `
   ${PLACE_VERTEX}
