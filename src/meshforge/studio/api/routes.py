@@ -125,9 +125,7 @@ def get_picture(
 ) -> Response:
     """An asset as it is before a rule of the present program; show: hulls that are to be seen in it."""
     program = present_program(session)
-    return packet_response(
-        assets.draw_rule_picture(session.project, asset, session.mesh(asset), rule, program, show)
-    )
+    return packet_response(assets.draw_rule_picture(session.project, asset, session.mesh(asset), rule, program, show))
 
 
 @router.get("/language")
