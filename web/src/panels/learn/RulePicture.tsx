@@ -36,7 +36,7 @@ export interface RulePictureView {
 }
 
 /** So many pixels of a picture are needed to see a hull in it. */
-const ENOUGH = 300;
+const ENOUGH = 100;
 
 const NO_HULLS: readonly string[] = [];
 
