@@ -27,8 +27,8 @@ def test_what_is_seen_from_the_usual_side_is_shown_from_there() -> None:
 
 @pytest.mark.parametrize("at", [(0, -1, 0), (0, 1, 0), (-1, 0, 0), (1, 0, 0), (0, 0, -1)])
 def test_what_a_wall_hides_is_shown_from_another_side(at: tuple[int, int, int]) -> None:
-    aside = np.array(at) * 0.8
-    wall = hull("wall", box((0, 0, 0), np.where(np.array(at) == 0, 3.0, 0.2)))
+    aside = [0.8 * part for part in at]
+    wall = hull("wall", box((0, 0, 0), [0.2 if part else 3.0 for part in at]))
     mesh = SymbolicMesh((wall, hull("button", box(aside, (0.4, 0.4, 0.4)))))
     picture = render_revealing(mesh, ["button"], size=SIZE)
     known = [render_thumbnail(mesh, size=SIZE, view="iso"), render_thumbnail(mesh, size=SIZE, view="iso", through=[1])]
