@@ -87,7 +87,7 @@ def test_a_thumbnail_is_drawn_once_and_kept_for_ever(studio: Studio) -> None:
 
 
 def test_a_picture_for_a_question_tells_the_names(studio: Studio) -> None:
-    answer = studio.get("/api/picture", asset=FIRST, rule=2)
+    answer = studio.get("/api/picture", asset=FIRST, rule=2, show="convex_00")
     length = int.from_bytes(answer.content[:4], "little")
     assert b'"names"' in answer.content[4 : 4 + length]
     assert answer.content[4 + length :].startswith(b"\x89PNG")

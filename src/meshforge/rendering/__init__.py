@@ -35,10 +35,16 @@ if TYPE_CHECKING:
         label_color,
         label_colors,
     )
-    from meshforge.rendering.id_buffer import count_visible_pixels, render_id_buffer, render_thumbnail
+    from meshforge.rendering.id_buffer import (
+        ThumbnailPixels,
+        count_visible_pixels,
+        render_id_buffer,
+        render_thumbnail,
+    )
     from meshforge.rendering.labeling.picture import LabelingPicture
     from meshforge.rendering.labeling.series import draw_labeling_pictures, hull_numbers
     from meshforge.rendering.picture import render, up_axis
+    from meshforge.rendering.reveal import render_revealing
     from meshforge.rendering.scene import RenderMesh, to_render_mesh
     from meshforge.rendering.turntable import draw_turn, encode_gif, list_turns, write_gif
 else:
@@ -53,6 +59,7 @@ __all__ = [
     "ColorBy",
     "LabelingPicture",
     "RenderMesh",
+    "ThumbnailPixels",
     "Up",
     "View",
     "check_picture_path",
@@ -76,6 +83,7 @@ __all__ = [
     "make_contact_sheet",
     "render",
     "render_id_buffer",
+    "render_revealing",
     "render_thumbnail",
     "to_render_mesh",
     "up_axis",

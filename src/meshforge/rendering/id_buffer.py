@@ -3,7 +3,7 @@ who shows them."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from typing import TypeVar
 
 import numpy as np
@@ -56,17 +56,22 @@ def count_visible_pixels(
 
 
 def render_thumbnail(
-    mesh: SymbolicMesh, pose: Pose | None = None, size: tuple[int, int] = (240, 180), view: View = "iso"
+    mesh: SymbolicMesh,
+    pose: Pose | None = None,
+    size: tuple[int, int] = (240, 180),
+    view: View = "iso",
+    through: Collection[int] = (),
 ) -> ThumbnailPixels:
     """Pixels (height, width, 4): red * 256 + green is the index of a hull plus one, 0 for what is no hull (background,
     opaque pieces); blue is the light there, alpha how much of the pixel is covered. Z points up.
 
-    pose: shown_T_incoming.
+    pose: shown_T_incoming. through: places of hulls that are seen through what lies before them: of each square of two
+    by two pixels, two show them.
     """
     shown = Pose.identity() if pose is None else pose
     opaque = [piece.surface for piece in mesh.asset.opaque if piece.surface] if mesh.asset else []
-    hulls = [_turn(one, shown) for one in render_meshes_of(mesh.hulls)]
-    others = [_turn(one, shown) for one in map(to_render_mesh, opaque) if len(one.faces)]
+    hulls = [turn_render_mesh(one, shown) for one in render_meshes_of(mesh.hulls)]
+    others = [turn_render_mesh(one, shown) for one in map(to_render_mesh, opaque) if len(one.faces)]
     points = points_to_frame(hulls, others)
     if not len(points):
         return np.zeros((size[1], size[0], 4), np.uint8)
@@ -74,10 +79,25 @@ def render_thumbnail(
     fine = 2 if size[0] * size[1] > _LARGE else 3
     close = aim_camera(view, "Z", size, frame.to_unit(points)).supersample(fine)
     hits = cast_layer(DrawLayer([*hulls, *others], np.zeros((0, 3))), frame, close)
-    return _encode(_fine_pixels(hits.item, fine), _fine_pixels(_measure_light(hits, frame, close), fine), len(hulls))
+    item, light = hits.item, _measure_light(hits, frame, close)
+    if through:
+        item, light = _look_through(item, light, sorted(through), hulls, frame, close, fine)
+    return _encode(_fine_pixels(item, fine), _fine_pixels(light, fine), len(hulls))
 
 
-def _turn(one: RenderMesh, pose: Pose) -> RenderMesh:
+def _look_through(
+    item: Ints, light: Floats32, places: list[int], hulls: list[RenderMesh], frame: ViewFrame, camera: Camera, fine: int
+) -> tuple[Ints, Floats32]:
+    """Items and light (h, w) with some hulls shown in every other pixel, as on a chessboard, where others hide them."""
+    behind = cast_layer(DrawLayer([hulls[k] for k in places], np.zeros((0, 3))), frame, camera)
+    rows, columns = np.indices(item.shape) // fine
+    shown = (behind.item >= 0) & ~np.isin(item, places) & ((rows + columns) % 2 == 0)
+    own = np.array([*places, -1])[behind.item]
+    return np.where(shown, own, item), np.where(shown, _measure_light(behind, frame, camera), light)
+
+
+def turn_render_mesh(one: RenderMesh, pose: Pose) -> RenderMesh:
+    """Triangles in another frame; pose: shown_T_incoming."""
     normals = None if one.normals is None else one.normals @ pose.rotation.T
     return RenderMesh(pose.apply(one.vertices), one.faces, normals)
 

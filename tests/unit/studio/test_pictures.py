@@ -53,6 +53,18 @@ def test_a_picture_for_a_question_shows_the_asset_as_the_rule_meets_it(project: 
     assert np.array_equal(pixels, render_thumbnail(seen, size=(720, 540)))
 
 
+def test_a_picture_for_a_question_shows_the_hulls_that_tell_its_choices_apart(project: Project) -> None:
+    mesh, program = project.mesh(TABLE), project.program()
+    seen = project.mesh_before_rule(TABLE, 2, program) if program else mesh
+    usual = render_thumbnail(seen)
+    hidden = [name for name, place in seen.index.items() if (usual[..., 1] == 1 + place).sum() < 8]
+    assert hidden
+    for name in hidden[:3]:
+        packet = assets.draw_rule_picture(project, TABLE, mesh, 2, program, [name])
+        pixels = of_png(packet[4 + int.from_bytes(packet[:4], "little") :])
+        assert (pixels[..., 1] == 1 + seen.index[name]).sum() > 60, name
+
+
 def test_without_a_program_the_picture_shows_the_asset_as_it_is_turned(project: Project, tmp_path: Path) -> None:
     fresh = demo_project(tmp_path)
     mesh, program = project.mesh(TABLE), project.program()

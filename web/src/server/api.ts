@@ -44,7 +44,8 @@ export const api = {
   generalise: (extractor: string, rule: number, stop?: AbortSignal) =>
     postJson<CoverageView>("api/generalise", { extractor, rule }, stop),
   guesses: (asset: string) => getJson<Guesses>("api/guesses", { asset }),
-  picture: async (asset: string, rule: number) => readPicture(await getBytes("api/picture", { asset, rule })),
+  picture: async (asset: string, rule: number, show: readonly string[]) =>
+    readPicture(await getBytes("api/picture", { asset, rule, show })),
   thumbnail: (asset: string, of: "source" | "output", version: string) =>
     withQuery("api/thumbnail", { asset, of, v: version }),
   checked: (asset: string, part: CheckResult["part"], stop: AbortSignal) =>

@@ -27,7 +27,7 @@ export async function getJson<T>(path: string, query: Record<string, string | nu
   return (await request(withQuery(path, query), { method: "GET", ...(stop ? { signal: stop } : {}) })).json() as Promise<T>;
 }
 
-export async function getBytes(path: string, query: Record<string, string | number> = {}): Promise<ArrayBuffer> {
+export async function getBytes(path: string, query: Query = {}): Promise<ArrayBuffer> {
   return (await request(withQuery(path, query), { method: "GET" })).arrayBuffer();
 }
 
@@ -52,13 +52,13 @@ function postInit(body: unknown, stop?: AbortSignal): RequestInit {
   return { ...init, body: JSON.stringify(body), ...(stop ? { signal: stop } : {}) };
 }
 
-export function withQuery(path: string, query: Record<string, string | number>): string {
-  const words = new URLSearchParams(toStrings(query)).toString();
-  return words ? `${path}?${words}` : path;
-}
+/** Of several values each is given by the same name. */
+type Query = Readonly<Record<string, string | number | readonly string[]>>;
 
-function toStrings(query: Record<string, string | number>): Record<string, string> {
-  return Object.fromEntries(Object.entries(query).map(([key, value]) => [key, String(value)]));
+export function withQuery(path: string, query: Query): string {
+  const pairs = Object.entries(query).flatMap(([key, value]) => [value].flat().map((one) => [key, String(one)]));
+  const words = new URLSearchParams(pairs).toString();
+  return words ? `${path}?${words}` : path;
 }
 
 async function request(path: string, init: RequestInit): Promise<Response> {

@@ -3,6 +3,7 @@
 import { PerspectiveCamera, Scene, WebGLRenderer } from "three";
 import { Ground } from "./drawing/ground";
 import { HullSet } from "./drawing/hullSet";
+import { LAYER_STEP, layerStep } from "./drawing/hullShader";
 import { readThemeColors } from "./drawing/themeColors";
 import { Strokes } from "./drawing/strokes";
 
@@ -27,6 +28,7 @@ function createCanvas(): Canvas | null {
   const gl = new WebGLRenderer({ canvas: context.canvas as HTMLCanvasElement, context });
   // asking for them means to wait for each shader; what is wrong with one shows all the same
   gl.debug.checkShaderErrors = false;
+  layerStep.value = quick ? LAYER_STEP.card : LAYER_STEP.software;
   compileShaders(gl);
   return { gl, smooth: quick !== null };
 }

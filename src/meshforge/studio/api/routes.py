@@ -10,7 +10,7 @@ from concurrent.futures import Future
 from pathlib import Path
 from typing import Annotated, Literal, TypeVar
 
-from fastapi import APIRouter, Body, Request, Response
+from fastapi import APIRouter, Body, Query, Request, Response
 from starlette.concurrency import run_in_threadpool
 
 from meshforge.batch import ADDED
@@ -120,11 +120,12 @@ async def get_thumbnail(session: CurrentSession, asset: str, of: ThumbnailOf, v:
 
 
 @router.get("/picture")
-def get_picture(session: CurrentSession, asset: str, rule: int) -> Response:
-    """An asset as it is before a rule of the present program."""
-    return packet_response(
-        assets.draw_rule_picture(session.project, asset, session.mesh(asset), rule, present_program(session))
-    )
+def get_picture(
+    session: CurrentSession, asset: str, rule: int, show: Annotated[tuple[str, ...], Query()] = ()
+) -> Response:
+    """An asset as it is before a rule of the present program; show: hulls that are to be seen in it."""
+    program = present_program(session)
+    return packet_response(assets.draw_rule_picture(session.project, asset, session.mesh(asset), rule, program, show))
 
 
 @router.get("/language")

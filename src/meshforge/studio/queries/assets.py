@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable
 from dataclasses import dataclass
 
 import numpy as np
@@ -141,22 +141,29 @@ def draw_thumbnail(mesh: SymbolicMesh, pose: Pose | None = None, size: tuple[int
 
     pose: shown_T_incoming of `compute_upright`; for an output, that of the asset as it comes.
     """
+    return _to_png(rendering.render_thumbnail(mesh, pose, size))
+
+
+def _to_png(pixels: rendering.ThumbnailPixels) -> bytes:
     from PIL import Image  # lazy: 0.1 s, only drawing needs it
 
-    return rendering.encode_png(Image.fromarray(rendering.render_thumbnail(mesh, pose, size), "RGBA"))
+    return rendering.encode_png(Image.fromarray(pixels, "RGBA"))
 
 
-def draw_rule_picture(project: Project, asset: str, mesh: SymbolicMesh, rule: int, program: Program | None) -> bytes:
+def draw_rule_picture(
+    project: Project, asset: str, mesh: SymbolicMesh, rule: int, program: Program | None, show: Collection[str] = ()
+) -> bytes:
     """A packet of an asset before a rule: the names of the hulls in order, and a picture encoded as a thumbnail.
 
-    mesh: the asset as it comes; program: None for one without rules, which only turns the asset.
+    mesh: the asset as it comes; program: None for one without rules, which only turns the asset. show: names of hulls
+    that are to be seen in it, from whichever side that is, or through others.
     Raises MeshForgeError where the asset cannot be turned, or an action fails.
     """
     plan = program or Program(orient=project.orientation)
     seen = project.mesh_before_rule(asset, rule, plan, {asset: mesh})
     pose = Z_FROM_Y if is_y_up(mesh, plan.orient) else None
     header = json.dumps({"names": [hull.name for hull in seen.hulls]})
-    return frame_packet(header.encode(), draw_thumbnail(seen, pose, RULE_PICTURE_SIZE))
+    return frame_packet(header.encode(), _to_png(rendering.render_revealing(seen, show, pose, RULE_PICTURE_SIZE)))
 
 
 def picture_digest(geometry: str, labels: Iterable[Label | None], orient: str) -> str:

@@ -36,26 +36,32 @@ export interface RulePictureView {
 }
 
 /** So many pixels of a picture are needed to see a hull in it. */
-const ENOUGH = 300;
+const ENOUGH = 100;
 
-/** The picture; null while it comes, "failed" where there is none. */
-export function useRulePicture(asset: string, rule: number): RulePictureView | "failed" | null {
+const NO_HULLS: readonly string[] = [];
+
+/** The picture, in which some hulls can be seen if at all; null while it comes, "failed" where there is none. */
+export function useRulePicture(asset: string, rule: number, show: readonly string[] = NO_HULLS): RulePictureView | "failed" | null {
   const version = useProject((state) => `${state.outcome?.number ?? 0} ${state.shapeRevisions[asset] ?? 0}`);
-  const key = `${asset} ${rule} ${version}`;
+  const shown = show.slice(0, MOST_SHOWN).join("\n");
+  const key = `${asset} ${rule} ${version} ${shown}`;
   const [got, setGot] = useState<{ key: string; picture: RulePictureView | "failed" } | null>(null);
   useEffect(() => {
     let wanted = true;
     const take = (picture: RulePictureView | "failed") => wanted && setGot({ key, picture });
-    fetchView(asset, rule, version).then(take, () => take("failed"));
+    fetchView(asset, rule, version, shown ? shown.split("\n") : NO_HULLS).then(take, () => take("failed"));
     return () => {
       wanted = false;
     };
-  }, [asset, rule, version, key]);
+  }, [asset, rule, version, shown, key]);
   return got?.key === key ? got.picture : null;
 }
 
-async function fetchView(asset: string, rule: number, version: string): Promise<RulePictureView> {
-  const { names, png } = await rulePicture(asset, rule, version);
+/** An address holds no more names. */
+const MOST_SHOWN = 60;
+
+async function fetchView(asset: string, rule: number, version: string, show: readonly string[]): Promise<RulePictureView> {
+  const { names, png } = await rulePicture(asset, rule, version, show);
   const { ids } = await decodePicture(png);
   const pixels = new Uint32Array(names.length + 1);
   for (const id of ids) pixels[id] = (pixels[id] ?? 0) + 1;
@@ -71,11 +77,11 @@ const MOST = 24;
 const kept = new Map<string, Promise<RulePicture>>();
 
 /** The asset as a rule (from 1) meets it; version: of what is shown, so that another one is fetched anew. */
-function rulePicture(asset: string, rule: number, version: string): Promise<RulePicture> {
-  const key = [asset, rule, version].join("\n");
+function rulePicture(asset: string, rule: number, version: string, show: readonly string[]): Promise<RulePicture> {
+  const key = [asset, rule, version, ...show].join("\n");
   const known = kept.get(key);
   if (known) return known;
-  const fresh = api.picture(asset, rule);
+  const fresh = api.picture(asset, rule, show);
   kept.set(key, fresh);
   fresh.catch(() => kept.delete(key));
   if (kept.size > MOST) kept.delete(kept.keys().next().value ?? "");

@@ -8,10 +8,14 @@ import { visit } from "../../store/workspace";
 import { Name } from "../../ui/Name";
 import { Swatch } from "../../ui/Section";
 import type { ReviewQuestionView } from "../../wire";
+import { HullsPicture, useRulePicture } from "../learn/RulePicture";
 import css from "./questions.module.css";
 
 /** Assets whose pictures are drawn; the others are told in words. */
 const MOST = 60;
+
+/** Of so few, each is drawn from a side where the hulls are seen. */
+const FEW = 12;
 
 interface GroupHullsProps {
   question: ReviewQuestionView;
@@ -41,7 +45,11 @@ export function GroupHulls({ question, exceptions, onChange }: GroupHullsProps) 
               aria-label={`Open ${asset} with ${listText(names)} selected`}
               onClick={() => visit(asset, { kind: "source" }, names)}
             >
-              <Thumbnail asset={asset} of="source" highlight={places[asset]} label="" />
+              {assets.length > FEW ? (
+                <Thumbnail asset={asset} of="source" highlight={places[asset]} label="" />
+              ) : (
+                <InSight asset={asset} names={names} />
+              )}
             </button>
             <span className={css.where} title={asset}>
               <Name text={asset} parts={commonPartsOf(order)(asset)} />
@@ -59,6 +67,11 @@ export function GroupHulls({ question, exceptions, onChange }: GroupHullsProps) 
       {assets.length > MOST && <li className={css.dim}>and {countText(assets.length - MOST, "more asset")}</li>}
     </ul>
   );
+}
+
+/** An asset from a side where the hulls in question are seen, or through what hides them. */
+function InSight({ asset, names }: { asset: string; names: readonly string[] }) {
+  return <HullsPicture picture={useRulePicture(asset, 1, names)} hulls={names} label="" />;
 }
 
 function Label({ name }: { name: string | null }) {

@@ -1,4 +1,5 @@
 // The question which hulls a rule should take: pictures to choose from.
+import { useMemo } from "react";
 import { answer, showQuestion } from "../../commands/learn";
 import { putOff } from "../../commands/question";
 import { worthText } from "../../store/assessment";
@@ -22,7 +23,8 @@ interface ReadingsCardProps {
 export function ReadingsCard({ question, review, onLater }: ReadingsCardProps) {
   const { rule, asset, choices, harm } = question;
   const worth = review ? worthText(review) : `Without an answer ${shareText(harm)} would be edited wrongly.`;
-  const picture = useRulePicture(asset, rule);
+  const telling = useMemo(() => differing(choices.map((choice) => choice.select)), [choices]);
+  const picture = useRulePicture(asset, rule, telling);
   const later = review ? () => void putOff(review) : onLater;
   const reject = () => void answer(question, null);
   const show = () => showQuestion(question);

@@ -23,8 +23,8 @@ export function Repairs({ repairs }: { repairs: readonly RepairView[] }) {
 /** One label that is probably wrong: the hull, what it is labelled, and what it looks like. */
 function RepairCard({ repair }: { repair: RepairView }) {
   const { asset, hull, was, to, belief, why } = repair;
-  const picture = useRulePicture(asset, 1);
   const hulls = useMemo(() => [hull], [hull]);
+  const picture = useRulePicture(asset, 1, hulls);
   return (
     <article className={css.repair} aria-label={`${hull} of ${asset}`}>
       <div className={css.repairPicture}>

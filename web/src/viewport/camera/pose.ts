@@ -3,18 +3,22 @@ import type { StandardView } from "../../store/workspace";
 
 export type Vec = readonly [number, number, number];
 
-/** target: what is in the middle; azimuth, elevation: of the eye as seen from there; height: seen there [m]. */
+/**
+ * target: what one looks at; azimuth, elevation: of the eye as seen from there; height: of the picture there [m]; shift:
+ * where in the picture the target is, from its middle to the right and up, in heights of the picture.
+ */
 export interface Pose {
   readonly target: Vec;
   readonly azimuth: number;
   readonly elevation: number;
   readonly height: number;
+  readonly shift: readonly [number, number];
 }
 
 export const FIELD = (32 * Math.PI) / 180;
 const QUARTER = Math.PI / 2;
 
-export const START: Pose = { target: [0, 0, 0], azimuth: -0.95, elevation: 0.42, height: 2 };
+export const START: Pose = { target: [0, 0, 0], azimuth: -0.95, elevation: 0.42, height: 2, shift: [0, 0] };
 
 export const STANDARD: Readonly<Record<StandardView, { azimuth: number; elevation: number }>> = {
   front: { azimuth: -QUARTER, elevation: 0 },
@@ -49,7 +53,7 @@ export function pan(pose: Pose, right: number, up: number): Pose {
   return { ...pose, target };
 }
 
-/** Nearer by a factor below 1; what is under a point, given in heights from the middle, stays there. */
+/** Nearer by a factor below 1; what is under a point, given in heights from where the target is, stays there. */
 export function zoom(pose: Pose, factor: number, right: number, up: number, limits: readonly [number, number]): Pose {
   const height = Math.min(limits[1], Math.max(limits[0], pose.height * factor));
   const kept = pose.height - height;
@@ -63,22 +67,6 @@ export function lookFromSide(pose: Pose, side: StandardView): Pose {
   return { ...pose, ...STANDARD[side] };
 }
 
-const MARGIN = 1.12;
-
-/** Shows all of some points in a picture of that width over height, from the same side. */
-export function fit(pose: Pose, points: readonly Vec[], aspect: number, perspective: boolean): Pose {
-  const axes = axesOf(pose);
-  const rows = points.map((p) => [dot(p, axes.right), dot(p, axes.up), dot(p, axes.eye)] as const);
-  const [r, u, e] = [0, 1, 2].map((k) => midrange(rows.map((row) => row[k] ?? 0))) as [number, number, number];
-  const slope = Math.tan(FIELD / 2);
-  const heights = rows.map((row) => {
-    const half = Math.max(Math.abs(row[1] - u), Math.abs(row[0] - r) / aspect) * MARGIN;
-    return perspective ? 2 * (half + (row[2] - e) * slope) : 2 * half;
-  });
-  const target = plus(plus(plus([0, 0, 0], axes.right, r), axes.up, u), axes.eye, e);
-  return { ...pose, target, height: heights.reduce((most, height) => Math.max(most, height), 1e-6) };
-}
-
 /** Between two poses; the shorter way round. */
 export function interpolate(a: Pose, b: Pose, share: number): Pose {
   const turn = ((((b.azimuth - a.azimuth + Math.PI) % (2 * Math.PI)) + 2 * Math.PI) % (2 * Math.PI)) - Math.PI;
@@ -87,6 +75,7 @@ export function interpolate(a: Pose, b: Pose, share: number): Pose {
     azimuth: a.azimuth + turn * share,
     elevation: a.elevation + (b.elevation - a.elevation) * share,
     height: a.height * (b.height / a.height) ** share,
+    shift: [a.shift[0] + (b.shift[0] - a.shift[0]) * share, a.shift[1] + (b.shift[1] - a.shift[1]) * share],
   };
 }
 
@@ -97,9 +86,3 @@ export function cornersOf(box: readonly number[]): Vec[] {
 
 export const plus = (a: Vec, b: Vec, times: number): Vec => [a[0] + b[0] * times, a[1] + b[1] * times, a[2] + b[2] * times];
 export const dot = (a: Vec, b: Vec): number => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-
-/** Halfway between the lowest and the highest. */
-function midrange(values: readonly number[]): number {
-  const [low, high] = values.reduce(([a, b], value) => [Math.min(a, value), Math.max(b, value)], [Infinity, -Infinity]);
-  return (low + high) / 2;
-}

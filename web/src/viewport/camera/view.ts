@@ -2,11 +2,11 @@
 // rays.
 import { Matrix4, OrthographicCamera, PerspectiveCamera, Quaternion, Vector3 } from "three";
 import type { StandardView } from "../../store/workspace";
+import { fit, type Room, wholeRoom } from "./fit";
 import {
   axesOf,
   distanceOf,
   FIELD,
-  fit,
   interpolate,
   lookFromSide,
   orbit,
@@ -33,6 +33,8 @@ export class CameraView {
   /** The box around all there is, in the canonical frame. */
   bounds: readonly number[] = [-1, -1, -1, 1, 1, 1];
   explode = 0;
+  /** Whether all is shown as `fit` has placed it: the person did not come nearer or go elsewhere since. */
+  fitsAll = false;
   private glide: CameraMove | null = null;
   private readonly cameras = new Cameras();
   private placed: { key: string; camera: PerspectiveCamera | OrthographicCamera } | null = null;
@@ -60,15 +62,16 @@ export class CameraView {
     this.go(lookFromSide(this.pose, side), now);
   }
 
-  /** Shows all of some points; at once, or as a move that begins now. */
-  fit(points: readonly Vec[], now: number | null): void {
-    const pose = fit(this.pose, points, this.aspect, this.projection === "perspective");
+  /** Shows all of some points in a part of the picture; at once, or as a move that begins now. */
+  fit(points: readonly Vec[], now: number | null, room: Room = wholeRoom(this.aspect)): void {
+    const pose = fit(this.pose, points, room, this.projection === "perspective");
     if (now === null) this.jump(pose);
     else this.go(pose, now);
   }
 
   /** Moves to a pose, from now on. */
   glideTo(pose: Pose, now: number): void {
+    this.fitsAll = false;
     this.go(pose, now);
   }
 
@@ -87,12 +90,14 @@ export class CameraView {
   }
 
   pan(dx: number, dy: number): void {
+    this.fitsAll = false;
     this.jump(pan(this.pose, dx / this.height, -dy / this.height));
   }
 
   /** Nearer by a factor below 1, towards a pixel of the pane. */
   zoom(factor: number, x: number, y: number): void {
-    const [right, up] = [(x - this.width / 2) / this.height, (this.height / 2 - y) / this.height];
+    const [right, up] = [(x - this.width / 2) / this.height - this.pose.shift[0], (this.height / 2 - y) / this.height - this.pose.shift[1]];
+    this.fitsAll = false;
     this.jump(zoom(this.pose, factor, right, up, [this.radius * 2e-3, this.radius * 40]));
   }
 
@@ -149,8 +154,8 @@ class Cameras {
     camera.quaternion.copy(new Quaternion().setFromRotationMatrix(basis));
     camera.far = distance + reach;
     camera.near = Math.max(distance - reach, projection === "perspective" ? distance * 0.02 : 0);
-    if (camera instanceof PerspectiveCamera) camera.aspect = aspect;
-    else this.frame(pose.height, aspect);
+    if (camera instanceof OrthographicCamera) this.frame(pose.height, aspect);
+    camera.setViewOffset(aspect, 1, -pose.shift[0], pose.shift[1], aspect, 1);
     camera.updateProjectionMatrix();
     camera.updateMatrixWorld();
     return camera;

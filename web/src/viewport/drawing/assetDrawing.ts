@@ -1,21 +1,17 @@
-// One state of the asset in three.js: its hulls with outlines, non-convex pieces, ghost, contact graph.
+// One state of the asset in three.js: its hulls with outlines and shadows, non-convex pieces, ghost, contact graph.
 import { Group, Scene as ThreeScene, Vector3 } from "three";
 import { boxAround, boxOf, matrixOf, type Point } from "../geometry/triangles";
 import type { Shape } from "../../server/packet";
 import type { Scene } from "../../store/scenes";
+import { AmbientOcclusion } from "./ambientOcclusion";
+import { GroundShadow } from "./groundShadow";
 import { type Appearance, hullLooks } from "./hullLooks";
 import { HullSet } from "./hullSet";
-import { type Frame, Strokes, type StrokeStyle } from "./strokes";
+import { dressed, outlineColors, type OutlineName } from "./outlines";
+import { type Frame, type Strokes } from "./strokes";
 import { Surfaces } from "./surface";
 import type { ThemeColors } from "./themeColors";
 
-const OUTLINES = {
-  lit: { width: 1.6, behind: 0.25 },
-  selected: { width: 2.8, behind: 0.3 },
-  removed: { width: 2.2, dash: 5, behind: 0.4 },
-  hover: { width: 2, behind: 0.2 },
-} satisfies Record<string, StrokeStyle>;
-type Outline = keyof typeof OUTLINES;
 
 export class AssetDrawing {
   readonly root = new ThreeScene();
@@ -23,7 +19,9 @@ export class AssetDrawing {
   readonly turned = new Group();
   readonly hulls: HullSet;
   readonly opaque: Surfaces;
-  private readonly outlines: Readonly<Record<Outline, Strokes>>;
+  readonly occlusion: AmbientOcclusion;
+  readonly shadow: GroundShadow;
+  private readonly outlines: Readonly<Record<Exclude<OutlineName, "made">, Strokes>>;
 
   constructor(
     public scene: Scene,
@@ -34,10 +32,13 @@ export class AssetDrawing {
     this.turned.matrix.copy(matrixOf(scene.view.upright));
     this.hulls = new HullSet(scene.hulls, centre, ink);
     this.opaque = new Surfaces(scene.opaque, ink.unlabelled, 0.34);
-    this.outlines = mapValues(OUTLINES, (style, name) => new Strokes(inkOf(name, ink), style));
+    const one = (name: OutlineName) => dressed(name, ink);
+    this.outlines = { lit: one("lit"), removed: one("removed"), selected: one("selected"), hover: one("hover") };
     const strokes = Object.values(this.outlines).map(({ object }) => object);
     this.turned.add(this.hulls.object, this.opaque.object, ...strokes);
-    this.root.add(this.turned);
+    this.occlusion = new AmbientOcclusion(this.hulls);
+    this.shadow = new GroundShadow(this.hulls);
+    this.root.add(this.turned, this.occlusion.object, this.shadow.object);
     this.root.updateMatrixWorld(true);
   }
 
@@ -68,7 +69,7 @@ export class AssetDrawing {
   setInk(ink: ThemeColors): void {
     this.hulls.setInk(ink);
     this.opaque.recolor(ink.unlabelled);
-    for (const name of Object.keys(OUTLINES) as Outline[]) this.outlines[name].recolor(inkOf(name, ink));
+    for (const [name, strokes] of Object.entries(this.outlines)) strokes.recolor(...outlineColors(name as OutlineName, ink));
   }
 
   measure(frame: Frame): void {
@@ -79,15 +80,10 @@ export class AssetDrawing {
   dispose(): void {
     this.hulls.dispose();
     this.opaque.dispose();
+    this.occlusion.dispose();
+    this.shadow.dispose();
     for (const strokes of Object.values(this.outlines)) strokes.dispose();
   }
-}
-
-const inkOf = (name: Outline, ink: ThemeColors) => (name === "lit" ? ink.hover : ink[name]);
-
-function mapValues<K extends string, A, B>(record: Record<K, A>, made: (value: A, key: K) => B): Record<K, B> {
-  const entries = Object.entries(record) as [K, A][];
-  return Object.fromEntries(entries.map(([key, value]) => [key, made(value, key)])) as Record<K, B>;
 }
 
 /** The box around all hulls and non-convex pieces, in the frame of the file; null where there is nothing. */

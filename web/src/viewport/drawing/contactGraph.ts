@@ -56,7 +56,7 @@ export class ContactGraph {
 
   constructor(private ink: ThemeColors) {
     const one = (tone: "text" | "selected" | "warn", width: number, dash: number, opacity: number, strong: boolean) => ({
-      strokes: new Strokes(ink[tone], { width, dash, opacity, behind: 1 }, 4),
+      strokes: new Strokes(ink[tone], { width, dash, opacity, over: true }, 4),
       wants: (line: GraphLine) => line.strong === strong && line.touching === (dash === 0),
       tone,
     });

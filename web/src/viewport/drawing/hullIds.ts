@@ -1,16 +1,16 @@
 // A picture of which hull is seen in each pixel, drawn when a region is begun.
-import { type Camera, Color, Mesh, Scene, ShaderMaterial, type WebGLRenderer, WebGLRenderTarget } from "three";
+import { type Camera, Mesh, Scene, ShaderMaterial, type WebGLRenderer, WebGLRenderTarget } from "three";
 import type { HullSet } from "./hullSet";
 import { PLACE_VERTEX, placeUniforms } from "./hullShader";
+import { drawInto } from "./passes";
 
 const VERTEX = /* glsl */ `
   ${PLACE_VERTEX}
   flat out int number;
   void main() {
     vec4 state = texelFetch(states, place(), 0);
-    vec4 at = placed(state);
     number = int(owner + 0.5) + 1;
-    gl_Position = state.r < 0.5 ? at : projectionMatrix * at;
+    gl_Position = projected(state);
   }
 `;
 
@@ -48,15 +48,9 @@ export function drawHullIds(
 
 function renderIds(gl: WebGLRenderer, scene: Scene, camera: Camera, width: number, height: number): Uint8Array {
   const target = new WebGLRenderTarget(width, height);
-  const [color, alpha] = [gl.getClearColor(new Color()), gl.getClearAlpha()];
-  gl.setRenderTarget(target);
-  gl.setClearColor(0, 0);
-  gl.clear();
-  gl.render(scene, camera);
+  drawInto(gl, target, scene, camera);
   const bytes = new Uint8Array(4 * width * height);
   gl.readRenderTargetPixels(target, 0, 0, width, height, bytes);
-  gl.setRenderTarget(null);
-  gl.setClearColor(color, alpha);
   target.dispose();
   return bytes;
 }

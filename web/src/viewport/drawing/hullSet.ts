@@ -34,7 +34,7 @@ export class HullSet {
   private readonly wire = { value: 0 };
   private readonly sharp: number;
 
-  /** centre: what hulls move away from in the exploded view. */
+  /** centre: what hulls move away from in the exploded view; translucent hulls are in front of others with the same faces. */
   constructor(hulls: readonly { name: string; shape: Shape }[], centre: Point, ink: ThemeColors, opacity = 1) {
     this.names = hulls.map((hull) => hull.name);
     this.places = new Map(this.names.map((name, k) => [name, k]));
@@ -46,9 +46,11 @@ export class HullSet {
     this.colors = new ByteTable(hulls.length, true);
     this.states = new ByteTable(hulls.length, false);
     this.common = shareUniforms(this.colors, this.states, ink);
-    this.faceGeometry = faceGeometry(hulls.map((hull) => hull.shape), this.aways);
+    const front = opacity < 1;
+    const places = { aways: this.aways, layers: this.shapes.layers.map((layer) => (front ? 0 : layer + 1)) };
+    this.faceGeometry = faceGeometry(hulls.map((hull) => hull.shape), places);
     this.faces = new Mesh(this.faceGeometry, hullMaterial(this.common, opacity));
-    const lines = lineGeometry(this.edges, this.aways);
+    const lines = lineGeometry(this.edges, places);
     this.sharp = lines.sharp;
     this.lines = new LineSegments(lines.geometry, lineMaterial(this.common, this.wire));
     this.lines.renderOrder = 1;
@@ -131,8 +133,14 @@ const bytes = (color: Color): [number, number, number] => {
   return [hex >> 16, (hex >> 8) & 255, hex & 255];
 };
 
-/** Faces of all hulls; each vertex knows the place of its hull, and where that drifts in the exploded view. */
-function faceGeometry(shapes: readonly Shape[], aways: readonly Point[]): BufferGeometry {
+/** Of each hull, where it drifts in the exploded view, and its layer. */
+interface Places {
+  readonly aways: readonly Point[];
+  readonly layers: Float32Array;
+}
+
+/** Faces of all hulls; each vertex knows the place of its hull, where that drifts in the exploded view, and its layer. */
+function faceGeometry(shapes: readonly Shape[], places: Places): BufferGeometry {
   const parts = shapes.map(cachedFacets);
   const vertices = parts.reduce((sum, part) => sum + part.positions.length / 3, 0);
   const corners = parts.reduce((sum, part) => sum + part.index.length, 0);
@@ -147,7 +155,7 @@ function faceGeometry(shapes: readonly Shape[], aways: readonly Point[]): Buffer
     for (const at of part.index) index[corner++] = at + vertex;
     vertex += many;
   });
-  const out = geometryOf(positions, owner, aways);
+  const out = geometryOf(positions, owner, places);
   out.setAttribute("normal", new BufferAttribute(normals, 3));
   out.setIndex(new BufferAttribute(index, 1));
   return out;
@@ -162,7 +170,7 @@ function cachedFacets(shape: Shape): Facets {
 }
 
 /** Lines of all hulls; sharp: how many vertices those of the sharp edges have. */
-function lineGeometry(edges: readonly Edges[], aways: readonly Point[]): { geometry: BufferGeometry; sharp: number } {
+function lineGeometry(edges: readonly Edges[], places: Places): { geometry: BufferGeometry; sharp: number } {
   const total = edges.reduce((sum, { records }) => sum + records.length / EDGE, 0);
   const ends = new Float32Array(6 * total);
   const owner = new Float32Array(2 * total);
@@ -176,15 +184,16 @@ function lineGeometry(edges: readonly Edges[], aways: readonly Point[]): { geome
   edges.forEach(({ records, sharp }, k) => add(k, records, 0, sharp));
   const sharp = 2 * at;
   edges.forEach(({ records, sharp: first }, k) => add(k, records, first, records.length / EDGE));
-  return { geometry: geometryOf(ends, owner, aways), sharp };
+  return { geometry: geometryOf(ends, owner, places), sharp };
 }
 
-function geometryOf(positions: Float32Array, owner: Float32Array, aways: readonly Point[]): BufferGeometry {
+function geometryOf(positions: Float32Array, owner: Float32Array, { aways, layers }: Places): BufferGeometry {
   const away = new Float32Array(positions.length);
   for (let v = 0; v < owner.length; v++) away.set(aways[owner[v] ?? 0] ?? [0, 0, 0], 3 * v);
   const out = new BufferGeometry();
   out.setAttribute("position", new BufferAttribute(positions, 3));
   out.setAttribute("owner", new BufferAttribute(owner, 1));
   out.setAttribute("away", new BufferAttribute(away, 3));
+  out.setAttribute("layer", new BufferAttribute(owner.map((k) => layers[k] ?? 0), 1));
   return out;
 }

@@ -37,10 +37,22 @@ export function shareUniforms(colors: ByteTable, states: ByteTable, ink: ThemeCo
   };
 }
 
+/**
+ * How much farther away each layer is drawn, of half the depth from near to far, at one pixel of the drawing for one of
+ * the page. Vertices are moved to a grid in each pixel, so depths are wrong by a share of what a face rises in a pixel:
+ * graphics cards have 256 steps, software has 16. (An offset by slope, as OpenGL has it, would differ by triangle.)
+ */
+export const LAYER_STEP = { card: 2e-5, software: 1.6e-4 } as const;
+/** The step of all materials; `getCanvas` sets it. */
+export const layerStep: IUniform<number> = { value: LAYER_STEP.card };
+
 /** Puts a vertex where its hull is, or out of sight; also used by lines and by the picture of places. */
 export const PLACE_VERTEX = /* glsl */ `
   in float owner;
   in vec3 away;
+  in float layer;
+  uniform float pixel;
+  uniform float layerStep;
   uniform sampler2D colors;
   uniform sampler2D states;
   uniform float explode;
@@ -48,6 +60,12 @@ export const PLACE_VERTEX = /* glsl */ `
   vec4 placed(vec4 state) {
     if (state.r < 0.5) return vec4(0.0, 0.0, -2.0, 1.0);
     return modelViewMatrix * vec4(position + explode * away, 1.0);
+  }
+  vec4 projected(vec4 state) {
+    if (state.r < 0.5) return placed(state);
+    vec4 at = projectionMatrix * placed(state);
+    at.z += layerStep / pixel * layer * at.w;
+    return at;
   }
 `;
 
@@ -84,8 +102,7 @@ const FACE_VERTEX = /* glsl */ `
     color = sRGBTransferOETF(vec4(mix(base.rgb, glow, share) * lit, base.a));
     stripe = color.rgb;
     if (base.a < 0.5) stripe = sRGBTransferOETF(vec4(mix(mix(base.rgb, vec3(1.0), 0.62), glow, share) * lit, 1.0)).rgb;
-    vec4 at = placed(state);
-    gl_Position = state.r < 0.5 ? at : projectionMatrix * at;
+    gl_Position = projected(state);
   }
 `;
 
@@ -113,13 +130,16 @@ export function hullMaterial(common: SharedUniforms, opacity = 1): ShaderMateria
     transparent: opacity < 1,
     depthWrite: opacity === 1,
     side: FrontSide,
-    polygonOffset: true,
-    polygonOffsetFactor: 1,
-    polygonOffsetUnits: 1,
   });
 }
 
-export const placeUniforms = ({ colors, states, explode, pixel }: SharedUniforms) => ({ colors, states, explode, pixel });
+export const placeUniforms = ({ colors, states, explode, pixel }: SharedUniforms) => ({
+  colors,
+  states,
+  explode,
+  pixel,
+  layerStep,
+});
 
 const LINE_VERTEX = /* glsl */ `
   ${PLACE_VERTEX}

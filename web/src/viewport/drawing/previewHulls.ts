@@ -4,7 +4,8 @@ import type { EditedPacket } from "../../server/packet";
 import type { Point } from "../geometry/triangles";
 import { HullSet } from "./hullSet";
 import { ROLE } from "./hullShader";
-import { type Frame, Strokes } from "./strokes";
+import { dressed } from "./outlines";
+import { type Frame, type Strokes } from "./strokes";
 import type { ThemeColors } from "./themeColors";
 
 export class PreviewHulls {
@@ -21,7 +22,7 @@ export class PreviewHulls {
     this.hulls = new HullSet(rows, centre, ink, 0.42);
     const look = { color: ink.preview, hatched: false, visible: true, selected: 0, hover: 0, role: ROLE.plain };
     this.hulls.paint(() => look);
-    this.outlines = new Strokes(ink.preview, { width: 2.4, dash: 5, behind: 0.45 });
+    this.outlines = dressed("made", ink);
     this.outlines.set(this.hulls.outlines(this.hulls.names));
     this.object.add(this.hulls.object, this.outlines.object);
   }

@@ -1,4 +1,5 @@
-// Lines of a width in pixels, dashed where wanted: silhouettes of hulls as outlines, or lines between points.
+// Lines of a width in pixels, dashed and with a casing where wanted: silhouettes of hulls as outlines, or lines between
+// points.
 import {
   BufferAttribute,
   BufferGeometry,
@@ -23,9 +24,16 @@ export interface StrokeStyle {
   /** Length of a dash [px], 0 for none. */
   readonly dash?: number;
   readonly opacity?: number;
-  /** How strongly it shows through what is before it; 1: nothing covers it. */
+  /** How strongly it shows through what is before it. */
   readonly behind?: number;
+  /** Nothing covers it. */
+  readonly over?: boolean;
+  /** Width of the casing, a line below it in another colour [px]. */
+  readonly casing?: number;
 }
+
+/** Of the width of a line, what is left where it shows through what is before it. */
+const THINNER = 0.5;
 
 /** What strokes need to know of the picture: its size and pixels, where the eye is, how far hulls are apart. */
 export interface Frame {
@@ -38,26 +46,25 @@ export interface Frame {
 
 export class Strokes {
   readonly object = new Group();
-  private readonly uniforms;
-  private readonly materials: readonly ShaderMaterial[];
+  private readonly core: StrokeUniforms;
+  private readonly casing: StrokeUniforms | null;
   private geometry = new BufferGeometry();
   private buffer = new InterleavedBuffer(new Float32Array(0), CORNER);
   private outlines: readonly Outline[] = [];
   private written = "";
 
+  /** casing: its colour, if the style has one. */
   constructor(
     color: Color,
     private readonly style: StrokeStyle,
     order = 2,
+    casing?: Color,
   ) {
-    this.uniforms = strokeUniforms(color);
-    this.materials = materialsOf(style, this.uniforms);
-    for (const one of this.materials) {
-      const mesh = new Mesh(this.geometry, one);
-      mesh.frustumCulled = false;
-      mesh.renderOrder = order;
-      this.object.add(mesh);
-    }
+    this.core = strokeUniforms(color);
+    this.casing = casing && style.casing ? strokeUniforms(casing) : null;
+    // all casings first, so that they cover no line
+    if (this.casing) this.add(this.casing, order);
+    this.add(this.core, order + 0.5);
     this.object.visible = false;
   }
 
@@ -67,15 +74,19 @@ export class Strokes {
     this.written = "";
   }
 
-  recolor(color: Color): void {
-    this.uniforms.color.value = color;
+  recolor(color: Color, casing?: Color): void {
+    this.core.color.value = color;
+    if (this.casing && casing) this.casing.color.value = casing;
   }
 
   /** To be called before drawing. */
   measure({ width, height, pixel, explode, eye }: Frame): void {
-    this.uniforms.size.value.set(width * pixel, height * pixel);
-    this.uniforms.width.value = this.style.width * pixel;
-    this.uniforms.dash.value = (this.style.dash ?? 0) * pixel;
+    for (const uniforms of [this.core, this.casing]) {
+      if (!uniforms) continue;
+      uniforms.size.value.set(width * pixel, height * pixel);
+      uniforms.width.value = pixel * (uniforms === this.core ? this.style.width : (this.style.casing ?? 0));
+      uniforms.dash.value = pixel * (this.style.dash ?? 0);
+    }
     const key = `${eye.at} ${eye.parallel} ${explode}`;
     if (!this.outlines.length || key === this.written) return;
     this.written = key;
@@ -92,6 +103,15 @@ export class Strokes {
     this.geometry.dispose();
   }
 
+  private add(uniforms: StrokeUniforms, order: number): void {
+    for (const material of materialsOf(this.style, uniforms)) {
+      const mesh = new Mesh(this.geometry, material);
+      mesh.frustumCulled = false;
+      mesh.renderOrder = order;
+      this.object.add(mesh);
+    }
+  }
+
   private grow(numbers: number): void {
     this.geometry.dispose();
     this.geometry = new BufferGeometry();
@@ -105,8 +125,8 @@ export class Strokes {
   }
 }
 
-function materialsOf({ opacity = 1, behind = 0 }: StrokeStyle, uniforms: ReturnType<typeof strokeUniforms>) {
-  if (behind >= 1) return [strokeMaterial(uniforms, opacity, "over")];
+function materialsOf({ opacity = 1, behind = 0, over }: StrokeStyle, uniforms: StrokeUniforms): ShaderMaterial[] {
+  if (over) return [strokeMaterial(uniforms, opacity, "over")];
   const before = strokeMaterial(uniforms, opacity, "before");
   return behind > 0 ? [before, strokeMaterial(uniforms, behind, "behind")] : [before];
 }
@@ -148,6 +168,7 @@ const VERTEX = /* glsl */ `
   in float side;
   uniform vec2 size;
   uniform float width;
+  uniform float share;
   flat out float upright;
   // a little towards the eye, so that the faces beside it do not cover it
   vec4 nearer(vec3 p) {
@@ -164,7 +185,7 @@ const VERTEX = /* glsl */ `
     vec2 back = (here.xy / here.w - there.xy / there.w) * size;
     upright = abs(back.y) > abs(back.x) ? 1.0 : 0.0;
     back /= max(length(back), 1e-4);
-    vec2 shift = 0.5 * width * (back + side * vec2(-back.y, back.x));
+    vec2 shift = 0.5 * share * width * (back + side * vec2(-back.y, back.x));
     gl_Position = here + vec4(2.0 * shift / size * here.w, 0.0, 0.0);
   }
 `;
@@ -192,7 +213,7 @@ function strokeMaterial(
   return new ShaderMaterial({
     vertexShader: VERTEX,
     fragmentShader: FRAGMENT,
-    uniforms: { ...uniforms, opacity: { value: opacity } },
+    uniforms: { ...uniforms, opacity: { value: opacity }, share: { value: where === "behind" ? THINNER : 1 } },
     transparent: true,
     depthWrite: false,
     depthTest: where !== "over",

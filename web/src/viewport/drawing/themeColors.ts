@@ -4,7 +4,10 @@ import { Color } from "three";
 const NAMES = {
   accent: "--accent",
   selected: "--outline-selected",
-  hover: "--outline-hover",
+  ringDark: "--ring-dark",
+  ringLight: "--ring-light",
+  ringMade: "--ring-made",
+  ringRemoved: "--ring-removed",
   preview: "--preview",
   removed: "--removed",
   unlabelled: "--hull-unlabelled",

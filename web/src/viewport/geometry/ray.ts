@@ -13,7 +13,10 @@ interface RayHit {
   readonly distance: number;
 }
 
-/** The first shape on a ray among those that are in sight; aways, explode: how shapes are moved. */
+/** Faces that a ray meets nearer to each other than this share of the way lie in one plane. */
+const SAME = 1e-5;
+
+/** The first shape on a ray, of those with faces in one plane the one that is drawn in front, among those that are in sight; aways, explode: how shapes are moved. */
 export function castRay(
   shapes: MergedShapes,
   ray: Ray,
@@ -30,11 +33,18 @@ export function castRay(
       ray.from[1] - explode * away[1],
       ray.from[2] - explode * away[2],
     ];
-    if (!hitsBox(shapes.boxes, k, from, ray.along, best?.distance ?? Infinity)) continue;
+    const last = best?.distance ?? Infinity;
+    if (!hitsBox(shapes.boxes, k, from, ray.along, last * (1 + SAME))) continue;
     const distance = nearestFace(shapes, k, from, ray.along);
-    if (distance < (best?.distance ?? Infinity)) best = { place: k, distance };
+    if (isBefore(shapes.layers, k, distance, best)) best = { place: k, distance };
   }
   return best;
+}
+
+function isBefore(layers: Float32Array, place: number, distance: number, best: RayHit | null): boolean {
+  if (distance === Infinity) return false;
+  if (!best || distance < best.distance * (1 - SAME)) return true;
+  return distance <= best.distance * (1 + SAME) && (layers[place] ?? 0) < (layers[best.place] ?? 0);
 }
 
 const ZERO: Point = [0, 0, 0];

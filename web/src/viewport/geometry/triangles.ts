@@ -2,6 +2,7 @@
 import { Matrix4, Vector3 } from "three";
 import { cornersOf } from "../camera/pose";
 import type { Shape } from "../../server/packet";
+import { layersOf } from "./layers";
 
 export interface MergedShapes {
   readonly count: number;
@@ -14,6 +15,8 @@ export interface MergedShapes {
   readonly faces: Uint32Array;
   /** The lowest and the highest corner of each shape, six numbers. */
   readonly boxes: Float32Array;
+  /** Which of two shapes is in front where they share a face: the one in the lower layer. */
+  readonly layers: Float32Array;
 }
 
 export function mergeShapes(shapes: readonly Shape[]): MergedShapes {
@@ -26,6 +29,7 @@ export function mergeShapes(shapes: readonly Shape[]): MergedShapes {
     index: new Uint32Array(corners),
     faces: new Uint32Array(shapes.length + 1),
     boxes: new Float32Array(6 * shapes.length),
+    layers: new Float32Array(0),
   };
   let vertex = 0;
   let corner = 0;
@@ -38,7 +42,7 @@ export function mergeShapes(shapes: readonly Shape[]): MergedShapes {
     out.boxes.set(boxOf(shape.positions), 6 * k);
     vertex += many;
   });
-  return out;
+  return { ...out, layers: layersOf(out.boxes) };
 }
 
 /** The lowest and the highest corner of some points. */

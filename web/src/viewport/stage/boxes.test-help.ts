@@ -44,9 +44,10 @@ export function stageOf(scene: Scene | null): Stage {
   return stage;
 }
 
-/** A renderer; drawn: the viewports of what it drew, in order. */
+/** A renderer; drawn: the viewports of what it drew on the canvas, in order. */
 export function renderer(drawn: unknown[] = []): never {
   let viewport: number[] = [];
+  let target: unknown = null;
   return {
     getSize: (size: { set(x: number, y: number): unknown }) => size.set(0, 0),
     getPixelRatio: () => 1,
@@ -59,8 +60,8 @@ export function renderer(drawn: unknown[] = []): never {
     getClearColor: (color: unknown) => color,
     getClearAlpha: () => 1,
     setClearColor: () => undefined,
-    setRenderTarget: () => undefined,
+    setRenderTarget: (next: unknown) => (target = next),
     readRenderTargetPixels: () => undefined,
-    render: (scene: object) => drawn.push({ scene, viewport }),
+    render: (scene: object) => target ?? drawn.push({ scene, viewport }),
   } as never;
 }

@@ -76,3 +76,31 @@ it("tries another asset finely at first", () => {
   rate.restart();
   expect(turn(rate, 0.016, 3, 200).at(-1)).toBe(1);
 });
+
+describe("time for shadows", () => {
+  it("is there in every frame where drawing is fast", () => {
+    const rate = new FrameRate(() => undefined);
+    turn(rate, 0.016, 20);
+    expect(rate.hasTime(100.32)).toBe(true);
+  });
+
+  it("is there as soon as the camera rests where drawing is slow, which then asks for a frame", () => {
+    const rested = vi.fn();
+    const rate = new FrameRate(rested);
+    turn(rate, 0.1, 10);
+    expect(rate.hasTime(100.91)).toBe(false);
+    vi.advanceTimersByTime(200);
+    expect(rested).toHaveBeenCalledOnce();
+    expect(rate.hasTime(101.1)).toBe(true);
+  });
+
+  it("is not there in the first frame of another asset on a processor, but in the next", () => {
+    const rested = vi.fn();
+    const rate = new FrameRate(rested, true);
+    rate.settle(100);
+    expect(rate.hasTime(100.02)).toBe(false);
+    vi.advanceTimersByTime(200);
+    expect(rested).toHaveBeenCalledOnce();
+    expect(rate.hasTime(100.17)).toBe(true);
+  });
+});

@@ -3,6 +3,8 @@
 const SLOW = 0.04;
 const REST = 0.16;
 const PAUSE = 0.3;
+/** Timers are less exact than this. */
+const LATE = 0.01;
 const SHARE = 0.5;
 
 export class FrameRate {
@@ -13,15 +15,31 @@ export class FrameRate {
   private heavy = false;
   private timer: ReturnType<typeof setTimeout> | undefined;
 
-  /** rested: called when the camera has come to rest after it was drawn coarsely. */
-  constructor(private readonly rested: () => void) {}
+  private settles = -Infinity;
+
+  /** rested: called when it has come to rest after it was drawn coarsely; slow: whether drawing always is. */
+  constructor(
+    private readonly rested: () => void,
+    private readonly slow = false,
+  ) {}
 
   /** The camera is moved; now: [s]. */
   move(now: number): void {
     this.moved = now;
-    if (!this.heavy) return;
+    this.settle(now);
+  }
+
+  /** What is shown is another one: its first frame is to be quick; now: [s]. */
+  settle(now: number): void {
+    this.settles = now + REST;
+    if (!this.heavy && !this.slow) return;
     clearTimeout(this.timer);
-    this.timer = setTimeout(this.rested, 1000 * REST);
+    this.timer = setTimeout(this.rested, 1000 * (REST + LATE));
+  }
+
+  /** Whether there is time for shadows in a frame that begins now. */
+  hasTime(now: number): boolean {
+    return now >= this.settles || (!this.heavy && !this.slow);
   }
 
   /** Another asset may be drawn faster. */

@@ -130,6 +130,54 @@ describe("before and after", () => {
   });
 });
 
+describe("what is shown as a whole", () => {
+  const before = boxScene([left, right, box("high", [0, 0, 6])]);
+  const edited = boxScene([left, right], { edit: { made: [], removed: ["high"] } as never });
+  /** Where the corners of all hulls are seen, in a pane. */
+  const seen = (stage: ReturnType<typeof stageOf>) =>
+    stage.panes().flatMap((pane) => {
+      const { positions } = stage.sideOf(pane)?.hulls.shapes ?? { positions: [] };
+      return Array.from({ length: positions.length / 3 }, (_, k) => {
+        const { x, y } = stage.pixelOf([0, 1, 2].map((axis) => positions[3 * k + axis] ?? 0) as never, pane);
+        return [x - pane.x, y, pane.width] as const;
+      });
+    });
+  const isInside = ([x, y, width]: readonly [number, number, number]) => x >= 0 && x <= width && y >= 0 && y <= 300;
+
+  it.each(["side", "slider"] as const)("stays so with before and after in view (%s), each pane filled", (compare) => {
+    const stage = stageOf(edited);
+    stage.contents.compareWith(before);
+    stage.set(settings({ compare }));
+    stage.draw(renderer(), 1);
+    const spots = seen(stage);
+    expect(spots.every(isInside)).toBe(true);
+    const reach = (axis: 0 | 1) => Math.max(...spots.map((spot) => spot[axis])) - Math.min(...spots.map((spot) => spot[axis]));
+    expect(Math.max(reach(0) / (spots[0]?.[2] ?? 1), reach(1) / 300)).toBeGreaterThan(0.8);
+  });
+
+  it("stays as the person has placed it, once that was done", () => {
+    const stage = stageOf(edited);
+    stage.moveCamera((view) => view.zoom(0.3, 200, 150));
+    const { pose } = stage.view;
+    stage.contents.compareWith(before);
+    stage.set(settings({ compare: "slider" }));
+    stage.draw(renderer(), 1);
+    expect(stage.view.pose).toEqual(pose);
+  });
+
+  it("is beside what lies over the picture, in each pane", () => {
+    const stage = stageOf(null);
+    stage.covers = () => [{ left: 0, top: 0, right: 400, bottom: 60 }, { left: 330, top: 0, right: 400, bottom: 300 }];
+    stage.show(boxScene([left, right]));
+    stage.draw(renderer(), 1);
+    for (const [x, y] of seen(stage)) expect([x < 330, y > 60]).toEqual([true, true]);
+    stage.contents.compareWith(before);
+    stage.set(settings({ compare: "side" }));
+    stage.draw(renderer(), 2);
+    for (const [x, y] of seen(stage)) expect([x < 130, y > 60]).toEqual([true, true]);
+  });
+});
+
 describe("framing", () => {
   it("some hulls comes nearer than framing all", () => {
     const stage = stageOf(boxScene([left, right]));

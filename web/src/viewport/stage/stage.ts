@@ -1,5 +1,6 @@
 // The one mutable place where the picture lives; React and the stores change it, it draws.
 import { type Camera, Matrix4, OrthographicCamera, Vector2, Vector3, type WebGLRenderer } from "three";
+import { freeRoom, type Rect, type Room, shapeOf, wholeRoom } from "../camera/fit";
 import { CameraView } from "../camera/view";
 import { type AssetDrawing, pointsOf } from "../drawing/assetDrawing";
 import type { Gap } from "../drawing/contactGraph";
@@ -27,9 +28,15 @@ export class Stage {
   gl: WebGLRenderer | null = null;
   /** Asks for a frame. */
   invalidate: () => void = () => undefined;
+  /** What lies over the picture [px]. */
+  covers: () => readonly Rect[] = () => [];
   private screenPixel = 1;
-  private readonly pace = new FrameRate(() => this.invalidate());
+  private readonly pace: FrameRate;
+  /** Whether there is time for shadows in this frame. */
+  hasTime = true;
   private wantsFit = false;
+  /** The panes and their sizes as they were drawn last. */
+  private layout = "";
   /** Hulls to be looked at as soon as their asset is shown. */
   private wanted: { asset: string; names: ReadonlySet<string> } | null = null;
   private readonly drawnSize = new Vector2();
@@ -39,7 +46,9 @@ export class Stage {
   constructor(
     public settings: Settings,
     private readonly smooth: boolean,
-  ) {}
+  ) {
+    this.pace = new FrameRate(() => this.invalidate(), !smooth);
+  }
 
   get shown(): AssetDrawing | null {
     return this.contents.shown;
@@ -58,6 +67,7 @@ export class Stage {
     this.invalidate();
     if (!isOther || !scene) return;
     this.pace.restart();
+    this.pace.settle(performance.now() / 1000);
     this.wantsFit = true;
     if (this.wanted?.asset !== scene.asset) this.wanted = null;
   }
@@ -74,11 +84,23 @@ export class Stage {
     this.invalidate();
   }
 
-  /** Frames all, or some hulls; at once where `now` is null. */
+  /** Frames all, or some hulls, where nothing lies over the picture; at once where `now` is null. */
   frame(names: ReadonlySet<string> | null, now: number | null): void {
-    const points = this.shown ? pointsOf(this.shown, names?.size ? names : null, this.settings.explode) : [];
-    if (points.length) this.view.fit(points, now);
+    const some = names?.size ? names : null;
+    const sides = this.panes().flatMap((pane) => this.sideOf(pane) ?? []);
+    const points = [...new Set(sides)].flatMap((side) => pointsOf(side, some, this.settings.explode));
+    if (points.length) this.view.fit(points, now, this.room(points));
+    this.view.fitsAll = some === null;
     this.invalidate();
+  }
+
+  /** The part of a pane in which points are largest beside what lies over the picture, in all panes alike. */
+  private room(points: readonly Point[]): Room {
+    const panes = this.panes();
+    const width = panes[0]?.width ?? 0;
+    if (width === 0 || this.height === 0) return wholeRoom(this.view.aspect);
+    const covers = this.covers().flatMap((one) => panes.map(({ x }) => ({ ...one, left: one.left - x, right: one.right - x })));
+    return freeRoom(width, this.height, covers, shapeOf(this.view.pose, points));
   }
 
   /** Looks at some hulls of an asset, which may be on its way yet. */
@@ -125,9 +147,13 @@ export class Stage {
   draw(gl: WebGLRenderer, now: number): void {
     this.gl = gl;
     this.refine(gl, this.pace.begin(now));
+    this.hasTime = this.pace.hasTime(now);
     const panes = this.panes();
     this.view.resize(panes[0]?.width ?? this.width, this.height);
-    if (this.wantsFit && this.height > 0) {
+    const layout = `${panes.map(({ which, width }) => `${which} ${width}`)} ${this.height}`;
+    const changed = layout !== this.layout && this.view.fitsAll;
+    this.layout = layout;
+    if ((this.wantsFit || changed) && this.height > 0) {
       this.wantsFit = false;
       this.frame(null, null);
     }
@@ -153,7 +179,7 @@ export class Stage {
 
   private approach(now: number): void {
     if (!this.wanted || this.wanted.asset !== this.shown?.scene.asset || this.height === 0) return;
-    const pose = findViewpoint(this, this.wanted.names);
+    const pose = findViewpoint(this, this.wanted.names, this.room(pointsOf(this.shown, this.wanted.names, this.settings.explode)));
     this.wanted = null;
     if (pose) this.view.glideTo(pose, now);
   }
@@ -196,7 +222,20 @@ function drawPane(gl: WebGLRenderer, stage: Stage, pane: Pane): void {
   stage.contents.graph.measure(frame);
   stage.contents.cut.measure(frame);
   stage.contents.made?.measure(frame);
+  shade(gl, stage, side, pane.width, camera);
   gl.render(side.root, camera);
+}
+
+/** Shadows between hulls and on the ground; a wireframe has none. */
+function shade(gl: WebGLRenderer, stage: Stage, { occlusion, shadow }: AssetDrawing, width: number, camera: Camera): void {
+  const { settings: { explode, wireframe }, height, contents: { bounds, ink }, hasTime } = stage;
+  if (wireframe) {
+    occlusion.hide();
+    shadow.hide();
+    return;
+  }
+  occlusion.update(gl, camera, { width, height, explode, radius: stage.view.radius }, hasTime);
+  shadow.update(gl, bounds, explode, ink.dark, hasTime);
 }
 
 /** Edges from which on a scene is too much for thin lines where drawing is slow. */

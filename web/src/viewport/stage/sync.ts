@@ -9,8 +9,10 @@ import { useProject } from "../../store/project";
 import { type Scene, sceneOf, useScenes } from "../../store/scenes";
 import { forgetMissing } from "../../store/selection";
 import { reportError } from "../../store/toasts";
+import { useTour } from "../../store/tour";
 import { useWorkspace, type WorkspaceState } from "../../store/workspace";
 import { appearances, graphOf, showsPreview } from "./looks";
+import { coversOf } from "./covers";
 import { settingsOf } from "./panes";
 import { useRegion } from "./regionStore";
 import type { Stage } from "./stage";
@@ -50,6 +52,7 @@ function followStores(stage: Stage): () => void {
     }),
     watchLabelChanges(repaint),
     useCut.subscribe(() => updateCutPlane(stage)),
+    fitBesideTour(stage),
     watchTheme(() => {
       stage.change((contents) => contents.setInk(readThemeColors()));
       repaint();
@@ -57,6 +60,26 @@ function followStores(stage: Stage): () => void {
   ];
   shown(useScenes.getState().scene);
   return () => stops.forEach((stop) => stop());
+}
+
+/** [ms] until the card of the tour is in its place. */
+const SETTLED = 300;
+
+/** Moves what is shown as a whole out from under the card of the tour. */
+function fitBesideTour(stage: Stage): () => void {
+  let timer: ReturnType<typeof setTimeout> | undefined;
+  const fit = (): void => {
+    if (stage.view.fitsAll) stage.frame(null, performance.now() / 1000);
+  };
+  const stop = useTour.subscribe((now, before) => {
+    if (now.step === before.step) return;
+    clearTimeout(timer);
+    timer = setTimeout(fit, SETTLED);
+  });
+  return () => {
+    stop();
+    clearTimeout(timer);
+  };
 }
 
 const LOOKS = ["selection", "hover", "hidden", "highlight", "view", "tool", "stage"] as const;
@@ -122,6 +145,7 @@ export function mountStage(stage: Stage, gl: WebGLRenderer, holder: HTMLElement)
   stage.invalidate = () => {
     frame ||= requestAnimationFrame(draw);
   };
+  stage.covers = () => coversOf(holder);
   const resize = (): void => {
     stage.resize(holder.clientWidth, holder.clientHeight, Math.min(2, Math.max(1, window.devicePixelRatio)));
     // at once: the browser would stretch what is there
@@ -137,6 +161,7 @@ export function mountStage(stage: Stage, gl: WebGLRenderer, holder: HTMLElement)
     sizes.disconnect();
     cancelAnimationFrame(frame);
     stage.invalidate = () => undefined;
+    stage.covers = () => [];
     stage.dispose();
     gl.domElement.remove();
   };

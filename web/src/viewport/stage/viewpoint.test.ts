@@ -1,12 +1,15 @@
 
 import { Color } from "three";
 import { beforeAll, expect, it, vi } from "vitest";
+import { wholeRoom } from "../camera/fit";
 import { axesOf, START } from "../camera/pose";
 import { AssetDrawing } from "../drawing/assetDrawing";
 import type { ThemeColors } from "../drawing/themeColors";
 import type { Scene } from "../../store/scenes";
 import type { Stage } from "./stage";
-import { findViewpoint } from "./viewpoint";
+import { findViewpoint as find } from "./viewpoint";
+
+const findViewpoint = (stage: Stage, names: ReadonlySet<string>) => find(stage, names, wholeRoom(1.2));
 
 beforeAll(() => {
   vi.stubGlobal("matchMedia", () => ({ matches: false }));
@@ -26,7 +29,7 @@ const ink = { selected: color, hover: color, removed: color, pale: color, unlabe
 
 function stageOf(...hulls: ReturnType<typeof box>[]): Stage {
   const scene = { asset: "a", hulls, opaque: [], view: { upright: null, hulls } } as unknown as Scene;
-  const view = { pose: START, aspect: 1.2, projection: "perspective" };
+  const view = { pose: START, projection: "perspective" };
   return { shown: new AssetDrawing(scene, [0, 0, 0], ink), view, settings: { explode: 0 } } as unknown as Stage;
 }
 

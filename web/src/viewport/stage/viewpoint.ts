@@ -1,6 +1,7 @@
 // From where to look at some hulls: a side from which they are seen, near enough to tell them, with what is around them.
 import { Vector3 } from "three";
-import { axesOf, distanceOf, fit, orbit, plus, type Pose } from "../camera/pose";
+import { fit, type Room } from "../camera/fit";
+import { axesOf, distanceOf, orbit, plus, type Pose } from "../camera/pose";
 import type { CameraView } from "../camera/view";
 import { type AssetDrawing, pointsOf, spotsOf } from "../drawing/assetDrawing";
 import { castRay } from "../geometry/ray";
@@ -28,8 +29,8 @@ interface Sight {
   readonly settings: Settings;
 }
 
-/** The pose, null where nothing of the hulls is there. */
-export function findViewpoint({ shown, view, settings }: Sight, names: ReadonlySet<string>): Pose | null {
+/** The pose that shows them in a part of the picture, null where nothing of the hulls is there. */
+export function findViewpoint({ shown, view, settings }: Sight, names: ReadonlySet<string>, room: Room): Pose | null {
   const own = shown ? pointsOf(shown, names, settings.explode) : [];
   if (!shown || !own.length) return null;
   const all = pointsOf(shown, null, settings.explode);
@@ -37,7 +38,7 @@ export function findViewpoint({ shown, view, settings }: Sight, names: ReadonlyS
   let best: { pose: Pose; share: number } | null = null;
   for (const [sideways, up] of TURNS) {
     const turned = orbit(view.pose, sideways, up);
-    const fitTo = (points: readonly Point[]) => fit(turned, points, view.aspect, view.projection === "perspective");
+    const fitTo = (points: readonly Point[]) => fit(turned, points, room, view.projection === "perspective");
     const near = fitTo(own);
     const pose = { ...near, height: Math.max(near.height, SURROUNDINGS * fitTo(all).height) };
     const share = shareSeen(shown, spots, pose, settings.explode);

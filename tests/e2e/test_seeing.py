@@ -1,0 +1,89 @@
+"""What the view shows, pixel by pixel: hulls with faces in one plane, the outline of what is selected."""
+
+from __future__ import annotations
+
+from io import BytesIO
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import trimesh
+from PIL import Image
+
+from meshforge.project import Project
+from tests.e2e.hand import Hand, chromium, hand
+from tests.e2e.studio import opened
+from tests.e2e.walk import PAGE, address
+
+BOXES = {
+    "first": ((0.0, 0.0, 0.0), (1.0, 1.0, 1.0), "left"),
+    "second": ((0.5, 0.2, 0.0), (1.6, 0.8, 1.0), "right"),  # top and bottom lie in those of the first
+    "third": ((0.2, -0.5, 0.1), (0.8, 0.6, 1.0), "right"),
+}
+_HULLS = """
+([step, reach]) => {
+  const { left, top, width, height } = document.querySelector('[data-testid=viewport] canvas').getBoundingClientRect();
+  const at = (x, y) => window.meshforgeViewport.hullAt(left + x, top + y);
+  const found = [];
+  for (let y = step; y < height - step; y += step) {
+    for (let x = step; x < width - step; x += step) {
+      const hull = at(x, y);
+      const same = ([dx, dy]) => at(x + dx, y + dy) === hull;
+      if (hull && [[reach, 0], [-reach, 0], [0, reach], [0, -reach]].every(same)) found.push([left + x, top + y, hull]);
+    }
+  }
+  return found;
+}
+"""
+"""Pixels well within what the pointer finds to be one hull."""
+
+
+def pixels(person: Hand) -> np.ndarray[tuple[int, ...], Any]:
+    """The page as it looks once the camera rests: (height, width, 3)."""
+    person.page.wait_for_timeout(500)
+    return np.asarray(Image.open(BytesIO(person.page.screenshot())).convert("RGB")).astype(int)
+
+
+def turn(person: Hand) -> None:
+    """A small turn of the camera by dragging with the middle button."""
+    box = person.page.locator("[data-testid=viewport] canvas").bounding_box()
+    assert box
+    x, y = box["x"] + 40, box["y"] + box["height"] / 2
+    person.page.mouse.move(x, y)
+    person.page.mouse.down(button="middle")
+    person.page.mouse.move(x + 23, y + 11, steps=3)
+    person.page.mouse.up(button="middle")
+
+
+def test_of_faces_in_one_plane_the_same_is_drawn_and_picked_from_every_side(tmp_path: Path) -> None:
+    lines, count = [], 0
+    for name, (low, high, _) in BOXES.items():
+        made = trimesh.creation.box(bounds=(low, high))
+        lines += [f"o {name}", *("v {} {} {}".format(*vertex) for vertex in made.vertices)]
+        lines += ["f {} {} {}".format(*(face + 1 + count)) for face in made.faces]
+        count += len(made.vertices)
+    asset = tmp_path / "boxes.obj"
+    asset.write_text("\n".join(lines) + "\n")
+    project = Project.create(tmp_path / "project", [asset], vocabulary=("left", "right"))
+    project.set_labels("boxes.obj", {name: label for name, (_, _, label) in BOXES.items()})
+    with opened(tmp_path, project.folder, "--page", str(PAGE)) as studio, chromium() as browser:
+        studio.settled()
+        person = hand(browser, 1024, 700)
+        person.open(address(studio))
+        person.page.mouse.move(5, 5)
+        for _ in range(3):
+            seen = pixels(person)
+            spots = person.page.evaluate(_HULLS, [6, 4])
+            assert len({hull for _, _, hull in spots}) == 3
+            for x, y, hull in spots:
+                red, _, blue = seen[round(y), round(x)]
+                assert ("left" if red > blue else "right") == BOXES[hull][2], (x, y, hull)
+            turn(person)
+            person.page.mouse.move(5, 5)
+        before = pixels(person)
+        person.hull("first")
+        person.page.mouse.move(5, 5)
+        changed = pixels(person)[np.abs(pixels(person) - before).max(axis=2) > 60]
+        assert (changed.min(axis=1) > 225).sum() > 100, "a light line"
+        assert (changed.max(axis=1) < 50).sum() > 100, "on a dark one"
+        assert not person.complaints
