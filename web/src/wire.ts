@@ -95,6 +95,7 @@ export interface Everything {
   HullOfAsset: HullOfAsset;
   HullRef: HullRef;
   HullView: HullView;
+  HullsOfAsset: HullsOfAsset;
   Job: Job;
   JobCancel: JobCancel;
   JobChanged: JobChanged;
@@ -155,6 +156,8 @@ export interface Everything {
   SettleRepair: SettleRepair;
   ShapeRow: ShapeRow;
   ShapesHeader: ShapesHeader;
+  SimilarRequest: SimilarRequest;
+  SimilarView: SimilarView;
   Start: Start;
   StartView: StartView;
   StepText: StepText;
@@ -216,12 +219,12 @@ export interface LabelHulls {
   label: string | null;
 }
 /**
- * Give hulls of several assets one label.
+ * Give hulls of several assets one label; null takes their labels away.
  */
 export interface LabelGroup {
   kind: "label-group";
   hulls: HullOfAsset[];
-  label: string;
+  label: string | null;
 }
 /**
  * A hull of an asset, both by name.
@@ -1207,6 +1210,14 @@ export interface Guesses {
   guesses: Guess[];
 }
 /**
+ * Some hulls of an asset, by name, and their positions in it.
+ */
+export interface HullsOfAsset {
+  asset: string;
+  hulls: string[];
+  positions: number[];
+}
+/**
  * Stop a job.
  */
 export interface JobCancel {
@@ -1349,6 +1360,25 @@ export interface SelectionView {
  */
 export interface ShapesHeader {
   rows: ShapeRow[];
+}
+/**
+ * Which hulls look like some? assets: where to look besides the hulls' own assets; null: in these alone; step: from
+ * 0 on, how much they may differ.
+ */
+export interface SimilarRequest {
+  hulls: HullOfAsset[];
+  assets?: string[] | null;
+  step?: number;
+}
+/**
+ * Hulls that look like those of the request, these included. step: the one that was taken; more: whether another
+ * step may take more; unread: assets that could not be looked in.
+ */
+export interface SimilarView {
+  found: HullsOfAsset[];
+  step: number;
+  more: boolean;
+  unread: string[];
 }
 /**
  * An upload is stored. names: of a template, as actions write it; or the paths of asset files.

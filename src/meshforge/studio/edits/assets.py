@@ -11,7 +11,7 @@ from meshforge.common import join_names, pluralize
 from meshforge.project import Project
 from meshforge.store import parse_action_text
 from meshforge.studio.edits.base import PROGRAM_FILES, Edit, JobEdit
-from meshforge.studio.wire import Wire
+from meshforge.studio.wire.requests import HullOfAsset
 
 
 class LabelHulls(Edit):
@@ -57,20 +57,13 @@ class LabelByName(Edit):
         return f"{self.asset}: {', '.join(parts)}"
 
 
-class HullOfAsset(Wire):
-    """A hull of an asset, both by name."""
-
-    asset: str
-    hull: str
-
-
 class LabelGroup(Edit):
-    """Give hulls of several assets one label."""
+    """Give hulls of several assets one label; null takes their labels away."""
 
     kind: Literal["label-group"] = "label-group"
     touches = ()
     hulls: tuple[HullOfAsset, ...]
-    label: str
+    label: str | None
 
     def apply(self, project: Project) -> None:
         for asset in self._assets:
@@ -82,7 +75,8 @@ class LabelGroup(Edit):
     def describe(self, project: Project) -> str:
         count = len(self._assets)
         where = self._assets[0] if count == 1 else pluralize(count, "asset")
-        return f"{pluralize(len(self.hulls), 'hull')} of {where} labelled {self.label}"
+        hulls = f"{pluralize(len(self.hulls), 'hull')} of {where}"
+        return f"{hulls} labelled {self.label}" if self.label else f"label of {hulls} taken away"
 
     @property
     def _assets(self) -> tuple[str, ...]:
