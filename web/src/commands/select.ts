@@ -11,7 +11,7 @@ import {
   withNeighbours,
   withSameLabel,
 } from "../store/selection";
-import { select, useWorkspace } from "../store/workspace";
+import { select, setThrough, useWorkspace } from "../store/workspace";
 import type { Command } from "./command";
 
 /** The scene that the selection belongs to. */
@@ -34,6 +34,9 @@ function isolateSelection(): void {
   const scene = here();
   if (scene) isolate(scene, useWorkspace.getState().selection);
 }
+
+/** The key that switches selecting through; held during a drag, it counts for that drag alone. */
+export const THROUGH_KEY = "T";
 
 export const selectCommands: readonly Command[] = [
   {
@@ -83,6 +86,14 @@ export const selectCommands: readonly Command[] = [
     keys: ["Shift+L"],
     enabled: hasSelection,
     run: () => changeSelection(withSameLabel),
+  },
+  {
+    id: "select-through",
+    title: "Select through: also take hulls behind others; hold it during a drag for that drag alone",
+    group: "Select",
+    keys: [THROUGH_KEY],
+    enabled: hasHulls,
+    run: () => setThrough(!useWorkspace.getState().through),
   },
   {
     id: "hide",

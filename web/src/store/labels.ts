@@ -4,9 +4,6 @@ import { perform } from "./edits";
 import { type Scene, useScenes } from "./scenes";
 import { select, useWorkspace } from "./workspace";
 
-/** How long a stroke may pause and still be one edit [ms]. */
-const PAUSE = 150;
-
 /** Gives hulls a label, at once in what is shown, and on disk; where that fails, what is shown goes back. */
 export async function labelHulls(
   asset: string,
@@ -38,9 +35,8 @@ interface Stroke {
   readonly hulls: Set<string>;
 }
 let stroke: Stroke | null = null;
-let strokeTimer: ReturnType<typeof setTimeout> | undefined;
 
-/** Paints hulls with the armed label; those of one stroke become one edit. */
+/** Paints hulls with the armed label, up to the end of the stroke. */
 export function paint(names: readonly string[]): void {
   const { asset, brush } = useWorkspace.getState();
   const hulls = ownHulls(new Set(names));
@@ -50,11 +46,10 @@ export function paint(names: readonly string[]): void {
   for (const hull of hulls) stroke.hulls.add(hull);
   const { scene } = useScenes.getState();
   if (scene?.asset === asset) useScenes.setState({ scene: withLabel(scene, hulls, brush || null) });
-  clearTimeout(strokeTimer);
-  strokeTimer = setTimeout(endStroke, PAUSE);
 }
 
-function endStroke(): void {
+/** A stroke is over: what was painted since the last one is one edit. */
+export function endStroke(): void {
   if (stroke) void labelHulls(stroke.asset, [...stroke.hulls], stroke.brush || null, true);
   stroke = null;
 }

@@ -84,6 +84,8 @@ export interface WorkspaceState {
   hover: string | null;
   hidden: ReadonlySet<string>;
   tool: Tool;
+  /** Whether box, lasso and clicks in one place also take hulls behind others. */
+  through: boolean;
   /** The label that clicks paint, empty for taking labels away, null for plain selecting. */
   brush: string | null;
   /** Hulls that were clicked as landmarks of the orientation: where the direction starts, then where it ends. */
@@ -111,6 +113,7 @@ export const initialWorkspace: WorkspaceState = {
   hover: null,
   hidden: new Set(),
   tool: "select",
+  through: false,
   brush: null,
   landmarks: [],
   draft: null,
@@ -179,6 +182,10 @@ export function selectMore(names: Iterable<string>, how: "replace" | "add" | "to
 /** Chooses a tool; landmarks are clicked anew. */
 export function setTool(tool: Tool): void {
   set({ tool, landmarks: [] });
+}
+
+export function setThrough(through: boolean): void {
+  set({ through });
 }
 
 /** Arms a label, so that clicks paint it; null puts the brush down. */

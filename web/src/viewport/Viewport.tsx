@@ -12,6 +12,7 @@ import { DrawnRegion, Gaps, Landmarks } from "./overlay/Marks";
 import { Messages, NoWebGl } from "./overlay/Messages";
 import { ViewCube } from "./overlay/ViewCube";
 import { Gestures } from "./pointer/gestures";
+import { watchHeldKeys } from "./pointer/heldKeys";
 import { createPointerTool } from "./pointer/tools";
 import { StageContext, useStage } from "./stage/context";
 import { settingsOf } from "./stage/panes";
@@ -77,6 +78,7 @@ function CanvasView({ gl }: { gl: WebGLRenderer }) {
   }, [stage]);
   useEffect(() => (holder.current ? mountStage(stage, gl, holder.current) : undefined), [stage, gl]);
   useEffect(leaveToolByEscape, []);
+  useEffect(watchHeldKeys, []);
   const cursor = useWorkspace(({ tool, brush }) => (tool === "select" ? (brush === null ? "select" : "brush") : tool));
   const name = useScenes(({ scene }) => (scene ? `${scene.asset}, ${scene.hulls.length} hulls` : "nothing"));
   return <div ref={holder} className={css.picture} data-tool={cursor} role="img" aria-label={`View of ${name}`} />;

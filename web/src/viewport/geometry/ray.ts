@@ -24,17 +24,34 @@ export function castRay(
   let best: RayHit | null = null;
   for (let k = 0; k < shapes.count; k++) {
     if (!visible[k]) continue;
-    const away = aways[k] ?? ZERO;
-    const from: Point = [
-      ray.from[0] - explode * away[0],
-      ray.from[1] - explode * away[1],
-      ray.from[2] - explode * away[2],
-    ];
-    if (!hitsBox(shapes.boxes, k, from, ray.along, best?.distance ?? Infinity)) continue;
-    const distance = nearestFace(shapes, k, from, ray.along);
+    const distance = distanceTo(shapes, k, ray, aways, explode, best?.distance ?? Infinity);
     if (distance < (best?.distance ?? Infinity)) best = { place: k, distance };
   }
   return best;
+}
+
+/** All shapes on a ray among those that are in sight, the first one first. */
+export function castRayThrough(
+  shapes: MergedShapes,
+  ray: Ray,
+  visible: readonly boolean[],
+  aways: readonly Point[],
+  explode: number,
+): RayHit[] {
+  const all = Array.from({ length: shapes.count }, (_, place) => place).filter((place) => visible[place]);
+  const hits = all.map((place) => ({ place, distance: distanceTo(shapes, place, ray, aways, explode, Infinity) }));
+  return hits.filter(({ distance }) => distance < Infinity).sort((a, b) => a.distance - b.distance);
+}
+
+/** How far along a ray a shape is met; Infinity where it is not, or not within a limit. */
+function distanceTo(shapes: MergedShapes, k: number, ray: Ray, aways: readonly Point[], explode: number, limit: number): number {
+  const away = aways[k] ?? ZERO;
+  const from: Point = [
+    ray.from[0] - explode * away[0],
+    ray.from[1] - explode * away[1],
+    ray.from[2] - explode * away[2],
+  ];
+  return hitsBox(shapes.boxes, k, from, ray.along, limit) ? nearestFace(shapes, k, from, ray.along) : Infinity;
 }
 
 const ZERO: Point = [0, 0, 0];
