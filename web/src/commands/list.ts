@@ -9,10 +9,12 @@ import { learnCommands } from "./learn";
 import { memberCommands } from "./members";
 import { reviewCommands } from "./review";
 import { selectCommands } from "./select";
+import { sheetCommands } from "./sheet";
 import { viewCommands } from "./view";
 
 export const allCommands: readonly Command[] = [
   ...labelCommands,
+  ...sheetCommands,
   ...demonstrateCommands,
   ...learnCommands,
   ...reviewCommands,

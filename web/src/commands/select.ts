@@ -11,7 +11,8 @@ import {
   withNeighbours,
   withSameLabel,
 } from "../store/selection";
-import { select, setThrough, useWorkspace } from "../store/workspace";
+import { selectSimilar } from "../store/similar";
+import { select, selectHere, setThrough, useWorkspace } from "../store/workspace";
 import type { Command } from "./command";
 
 /** The scene that the selection belongs to. */
@@ -27,7 +28,7 @@ const hasHulls = (): boolean => (here()?.hulls.length ?? 0) > 0;
 function changeSelection(rule: (scene: Connected, selection: Selection) => Set<string>): void {
   const scene = here();
   const { selection, hidden } = useWorkspace.getState();
-  if (scene) select([...rule(scene, selection)].filter((name) => !hidden.has(name)));
+  if (scene) selectHere([...rule(scene, selection)].filter((name) => !hidden.has(name)));
 }
 
 function isolateSelection(): void {
@@ -52,7 +53,7 @@ export const selectCommands: readonly Command[] = [
     title: "Select nothing",
     group: "Select",
     keys: ["Alt+A", "Escape"],
-    enabled: () => useWorkspace.getState().selection.size > 0,
+    enabled: () => useWorkspace.getState().selection.size > 0 || useWorkspace.getState().elsewhere.size > 0,
     run: () => select([]),
   },
   {
@@ -86,6 +87,22 @@ export const selectCommands: readonly Command[] = [
     keys: ["Shift+L"],
     enabled: hasSelection,
     run: () => changeSelection(withSameLabel),
+  },
+  {
+    id: "select-similar",
+    title: "Select hulls that look alike; again for more",
+    group: "Select",
+    keys: ["J"],
+    enabled: hasSelection,
+    run: () => selectSimilar("here"),
+  },
+  {
+    id: "select-similar-everywhere",
+    title: "Select hulls that look alike on all assets; again for more",
+    group: "Select",
+    keys: ["Shift+J"],
+    enabled: () => useWorkspace.getState().stage === "label" && (hasSelection() || useWorkspace.getState().elsewhere.size > 0),
+    run: () => selectSimilar("everywhere"),
   },
   {
     id: "select-through",

@@ -21,6 +21,8 @@ import type {
   SelectionView,
   SelectRequest,
   ShapesHeader,
+  SimilarRequest,
+  SimilarView,
   StartView,
   UploadReceipt,
 } from "../wire";
@@ -42,6 +44,8 @@ export const api = {
   select: (request: SelectRequest, stop?: AbortSignal) => postJson<SelectionView>("api/select", request, stop),
   generalise: (extractor: string, rule: number, stop?: AbortSignal) =>
     postJson<CoverageView>("api/generalise", { extractor, rule }, stop),
+  similar: (request: SimilarRequest) => postJson<SimilarView>("api/similar", request),
+  prepareSimilar: () => postJson<EditReceipt>("api/similar/prepare", {}),
   guesses: (asset: string) => getJson<Guesses>("api/guesses", { asset }),
   picture: async (asset: string, rule: number) => readPicture(await getBytes("api/picture", { asset, rule })),
   thumbnail: (asset: string, of: "source" | "output", version: string) =>

@@ -1,20 +1,26 @@
 // Labels given to hulls, at once in what is shown, one by one or stroke by stroke; and the list of labels.
-import type { Card } from "../wire";
+import type { AnyEdit, Card } from "../wire";
 import { perform } from "./edits";
+import { type HullPlace, placeOf } from "./hullPlaces";
 import { type Scene, useScenes } from "./scenes";
 import { select, useWorkspace } from "./workspace";
 
-/** Gives hulls a label, at once in what is shown, and on disk; where that fails, what is shown goes back. */
+/** Gives hulls a label, at once in what is shown, and on disk by one edit; where that fails, what is shown goes back.
+ * hulls: names of what is shown with this asset; elsewhere: hulls of assets that are not shown. */
 export async function labelHulls(
   asset: string,
   hulls: readonly string[],
   label: string | null,
   quiet = false,
+  elsewhere: readonly HullPlace[] = [],
 ): Promise<boolean> {
   const before = useScenes.getState().scene;
   if (before?.asset === asset) useScenes.setState({ scene: withLabel(before, hulls, label) });
   const shown = useScenes.getState().scene;
-  const done = await perform({ kind: "label", asset, hulls: [...hulls], label }, { quiet });
+  const places = [...hulls.map((hull) => (before?.parts ? placeOf(hull) : undefined) ?? { asset, hull }), ...elsewhere];
+  const isOne = !elsewhere.length && !before?.parts;
+  const edit: AnyEdit = isOne ? { kind: "label", asset, hulls: [...hulls], label } : { kind: "label-group", hulls: places, label };
+  const done = await perform(edit, { quiet });
   if (!done && useScenes.getState().scene === shown) useScenes.setState({ scene: before });
   return done;
 }
