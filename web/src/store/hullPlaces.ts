@@ -24,7 +24,7 @@ export function positionsOf(asset: string, hulls: Iterable<string>): number[] {
 
 /** The name of a hull where several assets are side by side. */
 export function sheetName(asset: string, hull: string): string {
-  const name = `${asset} › ${hull}`;
+  const name = `${hull} · ${asset}`;
   if (!owners.has(name)) owners.set(name, { asset, hull });
   return name;
 }

@@ -2,7 +2,7 @@
 import { neighbour, shownAssets } from "./family";
 import { useProject } from "./project";
 import { notify } from "./toasts";
-import { allSelected, openAsset, openStage, setLayout, showSheet, useWorkspace } from "./workspace";
+import { allSelected, lookFrom, openAsset, openStage, setLayout, showSheet, useWorkspace } from "./workspace";
 
 /** Assets on a sheet where none were chosen, and at most. */
 export const PER_SHEET = 8;
@@ -16,6 +16,8 @@ export function openSheet(assets: readonly string[]): void {
   if (readable.length > MOST_ON_SHEET) notify(`The first ${MOST_ON_SHEET} of ${readable.length} assets are side by side.`);
   if (useWorkspace.getState().stage !== "label") openStage("label");
   setLayout({ gallery: false });
+  // rows go across this side
+  if (!useWorkspace.getState().sheet.length) lookFrom("iso");
   showSheet(readable.slice(0, MOST_ON_SHEET));
 }
 

@@ -10,9 +10,13 @@ interface Box {
   readonly high: Triple;
 }
 
-/** Room between assets, in widths; rows are farther apart, so that one does not hide the next. */
-const GAP = 0.3;
-const ROW_GAP = 0.75; // heights
+/** Room between assets, in widths; rows are farther apart, so that the one in front hides little of the next. */
+const GAP = 0.25;
+const ROW_GAP = 1.5; // heights
+/** Wished width of all, in heights of all as they are seen. */
+const WIDE = 1.5;
+/** Where one looks from as a sheet is opened, about the upright axis: rows go across it [rad]. */
+export const SHEET_AZIMUTH = -0.95;
 /** Assets are drawn in one size where the largest is so many times the smallest. */
 const UNEQUAL = 3;
 
@@ -33,12 +37,18 @@ export function sheetOf(scenes: readonly Scene[], open: string): Scene | null {
   return { ...first, view: view as unknown as Scene["view"], hulls, contacts, opaque: [], edit: null, parts };
 }
 
-/** Where each box goes: rows from the front to the back, as wide as deep in all. */
+/** Where each box goes: rows from the back to the front, each from the left to the right as one looks at them. */
 function placesFor(boxes: readonly Box[]): Triple[] {
   const size = (axis: 0 | 1 | 2) => Math.max(...boxes.map(({ low, high }) => high[axis] - low[axis]), 1e-9);
-  const [across, deep] = [size(0) * (1 + GAP), size(1) + size(2) * ROW_GAP];
-  const columns = Math.min(boxes.length, Math.max(1, Math.ceil(Math.sqrt((boxes.length * 1.4 * deep) / across))));
-  return boxes.map((_, k) => [(k % columns) * across, -Math.floor(k / columns) * deep, 0]);
+  const [sine, cosine] = [Math.sin(SHEET_AZIMUTH), Math.cos(SHEET_AZIMUTH)];
+  const seen = (along: number, across: number) => Math.abs(along) * size(0) + Math.abs(across) * size(1);
+  // to the right, and away from the eye
+  const [wide, deep] = [seen(sine, cosine) * (1 + GAP), seen(cosine, sine) + size(2) * ROW_GAP];
+  const columns = Math.min(boxes.length, Math.max(1, Math.ceil(Math.sqrt((boxes.length * WIDE * size(2) * 1.3) / wide))));
+  return boxes.map((_, k) => {
+    const [right, near] = [(k % columns) * wide, Math.floor(k / columns) * deep];
+    return [-sine * right + cosine * near, cosine * right + sine * near, 0];
+  });
 }
 
 function scalesOf(boxes: readonly Box[]): number[] {

@@ -18,6 +18,7 @@ export function SelectionBar() {
   const isSheet = useWorkspace((workspace) => workspace.sheet.length > 0);
   const isWide = useWorkspace((workspace) => workspace.elsewhere.size > 0);
   const some = useWorkspace((workspace) => workspace.selection.size > 0);
+  const searching = useSimilar((state) => state.searching);
   useEffect(() => {
     if (some && stage === "label") prepareSimilar();
   }, [some, stage]);
@@ -25,7 +26,7 @@ export function SelectionBar() {
   return (
     <>
       {brush !== null && <Paint brush={brush} />}
-      {(isSheet || isWide) && <Several />}
+      {isSheet || isWide ? <Several /> : searching && <Searching />}
     </>
   );
 }
@@ -34,10 +35,10 @@ export function SelectionBar() {
 function Paint({ brush }: { brush: string }) {
   const color = useBrushColor(brush);
   return (
-    <div className={css.bar} data-testid="painting">
+    <div className={css.bar} role="status" data-testid="painting">
       <Swatch color={color} />
       <span>
-        Painting <b>{brush || "no label"}</b>
+        Painting <b>{brush || "no label"}</b>: click hulls, or drag over them
       </span>
       <Button look="quiet" onClick={() => setBrush(null)} tip="Select again" keys="Esc">
         Stop
@@ -55,6 +56,14 @@ export function BrushFrame() {
 
 const useBrushColor = (brush: string): string =>
   useProject(({ project }) => project.vocabulary.find(({ name }) => name === brush)?.color) ?? "var(--text-dim)";
+
+function Searching() {
+  return (
+    <div className={css.bar} role="status">
+      Looking for look-alikes…
+    </div>
+  );
+}
 
 function Several() {
   const sheet = useWorkspace((workspace) => workspace.sheet.length);

@@ -1,9 +1,8 @@
 // The names of assets that are side by side, each at the foot of its asset.
 import { useRef } from "react";
-import { commonPartsOf } from "../../store/commonParts";
+import { commonPartsOf, splitName } from "../../store/commonParts";
 import { useProject } from "../../store/project";
 import { useScenes } from "../../store/scenes";
-import { Name } from "../../ui/Name";
 import { useFrame, useStage } from "../stage/context";
 import css from "./selectionBar.module.css";
 
@@ -37,9 +36,15 @@ function Names({ parts }: { parts: Parts }) {
     <div ref={holder} className={css.names} aria-hidden>
       {parts.map(({ asset }) => (
         <span key={asset} data-open={asset === open}>
-          <Name text={asset} parts={commonPartsOf(order)(asset)} hidden />
+          {ownPart(asset, order)}
         </span>
       ))}
     </div>
   );
+}
+
+/** What tells an asset from the others of its family. */
+function ownPart(asset: string, order: readonly string[]): string {
+  const [, own, end] = splitName(asset, commonPartsOf(order)(asset));
+  return own + end;
 }
