@@ -28,7 +28,7 @@ MOST_ASSETS = 400
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class _Described:
+class _HullRows:
     """The hulls of an asset by name, and their rows as `MeshDescriber` makes them."""
 
     names: tuple[str, ...]
@@ -42,7 +42,7 @@ class _Entry:
     times: FileStates
     record: str | None
     contact: float | None
-    future: Future[_Described]
+    future: Future[_HullRows]
 
     def is_current(self, record: str | None, contact: float | None) -> bool:
         """Whether it still holds; what failed is tried again."""
@@ -85,10 +85,10 @@ class SimilarHulls:
 
     def _describe_all(
         self, project: Project, homes: Iterable[str], assets: Iterable[str]
-    ) -> tuple[Mapping[str, _Described], tuple[str, ...]]:
+    ) -> tuple[Mapping[str, _HullRows], tuple[str, ...]]:
         """Assets as they are described, and those that cannot be. Raises MeshForgeError where one of `homes` cannot."""
         futures = {asset: self._describe(project, asset) for asset in (*homes, *assets)}
-        needed, found, unread = set(homes), dict[str, _Described](), list[str]()
+        needed, found, unread = set(homes), dict[str, _HullRows](), list[str]()
         for asset, future in futures.items():
             try:
                 found[asset] = wait_for(future)
@@ -100,7 +100,7 @@ class SimilarHulls:
                 unread.append(asset)
         return found, tuple(unread)
 
-    def _describe(self, project: Project, asset: str) -> Future[_Described]:
+    def _describe(self, project: Project, asset: str) -> Future[_HullRows]:
         (files,) = project.asset_files([asset])
         record = record_digest(files.preparation)
         with self._lock:
@@ -122,12 +122,12 @@ def choose_assets(first: Sequence[str], assets: Sequence[str], most: int = MOST_
     return (*first, *rest)
 
 
-def _describe_asset(files: AssetFiles) -> _Described:
+def _describe_asset(files: AssetFiles) -> _HullRows:
     mesh = files.read_mesh()
-    return _Described(tuple(hull.name for hull in mesh.hulls), MeshDescriber(mesh).describe().rows)
+    return _HullRows(tuple(hull.name for hull in mesh.hulls), MeshDescriber(mesh).describe().rows)
 
 
-def _find_excluded(project: Project, described: Mapping[str, _Described], hulls: Iterable[int]) -> Bools:
+def _find_excluded(project: Project, described: Mapping[str, _HullRows], hulls: Iterable[int]) -> Bools:
     """The hulls that a person gave a label that none of some hulls has (n,)."""
     given: list[str | None] = []
     for asset, one in described.items():
@@ -141,7 +141,7 @@ def _name_given(label: Label | None) -> str | None:
     return label.name if label and label.source in HUMAN_SOURCES else None
 
 
-def _find_places(described: Mapping[str, _Described], request: SimilarRequest) -> list[int]:
+def _find_places(described: Mapping[str, _HullRows], request: SimilarRequest) -> list[int]:
     """Where the hulls of a request are among those of all assets. Raises NotHereError."""
     rows = ((asset, name) for asset, one in described.items() for name in one.names)
     places = {row: place for place, row in enumerate(rows)}
@@ -151,7 +151,7 @@ def _find_places(described: Mapping[str, _Described], request: SimilarRequest) -
     return [places[one.asset, one.hull] for one in request.hulls]
 
 
-def _group(described: Mapping[str, _Described], places: Ints) -> tuple[HullsOfAsset, ...]:
+def _group(described: Mapping[str, _HullRows], places: Ints) -> tuple[HullsOfAsset, ...]:
     """Hulls by their places among those of all assets, asset by asset."""
     found, start = list[HullsOfAsset](), 0
     for asset, one in described.items():
