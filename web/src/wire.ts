@@ -90,6 +90,7 @@ export interface Everything {
   FolderView: FolderView;
   ForecastJob: ForecastJob;
   GeneraliseRequest: GeneraliseRequest;
+  GroupHull: GroupHull;
   Guess: Guess;
   Guesses: Guesses;
   Hello: Hello;
@@ -99,6 +100,7 @@ export interface Everything {
   HullOfAsset: HullOfAsset;
   HullRef: HullRef;
   HullView: HullView;
+  HullsOfAsset: HullsOfAsset;
   Job: Job;
   JobCancel: JobCancel;
   JobChanged: JobChanged;
@@ -159,6 +161,8 @@ export interface Everything {
   SettleRepair: SettleRepair;
   ShapeRow: ShapeRow;
   ShapesHeader: ShapesHeader;
+  SimilarRequest: SimilarRequest;
+  SimilarView: SimilarView;
   Start: Start;
   StartView: StartView;
   StepText: StepText;
@@ -220,17 +224,17 @@ export interface LabelHulls {
   label: string | null;
 }
 /**
- * Give hulls of several assets one label, but for exceptions among them.
+ * Give hulls of several assets one label, but for exceptions among them; null takes their labels away.
  */
 export interface LabelGroup {
   kind: "label-group";
-  hulls: HullOfAsset[];
-  label: string;
+  hulls: GroupHull[];
+  label: string | null;
 }
 /**
- * A hull of an asset, both by name. label: that it gets where it is an exception among others.
+ * A hull of a group. label: that it gets in place of the group's, where it is an exception.
  */
-export interface HullOfAsset {
+export interface GroupHull {
   asset: string;
   hull: string;
   label?: string | null;
@@ -1235,6 +1239,21 @@ export interface Guesses {
   guesses: Guess[];
 }
 /**
+ * A hull of an asset, both by name.
+ */
+export interface HullOfAsset {
+  asset: string;
+  hull: string;
+}
+/**
+ * Some hulls of an asset, by name, and their positions in it.
+ */
+export interface HullsOfAsset {
+  asset: string;
+  hulls: string[];
+  positions: number[];
+}
+/**
  * Stop a job.
  */
 export interface JobCancel {
@@ -1377,6 +1396,25 @@ export interface SelectionView {
  */
 export interface ShapesHeader {
   rows: ShapeRow[];
+}
+/**
+ * Which hulls look like some? assets: where to look besides the hulls' own assets; null: in these alone; step: from
+ * 0 on, how much they may differ.
+ */
+export interface SimilarRequest {
+  hulls: HullOfAsset[];
+  assets?: string[] | null;
+  step?: number;
+}
+/**
+ * Hulls that look like those of the request, these included. step: the one that was taken; more: whether another
+ * step may take more; unread: assets that could not be looked in.
+ */
+export interface SimilarView {
+  found: HullsOfAsset[];
+  step: number;
+  more: boolean;
+  unread: string[];
 }
 /**
  * An upload is stored. names: of a template, as actions write it; or the paths of asset files.

@@ -12,6 +12,7 @@ if TYPE_CHECKING:
     from meshforge.label_model.odds import LabelBeliefs, LabelOdds, is_human
     from meshforge.label_model.posterior import FamilyModel, FamilyPosterior, infer_labels, model_family
     from meshforge.label_model.sides import correct_upright, find_doubtful_sides
+    from meshforge.label_model.similar import find_similar
     from meshforge.label_model.table import FamilyTable, Observations, evidence_of, metric_weights, reference_label
 else:
     __getattr__ = export_lazily(__name__)
@@ -30,6 +31,7 @@ __all__ = [
     "correct_upright",
     "evidence_of",
     "find_doubtful_sides",
+    "find_similar",
     "infer_labels",
     "is_human",
     "metric_weights",

@@ -7,7 +7,7 @@ import pytest
 from meshforge.language import Program
 from meshforge.project import Project
 from meshforge.signoff import Assessment, AssetConfidence, Doubt, HullPlace, ReviewChoice, ReviewQuestion, ReviewState
-from meshforge.studio.edits.assets import HullOfAsset, LabelGroup
+from meshforge.studio.edits.assets import GroupHull, LabelGroup
 from meshforge.studio.edits.program import PutOff
 from meshforge.studio.learning.assessment import view_assessment
 from meshforge.studio.session.file_sync import changes_of
@@ -60,9 +60,9 @@ def test_a_question_says_where_its_hulls_are_and_what_its_readings_mean(project:
 
 
 def test_a_group_gets_its_label_in_one_edit(project: Project) -> None:
-    places = [HullOfAsset(asset=asset, hull=project.mesh(asset).hulls[0].name) for asset in (ONE, OTHER)]
+    places = [GroupHull(asset=asset, hull=project.mesh(asset).hulls[0].name) for asset in (ONE, OTHER)]
     edit = LabelGroup(hulls=tuple(places), label="drawer")
-    assert edit.describe(project) == "2 assets: 2 hulls labelled drawer"
+    assert edit.describe(project) == "2 hulls of 2 assets labelled drawer"
     assert edit.list_paths(project) == tuple(project.layout.labels(asset) for asset in (ONE, OTHER))
     edit.apply(project)
     for place in places:
@@ -72,9 +72,9 @@ def test_a_group_gets_its_label_in_one_edit(project: Project) -> None:
 
 def test_exceptions_of_a_group_get_their_own_label_in_the_same_edit(project: Project) -> None:
     first, second = (mesh.hulls[0].name for mesh in map(project.mesh, (ONE, OTHER)))
-    hulls = (HullOfAsset(asset=ONE, hull=first), HullOfAsset(asset=OTHER, hull=second, label="leg"))
+    hulls = (GroupHull(asset=ONE, hull=first), GroupHull(asset=OTHER, hull=second, label="leg"))
     edit = LabelGroup(hulls=hulls, label="drawer")
-    assert edit.describe(project) == "2 assets: 1 hull labelled drawer, 1 hull labelled leg"
+    assert edit.describe(project) == "2 hulls of 2 assets: 1 drawer, 1 leg"
     edit.apply(project)
     given = [project.mesh(one.asset).hull_of(one.hull).annotation for one in hulls]
     assert [(label.name, label.source) for label in given if label] == [("drawer", "user"), ("leg", "user")]

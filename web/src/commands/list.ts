@@ -10,10 +10,12 @@ import { memberCommands } from "./members";
 import { questionCommands } from "./question";
 import { reviewCommands } from "./review";
 import { selectCommands } from "./select";
+import { sheetCommands } from "./sheet";
 import { viewCommands } from "./view";
 
 export const allCommands: readonly Command[] = [
   ...labelCommands,
+  ...sheetCommands,
   ...demonstrateCommands,
   ...learnCommands,
   ...questionCommands,

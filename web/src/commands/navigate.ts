@@ -1,7 +1,8 @@
 // Commands that go somewhere: to assets, stages, undo and redo, help, and what surrounds them.
 import { redo, undo } from "../store/edits";
-import { matchesFilter, neighbour, shownAssets } from "../store/family";
+import { matchesFilter, neighbour } from "../store/family";
 import { useProject } from "../store/project";
+import { openBeside } from "../store/sheet";
 import { startTour } from "../store/tour";
 import {
   openAsset,
@@ -13,11 +14,6 @@ import {
   type WorkspaceState,
 } from "../store/workspace";
 import type { Command } from "./command";
-
-function openBeside(by: 1 | -1): void {
-  const next = neighbour(shownAssets(), useProject.getState().order, useWorkspace.getState().asset, by);
-  if (next !== null) openAsset(next);
-}
 
 /** The next asset that wants to be looked at: flagged, failed, or with labels that are not sure. */
 function nextDoubtful(): string | null {

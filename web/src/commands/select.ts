@@ -11,7 +11,8 @@ import {
   withNeighbours,
   withSameLabel,
 } from "../store/selection";
-import { select, useWorkspace } from "../store/workspace";
+import { selectSimilar } from "../store/similar";
+import { select, selectHere, setThrough, useWorkspace } from "../store/workspace";
 import type { Command } from "./command";
 
 /** The scene that the selection belongs to. */
@@ -27,13 +28,16 @@ const hasHulls = (): boolean => (here()?.hulls.length ?? 0) > 0;
 function changeSelection(rule: (scene: Connected, selection: Selection) => Set<string>): void {
   const scene = here();
   const { selection, hidden } = useWorkspace.getState();
-  if (scene) select([...rule(scene, selection)].filter((name) => !hidden.has(name)));
+  if (scene) selectHere([...rule(scene, selection)].filter((name) => !hidden.has(name)));
 }
 
 function isolateSelection(): void {
   const scene = here();
   if (scene) isolate(scene, useWorkspace.getState().selection);
 }
+
+/** The key that switches selecting through; held during a drag, it counts for that drag alone. */
+export const THROUGH_KEY = "T";
 
 export const selectCommands: readonly Command[] = [
   {
@@ -49,7 +53,7 @@ export const selectCommands: readonly Command[] = [
     title: "Select nothing",
     group: "Select",
     keys: ["Alt+A", "Escape"],
-    enabled: () => useWorkspace.getState().selection.size > 0,
+    enabled: () => useWorkspace.getState().selection.size > 0 || useWorkspace.getState().elsewhere.size > 0,
     run: () => select([]),
   },
   {
@@ -83,6 +87,30 @@ export const selectCommands: readonly Command[] = [
     keys: ["Shift+L"],
     enabled: hasSelection,
     run: () => changeSelection(withSameLabel),
+  },
+  {
+    id: "select-similar",
+    title: "Select hulls that look alike; again for more",
+    group: "Select",
+    keys: ["J"],
+    enabled: hasSelection,
+    run: () => selectSimilar("here"),
+  },
+  {
+    id: "select-similar-everywhere",
+    title: "Select hulls that look alike on all assets; again for more",
+    group: "Select",
+    keys: ["Shift+J"],
+    enabled: () => useWorkspace.getState().stage === "label" && (hasSelection() || useWorkspace.getState().elsewhere.size > 0),
+    run: () => selectSimilar("everywhere"),
+  },
+  {
+    id: "select-through",
+    title: "Select through: also take hulls behind others; hold it during a drag for that drag alone",
+    group: "Select",
+    keys: [THROUGH_KEY],
+    enabled: hasHulls,
+    run: () => setThrough(!useWorkspace.getState().through),
   },
   {
     id: "hide",

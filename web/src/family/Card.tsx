@@ -16,13 +16,16 @@ import {
   Tag,
   TriangleAlert,
 } from "lucide-react";
-import { memo, useState } from "react";
+import { memo, type MouseEvent, useState } from "react";
 import { Thumbnail } from "../pictures/Thumbnail";
 import { commonPartsOf } from "../store/commonParts";
 import { makeHulls, useIsDecomposing } from "../store/jobs";
+import { useSelectedPositions } from "../store/familySelection";
 import { useLabelChangesOf } from "../store/labelChanges";
 import { doubtsText, probabilityText } from "../store/assessment";
 import { useProject } from "../store/project";
+import { extendSheet, toggleOnSheet } from "../store/sheet";
+import { countText } from "../store/words";
 import { openAsset, setLayout, useWorkspace } from "../store/workspace";
 import { Button } from "../ui/Button";
 import { Name } from "../ui/Name";
@@ -44,6 +47,8 @@ export const cardId = (asset: string): string => `card ${asset}`.replace(/\s/g, 
 export const Card = memo(function Card({ asset, width, place, of, large }: CardProps) {
   const card = useProject((state) => state.cards[asset]);
   const current = useWorkspace((workspace) => workspace.asset === asset);
+  const inView = useWorkspace(({ sheet }) => sheet.includes(asset));
+  const selected = useSelectedPositions(asset);
   const found = useLabelChangesOf(asset);
   const relabelled = useWorkspace((workspace) => workspace.stage === "label") ? found : null;
   const engine = useWorkspace((workspace) => workspace.checks.engine);
@@ -51,12 +56,13 @@ export const Card = memo(function Card({ asset, width, place, of, large }: CardP
   const sure = useProject((state) => probabilityText(state, asset));
   const parts = useProject((state) => commonPartsOf(state.order)(asset));
   if (!card) return null;
-  const said = [cardText(card, engine), sure && sure !== "…" && `${sure} sure`, relabelled && relabelledText(relabelled)].filter(Boolean).join("; ");
+  const said = [cardText(card, engine), sure && sure !== "…" && `${sure} sure`, relabelled && relabelledText(relabelled), selected?.length && `${countText(selected.length, "hull")} selected`].filter(Boolean).join("; ");
   return (
     <div
       id={cardId(asset)}
       role="option"
-      aria-selected={current}
+      aria-selected={current || inView}
+      data-beside={(inView && !current) || undefined}
       aria-posinset={place + 1}
       aria-setsize={of}
       data-asset={asset}
@@ -64,11 +70,11 @@ export const Card = memo(function Card({ asset, width, place, of, large }: CardP
       data-state={card.error === null ? "fine" : "broken"}
       style={{ width }}
       title={title}
-      onClick={() => openAsset(asset)}
+      onClick={(event) => clickCard(event, asset)}
       onDoubleClick={() => setLayout({ gallery: false })}
     >
       <span className="visually-hidden">{said}</span>
-      {card.error === null ? <Face card={card} large={large} relabelled={relabelled} /> : <Broken error={card.error} />}
+      {card.error === null ? <Face card={card} large={large} relabelled={relabelled} selected={selected} /> : <Broken error={card.error} />}
       <div className={css.foot} aria-hidden>
         <span className={css.name}>
           <Name text={asset} parts={parts} hidden />
@@ -82,6 +88,14 @@ export const Card = memo(function Card({ asset, width, place, of, large }: CardP
     </div>
   );
 });
+
+/** A click opens an asset; with Ctrl it comes beside those in view or goes, with Shift all up to it come. */
+function clickCard({ shiftKey, ctrlKey, metaKey }: MouseEvent, asset: string): void {
+  const isLabelling = useWorkspace.getState().stage === "label";
+  if (isLabelling && shiftKey) extendSheet(asset);
+  else if (isLabelling && (ctrlKey || metaKey)) toggleOnSheet(asset);
+  else openAsset(asset);
+}
 
 /** Why an asset cannot be read; the folder, which all assets share, is in the tooltip only. */
 function Broken({ error }: { error: string }) {
@@ -97,13 +111,16 @@ interface FaceProps {
   large: boolean;
   /** What became of its labels in the last edit of all labels. */
   relabelled: AssetLabelUpdate | null;
+  /** Its selected hulls while hulls of several assets are selected. */
+  selected: readonly number[] | undefined;
 }
 
 /** The picture: of the output where results are looked at and there is one; under the pointer, of what was before. */
-function Face({ card, large, relabelled }: FaceProps) {
+function Face({ card, large, relabelled, selected }: FaceProps) {
   const [over, setOver] = useState(false);
   const results = useWorkspace((workspace) => workspace.stage === "review" && workspace.highlight === null);
-  const marked = useWorkspace((workspace) => (workspace.highlight ? (workspace.highlight.assets[card.asset] ?? NONE) : undefined));
+  const pointed = useWorkspace((workspace) => (workspace.highlight ? (workspace.highlight.assets[card.asset] ?? NONE) : undefined));
+  const marked = pointed ?? (selected?.length === 0 ? NONE : selected);
   const isKnown = marked !== NONE;
   const edited = results && card.edited_picture !== null && card.output !== "failed";
   const showing = edited && !(large && over) ? "output" : "source";

@@ -2,6 +2,7 @@
 import { useVirtualizer } from "@tanstack/react-virtual";
 import { type KeyboardEvent, type RefObject, useEffect, useLayoutEffect, useRef, useState } from "react";
 import { useShown } from "../store/family";
+import { extendSheet } from "../store/sheet";
 import { openAsset, setFilters, setLayout, useLayout, useWorkspace } from "../store/workspace";
 import { Button } from "../ui/Button";
 import { Card, cardId } from "./Card";
@@ -15,6 +16,7 @@ export function Cards({ least, large = false }: { least: number; large?: boolean
   const box = useRef<HTMLDivElement>(null);
   const shown = useShown();
   const asset = useWorkspace((workspace) => workspace.asset);
+  const isLabelling = useWorkspace((workspace) => workspace.stage === "label");
   const width = useWidth(box);
   // larger where there is much room
   const wished = large ? Math.max(least, width / 10) : least;
@@ -43,6 +45,7 @@ export function Cards({ least, large = false }: { least: number; large?: boolean
       className={css.cards}
       role="listbox"
       aria-label="Assets"
+      aria-multiselectable={isLabelling || undefined}
       tabIndex={0}
       aria-activedescendant={asset === null ? undefined : cardId(asset)}
       data-first
@@ -81,7 +84,20 @@ export function moveByKey(event: KeyboardEvent, shown: readonly string[], column
   else if (end === undefined && step === undefined) return; // Enter beside the view is for what is in hand there
   event.preventDefault();
   const to = end ?? Math.min(Math.max(here + (step ?? 0), 0), shown.length - 1);
-  if (!opens && shown[to] !== undefined) openAsset(shown[to]);
+  if (opens || shown[to] === undefined) return;
+  if (event.shiftKey && useWorkspace.getState().stage === "label") extendByKey(shown, to - here);
+  else openAsset(shown[to]);
+}
+
+/** Shift and an arrow key: assets beside the open one come into view, from the end that was moved last. */
+function extendByKey(shown: readonly string[], by: number): void {
+  const { asset, sheet } = useWorkspace.getState();
+  const here = shown.indexOf(asset ?? "");
+  const places = sheet.map((one) => shown.indexOf(one)).filter((place) => place >= 0);
+  const [low, high] = [Math.min(here, ...places), Math.max(here, ...places)];
+  const end = high > here ? high : low < here ? low : here;
+  const to = shown[Math.min(Math.max(end + by, 0), shown.length - 1)];
+  if (to !== undefined) extendSheet(to);
 }
 
 function NoMatch() {

@@ -3,7 +3,8 @@ import { useVirtualizer } from "@tanstack/react-virtual";
 import { ArrowDown, ArrowUp, Search } from "lucide-react";
 import { type KeyboardEvent, type MouseEvent, useEffect, useMemo, useRef, useState } from "react";
 import { tonesOf } from "../pictures/hullColors";
-import { findCommonParts } from "../store/commonParts";
+import { type CommonParts, findCommonParts, splitName } from "../store/commonParts";
+import { placeOf } from "../store/hullPlaces";
 import { useFormerLabels } from "../store/labelChanges";
 import { useProject } from "../store/project";
 import { type Scene, useScenes } from "../store/scenes";
@@ -54,6 +55,7 @@ function Rows({ scene, search, order, onOrder }: RowsProps) {
   const former = useFormerLabels(scene.asset, scene.view.hulls);
   const names = useMemo(() => rows.map((row) => row.hull.name), [rows]);
   const partsOf = useMemo(() => findCommonParts(scene.hulls.map((hull) => hull.name)), [scene.hulls]);
+  const shortOf = useMemo(() => shortNamesOf(scene), [scene]);
   const opaque = scene.view.opaque.filter((piece) => matchesSearch(search, piece.name, piece.reason, piece.body));
   const grid = useRef<HTMLDivElement>(null);
   const virtual = useVirtualizer({
@@ -96,7 +98,7 @@ function Rows({ scene, search, order, onOrder }: RowsProps) {
             if (row) {
               const { name } = row.hull;
               const place = { index, top: start - HEAD, active: index === at };
-              return <HullRow key={name} row={row} tone={tone(row.hull)} parts={partsOf(name)} was={former.get(name)} {...place} />;
+              return <HullRow key={name} row={row} tone={tone(row.hull)} parts={partsOf(name)} short={shortOf(name)} was={former.get(name)} {...place} />;
             }
             const piece = opaque[index - rows.length];
             return piece && <OpaqueRow key={`opaque ${piece.name}`} piece={piece} index={index} top={start - HEAD} />;
@@ -106,6 +108,18 @@ function Rows({ scene, search, order, onOrder }: RowsProps) {
       </div>
     </div>
   );
+}
+
+/** What tells hulls of several assets side by side apart, in short: the hull, then its asset; undefined for one asset. */
+function shortNamesOf({ parts, hulls }: Scene): (name: string) => string | undefined {
+  if (!parts) return () => undefined;
+  const assetParts = findCommonParts(parts.map(({ asset }) => asset));
+  const hullParts = findCommonParts(hulls.flatMap(({ name }) => placeOf(name)?.hull ?? []));
+  const own = (text: string, common: CommonParts) => splitName(text, common).slice(1, 3).join("");
+  return (name) => {
+    const place = placeOf(name);
+    return place && `${own(place.hull, hullParts(place.hull))} · ${own(place.asset, assetParts(place.asset))}`;
+  };
 }
 
 /** Calls back with the place of a hull that was newly selected elsewhere. */

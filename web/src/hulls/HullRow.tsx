@@ -21,13 +21,15 @@ interface HullRowProps extends Place {
   readonly tone: Tone;
   /** What its name has in common with the others. */
   readonly parts: CommonParts;
+  /** Its name in short, where several assets are side by side. */
+  readonly short: string | undefined;
   /** Whether the keys are at it. */
   readonly active: boolean;
   /** The label that it had before the last edit of all labels, where that was another one. */
   readonly was: string | undefined;
 }
 
-export const HullRow = memo(function HullRow({ row, tone, parts, active, was, index, top }: HullRowProps) {
+export const HullRow = memo(function HullRow({ row, tone, parts, short, active, was, index, top }: HullRowProps) {
   const { hull, neighbours } = row;
   const selected = useWorkspace((workspace) => workspace.selection.has(hull.name));
   const pointed = useWorkspace((workspace) => workspace.hover === hull.name);
@@ -49,7 +51,14 @@ export const HullRow = memo(function HullRow({ row, tone, parts, active, was, in
     >
       <span role="gridcell" className={css.name} title={hidden ? `${hull.name} (hidden)` : hull.name}>
         <Swatch color={tone.color ?? "var(--hull-unlabelled)"} hatched={tone.hatched} />
-        <Name text={hull.name} parts={parts} />
+        {short === undefined ? (
+          <Name text={hull.name} parts={parts} />
+        ) : (
+          <>
+            <span aria-hidden>{short}</span>
+            <span className="visually-hidden">{hull.name}</span>
+          </>
+        )}
       </span>
       <span role="gridcell" title={labelTitle(row, was)}>
         {hull.label ?? <i aria-label="no label">–</i>}

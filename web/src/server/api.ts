@@ -22,6 +22,8 @@ import type {
   SelectionView,
   SelectRequest,
   ShapesHeader,
+  SimilarRequest,
+  SimilarView,
   StartView,
   UploadReceipt,
 } from "../wire";
@@ -43,6 +45,8 @@ export const api = {
   select: (request: SelectRequest, stop?: AbortSignal) => postJson<SelectionView>("api/select", request, stop),
   generalise: (extractor: string, rule: number, stop?: AbortSignal) =>
     postJson<CoverageView>("api/generalise", { extractor, rule }, stop),
+  similar: (request: SimilarRequest) => postJson<SimilarView>("api/similar", request),
+  prepareSimilar: () => postJson<EditReceipt>("api/similar/prepare", {}),
   guesses: (asset: string) => getJson<Guesses>("api/guesses", { asset }),
   picture: async (asset: string, rule: number, show: readonly string[]) =>
     readPicture(await getBytes("api/picture", { asset, rule, show })),

@@ -3,7 +3,7 @@ import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
 import { labelCommands } from "../commands/label";
 import { api } from "../server/api";
 import type { AnyEdit } from "../wire";
-import { addLabels, countLabels, labelHulls, moveItem, paint } from "./labels";
+import { addLabels, countLabels, endStroke, labelHulls, moveItem, paint } from "./labels";
 import { emptyProject, useProject } from "./project";
 import { applyLabel } from "./unsureHulls";
 import { sampleCard } from "./sample.test-help";
@@ -80,12 +80,16 @@ describe("painting", () => {
     paint(["y", "z"]);
     expect(labels()).toEqual(["leg", "leg", "leg"]);
     await vi.runAllTimersAsync();
+    expect(sent).toEqual([]);
+    endStroke();
+    await vi.runAllTimersAsync();
     expect(sent).toEqual([{ kind: "label", asset: "a", hulls: ["y", "z"], label: "leg" }]);
   });
 
   it("takes labels away with the empty brush", async () => {
     setBrush("");
     paint(["x"]);
+    endStroke();
     await vi.runAllTimersAsync();
     expect(sent).toEqual([{ kind: "label", asset: "a", hulls: ["x"], label: null }]);
   });

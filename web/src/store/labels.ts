@@ -1,23 +1,26 @@
 // Labels given to hulls, at once in what is shown, one by one or stroke by stroke; and the list of labels.
-import type { Card } from "../wire";
+import type { AnyEdit, Card } from "../wire";
 import { perform } from "./edits";
+import { type HullPlace, placeOf } from "./hullPlaces";
 import { type Scene, useScenes } from "./scenes";
 import { select, useWorkspace } from "./workspace";
 
-/** How long a stroke may pause and still be one edit [ms]. */
-const PAUSE = 150;
-
-/** Gives hulls a label, at once in what is shown, and on disk; where that fails, what is shown goes back. */
+/** Gives hulls a label, at once in what is shown, and on disk by one edit; where that fails, what is shown goes back.
+ * hulls: names of what is shown with this asset; elsewhere: hulls of assets that are not shown. */
 export async function labelHulls(
   asset: string,
   hulls: readonly string[],
   label: string | null,
   quiet = false,
+  elsewhere: readonly HullPlace[] = [],
 ): Promise<boolean> {
   const before = useScenes.getState().scene;
   if (before?.asset === asset) useScenes.setState({ scene: withLabel(before, hulls, label) });
   const shown = useScenes.getState().scene;
-  const done = await perform({ kind: "label", asset, hulls: [...hulls], label }, { quiet });
+  const places = [...hulls.map((hull) => (before?.parts ? placeOf(hull) : undefined) ?? { asset, hull }), ...elsewhere];
+  const isOne = !elsewhere.length && !before?.parts;
+  const edit: AnyEdit = isOne ? { kind: "label", asset, hulls: [...hulls], label } : { kind: "label-group", hulls: places, label };
+  const done = await perform(edit, { quiet });
   if (!done && useScenes.getState().scene === shown) useScenes.setState({ scene: before });
   return done;
 }
@@ -38,9 +41,8 @@ interface Stroke {
   readonly hulls: Set<string>;
 }
 let stroke: Stroke | null = null;
-let strokeTimer: ReturnType<typeof setTimeout> | undefined;
 
-/** Paints hulls with the armed label; those of one stroke become one edit. */
+/** Paints hulls with the armed label, up to the end of the stroke. */
 export function paint(names: readonly string[]): void {
   const { asset, brush } = useWorkspace.getState();
   const hulls = ownHulls(new Set(names));
@@ -50,11 +52,10 @@ export function paint(names: readonly string[]): void {
   for (const hull of hulls) stroke.hulls.add(hull);
   const { scene } = useScenes.getState();
   if (scene?.asset === asset) useScenes.setState({ scene: withLabel(scene, hulls, brush || null) });
-  clearTimeout(strokeTimer);
-  strokeTimer = setTimeout(endStroke, PAUSE);
 }
 
-function endStroke(): void {
+/** A stroke is over: what was painted since the last one is one edit. */
+export function endStroke(): void {
   if (stroke) void labelHulls(stroke.asset, [...stroke.hulls], stroke.brush || null, true);
   stroke = null;
 }

@@ -3,28 +3,15 @@
 import { create } from "zustand";
 import { api } from "../server/api";
 import { ServerProblem } from "../server/http";
-import type { EditedPacket, Shape, ShapesPacket } from "../server/packet";
-import type { AssetView, EditHeader, HullView, OpaqueView, Problem } from "../wire";
+import type { EditedPacket, ShapesPacket } from "../server/packet";
+import type { AssetView, Problem } from "../wire";
+import { notePositions } from "./hullPlaces";
 import { useProject } from "./project";
-import { openAsset, show, type Showing, useWorkspace, type WorkspaceState } from "./workspace";
+import type { Scene } from "./scene";
+import { sheetOf } from "./sheetScene";
+import { openAsset, show, showSheet, type Showing, useWorkspace, type WorkspaceState } from "./workspace";
 
-export interface SceneHull extends HullView {
-  readonly shape: Shape;
-  /** Whether the original asset lacks it. */
-  readonly made: boolean;
-}
-
-/** What the viewport shows of an asset in one state. */
-export interface Scene {
-  readonly asset: string;
-  readonly showing: Showing;
-  readonly view: AssetView;
-  readonly hulls: readonly SceneHull[];
-  readonly opaque: readonly (OpaqueView & { shape: Shape })[];
-  readonly contacts: readonly (readonly [string, string])[];
-  /** Header of the edit that led here; null for the original asset. */
-  readonly edit: EditHeader | null;
-}
+export type { Scene, SceneHull } from "./scene";
 
 interface Details {
   view: AssetView;
@@ -56,7 +43,9 @@ export async function showScene(asset: string | null, showing: Showing): Promise
   if (asset === null) return useScenes.setState({ scene: null, loading: false, problem: null });
   useScenes.setState({ loading: true });
   try {
-    const scene = await sceneOf(asset, showing);
+    const { stage, sheet } = useWorkspace.getState();
+    const isSheet = sheet.length > 1 && stage === "label" && showing.kind === "source";
+    const scene = await (isSheet ? sheetSceneOf(sheet, asset) : sceneOf(asset, showing));
     if (mine === wanted) useScenes.setState({ scene, loading: false, problem: null });
   } catch (error) {
     if (!(error instanceof ServerProblem)) throw error;
@@ -67,6 +56,13 @@ export async function showScene(asset: string | null, showing: Showing): Promise
 export async function sceneOf(asset: string, showing: Showing): Promise<Scene> {
   const [own, edit] = await Promise.all([getDetails(asset), editOf(asset, showing)]);
   return sceneFrom(asset, showing, own.view, own.packet, edit);
+}
+
+/** Several assets side by side; those that cannot be read are left out. */
+async function sheetSceneOf(assets: readonly string[], open: string): Promise<Scene> {
+  const alone = sceneOf(open, { kind: "source" });
+  const scenes = await Promise.allSettled(assets.map((asset) => (asset === open ? alone : sceneOf(asset, { kind: "source" }))));
+  return sheetOf(scenes.flatMap((one) => (one.status === "fulfilled" ? [one.value] : [])), open) ?? alone;
 }
 
 /** Puts a scene together; hulls of an edit that the asset has, too, take their shape from there. */
@@ -125,6 +121,7 @@ async function fetchDetails(asset: string, revision: number, shapeRevision: numb
   const known = kept.get(asset);
   const same = known?.shapeRevision === shapeRevision;
   const [view, packet] = await Promise.all([api.asset(asset), same ? known.packet : api.shapes(asset)]);
+  notePositions(asset, view.hulls.map(({ name }, position) => [name, position]));
   const fresh = { view, packet, revision, shapeRevision };
   kept.delete(asset);
   kept.set(asset, fresh);
@@ -159,14 +156,16 @@ export function useAssetView(): AssetView | null {
 export function followWorkspace(): () => void {
   const stops = [
     useWorkspace.subscribe((now, before) => {
-      if (now.asset !== before.asset || now.stage !== before.stage) void showUsual(now);
+      if (now.asset !== before.asset || now.stage !== before.stage || now.sheet !== before.sheet) void showUsual(now);
       else if (now.showing !== before.showing) void showScene(now.asset, now.showing);
     }),
     useProject.subscribe((now, before) => {
-      const { asset, showing } = useWorkspace.getState();
+      const { asset, showing, sheet } = useWorkspace.getState();
       if (asset !== null && !(asset in now.cards)) return openAsset(now.order[0] ?? null);
       if (asset === null) return now.order.length ? openAsset(now.project.next.asset ?? now.order[0] ?? null) : undefined;
-      const other = (key: "revisions" | "shapeRevisions") => now[key][asset] !== before[key][asset];
+      if (sheet.some((one) => !(one in now.cards))) return showSheet(sheet.filter((one) => one in now.cards));
+      const seen = sheet.length ? sheet : [asset];
+      const other = (key: "revisions" | "shapeRevisions") => seen.some((one) => now[key][one] !== before[key][one]);
       const program = showing.kind === "result" && now.program.version !== before.program.version;
       if (other("revisions") || other("shapeRevisions")) void showUsual(useWorkspace.getState());
       else if (program) void showScene(asset, showing);

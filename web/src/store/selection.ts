@@ -67,10 +67,11 @@ export function showAll(): void {
 }
 
 /** Hulls that are no more are neither selected nor hidden. */
-export function forgetMissing({ asset, hulls, showing }: Scene): void {
+export function forgetMissing({ asset, hulls, showing, parts }: Scene): void {
   const workspace = useWorkspace.getState();
   // the selection may already be that of a state which is on its way
   if (workspace.asset !== asset || JSON.stringify(workspace.showing) !== JSON.stringify(showing)) return;
+  if (workspace.sheet.length > 0 !== (parts !== undefined)) return;
   const there = new Set(hulls.map((hull) => hull.name));
   const left = (names: ReadonlySet<string>) => new Set([...names].filter((name) => there.has(name)));
   const [selection, hidden] = [left(workspace.selection), left(workspace.hidden)];

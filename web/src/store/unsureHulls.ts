@@ -65,11 +65,13 @@ const labelledPlaces = new WeakMap<Card, Set<number>>();
 
 /** Labels the selected hulls, or, where none is, arms the label so that clicks paint it; null takes labels away. */
 export function applyLabel(label: string | null): void | Promise<void> {
-  const { asset, selection, brush } = useWorkspace.getState();
+  const { asset, selection, elsewhere, brush } = useWorkspace.getState();
   const hulls = ownHulls(selection);
   const paint = label ?? "";
-  if (asset === null || !hulls.length) return setBrush(brush === paint ? null : paint);
+  if (asset === null || (!hulls.length && !elsewhere.size)) return setBrush(brush === paint ? null : paint);
   setBrush(null);
+  const others = [...elsewhere].flatMap(([other, names]) => names.map((hull) => ({ asset: other, hull })));
+  if (others.length) return void labelHulls(asset, hulls, label, false, others);
   if (!isCurrent(asset, hulls)) return void labelHulls(asset, hulls, label);
   return label === null ? labelHulls(asset, hulls, null).then(() => undefined) : labelAndGoOn(asset, hulls, label);
 }

@@ -2,6 +2,7 @@
 // DOM nor three.js.
 import { create } from "zustand";
 import type { Next } from "../wire";
+import { byAsset, type HullPlace, placeOf, sheetName } from "./hullPlaces";
 
 export type StageName = Next["stage"];
 export const STAGES: readonly StageName[] = ["label", "demonstrate", "learn", "review"];
@@ -81,11 +82,17 @@ export interface WorkspaceState {
   showing: Showing;
   /** What is to be shown of this asset in place of what its stage usually shows. */
   asked: Showing | null;
+  /** Assets that are shown side by side to be labelled, the open one among them; empty where that is alone. */
+  sheet: readonly string[];
   /** Names of hulls of what is shown. */
   selection: ReadonlySet<string>;
+  /** What else is selected, on assets that are not shown: names of their hulls. */
+  elsewhere: ReadonlyMap<string, readonly string[]>;
   hover: string | null;
   hidden: ReadonlySet<string>;
   tool: Tool;
+  /** Whether box, lasso and clicks in one place also take hulls behind others. */
+  through: boolean;
   /** The label that clicks paint, empty for taking labels away, null for plain selecting. */
   brush: string | null;
   /** Hulls that were clicked as landmarks of the orientation: where the direction starts, then where it ends. */
@@ -104,15 +111,20 @@ export interface WorkspaceState {
   cameraOrder: { count: number; to: StandardView | "fit" | "frame" | "near" };
 }
 
+const NOWHERE: WorkspaceState["elsewhere"] = new Map();
+
 export const initialWorkspace: WorkspaceState = {
   asset: null,
   stage: "label",
   showing: { kind: "source" },
   asked: null,
+  sheet: [],
   selection: new Set(),
+  elsewhere: NOWHERE,
   hover: null,
   hidden: new Set(),
   tool: "select",
+  through: false,
   brush: null,
   landmarks: [],
   draft: null,
@@ -141,22 +153,57 @@ export const useWorkspace = create<WorkspaceState>()(() => initialWorkspace);
 
 const set = useWorkspace.setState;
 
-/** Goes to an asset; selection, hover and what is hidden belong to one asset and are left behind. */
+/** Goes to an asset; selection, hover and what is hidden belong to one asset and are left behind, unless hulls of several
+ * assets are selected. */
 export function openAsset(asset: string | null): void {
-  if (useWorkspace.getState().asset === asset) return;
-  set({ asset, asked: null, selection: new Set(), hover: null, hidden: new Set(), draft: null, landmarks: [], tool: "select" });
+  const before = useWorkspace.getState();
+  if (before.asset === asset && !before.sheet.length) return;
+  const kept = before.elsewhere.size && asset !== null ? splitSelection(allSelected(), [asset], false) : LEFT;
+  set({ asset, ...kept, sheet: [], asked: null, hover: null, hidden: new Set(), draft: null, landmarks: [], tool: "select" });
+}
+
+const LEFT: Pick<WorkspaceState, "selection" | "elsewhere"> = { selection: new Set(), elsewhere: NOWHERE };
+
+/** Shows assets side by side, the open one among them; the first one is opened where it is not. The selection stays. */
+export function showSheet(assets: readonly string[]): void {
+  const { asset } = useWorkspace.getState();
+  const open = asset !== null && assets.includes(asset) ? asset : (assets[0] ?? asset);
+  const sheet = assets.length > 1 ? assets : [];
+  const shown = sheet.length ? sheet : open === null ? [] : [open];
+  const kept = splitSelection(allSelected(), shown, sheet.length > 0);
+  set({ asset: open, sheet, ...kept, asked: null, hover: null, hidden: new Set() });
+}
+
+/** Every selected hull, on assets that are shown and on others. */
+export function allSelected(): HullPlace[] {
+  const { asset, sheet, selection, elsewhere } = useWorkspace.getState();
+  const ofShown = [...selection].flatMap((name) => (sheet.length ? (placeOf(name) ?? []) : asset === null ? [] : { asset, hull: name }));
+  return [...ofShown, ...[...elsewhere].flatMap(([other, hulls]) => hulls.map((hull) => ({ asset: other, hull })))];
+}
+
+/** Selects hulls of any assets. */
+export function selectPlaces(places: readonly HullPlace[]): void {
+  const { asset, sheet } = useWorkspace.getState();
+  set(splitSelection(places, sheet.length ? sheet : asset === null ? [] : [asset], sheet.length > 0));
+}
+
+/** What is selected on the assets that are shown, and elsewhere. */
+function splitSelection(places: readonly HullPlace[], shown: readonly string[], isSheet: boolean): Pick<WorkspaceState, "selection" | "elsewhere"> {
+  const [here, there] = [true, false].map((on) => places.filter(({ asset }) => shown.includes(asset) === on));
+  const names = (here ?? []).map(({ asset, hull }) => (isSheet ? sheetName(asset, hull) : hull));
+  return { selection: new Set(names), elsewhere: there?.length ? byAsset(there) : NOWHERE };
 }
 
 /** Goes to an asset in a state, and selects hulls there; it stays in that state until another stage or asset is opened. */
 export function visit(asset: string, showing: Showing, names: Iterable<string> = []): void {
-  if (useWorkspace.getState().asset !== asset) openAsset(asset);
-  set({ asked: showing, showing, selection: new Set(names) });
+  openAsset(asset);
+  set({ asked: showing, showing, selection: new Set(names), elsewhere: NOWHERE });
 }
 
 export function openStage(stage: StageName): void {
   if (useWorkspace.getState().stage === stage) return;
   if (stage === "review") sortForReview();
-  set({ stage, asked: null, selection: new Set(), draft: null, brush: null, landmarks: [], tool: "select" });
+  set({ stage, asked: null, sheet: [], selection: new Set(), elsewhere: NOWHERE, draft: null, brush: null, landmarks: [], tool: "select" });
 }
 
 /** In review, the least sure come first, unless the person has chosen an order. */
@@ -170,6 +217,11 @@ export function show(showing: Showing): void {
 }
 
 export function select(names: Iterable<string>): void {
+  set({ selection: new Set(names), elsewhere: NOWHERE });
+}
+
+/** Selects hulls of what is shown; what is selected elsewhere stays. */
+export function selectHere(names: Iterable<string>): void {
   set({ selection: new Set(names) });
 }
 
@@ -182,12 +234,16 @@ export function selectMore(names: Iterable<string>, how: "replace" | "add" | "to
     if (how === "subtract" || (how === "toggle" && before.has(name))) after.delete(name);
     else after.add(name);
   }
-  select(after);
+  selectHere(after);
 }
 
 /** Chooses a tool; landmarks are clicked anew. */
 export function setTool(tool: Tool): void {
   set({ tool, landmarks: [] });
+}
+
+export function setThrough(through: boolean): void {
+  set({ through });
 }
 
 /** Arms a label, so that clicks paint it; null puts the brush down. */

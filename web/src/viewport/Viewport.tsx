@@ -3,6 +3,7 @@ import { useEffect, useRef, useState } from "react";
 import type { WebGLRenderer } from "three";
 import { LabelChanges } from "../family/LabelChanges";
 import { useScenes } from "../store/scenes";
+import { countText } from "../store/words";
 import { setTool, useWorkspace } from "../store/workspace";
 import { type Canvas, getCanvas } from "./canvas";
 import { CutBar } from "./overlay/CutBar";
@@ -10,8 +11,11 @@ import { CompareLine } from "./overlay/CompareLine";
 import { InfoLines, Legend } from "./overlay/InfoLines";
 import { DrawnRegion, Gaps, Landmarks } from "./overlay/Marks";
 import { Messages, NoWebGl } from "./overlay/Messages";
+import { BrushFrame, SelectionBar } from "./overlay/SelectionBar";
+import { SheetNames } from "./overlay/SheetNames";
 import { ViewCube } from "./overlay/ViewCube";
 import { Gestures } from "./pointer/gestures";
+import { watchHeldKeys } from "./pointer/heldKeys";
 import { createPointerTool } from "./pointer/tools";
 import { StageContext, useStage } from "./stage/context";
 import { settingsOf } from "./stage/panes";
@@ -60,8 +64,11 @@ function CanvasLayers({ sheet }: { sheet: Canvas }) {
       <InfoLines />
       <Legend />
       <CutBar />
+      <SheetNames />
+      <BrushFrame />
       <div className={css.outcome}>
         <LabelChanges />
+        <SelectionBar />
       </div>
     </>
   );
@@ -77,8 +84,9 @@ function CanvasView({ gl }: { gl: WebGLRenderer }) {
   }, [stage]);
   useEffect(() => (holder.current ? mountStage(stage, gl, holder.current) : undefined), [stage, gl]);
   useEffect(leaveToolByEscape, []);
+  useEffect(watchHeldKeys, []);
   const cursor = useWorkspace(({ tool, brush }) => (tool === "select" ? (brush === null ? "select" : "brush") : tool));
-  const name = useScenes(({ scene }) => (scene ? `${scene.asset}, ${scene.hulls.length} hulls` : "nothing"));
+  const name = useScenes(({ scene }) => (scene ? `${scene.parts ? countText(scene.parts.length, "asset") : scene.asset}, ${scene.hulls.length} hulls` : "nothing"));
   return <div ref={holder} className={css.picture} data-tool={cursor} role="img" aria-label={`View of ${name}`} />;
 }
 

@@ -24,6 +24,7 @@ from meshforge.studio.jobs import start_job
 from meshforge.studio.queries import assets, packets, programs
 from meshforge.studio.queries.project import model_of
 from meshforge.studio.session.session import Session
+from meshforge.studio.similar_hulls import choose_assets
 from meshforge.studio.thumbnails import ThumbnailOf
 from meshforge.studio.uploads import find_assets
 from meshforge.studio.wire import requests
@@ -75,6 +76,26 @@ def select(session: CurrentSession, request: requests.SelectRequest) -> Selectio
     """What an extractor selects on an asset."""
     program = None if request.rule is None else present_program(session)
     return programs.select_hulls(session.project, request.asset, session.mesh(request.asset), request, program)
+
+
+@router.post("/similar")
+def find_similar(session: CurrentSession, request: requests.SimilarRequest) -> requests.SimilarView:
+    """Which hulls look like some."""
+    session.check_assets(*(one.asset for one in request.hulls), *(request.assets or ()))
+    return session.similar.find(session.project, readable_assets(session), request)
+
+
+@router.post("/similar/prepare")
+def prepare_similar(session: CurrentSession) -> requests.EditReceipt:
+    """Describe the assets, as hulls that look alike may soon be asked for."""
+    assets = choose_assets((), readable_assets(session))
+    session.similar.prepare(session.project, assets)
+    return requests.EditReceipt(said="preparing")
+
+
+def readable_assets(session: Session) -> tuple[str, ...]:
+    """The assets that have hulls, as far as they are read by now."""
+    return tuple(card.asset for card in session.pages.cards if card.hulls)
 
 
 @router.post("/generalise")

@@ -11,7 +11,7 @@ from meshforge.common import join_names, pluralize
 from meshforge.project import Project
 from meshforge.store import parse_action_text
 from meshforge.studio.edits.base import PROGRAM_FILES, Edit, JobEdit
-from meshforge.studio.wire import Wire
+from meshforge.studio.wire.requests import HullOfAsset
 
 
 class LabelHulls(Edit):
@@ -57,21 +57,19 @@ class LabelByName(Edit):
         return f"{self.asset}: {', '.join(parts)}"
 
 
-class HullOfAsset(Wire):
-    """A hull of an asset, both by name. label: that it gets where it is an exception among others."""
+class GroupHull(HullOfAsset):
+    """A hull of a group. label: that it gets in place of the group's, where it is an exception."""
 
-    asset: str
-    hull: str
     label: str | None = None
 
 
 class LabelGroup(Edit):
-    """Give hulls of several assets one label, but for exceptions among them."""
+    """Give hulls of several assets one label, but for exceptions among them; null takes their labels away."""
 
     kind: Literal["label-group"] = "label-group"
     touches = ()
-    hulls: tuple[HullOfAsset, ...]
-    label: str
+    hulls: tuple[GroupHull, ...]
+    label: str | None
 
     def apply(self, project: Project) -> None:
         for asset in self._assets:
@@ -84,9 +82,11 @@ class LabelGroup(Edit):
     def describe(self, project: Project) -> str:
         count = len(self._assets)
         where = self._assets[0] if count == 1 else pluralize(count, "asset")
+        hulls = f"{pluralize(len(self.hulls), 'hull')} of {where}"
         counts = Counter(one.label or self.label for one in self.hulls)
-        labels = [f"{pluralize(n, 'hull')} labelled {label}" for label, n in counts.items()]
-        return f"{where}: {', '.join(labels)}"
+        if len(counts) > 1:
+            return f"{hulls}: {', '.join(f'{count} {label}' for label, count in counts.items())}"
+        return f"{hulls} labelled {self.label}" if self.label else f"label of {hulls} taken away"
 
     @property
     def _assets(self) -> tuple[str, ...]:

@@ -28,6 +28,7 @@ from meshforge.studio.queries.programs import read_program_view
 from meshforge.studio.session.file_sync import FileSync, FileWatcher
 from meshforge.studio.session.job_runner import JobRunner
 from meshforge.studio.session.refresh import Refresher, initial_view
+from meshforge.studio.similar_hulls import SimilarHulls
 from meshforge.studio.thumbnails import Thumbnails
 from meshforge.studio.uploads import Uploads
 from meshforge.studio.wire.events import HistoryChanged
@@ -69,6 +70,7 @@ class Session:
         self.offers = OfferCache()
         self.jobs = JobRunner(self.pages.set_job)
         self.thumbnails = Thumbnails(own / "thumbnails", self._drawers)
+        self.similar = SimilarHulls(self._drawers)
         self.checks = OutputChecks(own / "checks", self._checkers)
         self.uploads, self.downloads = Uploads(own / "uploads"), Downloads(own / "downloads")
         # the queue's thread must see the project that is open when it works, not the first one

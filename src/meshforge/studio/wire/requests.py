@@ -37,6 +37,40 @@ class GeneraliseRequest(Wire):
     rule: int = 1
 
 
+class HullOfAsset(Wire):
+    """A hull of an asset, both by name."""
+
+    asset: str
+    hull: str
+
+
+class SimilarRequest(Wire):
+    """Which hulls look like some? assets: where to look besides the hulls' own assets; null: in these alone; step: from
+    0 on, how much they may differ."""
+
+    hulls: tuple[HullOfAsset, ...]
+    assets: tuple[str, ...] | None = None
+    step: int = 0
+
+
+class HullsOfAsset(Wire):
+    """Some hulls of an asset, by name, and their positions in it."""
+
+    asset: str
+    hulls: tuple[str, ...]
+    positions: tuple[int, ...]
+
+
+class SimilarView(Wire):
+    """Hulls that look like those of the request, these included. step: the one that was taken; more: whether another
+    step may take more; unread: assets that could not be looked in."""
+
+    found: tuple[HullsOfAsset, ...]
+    step: int
+    more: bool
+    unread: tuple[str, ...]
+
+
 class CheckRequest(Wire):
     """Is this text a program?"""
 

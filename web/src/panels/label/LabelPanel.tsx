@@ -4,7 +4,7 @@ import { useProject } from "../../store/project";
 import { type SceneHull, useScenes } from "../../store/scenes";
 import { confirmLabels, goToUnsure, isUnsure, labelProgress } from "../../store/unsureHulls";
 import { countText, sourceText } from "../../store/words";
-import { setBrush, useWorkspace } from "../../store/workspace";
+import { useWorkspace } from "../../store/workspace";
 import { Button } from "../../ui/Button";
 import { Note, Section, Swatch } from "../../ui/Section";
 import css from "./label.module.css";
@@ -14,25 +14,9 @@ import { GetLabels } from "./GetLabels";
 export function LabelPanel() {
   return (
     <div className={css.panel} data-tour="labels">
-      <Brush />
       <Vocabulary />
       <UnsureHulls />
       <GetLabels />
-    </div>
-  );
-}
-
-function Brush() {
-  const brush = useWorkspace((workspace) => workspace.brush);
-  if (brush === null) return null;
-  return (
-    <div className={css.brush} role="status">
-      <Note>
-        <span>Painting {brush ? <strong>{brush}</strong> : "no label"}: click hulls, or drag over them.</span>
-        <Button look="quiet" onClick={() => setBrush(null)} keys="Esc" tip="Select again">
-          Stop
-        </Button>
-      </Note>
     </div>
   );
 }

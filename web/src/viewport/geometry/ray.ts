@@ -16,7 +16,10 @@ interface RayHit {
 /** Faces that a ray meets nearer to each other than this share of the way lie in one plane. */
 const SAME = 1e-5;
 
-/** The first shape on a ray, of those with faces in one plane the one that is drawn in front, among those that are in sight; aways, explode: how shapes are moved. */
+/**
+ * The first shape on a ray among those that are in sight; of those with faces in one plane, the one that is drawn in
+ * front. aways, explode: how shapes are moved.
+ */
 export function castRay(
   shapes: MergedShapes,
   ray: Ray,
@@ -27,15 +30,8 @@ export function castRay(
   let best: RayHit | null = null;
   for (let k = 0; k < shapes.count; k++) {
     if (!visible[k]) continue;
-    const away = aways[k] ?? ZERO;
-    const from: Point = [
-      ray.from[0] - explode * away[0],
-      ray.from[1] - explode * away[1],
-      ray.from[2] - explode * away[2],
-    ];
     const last = best?.distance ?? Infinity;
-    if (!hitsBox(shapes.boxes, k, from, ray.along, last * (1 + SAME))) continue;
-    const distance = nearestFace(shapes, k, from, ray.along);
+    const distance = distanceTo(shapes, k, ray, aways, explode, last * (1 + SAME));
     if (isBefore(shapes.layers, k, distance, best)) best = { place: k, distance };
   }
   return best;
@@ -45,6 +41,32 @@ function isBefore(layers: Float32Array, place: number, distance: number, best: R
   if (distance === Infinity) return false;
   if (!best || distance < best.distance * (1 - SAME)) return true;
   return distance <= best.distance * (1 + SAME) && (layers[place] ?? 0) < (layers[best.place] ?? 0);
+}
+
+/** All shapes on a ray among those that are in sight, the first one first. */
+export function castRayThrough(
+  shapes: MergedShapes,
+  ray: Ray,
+  visible: readonly boolean[],
+  aways: readonly Point[],
+  explode: number,
+): RayHit[] {
+  const all = Array.from({ length: shapes.count }, (_, place) => place).filter((place) => visible[place]);
+  const hits = all.map((place) => ({ place, distance: distanceTo(shapes, place, ray, aways, explode, Infinity) }));
+  const first = ({ distance, place }: RayHit, other: RayHit) =>
+    Math.abs(distance - other.distance) <= SAME * distance ? (shapes.layers[place] ?? 0) - (shapes.layers[other.place] ?? 0) : distance - other.distance;
+  return hits.filter(({ distance }) => distance < Infinity).sort(first);
+}
+
+/** How far along a ray a shape is met; Infinity where it is not, or not within a limit. */
+function distanceTo(shapes: MergedShapes, k: number, ray: Ray, aways: readonly Point[], explode: number, limit: number): number {
+  const away = aways[k] ?? ZERO;
+  const from: Point = [
+    ray.from[0] - explode * away[0],
+    ray.from[1] - explode * away[1],
+    ray.from[2] - explode * away[2],
+  ];
+  return hitsBox(shapes.boxes, k, from, ray.along, limit) ? nearestFace(shapes, k, from, ray.along) : Infinity;
 }
 
 const ZERO: Point = [0, 0, 0];

@@ -81,7 +81,8 @@ export class Gestures {
     if (begun.far) begun.drag?.end(event);
     else {
       begun.drag?.cancel();
-      if (event.button === 0 && !begun.camera) this.grip.click(begun.spot, event);
+      // with Alt a drag would have moved the camera; a click goes through
+      if (event.button === 0 && (!begun.camera || event.altKey)) this.grip.click(begun.spot, event);
     }
   }
 

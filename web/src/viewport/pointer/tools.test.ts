@@ -44,6 +44,7 @@ beforeEach(() => {
   useRegion.setState({ drawn: [], region: new Set() });
   useCut.setState(initialCut);
   vi.spyOn(labels, "paint").mockImplementation(() => undefined);
+  vi.spyOn(labels, "endStroke").mockImplementation(() => undefined);
   stage = stageOf(scene);
 });
 
@@ -181,6 +182,57 @@ describe("a drag with the brush", () => {
 
   it("without the brush moves the camera, also from a hull", () => {
     expect(drag(spotOf("left"), [EMPTY])).toBe(false);
+  });
+});
+
+describe("through hulls", () => {
+  const row = boxScene([box("front", [0, 0, 0]), box("back", [-6, 3, -6], [12, 1, 12]), box("beside", [6, -3, 0])]);
+  /** The middle of `front`, with `back` behind it. */
+  let spot: [number, number];
+
+  beforeEach(() => {
+    useScenes.setState({ scene: row });
+    stage = stageOf(row);
+    spot = spotOf("front");
+  });
+
+  it("a click takes the first; with Alt the next one behind, and after the last the first again", () => {
+    const tool = createPointerTool(stage);
+    const taken = [{}, { altKey: true }, { altKey: true }].map((keys) => {
+      tool.click(spot, press(keys));
+      return selected();
+    });
+    expect(taken).toEqual([["front"], ["back"], ["front"]]);
+  });
+
+  it("a click again in one place goes on behind only while one selects through", () => {
+    const tool = createPointerTool(stage);
+    tool.click(spot, press());
+    tool.click(spot, press());
+    expect(selected()).toEqual(["front"]);
+    useWorkspace.setState({ through: true });
+    tool.click(spot, press());
+    expect(selected()).toEqual(["back"]);
+  });
+
+  it("with Shift, the one behind is added in place of the one before it", () => {
+    select(["beside"]);
+    const tool = createPointerTool(stage);
+    tool.click(spot, press({ shiftKey: true }));
+    tool.click(spot, press({ shiftKey: true, altKey: true }));
+    expect(selected()).toEqual(["back", "beside"]);
+  });
+
+  it("a box takes what it only touches behind others, also where that is switched on during the drag", () => {
+    useWorkspace.setState({ tool: "box" });
+    const [x, y] = spot;
+    const begun = createPointerTool(stage).begin([x - 2, y - 2], press());
+    begun?.move([x + 2, y + 2]);
+    expect([...useRegion.getState().region]).toEqual([]);
+    useWorkspace.setState({ through: true });
+    expect([...useRegion.getState().region].sort()).toEqual(["back", "front"]);
+    begun?.end(press());
+    expect(selected()).toEqual(["back", "front"]);
   });
 });
 

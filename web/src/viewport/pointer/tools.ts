@@ -1,31 +1,65 @@
-// What each tool does with the left button: clicks select, paint or mark; drags draw a box or lasso, move the cutting
-// plane, or paint.
+// What each tool does with the left button: clicks select, paint or mark; drags draw a box or lasso, paint, or move the
+// cutting plane.
 import { Vector3 } from "three";
-import type { AssetDrawing } from "../drawing/assetDrawing";
-import { drawHullIds } from "../drawing/hullIds";
-import { boxRegion, isInside, placesInside, type Region, type Spot } from "../geometry/region";
-import { clearRegion, setRegion, useRegion } from "../stage/regionStore";
-import type { Pane } from "../stage/panes";
+import { castRayThrough } from "../geometry/ray";
+import type { Spot } from "../geometry/region";
+import { clearRegion, setRegion } from "../stage/regionStore";
 import { hullAt, pieceAt, rayAt } from "../stage/picking";
 import type { Stage } from "../stage/stage";
 import { hullToCut, planeOf, setCut, shareAt, type Triple, useCut } from "../../store/cut";
-import { paint } from "../../store/labels";
+import { endStroke, paint } from "../../store/labels";
 import type { SceneHull } from "../../store/scenes";
-import { hover, select, selectMore, setTool, useWorkspace } from "../../store/workspace";
+import { hover, select, selectMore, useWorkspace } from "../../store/workspace";
+import { beginStroke } from "./brush";
 import type { Drag, PointerTool } from "./gestures";
+import { armHeldDigit } from "./heldKeys";
+import { beginRegion } from "./regions";
 
 export function createPointerTool(stage: Stage): PointerTool {
   return {
     begin: (spot, event) => {
+      if (useWorkspace.getState().tool === "select") armHeldDigit();
       const { tool, brush } = useWorkspace.getState();
       if (tool === "box" || tool === "lasso") return beginRegion(stage, tool, spot, event);
       if (tool === "cut") return beginCut(stage, spot);
-      return tool === "select" && brush !== null ? beginStroke(stage, ...spot) : null;
+      return tool === "select" && brush !== null ? beginStroke(stage, spot) : null;
     },
-    click: ([x, y], event) => handleClick(hullAt(stage, x, y), event),
+    click: createClick(stage),
     hover: (spot) => hover(spot && pieceAt(stage, ...spot)),
     drawsRegion: () => ["box", "lasso"].includes(useWorkspace.getState().tool),
   };
+}
+
+/** Clicks farther apart than this are not in one place [px]. */
+const SAME_PLACE = 3;
+
+/** Clicks on hulls. One with Alt, or again in the same place while one selects through, goes to the next hull behind. */
+function createClick(stage: Stage): PointerTool["click"] {
+  let last: { spot: Spot; name: string | null } = { spot: [-99, -99], name: null };
+  return (spot, event) => {
+    const { tool, brush, through, selection } = useWorkspace.getState();
+    const isAgain = Math.hypot(spot[0] - last.spot[0], spot[1] - last.spot[1]) <= SAME_PLACE;
+    const isPlain = tool !== "landmark" && tool !== "cut" && !(tool === "select" && brush !== null);
+    if (!isPlain || !(event.altKey || (through && isAgain))) {
+      last = { spot, name: hullAt(stage, ...spot) };
+      return handleClick(last.name, event);
+    }
+    const behind = hullsThrough(stage, spot);
+    const from = isAgain && last.name !== null ? last.name : behind.find((name) => selection.has(name));
+    const name = behind[(behind.indexOf(from ?? "") + 1) % Math.max(behind.length, 1)] ?? null;
+    // what the click before added is not meant any more
+    if (isAgain && event.shiftKey && last.name !== null && name !== last.name) selectMore([last.name], "subtract");
+    last = { spot, name };
+    handleClick(name, event);
+  };
+}
+
+/** The hulls that the line of sight meets, from the front to the back. */
+function hullsThrough(stage: Stage, [x, y]: Spot): string[] {
+  const side = stage.sideOf(stage.paneAt(x));
+  if (!side) return [];
+  const { shapes, visible, aways, names } = side.hulls;
+  return castRayThrough(shapes, rayAt(stage, x, y), visible, aways, stage.settings.explode).flatMap(({ place }) => names[place] ?? []);
 }
 
 /** A click on a hull, or on nothing. */
@@ -33,39 +67,20 @@ function handleClick(name: string | null, { shiftKey, ctrlKey, metaKey }: MouseE
   const { tool, brush } = useWorkspace.getState();
   if (tool === "landmark") return name === null ? undefined : addLandmark(name);
   if (tool === "cut") return name === null ? undefined : select([name]);
-  if (tool === "select" && brush !== null) return name === null ? undefined : paint([name]);
+  if (tool === "select" && brush !== null) return name === null ? undefined : paintOne(name);
   if (name !== null) selectMore([name], shiftKey ? "add" : ctrlKey || metaKey ? "toggle" : "replace");
   else if (!shiftKey && !ctrlKey && !metaKey) select([]);
+}
+
+function paintOne(name: string): void {
+  paint([name]);
+  endStroke();
 }
 
 /** The first click is where the direction starts, the second where it ends; a third begins anew. */
 function addLandmark(name: string): void {
   const { landmarks } = useWorkspace.getState();
   useWorkspace.setState({ landmarks: landmarks.length === 1 ? [...landmarks, name] : [name] });
-}
-
-/** A stroke of the brush over hulls; on nothing, the camera moves instead. */
-function beginStroke(stage: Stage, x: number, y: number): Drag | null {
-  const first = hullAt(stage, x, y);
-  if (first === null) return null;
-  const done = new Set([first]);
-  const over = (name: string | null): void => {
-    if (name === null || done.has(name)) return;
-    done.add(name);
-    paint([name]);
-  };
-  let began = false;
-  return {
-    move: ([nextX, nextY]) => {
-      if (!began) paint([first]);
-      began = true;
-      const name = hullAt(stage, nextX, nextY);
-      hover(name);
-      over(name);
-    },
-    end: () => undefined,
-    cancel: () => undefined,
-  };
 }
 
 /** Moving the cutting plane by hand: slid along its axis, or drawn as a line across the hull. */
@@ -117,71 +132,4 @@ function unexploded(stage: Stage, hull: SceneHull, at: readonly number[]): numbe
   const k = stage.shown?.hulls.places.get(hull.name) ?? -1;
   const away = stage.shown?.hulls.aways[k] ?? [0, 0, 0];
   return at.map((value, axis) => value - stage.settings.explode * (away[axis] ?? 0));
-}
-
-/** Begins a region; with shift it adds, with ctrl it toggles, with Alt it takes away, and the tool stays in hand. */
-function beginRegion(stage: Stage, tool: "box" | "lasso", start: Spot, pressed: PointerEvent): Drag | null {
-  const pane = stage.paneAt(start[0]);
-  const side = stage.sideOf(pane);
-  if (!side) return null;
-  const finder = finderOf(stage, side, pane);
-  let drawn: Region = [start];
-  return {
-    move: (spot) => {
-      drawn = tool === "box" ? boxRegion(start, spot) : extendLasso(drawn, spot);
-      setRegion({ drawn, region: finder(drawn) });
-    },
-    end: (event) => {
-      const { region } = useRegion.getState();
-      const how = selectionMode(pressed, event);
-      selectMore(region, how);
-      clearRegion();
-      if (how === "replace" && useWorkspace.getState().tool === tool) setTool("select");
-    },
-    cancel: clearRegion,
-  };
-}
-
-const STEP = 3;
-
-function extendLasso(drawn: Region, spot: Spot): Region {
-  const last = drawn.at(-1) ?? spot;
-  return Math.hypot(spot[0] - last[0], spot[1] - last[1]) < STEP ? drawn : [...drawn, spot];
-}
-
-function selectionMode(pressed: PointerEvent, event: PointerEvent): "replace" | "add" | "toggle" | "subtract" {
-  const held = (key: "altKey" | "shiftKey" | "ctrlKey" | "metaKey") => pressed[key] || event[key];
-  if (held("altKey")) return "subtract";
-  if (held("shiftKey")) return "add";
-  return held("ctrlKey") || held("metaKey") ? "toggle" : "replace";
-}
-
-/** Finds the names of hulls in a region, in the picture as it is now. */
-function finderOf(stage: Stage, side: AssetDrawing, pane: Pane): (region: Region) => ReadonlySet<string> {
-  const { hulls } = side;
-  const [width, height] = [Math.ceil(pane.width), Math.ceil(stage.height)];
-  const places = stage.gl ? drawHullIds(stage.gl, hulls, stage.view.camera(), width, height) : new Uint32Array();
-  const spots = vertexSpots(stage, side, pane);
-  return (region) => {
-    const inPane = region.map(([x, y]): Spot => [x - pane.x, y]);
-    const found = placesInside(inPane, places, width, height);
-    hulls.names.forEach((_, k) => {
-      if (hulls.visible[k] && !found.has(k) && spots[k]?.every((spot) => isInside(region, spot))) found.add(k);
-    });
-    return new Set([...found].flatMap((k) => hulls.names[k] ?? []));
-  };
-}
-
-/** Where the corners of each hull's box are seen. */
-function vertexSpots(stage: Stage, { hulls }: AssetDrawing, pane: Pane): Spot[][] {
-  const { boxes } = hulls.shapes;
-  return hulls.names.map((_, k) => {
-    const away = hulls.aways[k] ?? [0, 0, 0];
-    const at = (axis: number, high: boolean) =>
-      (boxes[6 * k + axis + (high ? 3 : 0)] ?? 0) + stage.settings.explode * (away[axis] ?? 0);
-    return Array.from({ length: 8 }, (_corner, c): Spot => {
-      const { x, y } = stage.pixelOf([at(0, !!(c & 1)), at(1, !!(c & 2)), at(2, !!(c & 4))], pane);
-      return [x, y];
-    });
-  });
 }

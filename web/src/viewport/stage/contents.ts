@@ -30,7 +30,7 @@ export class Contents {
   /** Shows a scene; whether it is of another asset than before. */
   show(scene: Scene | null): boolean {
     const last = this.shown?.scene;
-    const isOther = scene?.asset !== last?.asset;
+    const isOther = scene?.asset !== last?.asset || String(scene?.parts?.map(({ asset }) => asset)) !== String(last?.parts?.map(({ asset }) => asset));
     if (scene && !isOther && this.shown?.adopt(scene)) return false;
     this.shown?.dispose();
     if (isOther) {

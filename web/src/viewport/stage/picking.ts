@@ -3,6 +3,7 @@ import { Matrix4, Vector3 } from "three";
 import { type AssetDrawing, spotsOf } from "../drawing/assetDrawing";
 import { castRay, type Ray } from "../geometry/ray";
 import type { Point } from "../geometry/triangles";
+import { useWorkspace } from "../../store/workspace";
 import type { Stage } from "./stage";
 
 /** The line of sight through a pixel, in the frame of the file. */
@@ -64,6 +65,8 @@ interface ViewportProbe {
   /** A pixel of the window where a hull is seen, null where nothing of it is. */
   project(name: string): { x: number; y: number } | null;
   hullAt(x: number, y: number): string | null;
+  /** Hulls that are outlined as selected. */
+  selected(): string[];
   frames(): number;
 }
 
@@ -83,6 +86,7 @@ export function exposeProbe(stage: Stage, root: HTMLElement): () => void {
       return seen && { x: left + seen.x, y: top + seen.y };
     },
     hullAt: (x, y) => hullAt(stage, x - corner().left, y - corner().top),
+    selected: () => [...useWorkspace.getState().selection],
     frames: () => stage.frames,
   };
   window.meshforgeViewport = exposed;

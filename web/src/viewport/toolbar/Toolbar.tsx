@@ -6,6 +6,7 @@ import {
   Ghost,
   Grid2x2X,
   Lasso,
+  Layers2,
   MousePointer2,
   Network,
   Slice,
@@ -16,7 +17,7 @@ import {
 import { lazy, Suspense } from "react";
 import { startCut } from "../../commands/demonstrate";
 import { useScenes, waitForFirstScene } from "../../store/scenes";
-import { type Compare, setTool, setView, type Tool, useWorkspace, type ViewSettings } from "../../store/workspace";
+import { type Compare, setThrough, setTool, setView, type Tool, useWorkspace, type ViewSettings } from "../../store/workspace";
 import { IconButton, Tip } from "../../ui/Button";
 import { Choice, Slide } from "../../ui/fields";
 import { keyOf } from "./commandLines";
@@ -58,6 +59,7 @@ const TAKES = "selects hulls that are visible inside or completely inside; Shift
 /** What the left button does: one of four tools. */
 function Tools() {
   const tool = useWorkspace((workspace) => workspace.tool);
+  const through = useWorkspace((workspace) => workspace.through);
   const take = (next: Tool) => setTool(tool === next ? "select" : next);
   return (
     <div className={css.group} role="group" aria-label="Tools">
@@ -80,6 +82,13 @@ function Tools() {
         keys={keyOf("tool-lasso")}
         on={tool === "lasso"}
         onClick={() => take("lasso")}
+      />
+      <IconButton
+        icon={Layers2}
+        name="Select through: box, lasso and repeated clicks also take hulls behind others; Alt+click takes the next one behind"
+        keys={keyOf("select-through")}
+        on={through}
+        onClick={() => setThrough(!through)}
       />
       <IconButton
         icon={Slice}

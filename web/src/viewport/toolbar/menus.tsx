@@ -29,6 +29,8 @@ export function SelectionMenu() {
         ...linesOf(["select-all", "select-none", "select-invert"]),
         "line",
         ...linesOf(["select-grow", "select-connected", "select-alike"]),
+        "line",
+        ...linesOf(["select-similar", "select-similar-everywhere"]),
         ...(labels.length ? ["line" as const, ...labels] : []),
         "line",
         ...linesOf(["hide", "isolate", "show-all"]),

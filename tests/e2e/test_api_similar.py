@@ -1,0 +1,65 @@
+"""Look-alikes by the studio's interface: found in one asset and in all, and labelled by one edit that one undo takes
+back."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from meshforge.project import Project
+from tests.e2e.legs import LEGS, four_legged
+from tests.e2e.studio import Studio, ok, opened
+
+FIRST, SECOND = "t0.obj", "t1.obj"
+
+
+@pytest.fixture
+def studio(tmp_path: Path) -> Iterator[Studio]:
+    """Four tables of a top and four legs."""
+    project = four_legged(tmp_path, words=("top", "leg"))
+    with opened(tmp_path, project.folder) as found:
+        found.settled()
+        ok(found.post("/api/similar/prepare"))
+        yield found
+
+
+def similar(studio: Studio, hull: str, assets: list[str] | None = None, step: int = 0) -> dict[str, list[str]]:
+    """The hulls found, by asset."""
+    request = {"hulls": [{"asset": FIRST, "hull": hull}], "assets": assets, "step": step}
+    found: dict[str, Any] = ok(studio.post("/api/similar", request))
+    assert found["unread"] == []
+    return {row["asset"]: row["hulls"] for row in found["found"]}
+
+
+def test_look_alikes_of_a_leg_are_the_legs(studio: Studio) -> None:
+    assert similar(studio, "leg_b") == {FIRST: list(LEGS)}
+    assert similar(studio, "leg_b", [SECOND]) == {FIRST: list(LEGS), SECOND: list(LEGS)}
+    everywhere = similar(studio, "leg_b", [f"t{k}.obj" for k in range(4)])
+    assert everywhere == {f"t{k}.obj": list(LEGS) for k in range(4)}
+
+
+def test_what_a_person_labelled_otherwise_is_left_alone(studio: Studio) -> None:
+    studio.edit("label", asset=SECOND, hulls=["leg_a"], label="top")
+    assert "leg_a" not in similar(studio, "leg_b", [SECOND]).get(SECOND, [])
+    assert similar(studio, "leg_b") == {FIRST: list(LEGS)}
+
+
+def test_hulls_of_several_assets_are_labelled_and_unlabelled_by_one_edit_each(studio: Studio) -> None:
+    project = Project.open(Path(studio.settled()["project"]["folder"]))
+    hulls = [{"asset": asset, "hull": leg} for asset in (FIRST, SECOND) for leg in LEGS]
+    studio.edit("label-group", hulls=hulls, label="leg")
+    assert [project.labels(asset).labels["leg_c"].name for asset in (FIRST, SECOND)] == ["leg", "leg"]
+    assert studio.edit("label-group", hulls=hulls, label=None)["said"] == "label of 8 hulls of 2 assets taken away"
+    assert not any(project.labels(asset).labels for asset in (FIRST, SECOND))
+    ok(studio.post("/api/undo"))
+    assert project.labels(SECOND).labels["leg_d"].name == "leg"
+    ok(studio.post("/api/undo"))
+    assert not any(project.labels(asset).labels for asset in (FIRST, SECOND))
+
+
+def test_hulls_and_assets_that_are_not_there_are_refused(studio: Studio) -> None:
+    for asset, hull in ((FIRST, "wing"), ("none.obj", "leg_a")):
+        assert studio.post("/api/similar", {"hulls": [{"asset": asset, "hull": hull}]}).status_code == 404

@@ -1,0 +1,50 @@
+// The names of assets that are side by side, each at the foot of its asset.
+import { useRef } from "react";
+import { commonPartsOf, splitName } from "../../store/commonParts";
+import { useProject } from "../../store/project";
+import { useScenes } from "../../store/scenes";
+import { useFrame, useStage } from "../stage/context";
+import css from "./selectionBar.module.css";
+
+export function SheetNames() {
+  const parts = useScenes(({ scene }) => scene?.parts);
+  return parts ? <Names parts={parts} /> : null;
+}
+
+type Parts = NonNullable<NonNullable<ReturnType<typeof useScenes.getState>["scene"]>["parts"]>;
+
+function Names({ parts }: { parts: Parts }) {
+  const stage = useStage();
+  const order = useProject((state) => state.order);
+  const open = useScenes(({ scene }) => scene?.asset);
+  const holder = useRef<HTMLDivElement>(null);
+  useFrame(() => {
+    const pane = stage.panes().at(-1);
+    const elements = holder.current?.children;
+    if (!pane || !elements) return;
+    parts.forEach(({ low, high }, k) => {
+      const element = elements[k];
+      if (!(element instanceof HTMLElement)) return;
+      // the lowest that is seen of its box
+      const corners = [0, 1, 2, 3].map((c) => stage.pixelOf([c & 1 ? high[0] : low[0], c & 2 ? high[1] : low[1], low[2]], pane));
+      const left = corners.reduce((sum, { x }) => sum + x / 4, 0);
+      element.style.left = `${left}px`;
+      element.style.top = `${Math.max(...corners.map(({ y }) => y))}px`;
+    });
+  });
+  return (
+    <div ref={holder} className={css.names} aria-hidden>
+      {parts.map(({ asset }) => (
+        <span key={asset} data-open={asset === open}>
+          {ownPart(asset, order)}
+        </span>
+      ))}
+    </div>
+  );
+}
+
+/** What tells an asset from the others of its family. */
+function ownPart(asset: string, order: readonly string[]): string {
+  const [, own, end] = splitName(asset, commonPartsOf(order)(asset));
+  return own + end;
+}

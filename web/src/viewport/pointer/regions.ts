@@ -1,0 +1,108 @@
+// Selecting by a box or a lasso: what is seen in it, or all that lies behind it as well.
+import type { AssetDrawing } from "../drawing/assetDrawing";
+import { drawHullIds } from "../drawing/hullIds";
+import { meets, outlineOf } from "../geometry/outline";
+import { boxRegion, isInside, placesInside, type Region, type Spot } from "../geometry/region";
+import { clearRegion, setRegion, useRegion } from "../stage/regionStore";
+import type { Pane } from "../stage/panes";
+import type { Stage } from "../stage/stage";
+import { selectMore, setTool, useWorkspace } from "../../store/workspace";
+import type { Drag } from "./gestures";
+import { noteDrag } from "./heldKeys";
+
+/** Begins a region; with shift it adds, with ctrl it toggles, with Alt it takes away, and the tool stays in hand. */
+export function beginRegion(stage: Stage, tool: "box" | "lasso", start: Spot, pressed: PointerEvent): Drag | null {
+  const pane = stage.paneAt(start[0]);
+  const side = stage.sideOf(pane);
+  if (!side) return null;
+  const finder = finderOf(stage, side, pane);
+  let drawn: Region = [start];
+  const find = (): void => setRegion({ drawn, region: finder(drawn, useWorkspace.getState().through) });
+  // a key that is pressed during the drag shows at once what it changes
+  const stop = useWorkspace.subscribe((now, before) => {
+    if (now.through !== before.through && drawn.length > 1) find();
+  });
+  const leave = (): void => {
+    stop();
+    clearRegion();
+  };
+  return {
+    move: (spot) => {
+      drawn = tool === "box" ? boxRegion(start, spot) : extendLasso(drawn, spot);
+      find();
+    },
+    end: (event) => {
+      const { region } = useRegion.getState();
+      const how = selectionMode(pressed, event);
+      noteDrag();
+      selectMore(region, how);
+      leave();
+      if (how === "replace" && useWorkspace.getState().tool === tool) setTool("select");
+    },
+    cancel: leave,
+  };
+}
+
+const STEP = 3;
+
+function extendLasso(drawn: Region, spot: Spot): Region {
+  const last = drawn.at(-1) ?? spot;
+  return Math.hypot(spot[0] - last[0], spot[1] - last[1]) < STEP ? drawn : [...drawn, spot];
+}
+
+function selectionMode(pressed: PointerEvent, event: PointerEvent): "replace" | "add" | "toggle" | "subtract" {
+  const held = (key: "altKey" | "shiftKey" | "ctrlKey" | "metaKey") => pressed[key] || event[key];
+  if (held("altKey")) return "subtract";
+  if (held("shiftKey")) return "add";
+  return held("ctrlKey") || held("metaKey") ? "toggle" : "replace";
+}
+
+type Finder = (region: Region, through: boolean) => ReadonlySet<string>;
+
+/** Finds the names of hulls in a region, in the picture as it is now; through: also those behind others. */
+function finderOf(stage: Stage, side: AssetDrawing, pane: Pane): Finder {
+  const { hulls } = side;
+  const [width, height] = [Math.ceil(pane.width), Math.ceil(stage.height)];
+  const places = stage.gl ? drawHullIds(stage.gl, hulls, stage.view.camera(), width, height) : new Uint32Array();
+  const spots = vertexSpots(stage, side, pane);
+  let outlines: readonly Spot[][] | null = null;
+  return (region, through) => {
+    outlines ??= through ? outlinesOf(stage, side, pane) : null;
+    const inPane = region.map(([x, y]): Spot => [x - pane.x, y]);
+    const found = placesInside(inPane, places, width, height);
+    hulls.names.forEach((_, k) => {
+      if (!hulls.visible[k] || found.has(k)) return;
+      const inside = through ? meets(region, outlines?.[k] ?? []) : spots[k]?.every((spot) => isInside(region, spot));
+      if (inside) found.add(k);
+    });
+    return new Set([...found].flatMap((k) => hulls.names[k] ?? []));
+  };
+}
+
+/** Where the corners of each hull's box are seen. */
+function vertexSpots(stage: Stage, { hulls }: AssetDrawing, pane: Pane): Spot[][] {
+  const { boxes } = hulls.shapes;
+  return hulls.names.map((_, k) => {
+    const away = hulls.aways[k] ?? [0, 0, 0];
+    const at = (axis: number, high: boolean) =>
+      (boxes[6 * k + axis + (high ? 3 : 0)] ?? 0) + stage.settings.explode * (away[axis] ?? 0);
+    return Array.from({ length: 8 }, (_corner, c): Spot => {
+      const { x, y } = stage.pixelOf([at(0, !!(c & 1)), at(1, !!(c & 2)), at(2, !!(c & 4))], pane);
+      return [x, y];
+    });
+  });
+}
+
+/** The outline of each hull in the picture. */
+function outlinesOf(stage: Stage, { hulls, scene }: AssetDrawing, pane: Pane): Spot[][] {
+  return scene.hulls.map(({ shape: { positions } }, k) => {
+    const away = hulls.aways[k] ?? [0, 0, 0];
+    const at = (vertex: number, axis: number) =>
+      (positions[3 * vertex + axis] ?? 0) + stage.settings.explode * (away[axis] ?? 0);
+    const spots = Array.from({ length: positions.length / 3 }, (_, v): Spot => {
+      const { x, y } = stage.pixelOf([at(v, 0), at(v, 1), at(v, 2)], pane);
+      return [x, y];
+    });
+    return outlineOf(spots);
+  });
+}
