@@ -4,6 +4,7 @@ import { useRef } from "react";
 import type { Gap } from "../drawing/contactGraph";
 import { useFrame, useStage } from "../stage/context";
 import { useRegion } from "../stage/regionStore";
+import { lengthText } from "../../store/units";
 import { setTool, useWorkspace } from "../../store/workspace";
 import { Button } from "../../ui/Button";
 import css from "./overlay.module.css";
@@ -64,7 +65,7 @@ function separateSpots(spots: readonly Spot[]): Spot[] {
 
 function gapLabel(gap: Gap["gap"], { x, y }: Spot): HTMLElement {
   const label = document.createElement("span");
-  label.textContent = `${Number((1000 * gap).toPrecision(2))} mm`;
+  label.textContent = lengthText(gap, useWorkspace.getState().unit, 2);
   label.style.transform = `translate(${Math.round(x)}px, ${Math.round(y)}px) translate(-50%, -50%)`;
   return label;
 }
