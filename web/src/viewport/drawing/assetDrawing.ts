@@ -3,17 +3,19 @@ import { Group, Scene as ThreeScene, Vector3 } from "three";
 import { boxAround, boxOf, matrixOf, type Point } from "../geometry/triangles";
 import type { Shape } from "../../server/packet";
 import type { Scene } from "../../store/scenes";
+import type { SectionPlane } from "../../store/section";
 import { type Appearance, hullLooks } from "./hullLooks";
 import { HullSet } from "./hullSet";
+import { planeIn, SectionFaces } from "./section";
 import { type Frame, Strokes, type StrokeStyle } from "./strokes";
 import { Surfaces } from "./surface";
 import type { ThemeColors } from "./themeColors";
 
 const OUTLINES = {
-  lit: { width: 1.6, behind: 0.25 },
-  selected: { width: 2.8, behind: 0.3 },
-  removed: { width: 2.2, dash: 5, behind: 0.4 },
-  hover: { width: 2, behind: 0.2 },
+  lit: { width: 1.6, behind: 0.25, cut: true },
+  selected: { width: 2.8, behind: 0.3, cut: true },
+  removed: { width: 2.2, dash: 5, behind: 0.4, cut: true },
+  hover: { width: 2, behind: 0.2, cut: true },
 } satisfies Record<string, StrokeStyle>;
 type Outline = keyof typeof OUTLINES;
 
@@ -23,6 +25,9 @@ export class AssetDrawing {
   readonly turned = new Group();
   readonly hulls: HullSet;
   readonly opaque: Surfaces;
+  /** They close the hulls where the section plane cuts them. */
+  readonly closed: SectionFaces;
+  private selection: ReadonlySet<string> = new Set();
   private readonly outlines: Readonly<Record<Outline, Strokes>>;
 
   constructor(
@@ -33,10 +38,11 @@ export class AssetDrawing {
     this.turned.matrixAutoUpdate = false;
     this.turned.matrix.copy(matrixOf(scene.view.upright));
     this.hulls = new HullSet(scene.hulls, centre, ink);
+    this.closed = new SectionFaces(this.hulls, ink);
     this.opaque = new Surfaces(scene.opaque, ink.unlabelled, 0.34);
     this.outlines = mapValues(OUTLINES, (style, name) => new Strokes(inkOf(name, ink), style));
     const strokes = Object.values(this.outlines).map(({ object }) => object);
-    this.turned.add(this.hulls.object, this.opaque.object, ...strokes);
+    this.turned.add(this.hulls.object, this.closed.object, this.opaque.object, ...strokes);
     this.root.add(this.turned);
     this.root.updateMatrixWorld(true);
   }
@@ -57,6 +63,7 @@ export class AssetDrawing {
     const looks = hullLooks(this.scene, now);
     this.hulls.paint((k) => looks[k] as NonNullable<(typeof looks)[number]>);
     const { selection, going, hover } = now;
+    this.selection = selection;
     const shown = (names: Iterable<string>) => this.hulls.outlines(names);
     this.outlines.selected.set(shown([...selection].filter((name) => !going.has(name))));
     this.outlines.lit.set(shown([...now.lit].filter((name) => name !== hover && !selection.has(name))));
@@ -67,17 +74,22 @@ export class AssetDrawing {
 
   setInk(ink: ThemeColors): void {
     this.hulls.setInk(ink);
+    this.closed.setInk(ink);
     this.opaque.recolor(ink.unlabelled);
     for (const name of Object.keys(OUTLINES) as Outline[]) this.outlines[name].recolor(inkOf(name, ink));
   }
 
-  measure(frame: Frame): void {
+  /** To be called before drawing; section: in the canonical frame. */
+  measure(frame: Frame, section: SectionPlane | null = null): void {
     this.hulls.measure(frame.pixel, frame.explode);
+    this.closed.set(section && planeIn(section, this.turned.matrix), frame.explode, this.selection);
+    this.closed.measure(frame);
     for (const strokes of Object.values(this.outlines)) strokes.measure(frame);
   }
 
   dispose(): void {
     this.hulls.dispose();
+    this.closed.dispose();
     this.opaque.dispose();
     for (const strokes of Object.values(this.outlines)) strokes.dispose();
   }

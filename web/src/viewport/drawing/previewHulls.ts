@@ -21,7 +21,7 @@ export class PreviewHulls {
     this.hulls = new HullSet(rows, centre, ink, 0.42);
     const look = { color: ink.preview, hatched: false, visible: true, selected: 0, hover: 0, role: ROLE.plain };
     this.hulls.paint(() => look);
-    this.outlines = new Strokes(ink.preview, { width: 2.4, dash: 5, behind: 0.45 });
+    this.outlines = new Strokes(ink.preview, { width: 2.4, dash: 5, behind: 0.45, cut: true });
     this.outlines.set(this.hulls.outlines(this.hulls.names));
     this.object.add(this.hulls.object, this.outlines.object);
   }

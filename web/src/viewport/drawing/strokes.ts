@@ -15,6 +15,7 @@ import {
   ShaderMaterial,
   Vector2,
 } from "three";
+import { SECTION_FRAGMENT, SECTION_VERTEX } from "./hullShader";
 import { CORNER, type Eye, type Outline, roomFor, writeSilhouettes } from "../geometry/edges";
 
 export interface StrokeStyle {
@@ -25,6 +26,8 @@ export interface StrokeStyle {
   readonly opacity?: number;
   /** How strongly it shows through what is before it; 1: nothing covers it. */
   readonly behind?: number;
+  /** Whether the section plane cuts it. */
+  readonly cut?: boolean;
 }
 
 /** What strokes need to know of the picture: its size and pixels, where the eye is, how far hulls are apart. */
@@ -105,10 +108,10 @@ export class Strokes {
   }
 }
 
-function materialsOf({ opacity = 1, behind = 0 }: StrokeStyle, uniforms: ReturnType<typeof strokeUniforms>) {
-  if (behind >= 1) return [strokeMaterial(uniforms, opacity, "over")];
-  const before = strokeMaterial(uniforms, opacity, "before");
-  return behind > 0 ? [before, strokeMaterial(uniforms, behind, "behind")] : [before];
+function materialsOf({ opacity = 1, behind = 0, cut = false }: StrokeStyle, uniforms: ReturnType<typeof strokeUniforms>) {
+  if (behind >= 1) return [strokeMaterial(uniforms, opacity, "over", cut)];
+  const before = strokeMaterial(uniforms, opacity, "before", cut);
+  return behind > 0 ? [before, strokeMaterial(uniforms, behind, "behind", cut)] : [before];
 }
 
 function quads(count: number): Uint32Array {
@@ -149,6 +152,7 @@ const VERTEX = /* glsl */ `
   uniform vec2 size;
   uniform float width;
   flat out float upright;
+  ${SECTION_VERTEX}
   // a little towards the eye, so that the faces beside it do not cover it
   vec4 nearer(vec3 p) {
     vec4 at = modelViewMatrix * vec4(p, 1.0);
@@ -156,6 +160,7 @@ const VERTEX = /* glsl */ `
     return projectionMatrix * at;
   }
   void main() {
+    clipAt(modelViewMatrix * vec4(position, 1.0));
     vec4 here = nearer(position);
     vec4 there = nearer(other);
     gl_Position = vec4(0.0, 0.0, -2.0, 1.0);
@@ -175,7 +180,9 @@ const FRAGMENT = /* glsl */ `
   uniform vec3 color;
   uniform float opacity;
   uniform float dash;
+  ${SECTION_FRAGMENT}
   void main() {
+    clip();
     float spot = upright > 0.5 ? gl_FragCoord.y : gl_FragCoord.x;
     if (dash > 0.0 && fract(spot / (1.65 * dash)) > 0.6) discard;
     gl_FragColor = vec4(color, opacity);
@@ -188,6 +195,7 @@ function strokeMaterial(
   uniforms: StrokeUniforms,
   opacity: number,
   where: "before" | "behind" | "over",
+  clipping: boolean,
 ): ShaderMaterial {
   return new ShaderMaterial({
     vertexShader: VERTEX,
@@ -195,6 +203,7 @@ function strokeMaterial(
     uniforms: { ...uniforms, opacity: { value: opacity } },
     transparent: true,
     depthWrite: false,
+    clipping,
     depthTest: where !== "over",
     depthFunc: where === "behind" ? GreaterDepth : LessEqualDepth,
     side: DoubleSide,

@@ -72,26 +72,24 @@ function gapLabel(gap: Gap["gap"], { x, y }: Spot): HTMLElement {
 
 const NAMES = ["Start", "End"];
 
-/** What to click for the orientation, and marks on the hulls that were clicked. */
-export function Landmarks() {
+/** Marks on the hulls that were clicked for the orientation. */
+export function LandmarkMarks() {
   const landmarks = useWorkspace((workspace) => workspace.landmarks);
-  const tool = useWorkspace((workspace) => workspace.tool);
+  return landmarks.map((name, k) => <Mark key={name} hull={name} text={NAMES[k] ?? ""} />);
+}
+
+/** What to click for the orientation. */
+export function LandmarkBar() {
+  const landmarks = useWorkspace((workspace) => workspace.landmarks);
+  const inHand = useWorkspace((workspace) => workspace.tool === "landmark");
+  if (!inHand) return null;
   return (
-    <>
-      {landmarks.map((name, k) => (
-        <Mark key={name} hull={name} text={NAMES[k] ?? ""} />
-      ))}
-      {tool === "landmark" && (
-        <div className={css.bar} role="status">
-          {landmarks.length === 1
-            ? "Now click the hull where the direction ends."
-            : "Click the hull where the direction starts."}
-          <Button look="quiet" onClick={() => setTool("select")} keys="Escape" tip="Leave">
-            Leave
-          </Button>
-        </div>
-      )}
-    </>
+    <div className={css.bar} role="status">
+      {landmarks.length === 1 ? "Now click the hull where the direction ends." : "Click the hull where the direction starts."}
+      <Button look="quiet" onClick={() => setTool("select")} keys="Escape" tip="Leave">
+        Leave
+      </Button>
+    </div>
   );
 }
 

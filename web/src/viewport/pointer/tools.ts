@@ -1,9 +1,13 @@
 // What each tool does with the left button: clicks select, paint or mark; drags draw a box or lasso, move the cutting
 // plane, or paint.
 import { Vector3 } from "three";
+import { cornersOf } from "../camera/pose";
 import type { AssetDrawing } from "../drawing/assetDrawing";
 import { drawHullIds } from "../drawing/hullIds";
+import { planeIn } from "../drawing/section";
 import { boxRegion, isInside, placesInside, type Region, type Spot } from "../geometry/region";
+import { beyond } from "../geometry/section";
+import type { Point } from "../geometry/triangles";
 import { clearRegion, setRegion, useRegion } from "../stage/regionStore";
 import type { Pane } from "../stage/panes";
 import { hullAt, pieceAt, rayAt } from "../stage/picking";
@@ -11,8 +15,10 @@ import type { Stage } from "../stage/stage";
 import { hullToCut, planeOf, setCut, shareAt, type Triple, useCut } from "../../store/cut";
 import { paint } from "../../store/labels";
 import type { SceneHull } from "../../store/scenes";
+import { dropPoints, pointRuler, takePoint } from "../../store/ruler";
 import { hover, select, selectMore, setTool, useWorkspace } from "../../store/workspace";
 import type { Drag, PointerTool } from "./gestures";
+import { snapAt } from "./snap";
 
 export function createPointerTool(stage: Stage): PointerTool {
   return {
@@ -22,10 +28,22 @@ export function createPointerTool(stage: Stage): PointerTool {
       if (tool === "cut") return beginCut(stage, spot);
       return tool === "select" && brush !== null ? beginStroke(stage, ...spot) : null;
     },
-    click: ([x, y], event) => handleClick(hullAt(stage, x, y), event),
-    hover: (spot) => hover(spot && pieceAt(stage, ...spot)),
+    click: ([x, y], event) => (isMeasuring() ? measureAt(stage, x, y) : handleClick(hullAt(stage, x, y), event)),
+    hover: (spot) => {
+      if (isMeasuring()) pointRuler(spot && snapAt(stage, ...spot));
+      hover(spot && pieceAt(stage, ...spot));
+    },
     drawsRegion: () => ["box", "lasso"].includes(useWorkspace.getState().tool),
   };
+}
+
+const isMeasuring = (): boolean => useWorkspace.getState().tool === "ruler";
+
+/** A click of the ruler: a point on a hull; on nothing, the first point is dropped. */
+function measureAt(stage: Stage, x: number, y: number): void {
+  const point = snapAt(stage, x, y);
+  if (!point) return dropPoints();
+  if (stage.shown) takePoint(stage.shown.scene, point);
 }
 
 /** A click on a hull, or on nothing. */
@@ -160,28 +178,37 @@ function selectionMode(pressed: PointerEvent, event: PointerEvent): "replace" | 
 function finderOf(stage: Stage, side: AssetDrawing, pane: Pane): (region: Region) => ReadonlySet<string> {
   const { hulls } = side;
   const [width, height] = [Math.ceil(pane.width), Math.ceil(stage.height)];
-  const places = stage.gl ? drawHullIds(stage.gl, hulls, stage.view.camera(), width, height) : new Uint32Array();
+  const places = stage.gl ? drawHullIds(stage.gl, hulls, side.closed.geometry, stage.view.camera(), width, height) : new Uint32Array();
   const spots = vertexSpots(stage, side, pane);
   return (region) => {
     const inPane = region.map(([x, y]): Spot => [x - pane.x, y]);
     const found = placesInside(inPane, places, width, height);
     hulls.names.forEach((_, k) => {
-      if (hulls.visible[k] && !found.has(k) && spots[k]?.every((spot) => isInside(region, spot))) found.add(k);
+      if (hulls.visible[k] && !found.has(k) && !isCutAway(stage, side, k) && spots[k]?.every((spot) => isInside(region, spot))) found.add(k);
     });
     return new Set([...found].flatMap((k) => hulls.names[k] ?? []));
   };
 }
 
+/** Whether the whole box of a hull is beyond the section plane. */
+function isCutAway({ section, settings }: Stage, { hulls, turned }: AssetDrawing, k: number): boolean {
+  return section !== null && boxCorners(hulls, k, settings.explode).every((corner) => beyond(planeIn(section, turned.matrix), corner) > 0);
+}
+
+/** The corners of the box of a hull where it is shown. */
+function boxCorners({ shapes, aways }: AssetDrawing["hulls"], k: number, explode: number): Point[] {
+  return cornersOf([...shapes.boxes.subarray(6 * k, 6 * k + 6)]).map(([x, y, z]) => {
+    const away = aways[k] ?? [0, 0, 0];
+    return [x + explode * away[0], y + explode * away[1], z + explode * away[2]] as const;
+  });
+}
+
 /** Where the corners of each hull's box are seen. */
 function vertexSpots(stage: Stage, { hulls }: AssetDrawing, pane: Pane): Spot[][] {
-  const { boxes } = hulls.shapes;
-  return hulls.names.map((_, k) => {
-    const away = hulls.aways[k] ?? [0, 0, 0];
-    const at = (axis: number, high: boolean) =>
-      (boxes[6 * k + axis + (high ? 3 : 0)] ?? 0) + stage.settings.explode * (away[axis] ?? 0);
-    return Array.from({ length: 8 }, (_corner, c): Spot => {
-      const { x, y } = stage.pixelOf([at(0, !!(c & 1)), at(1, !!(c & 2)), at(2, !!(c & 4))], pane);
+  return hulls.names.map((_, k) =>
+    boxCorners(hulls, k, stage.settings.explode).map((corner): Spot => {
+      const { x, y } = stage.pixelOf(corner, pane);
       return [x, y];
-    });
-  });
+    }),
+  );
 }
