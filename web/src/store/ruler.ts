@@ -107,8 +107,10 @@ const DIGITS = 4;
 /** A measure in words, as its label and a screen reader have it. */
 export function measureText({ length, along }: Pick<Measure, "length" | "along">, unit: LengthUnit): { main: string; along: string } {
   const parts = along.map((value, k) => `${length === null ? "" : "d"}${AXES[k] ?? ""} ${lengthText(value, unit, DIGITS)}`);
-  if (length === null) return { main: parts.join(" · "), along: "" };
-  return { main: length === 0 ? `${lengthText(0, unit)}: they touch` : lengthText(length, unit, DIGITS), along: parts.join(" · ") };
+  // the unit once, at the end
+  const joined = parts.map((part, k) => (k < 2 ? part.slice(0, -unit.length - 1) : part)).join(" · ");
+  if (length === null) return { main: joined, along: "" };
+  return { main: length === 0 ? `${lengthText(0, unit)}: they touch` : lengthText(length, unit, DIGITS), along: joined };
 }
 
 function spanAlong(all: readonly Float32Array[], axis: Triple): [low: number, high: number] {

@@ -123,7 +123,7 @@ const FACE_FRAGMENT = /* glsl */ `
     clip();
     gl_FragColor = vec4(color.rgb, opacity);
     #ifdef CUT_OPEN
-      if (fract((gl_FragCoord.x - gl_FragCoord.y) / pixel / 6.0) < 0.2) gl_FragColor.rgb *= 0.72;
+      if (fract((gl_FragCoord.x - gl_FragCoord.y) / pixel / 6.0) < 0.2) gl_FragColor.rgb *= 0.8;
     #endif
     if (role < ${ROLE.removed}.0 && color.a > 0.5) return;
     vec2 spot = gl_FragCoord.xy / pixel;

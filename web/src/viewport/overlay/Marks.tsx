@@ -49,15 +49,14 @@ interface Spot {
   readonly y: number;
 }
 
-const [WIDE, HIGH] = [58, 19];
 
 /** Spots of which none covers one before it; those that would are moved down. */
-function separateSpots(spots: readonly Spot[]): Spot[] {
+export function separateSpots(spots: readonly Spot[], wide = 58, high = 19): Spot[] {
   const out: Spot[] = [];
   for (const { x, y } of spots) {
     let free = y;
-    const covers = (other: Spot) => Math.abs(other.x - x) < WIDE && Math.abs(other.y - free) < HIGH;
-    for (let at = out.find(covers); at; at = out.find(covers)) free = at.y + HIGH;
+    const covers = (other: Spot) => Math.abs(other.x - x) < wide && Math.abs(other.y - free) < high;
+    for (let at = out.find(covers); at; at = out.find(covers)) free = at.y + high;
     out.push({ x, y: free });
   }
   return out;

@@ -20,6 +20,7 @@ import { Button, IconButton } from "../../ui/Button";
 import { Choice } from "../../ui/fields";
 import { useFrame, useStage } from "../stage/context";
 import type { Stage } from "../stage/stage";
+import { separateSpots } from "./Marks";
 import css from "./overlay.module.css";
 import tools from "./tools.module.css";
 
@@ -76,7 +77,7 @@ export function RulerMarks() {
   const unit = useUnit();
   const scene = useScenes((state) => state.scene);
   const inHand = useWorkspace((workspace) => workspace.tool === "ruler");
-  const underWay = first && pointed && scene ? measureBetween(scene, first, pointed) : null;
+  const underWay = first && pointed && scene ? { ...measureBetween(scene, first, pointed), id: 0 } : null;
   const latest = measures.at(-1);
   const said = latest && measureText(latest, unit);
   return (
@@ -84,10 +85,7 @@ export function RulerMarks() {
       <div className="visually-hidden" role="status">
         {latest && said && `${latest.what}: ${said.main}${said.along && `; ${said.along}`}`}
       </div>
-      {measures.map((measure) => (
-        <MeasureMark key={measure.id} measure={measure} />
-      ))}
-      {underWay && <MeasureMark measure={{ ...underWay, id: 0 }} />}
+      <Measures measures={underWay ? [...measures, underWay] : measures} />
       {inHand && first && <PointMark point={first} />}
       {inHand && pointed && <PointMark point={pointed} />}
     </>
@@ -104,26 +102,47 @@ function pixelOf(stage: Stage, hull: string, at: Triple): { x: number; y: number
   return stage.pixelOf([at[0] + explode * away[0], at[1] + explode * away[1], at[2] + explode * away[2]], pane);
 }
 
-function MeasureMark({ measure }: { measure: Measure }) {
+const LABEL = { wide: 250, high: 44 }; // px, with room between two
+
+/** Lines with a label each, of which none covers another. */
+function Measures({ measures }: { measures: readonly Measure[] }) {
   const stage = useStage();
-  const unit = useUnit();
-  const lines = useRef<SVGSVGElement>(null);
-  const label = useRef<HTMLDivElement>(null);
-  const { main, along } = measureText(measure, unit);
+  const holder = useRef<HTMLDivElement>(null);
   useFrame(() => {
-    const ends = measure.lines.map((line) => endsOf(stage, line));
-    ends.forEach((pair, k) => drawLine(lines.current?.children[k], pair));
-    const all = ends.flatMap((pair) => pair ?? []);
-    if (!label.current || !all.length) return;
-    const mean = (axis: "x" | "y") => all.reduce((sum, one) => sum + one[axis], 0) / all.length;
-    // beside the line, and not over the rim of the view
-    const x = Math.min(Math.max(mean("x"), 80), Math.max(80, stage.width - 90));
-    const y = Math.min(Math.max(mean("y") - 26, 16), Math.max(16, stage.height - 16));
-    label.current.style.transform = `translate(${Math.round(x)}px, ${Math.round(y)}px) translate(-50%, -50%)`;
+    const parts = [...(holder.current?.children ?? [])];
+    const ends = measures.map((measure) => measure.lines.map((line) => endsOf(stage, line)));
+    const spots = separateSpots(ends.map((pairs) => labelSpot(stage, pairs)), LABEL.wide, LABEL.high);
+    measures.forEach((_, m) => {
+      const [lines, label] = [parts[2 * m], parts[2 * m + 1]];
+      ends[m]?.forEach((pair, k) => drawLine(lines?.children[k], pair));
+      const spot = spots[m];
+      if (spot && label instanceof HTMLElement) {
+        label.style.transform = `translate(${Math.round(spot.x)}px, ${Math.round(spot.y)}px) translate(-50%, -50%)`;
+      }
+    });
   });
   return (
+    <div ref={holder} className={tools.measures}>
+      {measures.map((measure) => (
+        <MeasureMark key={measure.id} measure={measure} />
+      ))}
+    </div>
+  );
+}
+
+/** Above the middle of its lines, and not over the rim of the view. */
+function labelSpot(stage: Stage, pairs: readonly (Ends | null)[]): { x: number; y: number } {
+  const all = pairs.flatMap((pair) => pair ?? []);
+  const mean = (axis: "x" | "y") => all.reduce((sum, one) => sum + one[axis], 0) / (all.length || 1);
+  const inside = (value: number, size: number, margin: number) => Math.min(Math.max(value, margin), Math.max(margin, size - margin));
+  return { x: inside(mean("x"), stage.width, LABEL.wide / 2), y: inside(mean("y") - 28, stage.height, LABEL.high / 2) };
+}
+
+function MeasureMark({ measure }: { measure: Measure }) {
+  const { main, along } = measureText(measure, useUnit());
+  return (
     <>
-      <svg ref={lines} className={tools.lines} aria-hidden data-measure={measure.id}>
+      <svg className={tools.lines} aria-hidden>
         {measure.lines.map((_, k) => (
           <g key={k} data-axis={measure.length === null ? "xyz"[k] : undefined}>
             <line className={tools.rim} />
@@ -133,7 +152,7 @@ function MeasureMark({ measure }: { measure: Measure }) {
           </g>
         ))}
       </svg>
-      <div ref={label} className={tools.measure} role="group" aria-label={measure.what} title={measure.what}>
+      <div className={tools.measure} role="group" aria-label={measure.what} title={measure.what} data-testid="measure">
         <span>
           <b>{main}</b>
           {along && <small>{along}</small>}
