@@ -62,7 +62,9 @@ describe("measures", () => {
     expect(measures().map(({ id }) => id)).toEqual([3]);
   });
 
-  it("are told in the chosen unit, with four digits", () => {
+  it("are told in the chosen unit, all as fine as four digits of the largest", () => {
+    expect(measureText({ length: 0.1745, along: [0.1745, 2.442e-5, 1.1e-5] }, "m").along).toBe("dx 0.1745 · dy 0 · dz 0 m");
+    expect(measureText({ length: 0.1745, along: [0.1745, 2.442e-4, 1.1e-5] }, "mm").along).toBe("dx 174.5 · dy 0.2 · dz 0 mm");
     expect(measureText({ length: 0.123456, along: [0.1, 0.05, 0] }, "m")).toEqual({ main: "0.1235 m", along: "dx 0.1 · dy 0.05 · dz 0 m" });
     expect(measureText({ length: 0.123456, along: [0.1, 0.05, 0] }, "mm").main).toBe("123.5 mm");
     expect(measureText({ length: null, along: [1, 2, 3] }, "mm")).toEqual({ main: "x 1,000 · y 2,000 · z 3,000 mm", along: "" });

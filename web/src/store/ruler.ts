@@ -3,7 +3,7 @@
 import { create } from "zustand";
 import { axisInFile, type Triple } from "./cut";
 import type { Scene } from "./scenes";
-import { type LengthUnit, lengthText } from "./units";
+import { lengthNumbers, type LengthUnit } from "./units";
 
 /** A point on a hull; at: in the frame of the file, where the hull is without the exploded view. */
 export interface RulerPoint {
@@ -102,15 +102,13 @@ export function measureExtents(scene: Scene, names: ReadonlySet<string>): Omit<M
 }
 
 const AXES = ["x", "y", "z"] as const;
-const DIGITS = 4;
 
 /** A measure in words, as its label and a screen reader have it. */
 export function measureText({ length, along }: Pick<Measure, "length" | "along">, unit: LengthUnit): { main: string; along: string } {
-  const parts = along.map((value, k) => `${length === null ? "" : "d"}${AXES[k] ?? ""} ${lengthText(value, unit, DIGITS)}`);
-  // the unit once, at the end
-  const joined = parts.map((part, k) => (k < 2 ? part.slice(0, -unit.length - 1) : part)).join(" · ");
-  if (length === null) return { main: joined, along: "" };
-  return { main: length === 0 ? `${lengthText(0, unit)}: they touch` : lengthText(length, unit, DIGITS), along: joined };
+  const [all = "", ...parts] = lengthNumbers([length ?? 0, ...along], unit);
+  const told = parts.map((part, k) => `${length === null ? "" : "d"}${AXES[k] ?? ""} ${part}`).join(" · ");
+  if (length === null) return { main: `${told} ${unit}`, along: "" };
+  return { main: length === 0 ? `0 ${unit}: they touch` : `${all} ${unit}`, along: `${told} ${unit}` };
 }
 
 function spanAlong(all: readonly Float32Array[], axis: Triple): [low: number, high: number] {

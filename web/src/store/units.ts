@@ -16,6 +16,14 @@ export function lengthText(meters: number, unit: LengthUnit, digits = 3): string
   return `${numberText(LENGTHS[unit] * meters, digits)} ${unit}`;
 }
 
+/** Lengths [m] without their unit, as fine as four digits of the largest are. */
+export function lengthNumbers(meters: readonly number[], unit: LengthUnit): string[] {
+  const values = meters.map((value) => LENGTHS[unit] * value);
+  const largest = Math.max(...values.map(Math.abs), 1e-9);
+  const decimals = Math.min(9, Math.max(0, 3 - Math.floor(Math.log10(largest))));
+  return values.map((value) => value.toLocaleString("en-GB", { maximumFractionDigits: decimals }));
+}
+
 /** A volume [m³]: `0.558 l` or `558 cm³`. */
 export function volumeText(cubicMeters: number, unit: LengthUnit): string {
   const { name, ofCubicMeter } = VOLUMES[unit];

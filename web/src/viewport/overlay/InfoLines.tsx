@@ -33,7 +33,7 @@ function PointedHull() {
   if (hull) return <HullLine hull={hull} />;
   if (!piece) return null;
   return (
-    <div className={css.pointed}>
+    <div className={css.pointed} data-testid="pointed">
       <b>{piece.name}</b>
       <span>{piece.reason}</span>
     </div>
@@ -47,7 +47,7 @@ function HullLine({ hull }: { hull: HullView }) {
   const unit = useUnit();
   const share = hull.confidence === null ? "" : ` ${Math.round(100 * hull.confidence)} %`;
   return (
-    <div className={css.pointed}>
+    <div className={css.pointed} data-testid="pointed">
       <b>{hull.name}</b>
       {hull.label === null ? (
         <span>no label</span>

@@ -1,5 +1,5 @@
 // The ruler over the view: what to click, what was measured, and marks at the points, each shape for a kind of point.
-import { Ruler, Trash2, X } from "lucide-react";
+import { Trash2, X } from "lucide-react";
 import { useEffect, useRef } from "react";
 import { measureSelection } from "../../commands/measure";
 import {
@@ -53,9 +53,8 @@ function Bar() {
   useEffect(() => dropPoints, []);
   return (
     <div className={css.bar} role="group" aria-label="Ruler" data-testid="ruler">
-      <Ruler size={15} aria-hidden />
       <span className={tools.hint}>
-        {first ? "Click the second point" : "Click the first point"}
+        {first ? "Second point" : "First point"}
         {pointed && <b> · {pointed.snap}</b>}
       </span>
       {selected > 0 && (
@@ -102,7 +101,7 @@ function pixelOf(stage: Stage, hull: string, at: Triple): { x: number; y: number
   return stage.pixelOf([at[0] + explode * away[0], at[1] + explode * away[1], at[2] + explode * away[2]], pane);
 }
 
-const LABEL = { wide: 250, high: 44 }; // px, with room between two
+const LABEL = { wide: 276, high: 44 }; // px, with room between two
 
 /** Lines with a label each, of which none covers another. */
 function Measures({ measures }: { measures: readonly Measure[] }) {
