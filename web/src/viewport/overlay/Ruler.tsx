@@ -107,6 +107,8 @@ const LABEL = { wide: 276, high: 44 }; // px, with room between two
 function Measures({ measures }: { measures: readonly Measure[] }) {
   const stage = useStage();
   const holder = useRef<HTMLDivElement>(null);
+  // what is new has its place after the next frame
+  useEffect(() => stage.invalidate(), [stage, measures]);
   useFrame(() => {
     const parts = [...(holder.current?.children ?? [])];
     const ends = measures.map((measure) => measure.lines.map((line) => endsOf(stage, line)));
