@@ -13,7 +13,6 @@ function themeOf(kept: string | null, dark: boolean): string | undefined {
   vi.stubGlobal("localStorage", { getItem: (key: string) => (key === "meshforge.desk" ? kept : null) });
   vi.stubGlobal("matchMedia", () => ({ matches: dark }));
   vi.stubGlobal("document", { documentElement: { dataset } });
-  // eslint-disable-next-line @typescript-eslint/no-implied-eval
   new Function(script)();
   return dataset.theme;
 }
