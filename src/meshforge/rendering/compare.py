@@ -218,10 +218,9 @@ def draw_heat_map(
 
 
 def _band_legend(edges: Floats) -> tuple[LegendEntry, ...]:
-    unit, name = (1e3, "mm") if edges[-1] < 0.1 else (1.0, "m")
-    texts = [f"{edge * unit:.3g}" for edge in edges]
+    texts = [f"{edge:.3g}" for edge in edges]
     between = [f"{a} to {b}" for a, b in itertools.pairwise(texts)]
-    words = [f"below {texts[0]} {name}", *between, f"above {texts[-1]}"]
+    words = [f"below {texts[0]} m", *between, f"above {texts[-1]} m"]
     return tuple(LegendEntry(color, word) for color, word in zip(BANDS, words, strict=True))
 
 

@@ -6,6 +6,7 @@ import { demonstrateCommands } from "./demonstrate";
 import { goCommands } from "./navigate";
 import { labelCommands } from "./label";
 import { learnCommands } from "./learn";
+import { measureCommands } from "./measure";
 import { memberCommands } from "./members";
 import { questionCommands } from "./question";
 import { reviewCommands } from "./review";
@@ -23,6 +24,7 @@ export const allCommands: readonly Command[] = [
   ...goCommands,
   ...memberCommands,
   ...viewCommands,
+  ...measureCommands,
   ...selectCommands,
 ];
 

@@ -100,6 +100,13 @@ describe("keys that hide", () => {
     expect([hidden(), selected()]).toEqual([["c", "d", "e"], ["a", "b"]]);
   });
 
+  it("show all again where the selection is alone in sight already, and the selection stays", () => {
+    select(["a", "b"]);
+    press("Shift+H");
+    press("Shift+H");
+    expect([hidden(), selected()]).toEqual([[], ["a", "b"]]);
+  });
+
   it("bring all back, if anything is hidden", () => {
     expect(commandFor("Alt+H", selectCommands)).toBeUndefined();
     select(["a"]);

@@ -31,9 +31,13 @@ function changeSelection(rule: (scene: Connected, selection: Selection) => Set<s
   if (scene) selectHere([...rule(scene, selection)].filter((name) => !hidden.has(name)));
 }
 
+/** Hides all but the selection; where just that is in sight already, shows all again. */
 function isolateSelection(): void {
   const scene = here();
-  if (scene) isolate(scene, useWorkspace.getState().selection);
+  const { selection, hidden } = useWorkspace.getState();
+  if (!scene) return;
+  if (hidden.size > 0 && hidden.size + selection.size === scene.hulls.length) showAll();
+  else isolate(scene, selection);
 }
 
 /** The key that switches selecting through; held during a drag, it counts for that drag alone. */
@@ -122,7 +126,7 @@ export const selectCommands: readonly Command[] = [
   },
   {
     id: "isolate",
-    title: "Hide all but the selection",
+    title: "Hide all but the selection, or show all again",
     group: "Select",
     keys: ["Shift+H"],
     enabled: hasSelection,

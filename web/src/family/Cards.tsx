@@ -11,15 +11,24 @@ import css from "./family.module.css";
 const GAP = 8;
 const WORDS = 44; // pixels below the picture
 
-/** least: width of a card [px]; large: the picture tells whether it is of before or after. */
-export function Cards({ least, large = false }: { least: number; large?: boolean }) {
+/** The least width of a card [px], in the column and in place of the view. */
+const WIDTHS = {
+  small: { column: 76, large: 144 },
+  middle: { column: 112, large: 216 },
+  large: { column: 200, large: 340 },
+} as const;
+
+/** large: in place of the view, where the picture tells whether it is of before or after. */
+export function Cards({ large = false }: { large?: boolean }) {
+  const size = useLayout((layout) => layout.thumbnails);
   const box = useRef<HTMLDivElement>(null);
   const shown = useShown();
   const asset = useWorkspace((workspace) => workspace.asset);
   const isLabelling = useWorkspace((workspace) => workspace.stage === "label");
   const width = useWidth(box);
   // larger where there is much room
-  const wished = large ? Math.max(least, width / 10) : least;
+  const least = WIDTHS[size][large ? "large" : "column"];
+  const wished = large ? Math.max(least, width / (size === "small" ? 14 : 10)) : least;
   const columns = Math.max(1, Math.floor((width - GAP) / (wished + GAP)));
   const card = Math.floor((width - GAP) / columns - GAP);
   const rows = useVirtualizer({
@@ -31,7 +40,7 @@ export function Cards({ least, large = false }: { least: number; large?: boolean
     paddingEnd: GAP,
   });
   useEffect(() => rows.measure(), [rows, card]);
-  useScrollToOpen(asset, shown, columns, (row) => rows.scrollToIndex(row, { align: "auto" }));
+  useScrollToOpen(asset, size, shown, columns, (row) => rows.scrollToIndex(row, { align: "auto" }));
   if (shown.length === 0) {
     return (
       <div ref={box} className={css.cards}>
@@ -124,9 +133,10 @@ function useWidth(box: RefObject<HTMLElement | null>): number {
   return width;
 }
 
-/** Scrolls to the asset that is opened, wherever that was done. */
+/** Scrolls to the asset that is opened, wherever that was done, also when the pictures get another size. */
 function useScrollToOpen(
   asset: string | null,
+  size: string,
   shown: readonly string[],
   columns: number,
   scrollTo: (row: number) => void,
@@ -139,5 +149,5 @@ function useScrollToOpen(
     const { shown: all, columns: across, scrollTo: go } = latest.current;
     const at = asset === null ? -1 : all.indexOf(asset);
     if (at >= 0) go(Math.floor(at / across));
-  }, [asset]);
+  }, [asset, size]);
 }

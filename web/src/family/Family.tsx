@@ -25,7 +25,7 @@ export function Family() {
           <MissingHulls />
           <SignOff />
           <Filters />
-          <Cards least={112} />
+          <Cards />
           <LeftOut />
         </>
       )}
@@ -45,7 +45,7 @@ export function Gallery() {
       <div className={css.outcome}>
         <LabelChanges />
       </div>
-      <Cards least={216} large />
+      <Cards large />
       <LeftOut />
     </div>
   );

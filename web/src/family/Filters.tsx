@@ -1,6 +1,6 @@
 // What to show of the family: words to find, how it should stand, in which order.
-import { ArrowDownUp, Search, X } from "lucide-react";
-import { type Filters as FiltersState, setFilters, useWorkspace } from "../store/workspace";
+import { ArrowDownUp, Images, Search, X } from "lucide-react";
+import { type Filters as FiltersState, type LayoutState, setFilters, setLayout, useLayout, useWorkspace } from "../store/workspace";
 import { countByFilter, FILTERS } from "../store/family";
 import { useProject } from "../store/project";
 import { IconButton } from "../ui/Button";
@@ -18,6 +18,12 @@ const SORTS: Readonly<Record<FiltersState["sort"], string>> = {
   probability: "Least sure first",
 };
 
+const SIZES: Readonly<Record<LayoutState["thumbnails"], string>> = {
+  small: "Small pictures",
+  middle: "Middle pictures",
+  large: "Large pictures",
+};
+
 export function Filters() {
   return (
     <div className={css.filters}>
@@ -29,6 +35,7 @@ export function Filters() {
 
 function SearchField() {
   const { search, sort } = useWorkspace((workspace) => workspace.filters);
+  const thumbnails = useLayout((layout) => layout.thumbnails);
   return (
     <div className={css.search}>
       <Search size={14} aria-hidden />
@@ -46,6 +53,13 @@ function SearchField() {
         lines={Object.entries(SORTS).map(([value, label]) => ({
           label: value === sort ? `✓ ${label}` : label,
           onSelect: () => setFilters({ sort: value as FiltersState["sort"], chosen: true }),
+        }))}
+      />
+      <Menu
+        trigger={<IconButton icon={Images} name={SIZES[thumbnails]} />}
+        lines={Object.entries(SIZES).map(([value, label]) => ({
+          label: value === thumbnails ? `✓ ${label}` : label,
+          onSelect: () => setLayout({ thumbnails: value as LayoutState["thumbnails"] }),
         }))}
       />
     </div>

@@ -4,7 +4,7 @@ import type { Tone } from "../pictures/hullColors";
 import { type CommonParts, NONE } from "../store/commonParts";
 import { volumeText } from "../store/units";
 import { sourceText } from "../store/words";
-import { hover, useWorkspace } from "../store/workspace";
+import { hover, useUnit, useWorkspace } from "../store/workspace";
 import { Name } from "../ui/Name";
 import { Swatch } from "../ui/Section";
 import css from "./hulls.module.css";
@@ -31,6 +31,7 @@ interface HullRowProps extends Place {
 
 export const HullRow = memo(function HullRow({ row, tone, parts, short, active, was, index, top }: HullRowProps) {
   const { hull, neighbours } = row;
+  const unit = useUnit();
   const selected = useWorkspace((workspace) => workspace.selection.has(hull.name));
   const pointed = useWorkspace((workspace) => workspace.hover === hull.name);
   const hidden = useWorkspace((workspace) => workspace.hidden.has(hull.name));
@@ -65,7 +66,7 @@ export const HullRow = memo(function HullRow({ row, tone, parts, short, active, 
         {was !== undefined && <span className={css.changed} role="img" aria-label={`was ${was}`} />}
       </span>
       <span role="gridcell" className={css.number}>
-        {volumeText(hull.volume)}
+        {volumeText(hull.volume, unit)}
       </span>
       <span role="gridcell" className={css.number} title={`${hull.vertices} vertices, ${hull.faces} faces`}>
         {hull.primitive ?? `${hull.vertices} v`}

@@ -26,9 +26,20 @@ export function App() {
   const start = useStart((state) => state.view !== null);
   return (
     <Tooltip.Provider delayDuration={400} skipDelayDuration={150}>
-      {ready ? <Window /> : start ? <StartPage /> : <Welcome />}
-      <Toasts />
+      {ready ? <Window /> : <Before start={start} />}
     </Tooltip.Provider>
+  );
+}
+
+/** The window before a project is there; messages lie over its foot. */
+function Before({ start }: { start: boolean }) {
+  return (
+    <>
+      {start ? <StartPage /> : <Welcome />}
+      <div className={css.before}>
+        <Toasts />
+      </div>
+    </>
   );
 }
 
@@ -70,6 +81,7 @@ function Columns() {
       <Centre />
       <aside className={css.panel} style={{ width: panel }} aria-label="Stage" data-part data-tour="panel">
         <StageColumn />
+        <Toasts />
         <Divider
           name="Width of the panel"
           along="x"

@@ -1,4 +1,5 @@
-// Short messages at the foot of the window: what was done fades, what went wrong stays.
+// Short messages at the foot of the right column, which they shorten, so that they lie over nothing: what was done
+// fades, what went wrong stays.
 import { Check, CircleX, X } from "lucide-react";
 import { useEffect, useState } from "react";
 import { undo } from "../store/edits";

@@ -76,17 +76,16 @@ const ringStyle = (place: DOMRect) => ({ left: place.x, top: place.y, width: pla
 
 const WIDTH = 320;
 const AWAY = 14;
-const TOAST = 70; // room for a message below
 
 /** Beside its place, on whichever side there is room; in a corner of it where it is the view itself. */
 function cardStyle(place: DOMRect | null, at: string): React.CSSProperties {
   if (!place) return { left: AWAY, bottom: AWAY, width: WIDTH };
   const { innerWidth: across, innerHeight: down } = window;
-  if (at === "view") return { right: across - place.right + AWAY, bottom: down - place.bottom + TOAST, width: WIDTH };
+  if (at === "view") return { right: across - place.right + AWAY, bottom: down - place.bottom + AWAY, width: WIDTH };
   if (at === "steps") return { left: place.left + AWAY, bottom: down - place.top + AWAY, width: WIDTH };
   // above the steps, where the controls of the view are not
   if (at === "panel" && place.left >= WIDTH + 2 * AWAY) {
-    return { right: across - place.left + AWAY, bottom: 46 + TOAST, width: WIDTH };
+    return { right: across - place.left + AWAY, bottom: 46 + AWAY, width: WIDTH };
   }
   const top = Math.min(Math.max(place.y + 12, 8), down - 220);
   if (place.left >= WIDTH + 2 * AWAY) return { right: across - place.left + AWAY, top, width: WIDTH };

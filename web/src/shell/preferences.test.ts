@@ -7,7 +7,7 @@ test("what was kept comes back", () => {
   expect(restore(initialPreferences, JSON.parse(JSON.stringify(mine)))).toEqual(mine);
 });
 
-test.each([[null], ["text"], [7], [[]], [{ columns: null }], [{ theme: "pink" }], [{ columns: { family: -5 } }], [{ view: { grid: "yes" } }]])(
+test.each([[null], ["text"], [7], [[]], [{ columns: null }], [{ theme: "pink" }], [{ unit: "inch" }], [{ layout: { thumbnails: "huge" } }], [{ columns: { family: -5 } }], [{ view: { grid: "yes" } }]])(
   "what makes no sense is as it is at first: %j",
   (stored) => {
     expect(restore(initialPreferences, stored)).toEqual(initialPreferences);

@@ -8,10 +8,10 @@ import {
   type WorkspaceState,
 } from "../store/workspace";
 
-type Preferences = Pick<WorkspaceState, "theme" | "columns" | "checks"> & {
+type Preferences = Pick<WorkspaceState, "theme" | "unit" | "columns" | "checks"> & {
   view: Pick<WorkspaceState["view"], "colorBy" | "projection" | "ghost" | "wireframe" | "contacts" | "grid" | "opaque">;
   sort: WorkspaceState["filters"]["sort"];
-  layout: Pick<LayoutState, "family" | "split">;
+  layout: Pick<LayoutState, "family" | "split" | "thumbnails">;
 };
 
 export const WIDTHS = { family: [180, 720], panel: [300, 720] } as const;
@@ -19,16 +19,19 @@ export const WIDTHS = { family: [180, 720], panel: [300, 720] } as const;
 /** The words that a setting may be; an engine that is not known any more has no limits. */
 const WORDS: Readonly<Record<string, readonly string[]>> = {
   theme: ["system", "light", "dark"],
+  unit: ["m", "mm"],
+  thumbnails: ["small", "middle", "large"],
   sort: ["name", "hulls", "unlabelled", "unsure", "changed", "findings", "probability"],
   colorBy: ["hull", "label", "confidence", "body"],
   projection: ["perspective", "orthographic"],
 };
 const RANGES: Readonly<Record<string, readonly [number, number]>> = { ...WIDTHS, split: [0.15, 0.85] };
 
-function preferencesOf({ theme, columns, view, filters, checks }: WorkspaceState, { family, split }: LayoutState): Preferences {
+function preferencesOf(workspace: WorkspaceState, { family, split, thumbnails }: LayoutState): Preferences {
+  const { theme, unit, columns, view, filters, checks } = workspace;
   const { colorBy, projection, ghost, wireframe, contacts, grid, opaque } = view;
   const some = { colorBy, projection, ghost, wireframe, contacts, grid, opaque };
-  return { theme, columns, checks, view: some, sort: filters.sort, layout: { family, split } };
+  return { theme, unit, columns, checks, view: some, sort: filters.sort, layout: { family, split, thumbnails } };
 }
 
 export const initialPreferences: Preferences = preferencesOf(initialWorkspace, initialLayout);
@@ -58,9 +61,10 @@ const KEY = "meshforge.desk";
 
 /** Takes up what was kept, and keeps what changes from now on. */
 export function keepPreferences(): void {
-  const { theme, columns, checks, view, sort, layout } = restore(initialPreferences, readStored());
+  const { theme, unit, columns, checks, view, sort, layout } = restore(initialPreferences, readStored());
   useWorkspace.setState((workspace) => ({
     theme,
+    unit,
     columns,
     checks,
     view: { ...workspace.view, ...view },

@@ -60,7 +60,7 @@ export function shareAt(hull: SceneHull, across: Triple, point: readonly number[
 }
 
 /** A direction that is an axis as the asset is shown, in the frame of the file. */
-function axisInFile(upright: readonly number[] | null, axis: "x" | "y" | "z"): Triple {
+export function axisInFile(upright: readonly number[] | null, axis: "x" | "y" | "z"): Triple {
   const k = "xyz".indexOf(axis);
   if (!upright) return [k === 0 ? 1 : 0, k === 1 ? 1 : 0, k === 2 ? 1 : 0];
   return [upright[4 * k] ?? 0, upright[4 * k + 1] ?? 0, upright[4 * k + 2] ?? 0];

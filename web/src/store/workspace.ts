@@ -3,6 +3,7 @@
 import { create } from "zustand";
 import type { Next } from "../wire";
 import { byAsset, type HullPlace, placeOf, sheetName } from "./hullPlaces";
+import type { LengthUnit } from "./units";
 
 export type StageName = Next["stage"];
 export const STAGES: readonly StageName[] = ["label", "demonstrate", "learn", "review"];
@@ -14,7 +15,7 @@ export type Showing =
   | { kind: "result"; of: "program" | "output" };
 
 export type ColorBy = "hull" | "label" | "confidence" | "body";
-export type Tool = "select" | "box" | "lasso" | "cut" | "landmark";
+export type Tool = "select" | "box" | "lasso" | "cut" | "landmark" | "ruler";
 export type StandardView = "front" | "back" | "right" | "left" | "top" | "bottom" | "iso";
 export type Compare = "off" | "slider" | "side";
 
@@ -103,6 +104,8 @@ export interface WorkspaceState {
   filters: Filters;
   checks: CheckSettings;
   theme: "system" | "light" | "dark";
+  /** Of all lengths that are shown. */
+  unit: LengthUnit;
   /** Widths of the left and right column [px]. */
   columns: { family: number; panel: number };
   overlay: "none" | "help" | "palette";
@@ -144,6 +147,7 @@ export const initialWorkspace: WorkspaceState = {
   filters: { search: "", only: [], sort: "name" },
   checks: { open: false, engine: "" },
   theme: "system",
+  unit: "m",
   columns: { family: 280, panel: 360 },
   overlay: "none",
   cameraOrder: { count: 0, to: "iso" },
@@ -280,6 +284,13 @@ export function setHighlight(highlight: Highlight | null): void {
   set({ highlight });
 }
 
+/** The unit of lengths that the person chose. */
+export const useUnit = (): LengthUnit => useWorkspace((workspace) => workspace.unit);
+
+export function setUnit(unit: LengthUnit): void {
+  set({ unit });
+}
+
 export interface LayoutState {
   /** Whether the family's column is there. */
   family: boolean;
@@ -287,10 +298,12 @@ export interface LayoutState {
   gallery: boolean;
   /** The share of the right column that the panel has above the list of hulls. */
   split: number;
+  /** How large the pictures of the family are. */
+  thumbnails: "small" | "middle" | "large";
 }
 
 /** How the window is divided; knows no DOM. (Widths of the columns are on the workspace.) */
-export const initialLayout: LayoutState = { family: true, gallery: false, split: 0.68 };
+export const initialLayout: LayoutState = { family: true, gallery: false, split: 0.68, thumbnails: "middle" };
 
 export const useLayout = create<LayoutState>()(() => initialLayout);
 

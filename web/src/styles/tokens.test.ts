@@ -16,6 +16,7 @@ const PAIRS = [
   ["good", "panel"],
   ["warn", "panel"],
   ["bad", "panel"],
+  ...["axis-x", "axis-y", "axis-z", "measure"].flatMap((ink) => ["viewport-top", "viewport-bottom"].map((ground) => [ink, ground] as const)),
 ] as const;
 const SIGNS = ["accent", "outline-selected", "preview", "removed", "highlight"] as const;
 

@@ -8,11 +8,15 @@ import { setTool, useWorkspace } from "../store/workspace";
 import { type Canvas, getCanvas } from "./canvas";
 import { CutBar } from "./overlay/CutBar";
 import { CompareLine } from "./overlay/CompareLine";
+import { HiddenChip } from "./overlay/HiddenChip";
 import { InfoLines, Legend } from "./overlay/InfoLines";
-import { DrawnRegion, Gaps, Landmarks } from "./overlay/Marks";
+import { DrawnRegion, Gaps, LandmarkBar, LandmarkMarks } from "./overlay/Marks";
 import { Messages, NoWebGl } from "./overlay/Messages";
 import { BrushFrame, SelectionBar } from "./overlay/SelectionBar";
 import { SheetNames } from "./overlay/SheetNames";
+import { RulerBar, RulerMarks } from "./overlay/Ruler";
+import { SectionBar, SectionHandle } from "./overlay/SectionBar";
+import { Triad } from "./overlay/Triad";
 import { ViewCube } from "./overlay/ViewCube";
 import { Gestures } from "./pointer/gestures";
 import { watchHeldKeys } from "./pointer/heldKeys";
@@ -59,14 +63,21 @@ function CanvasLayers({ sheet }: { sheet: Canvas }) {
       <DrawnRegion />
       <CompareLine />
       <Gaps />
-      <Landmarks />
+      <LandmarkMarks />
+      <RulerMarks />
+      <SectionHandle />
       <ViewCube />
+      <Triad />
       <InfoLines />
       <Legend />
-      <CutBar />
       <SheetNames />
       <BrushFrame />
-      <div className={css.outcome}>
+      <div className={css.top}>
+        <HiddenChip />
+        <SectionBar />
+        <RulerBar />
+        <CutBar />
+        <LandmarkBar />
         <LabelChanges />
         <SelectionBar />
       </div>

@@ -1,8 +1,9 @@
 // What a check found; a click selects the hulls that it is about.
 import { CircleAlert, TriangleAlert } from "lucide-react";
 import { ruleTitle, selectInOutput } from "../../store/checks";
+import { textIn } from "../../store/units";
 import { countText, listText } from "../../store/words";
-import { hover } from "../../store/workspace";
+import { hover, useUnit } from "../../store/workspace";
 import type { CheckFinding } from "../../wire";
 import css from "./checks.module.css";
 import review from "./review.module.css";
@@ -35,7 +36,8 @@ interface FindingProps {
 }
 
 function Finding({ asset, finding, remedied }: FindingProps) {
-  const { rule, engine, severity, text, remedy, hulls, new: fresh } = finding;
+  const { rule, engine, severity, remedy, hulls, new: fresh } = finding;
+  const text = textIn(finding.text, useUnit());
   const Icon = ICONS[severity];
   const [only] = hulls.length === 1 ? hulls : [];
   const words = (

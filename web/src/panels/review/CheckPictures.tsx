@@ -6,7 +6,9 @@ import { api } from "../../server/api";
 import { getBlob, ServerProblem } from "../../server/http";
 import { type Part, showPictures, useShowsPictures } from "../../store/checks";
 import { reportError } from "../../store/toasts";
+import { textIn } from "../../store/units";
 import { toSentence } from "../../store/words";
+import { useUnit } from "../../store/workspace";
 import { Button, IconButton } from "../../ui/Button";
 import { Note } from "../../ui/Section";
 import type { CheckPicture, Problem } from "../../wire";
@@ -33,6 +35,7 @@ export function CheckPictures(of: PartId) {
 type PicturesState = { kind: "coming" } | { kind: "there"; pictures: readonly CheckPicture[] } | { kind: "problem"; problem: Problem };
 
 function Pictures({ asset, version, part }: PartId) {
+  const unit = useUnit();
   const drawn = usePictures(asset, version, part);
   if (drawn.kind === "problem") return <Note mood="bad">{drawn.problem.message}</Note>;
   if (drawn.kind === "coming") {
@@ -43,12 +46,15 @@ function Pictures({ asset, version, part }: PartId) {
     );
   }
   if (!drawn.pictures.length) return <p className={css.dim}>There is nothing to draw.</p>;
-  return drawn.pictures.map(({ name, text }) => (
-    <figure key={name}>
-      <EnlargeablePicture source={api.checkPicture(asset, name, version)} text={toSentence(text)} />
-      <figcaption>{toSentence(text)}</figcaption>
-    </figure>
-  ));
+  return drawn.pictures.map(({ name, text }) => {
+    const words = toSentence(textIn(text, unit));
+    return (
+      <figure key={name}>
+        <EnlargeablePicture source={api.checkPicture(asset, name, version)} text={words} />
+        <figcaption>{words}</figcaption>
+      </figure>
+    );
+  });
 }
 
 /** The pictures, drawn anew when the output changes; the drawing stops when nobody looks any more. */

@@ -14,9 +14,9 @@ import {
   useChecks,
 } from "../../store/checks";
 import { useProject } from "../../store/project";
-import { figureText } from "../../store/units";
+import { figureText, textIn } from "../../store/units";
 import { countText, toSentence } from "../../store/words";
-import { setChecks, useWorkspace } from "../../store/workspace";
+import { setChecks, useUnit, useWorkspace } from "../../store/workspace";
 import { Button, Tip } from "../../ui/Button";
 import { Menu } from "../../ui/Menu";
 import { Note } from "../../ui/Section";
@@ -133,6 +133,7 @@ function Failed({ problem, onAgain }: { problem: Problem; onAgain: () => void })
 function PartResult({ asset, version, checked }: { asset: string; version: string; checked: CheckResult }) {
   const { part, figures, findings, notes, gone, cell, pictured } = checked;
   const engine = useWorkspace((workspace) => workspace.checks.engine);
+  const units = useUnit();
   // what is not legal has a section of its own
   const shown = part === "engines" ? findings.filter((one) => one.engine !== null && concerns(one, engine)) : findings;
   return (
@@ -140,14 +141,14 @@ function PartResult({ asset, version, checked }: { asset: string; version: strin
       {figures.length > 0 && <FigureTable figures={figures} />}
       {notes.map((note) => (
         <p key={note} className={css.dim}>
-          {toSentence(note)}
+          {toSentence(textIn(note, units))}
         </p>
       ))}
       <CheckFindings asset={asset} findings={shown} />
       {part === "engines" && engine !== "" && !shown.length && <p className={css.good}>✓ Within all of them.</p>}
       {gone > 0 && <p className={css.good}>✓ {countText(gone, "finding")} of the original asset {gone === 1 ? "is" : "are"} gone.</p>}
       {pictured && <CheckPictures asset={asset} version={version} part={part} />}
-      {cell !== null && <p className={css.dim}>Measured in cells of {figureText(cell, "m")}: smaller details are missed.</p>}
+      {cell !== null && <p className={css.dim}>Measured in cells of {figureText(cell, "m", units)}: smaller details are missed.</p>}
     </>
   );
 }
@@ -175,6 +176,7 @@ function EngineMenu() {
 
 /** Figures before and after an edit. */
 function FigureTable({ figures }: { figures: readonly Figure[] }) {
+  const units = useUnit();
   return (
     <table className={review.numbers}>
       <thead>
@@ -188,8 +190,8 @@ function FigureTable({ figures }: { figures: readonly Figure[] }) {
         {figures.map(({ what, unit, before, after }) => (
           <tr key={what}>
             <th scope="row">{what}</th>
-            <td>{before === null ? "" : figureText(before, unit)}</td>
-            <td>{figureText(after, unit)}</td>
+            <td>{before === null ? "" : figureText(before, unit, units)}</td>
+            <td>{figureText(after, unit, units)}</td>
           </tr>
         ))}
       </tbody>

@@ -7,13 +7,15 @@ import { highlightOfRule } from "../../store/highlight";
 import { useProject } from "../../store/project";
 import { numbersOf, verdictOf } from "../../store/reviews";
 import { type Scene, sceneOf } from "../../store/scenes";
+import { textIn, volumeText } from "../../store/units";
 import { changeText, countText, listText } from "../../store/words";
-import { hover, select, setHighlight, useWorkspace } from "../../store/workspace";
+import { hover, select, setHighlight, useUnit, useWorkspace } from "../../store/workspace";
 import { Section } from "../../ui/Section";
 import type { EditHeader, FindingView, HullView, Problem, TraceLine } from "../../wire";
 import css from "./review.module.css";
 
 export function NumbersTable({ before, edit }: { before: readonly HullView[]; edit: EditHeader }) {
+  const unit = useUnit();
   const numbers = numbersOf(before, edit);
   const whole = (value: number) => value.toLocaleString("en-GB");
   return (
@@ -31,7 +33,7 @@ export function NumbersTable({ before, edit }: { before: readonly HullView[]; ed
           <NumbersRow what="Hulls" pair={numbers.hulls} text={whole} />
           <NumbersRow what="Vertices" pair={numbers.vertices} text={whole} />
           <NumbersRow what="Faces" pair={numbers.faces} text={whole} />
-          <NumbersRow what="Volume" pair={numbers.volume} text={volumeText} />
+          <NumbersRow what="Volume" pair={numbers.volume} text={(volume) => volumeText(volume, unit)} />
         </tbody>
       </table>
       {edit.note && <p className={css.dim}>{edit.note}</p>}
@@ -48,12 +50,6 @@ function NumbersRow({ what, pair: [before, after], text }: { what: string; pair:
       <td>{changeText(before, after) ?? "–"}</td>
     </tr>
   );
-}
-
-/** A volume [m³] in a unit that leaves few digits. */
-function volumeText(volume: number): string {
-  const [value, unit] = volume >= 1 ? [volume, "m³"] : volume >= 1e-3 ? [volume * 1e3, "l"] : [volume * 1e6, "cm³"];
-  return `${value.toPrecision(3).replace(/e\+.*$/, "")} ${unit}`;
 }
 
 const ICONS = { error: CircleAlert, warning: TriangleAlert, note: Info } as const;
@@ -79,10 +75,11 @@ export function Findings({ edit }: { edit: EditHeader }) {
 }
 
 function Finding({ finding: { severity, text, hull } }: { finding: FindingView }) {
+  const unit = useUnit();
   const Icon = ICONS[severity];
   const words = (
     <>
-      <Icon size={15} aria-label={NAMES[severity]} /> <span>{text}</span>
+      <Icon size={15} aria-label={NAMES[severity]} /> <span>{textIn(text, unit)}</span>
     </>
   );
   return (

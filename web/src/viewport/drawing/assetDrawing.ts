@@ -3,11 +3,13 @@ import { Group, Scene as ThreeScene, Vector3 } from "three";
 import { boxAround, boxOf, matrixOf, type Point } from "../geometry/triangles";
 import type { Shape } from "../../server/packet";
 import type { Scene } from "../../store/scenes";
+import type { SectionPlane } from "../../store/section";
 import { AmbientOcclusion } from "./ambientOcclusion";
 import { GroundShadow } from "./groundShadow";
 import { type Appearance, hullLooks } from "./hullLooks";
 import { HullSet } from "./hullSet";
 import { dressed, outlineColors, type OutlineName } from "./outlines";
+import { planeIn, SectionFaces } from "./section";
 import { type Frame, type Strokes } from "./strokes";
 import { Surfaces } from "./surface";
 import type { ThemeColors } from "./themeColors";
@@ -21,6 +23,9 @@ export class AssetDrawing {
   readonly opaque: Surfaces;
   readonly occlusion: AmbientOcclusion;
   readonly shadow: GroundShadow;
+  /** They close the hulls where the section plane cuts them. */
+  readonly closed: SectionFaces;
+  private selection: ReadonlySet<string> = new Set();
   private readonly outlines: Readonly<Record<Exclude<OutlineName, "made">, Strokes>>;
 
   constructor(
@@ -31,11 +36,12 @@ export class AssetDrawing {
     this.turned.matrixAutoUpdate = false;
     this.turned.matrix.copy(matrixOf(scene.view.upright));
     this.hulls = new HullSet(scene.hulls, centre, ink);
+    this.closed = new SectionFaces(this.hulls, ink);
     this.opaque = new Surfaces(scene.opaque, ink.unlabelled, 0.34);
     const one = (name: OutlineName) => dressed(name, ink);
     this.outlines = { lit: one("lit"), removed: one("removed"), selected: one("selected"), hover: one("hover") };
     const strokes = Object.values(this.outlines).map(({ object }) => object);
-    this.turned.add(this.hulls.object, this.opaque.object, ...strokes);
+    this.turned.add(this.hulls.object, this.closed.object, this.opaque.object, ...strokes);
     this.occlusion = new AmbientOcclusion(this.hulls);
     this.shadow = new GroundShadow(this.hulls);
     this.root.add(this.turned, this.occlusion.object, this.shadow.object);
@@ -58,6 +64,7 @@ export class AssetDrawing {
     const looks = hullLooks(this.scene, now);
     this.hulls.paint((k) => looks[k] as NonNullable<(typeof looks)[number]>);
     const { selection, going, hover } = now;
+    this.selection = selection;
     const shown = (names: Iterable<string>) => this.hulls.outlines(names);
     this.outlines.selected.set(shown([...selection].filter((name) => !going.has(name))));
     this.outlines.lit.set(shown([...now.lit].filter((name) => name !== hover && !selection.has(name))));
@@ -68,17 +75,22 @@ export class AssetDrawing {
 
   setInk(ink: ThemeColors): void {
     this.hulls.setInk(ink);
+    this.closed.setInk(ink);
     this.opaque.recolor(ink.unlabelled);
     for (const [name, strokes] of Object.entries(this.outlines)) strokes.recolor(...outlineColors(name as OutlineName, ink));
   }
 
-  measure(frame: Frame): void {
+  /** To be called before drawing; section: in the canonical frame. */
+  measure(frame: Frame, section: SectionPlane | null = null): void {
     this.hulls.measure(frame.pixel, frame.explode);
+    this.closed.set(section && planeIn(section, this.turned.matrix), frame.explode, this.selection);
+    this.closed.measure(frame);
     for (const strokes of Object.values(this.outlines)) strokes.measure(frame);
   }
 
   dispose(): void {
     this.hulls.dispose();
+    this.closed.dispose();
     this.opaque.dispose();
     this.occlusion.dispose();
     this.shadow.dispose();

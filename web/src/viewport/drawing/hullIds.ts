@@ -1,14 +1,16 @@
 // A picture of which hull is seen in each pixel, drawn when a region is begun.
-import { type Camera, Mesh, Scene, ShaderMaterial, type WebGLRenderer, WebGLRenderTarget } from "three";
+import { type BufferGeometry, type Camera, DoubleSide, Mesh, Scene, ShaderMaterial, type WebGLRenderer, WebGLRenderTarget } from "three";
 import type { HullSet } from "./hullSet";
-import { PLACE_VERTEX, placeUniforms } from "./hullShader";
+import { PLACE_VERTEX, placeUniforms, SECTION_FRAGMENT, SECTION_VERTEX } from "./hullShader";
 import { drawInto } from "./passes";
 
 const VERTEX = /* glsl */ `
   ${PLACE_VERTEX}
+  ${SECTION_VERTEX}
   flat out int number;
   void main() {
     vec4 state = texelFetch(states, place(), 0);
+    clipAt(placed(state));
     number = int(owner + 0.5) + 1;
     gl_Position = projected(state);
   }
@@ -17,32 +19,36 @@ const VERTEX = /* glsl */ `
 const FRAGMENT = /* glsl */ `
   precision highp float;
   flat in int number;
+  ${SECTION_FRAGMENT}
   void main() {
+    clip();
     gl_FragColor = vec4(float(number & 255), float((number >> 8) & 255), float(number >> 16), 255.0) / 255.0;
   }
 `;
 
-/** For each pixel the place of the hull plus one, nought where there is none; rows from the top. */
+/** For each pixel the place of the hull plus one, nought where there is none; rows from the top. closed: faces that close
+ * the hulls where the section plane cuts them. */
 export function drawHullIds(
   gl: WebGLRenderer,
   hulls: HullSet,
+  closed: BufferGeometry | null,
   camera: Camera,
   width: number,
   height: number,
 ): Uint32Array {
-  const material = new ShaderMaterial({
-    vertexShader: VERTEX,
-    fragmentShader: FRAGMENT,
-    uniforms: placeUniforms(hulls.common),
-  });
+  const shaders = { vertexShader: VERTEX, fragmentShader: FRAGMENT, uniforms: placeUniforms(hulls.common) };
   const scene = new Scene();
-  const mesh = new Mesh(hulls.faceGeometry, material);
-  mesh.frustumCulled = false;
-  mesh.matrixAutoUpdate = false;
-  mesh.matrix.copy(hulls.object.matrixWorld);
-  scene.add(mesh);
+  const add = (geometry: BufferGeometry, material: ShaderMaterial): void => {
+    const mesh = new Mesh(geometry, material);
+    mesh.frustumCulled = false;
+    mesh.matrixAutoUpdate = false;
+    mesh.matrix.copy(hulls.object.matrixWorld);
+    scene.add(mesh);
+  };
+  add(hulls.faceGeometry, new ShaderMaterial({ ...shaders, clipping: true }));
+  if (closed) add(closed, new ShaderMaterial({ ...shaders, side: DoubleSide }));
   const bytes = renderIds(gl, scene, camera, width, height);
-  material.dispose();
+  for (const mesh of scene.children as Mesh<BufferGeometry, ShaderMaterial>[]) mesh.material.dispose();
   return flipRows(bytes, width, height);
 }
 

@@ -28,7 +28,7 @@ export class HullSet {
   readonly faceGeometry: BufferGeometry;
   private readonly colors: ByteTable;
   private readonly states: ByteTable;
-  private readonly edges: readonly Edges[];
+  readonly edges: readonly Edges[];
   private readonly faces: Mesh;
   private readonly lines: LineSegments;
   private readonly wire = { value: 0 };

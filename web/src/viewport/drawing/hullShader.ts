@@ -6,6 +6,7 @@ import {
   type IUniform,
   NearestFilter,
   RGBAFormat,
+  DoubleSide,
   ShaderMaterial,
   SRGBColorSpace,
   UnsignedByteType,
@@ -69,6 +70,25 @@ export const PLACE_VERTEX = /* glsl */ `
   }
 `;
 
+/** Leave out what is beyond the section plane; `clipAt` is given a vertex as the camera sees it. */
+export const SECTION_VERTEX = /* glsl */ `
+  #include <clipping_planes_pars_vertex>
+  void clipAt(vec4 seen) {
+    #if NUM_CLIPPING_PLANES > 0
+      vClipPosition = -seen.xyz;
+    #endif
+  }
+`;
+
+export const SECTION_FRAGMENT = /* glsl */ `
+  #include <clipping_planes_pars_fragment>
+  void clip() {
+    #if NUM_CLIPPING_PLANES > 0
+      if (dot(vClipPosition, clippingPlanes[0].xyz) > clippingPlanes[0].w) discard;
+    #endif
+  }
+`;
+
 /** Light on a face with a normal, as the camera sees it: from the sky, from the upper left, a little from the right. */
 export const LIGHT = /* glsl */ `
   float light(vec3 n) {
@@ -82,6 +102,7 @@ export const LIGHT = /* glsl */ `
 // all that is the same on a whole face is reckoned at its last corner, so that pixels cost next to nothing
 const FACE_VERTEX = /* glsl */ `
   ${PLACE_VERTEX}
+  ${SECTION_VERTEX}
   flat out vec4 color;
   flat out vec3 stripe;
   flat out float role;
@@ -102,6 +123,7 @@ const FACE_VERTEX = /* glsl */ `
     color = sRGBTransferOETF(vec4(mix(base.rgb, glow, share) * lit, base.a));
     stripe = color.rgb;
     if (base.a < 0.5) stripe = sRGBTransferOETF(vec4(mix(mix(base.rgb, vec3(1.0), 0.62), glow, share) * lit, 1.0)).rgb;
+    clipAt(placed(state));
     gl_Position = projected(state);
   }
 `;
@@ -113,8 +135,13 @@ const FACE_FRAGMENT = /* glsl */ `
   flat in float role;
   uniform float pixel;
   uniform float opacity;
+  ${SECTION_FRAGMENT}
   void main() {
+    clip();
     gl_FragColor = vec4(color.rgb, opacity);
+    #ifdef CUT_OPEN
+      if (fract((gl_FragCoord.x - gl_FragCoord.y) / pixel / 6.0) < 0.2) gl_FragColor.rgb *= 0.8;
+    #endif
     if (role < ${ROLE.removed}.0 && color.a > 0.5) return;
     vec2 spot = gl_FragCoord.xy / pixel;
     if (role == ${ROLE.removed}.0 && mod(floor(spot.x / 2.0) + floor(spot.y / 2.0), 2.0) > 0.5) discard;
@@ -130,6 +157,18 @@ export function hullMaterial(common: SharedUniforms, opacity = 1): ShaderMateria
     transparent: opacity < 1,
     depthWrite: opacity === 1,
     side: FrontSide,
+    clipping: true,
+  });
+}
+
+/** For faces that close hulls which are cut open: hatched, and never cut themselves. */
+export function sectionFaceMaterial(common: SharedUniforms): ShaderMaterial {
+  return new ShaderMaterial({
+    vertexShader: FACE_VERTEX,
+    fragmentShader: FACE_FRAGMENT,
+    uniforms: { ...placeUniforms(common), ...common.ink, opacity: { value: 1 } },
+    defines: { CUT_OPEN: 1 },
+    side: DoubleSide,
   });
 }
 
@@ -143,12 +182,14 @@ export const placeUniforms = ({ colors, states, explode, pixel }: SharedUniforms
 
 const LINE_VERTEX = /* glsl */ `
   ${PLACE_VERTEX}
+  ${SECTION_VERTEX}
   flat out vec3 color;
   flat out float shown;
   void main() {
     vec4 state = texelFetch(states, place(), 0);
     color = texelFetch(colors, place(), 0).rgb;
     vec4 at = placed(state);
+    clipAt(at);
     shown = state.b > 0.006 ? 0.35 : 1.0;
     // a little towards the eye, so that the faces beside it do not cover it
     if (isOrthographic) at.z += 0.0008 * abs(at.z); else at.xyz *= 0.9992;
@@ -161,7 +202,9 @@ const LINE_FRAGMENT = /* glsl */ `
   flat in vec3 color;
   flat in float shown;
   uniform float wire;
+  ${SECTION_FRAGMENT}
   void main() {
+    clip();
     gl_FragColor = vec4(color * mix(0.22, 0.85, wire), mix(0.5 * shown, 0.95, wire));
     #include <colorspace_fragment>
   }
@@ -175,6 +218,7 @@ export function lineMaterial(common: SharedUniforms, wire: IUniform<number>): Sh
     uniforms: { ...placeUniforms(common), wire },
     transparent: true,
     depthWrite: false,
+    clipping: true,
   });
 }
 

@@ -25,7 +25,7 @@ export const OUTLINES: Readonly<Record<OutlineName, OutlineStyle>> = {
 
 export function dressed(name: OutlineName, ink: ThemeColors): Strokes {
   const [line, casing] = outlineColors(name, ink);
-  return new Strokes(line, OUTLINES[name], 2, casing);
+  return new Strokes(line, { ...OUTLINES[name], cut: true }, 2, casing);
 }
 
 /** The colours of the line and of its casing in a theme. */

@@ -16,6 +16,7 @@ import {
   ShaderMaterial,
   Vector2,
 } from "three";
+import { SECTION_FRAGMENT, SECTION_VERTEX } from "./hullShader";
 import { CORNER, type Eye, type Outline, roomFor, writeSilhouettes } from "../geometry/edges";
 
 export interface StrokeStyle {
@@ -30,6 +31,8 @@ export interface StrokeStyle {
   readonly over?: boolean;
   /** Width of the casing, a line below it in another colour [px]. */
   readonly casing?: number;
+  /** Whether the section plane cuts it. */
+  readonly cut?: boolean;
 }
 
 /** Of the width of a line, what is left where it shows through what is before it. */
@@ -125,10 +128,10 @@ export class Strokes {
   }
 }
 
-function materialsOf({ opacity = 1, behind = 0, over }: StrokeStyle, uniforms: StrokeUniforms): ShaderMaterial[] {
-  if (over) return [strokeMaterial(uniforms, opacity, "over")];
-  const before = strokeMaterial(uniforms, opacity, "before");
-  return behind > 0 ? [before, strokeMaterial(uniforms, behind, "behind")] : [before];
+function materialsOf({ opacity = 1, behind = 0, over, cut = false }: StrokeStyle, uniforms: StrokeUniforms): ShaderMaterial[] {
+  if (over) return [strokeMaterial(uniforms, opacity, "over", cut)];
+  const before = strokeMaterial(uniforms, opacity, "before", cut);
+  return behind > 0 ? [before, strokeMaterial(uniforms, behind, "behind", cut)] : [before];
 }
 
 function quads(count: number): Uint32Array {
@@ -170,6 +173,7 @@ const VERTEX = /* glsl */ `
   uniform float width;
   uniform float share;
   flat out float upright;
+  ${SECTION_VERTEX}
   // a little towards the eye, so that the faces beside it do not cover it
   vec4 nearer(vec3 p) {
     vec4 at = modelViewMatrix * vec4(p, 1.0);
@@ -177,6 +181,7 @@ const VERTEX = /* glsl */ `
     return projectionMatrix * at;
   }
   void main() {
+    clipAt(modelViewMatrix * vec4(position, 1.0));
     vec4 here = nearer(position);
     vec4 there = nearer(other);
     gl_Position = vec4(0.0, 0.0, -2.0, 1.0);
@@ -196,7 +201,9 @@ const FRAGMENT = /* glsl */ `
   uniform vec3 color;
   uniform float opacity;
   uniform float dash;
+  ${SECTION_FRAGMENT}
   void main() {
+    clip();
     float spot = upright > 0.5 ? gl_FragCoord.y : gl_FragCoord.x;
     if (dash > 0.0 && fract(spot / (1.65 * dash)) > 0.6) discard;
     gl_FragColor = vec4(color, opacity);
@@ -209,6 +216,7 @@ function strokeMaterial(
   uniforms: StrokeUniforms,
   opacity: number,
   where: "before" | "behind" | "over",
+  clipping: boolean,
 ): ShaderMaterial {
   return new ShaderMaterial({
     vertexShader: VERTEX,
@@ -216,6 +224,7 @@ function strokeMaterial(
     uniforms: { ...uniforms, opacity: { value: opacity }, share: { value: where === "behind" ? THINNER : 1 } },
     transparent: true,
     depthWrite: false,
+    clipping,
     depthTest: where !== "over",
     depthFunc: where === "behind" ? GreaterDepth : LessEqualDepth,
     side: DoubleSide,

@@ -2,12 +2,14 @@
 import { BufferAttribute, BufferGeometry, type Color, DoubleSide, Group, Mesh, ShaderMaterial } from "three";
 import type { Shape } from "../../server/packet";
 import { mergeShapes, type MergedShapes } from "../geometry/triangles";
-import { LIGHT } from "./hullShader";
+import { LIGHT, SECTION_FRAGMENT, SECTION_VERTEX } from "./hullShader";
 
 const VERTEX = /* glsl */ `
   out vec3 seen;
+  ${SECTION_VERTEX}
   void main() {
     vec4 at = modelViewMatrix * vec4(position, 1.0);
+    clipAt(at);
     seen = at.xyz;
     gl_Position = projectionMatrix * at;
   }
@@ -19,7 +21,9 @@ const FRAGMENT = /* glsl */ `
   uniform vec3 color;
   uniform float opacity;
   ${LIGHT}
+  ${SECTION_FRAGMENT}
   void main() {
+    clip();
     gl_FragColor = vec4(color * light(normalize(cross(dFdx(seen), dFdy(seen)))), opacity);
     #include <colorspace_fragment>
   }
@@ -72,5 +76,6 @@ function material(color: Color, opacity: number): ShaderMaterial {
     transparent: true,
     depthWrite: false,
     side: DoubleSide,
+    clipping: true,
   });
 }

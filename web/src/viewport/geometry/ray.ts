@@ -7,7 +7,7 @@ export interface Ray {
   readonly along: Point;
 }
 
-interface RayHit {
+export interface RayHit {
   readonly place: number;
   /** How far along the ray, in lengths of `along`. */
   readonly distance: number;

@@ -2,7 +2,6 @@
 import { expect, test } from "vitest";
 import { niceStep } from "../drawing/ground";
 import type { Shape } from "../../server/packet";
-import { lengthText, volumeText } from "../../store/units";
 import { EDGE, edgesOf, roomFor, writeSilhouettes } from "./edges";
 import { boxAround, facetsOf, mergeShapes, middleOf } from "./triangles";
 
@@ -58,9 +57,4 @@ test("merged triangles count from the first vertex of their shape", () => {
 
 test("steps of the grid are 1, 2 or 5 times a power of ten", () => {
   expect([0.013, 0.2, 0.74, 7].map(niceStep)).toEqual([0.01, 0.2, 0.5, 5]);
-});
-
-test("sizes are written in the unit that suits them", () => {
-  expect([2, 0.25, 0.0031].map(lengthText)).toEqual(["2 m", "25 cm", "3.1 mm"]);
-  expect([1.5, 0.0112, 0.0000556, 3e-8].map(volumeText)).toEqual(["1.5 m³", "11.2 l", "55.6 cm³", "30 mm³"]);
 });

@@ -13,7 +13,7 @@ export function CompareLine() {
   return (
     <>
       {compare === "slider" ? <DividingLine /> : <div className={css.middle} />}
-      <span className={css.sideName} style={{ left: 10 }}>
+      <span className={css.sideName} style={{ left: 10 }} data-side>
         Before
       </span>
       <span className={css.sideName} style={{ left: compare === "side" ? "calc(50% + 10px)" : undefined, right: compare === "side" ? undefined : 110 }}>

@@ -6,7 +6,7 @@ import { useProject } from "../../store/project";
 import { type Scene, useScenes } from "../../store/scenes";
 import { lengthText, volumeText } from "../../store/units";
 import { countText } from "../../store/words";
-import { useWorkspace } from "../../store/workspace";
+import { useUnit, useWorkspace } from "../../store/workspace";
 import { Swatch } from "../../ui/Section";
 import type { HullView } from "../../wire";
 import css from "./overlay.module.css";
@@ -33,7 +33,7 @@ function PointedHull() {
   if (hull) return <HullLine hull={hull} />;
   if (!piece) return null;
   return (
-    <div className={css.pointed}>
+    <div className={css.pointed} data-testid="pointed">
       <b>{piece.name}</b>
       <span>{piece.reason}</span>
     </div>
@@ -44,9 +44,10 @@ function HullLine({ hull }: { hull: HullView }) {
   const scene = useScenes((state) => state.scene);
   const was = useFormerLabels(scene?.asset ?? "", scene?.view.hulls ?? NONE).get(hull.name);
   const color = useProject(({ project }) => project.vocabulary.find((label) => label.name === hull.label)?.color);
+  const unit = useUnit();
   const share = hull.confidence === null ? "" : ` ${Math.round(100 * hull.confidence)} %`;
   return (
-    <div className={css.pointed}>
+    <div className={css.pointed} data-testid="pointed">
       <b>{hull.name}</b>
       {hull.label === null ? (
         <span>no label</span>
@@ -57,7 +58,7 @@ function HullLine({ hull }: { hull: HullView }) {
           {was !== undefined && `, was ${was}`}
         </span>
       )}
-      <span>{volumeText(hull.volume)}</span>
+      <span>{volumeText(hull.volume, unit)}</span>
       <span>{hull.primitive ?? `${hull.vertices} vertices`}</span>
     </div>
   );
@@ -70,13 +71,14 @@ function Counts() {
   const selected = useWorkspace((workspace) => workspace.selection.size);
   const hidden = useWorkspace((workspace) => workspace.hidden.size);
   const grid = useWorkspace((workspace) => workspace.view.grid);
+  const unit = useUnit();
   const stage = useStage();
   if (!scene) return null;
   const parts = [hullCountText(scene), selected ? `${selected} selected` : "", hidden ? `${hidden} hidden` : ""];
   return (
     <div className={css.counts} data-testid="counts">
       <span>{parts.filter(Boolean).join(" · ")}</span>
-      {grid && <span className={css.faint}>grid {lengthText(stage.contents.ground.step)}</span>}
+      {grid && <span className={css.faint}>grid {lengthText(stage.contents.ground.step, unit)}</span>}
     </div>
   );
 }

@@ -49,15 +49,14 @@ interface Spot {
   readonly y: number;
 }
 
-const [WIDE, HIGH] = [58, 19];
 
 /** Spots of which none covers one before it; those that would are moved down. */
-function separateSpots(spots: readonly Spot[]): Spot[] {
+export function separateSpots(spots: readonly Spot[], wide = 58, high = 19): Spot[] {
   const out: Spot[] = [];
   for (const { x, y } of spots) {
     let free = y;
-    const covers = (other: Spot) => Math.abs(other.x - x) < WIDE && Math.abs(other.y - free) < HIGH;
-    for (let at = out.find(covers); at; at = out.find(covers)) free = at.y + HIGH;
+    const covers = (other: Spot) => Math.abs(other.x - x) < wide && Math.abs(other.y - free) < high;
+    for (let at = out.find(covers); at; at = out.find(covers)) free = at.y + high;
     out.push({ x, y: free });
   }
   return out;
@@ -65,33 +64,31 @@ function separateSpots(spots: readonly Spot[]): Spot[] {
 
 function gapLabel(gap: Gap["gap"], { x, y }: Spot): HTMLElement {
   const label = document.createElement("span");
-  label.textContent = lengthText(gap);
+  label.textContent = lengthText(gap, useWorkspace.getState().unit, 2);
   label.style.transform = `translate(${Math.round(x)}px, ${Math.round(y)}px) translate(-50%, -50%)`;
   return label;
 }
 
 const NAMES = ["Start", "End"];
 
-/** What to click for the orientation, and marks on the hulls that were clicked. */
-export function Landmarks() {
+/** Marks on the hulls that were clicked for the orientation. */
+export function LandmarkMarks() {
   const landmarks = useWorkspace((workspace) => workspace.landmarks);
-  const tool = useWorkspace((workspace) => workspace.tool);
+  return landmarks.map((name, k) => <Mark key={name} hull={name} text={NAMES[k] ?? ""} />);
+}
+
+/** What to click for the orientation. */
+export function LandmarkBar() {
+  const landmarks = useWorkspace((workspace) => workspace.landmarks);
+  const inHand = useWorkspace((workspace) => workspace.tool === "landmark");
+  if (!inHand) return null;
   return (
-    <>
-      {landmarks.map((name, k) => (
-        <Mark key={name} hull={name} text={NAMES[k] ?? ""} />
-      ))}
-      {tool === "landmark" && (
-        <div className={css.bar} role="status">
-          {landmarks.length === 1
-            ? "Now click the hull where the direction ends."
-            : "Click the hull where the direction starts."}
-          <Button look="quiet" onClick={() => setTool("select")} keys="Escape" tip="Leave">
-            Leave
-          </Button>
-        </div>
-      )}
-    </>
+    <div className={css.bar} role="status">
+      {landmarks.length === 1 ? "Now click the hull where the direction ends." : "Click the hull where the direction starts."}
+      <Button look="quiet" onClick={() => setTool("select")} keys="Escape" tip="Leave">
+        Leave
+      </Button>
+    </div>
   );
 }
 

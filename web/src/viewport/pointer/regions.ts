@@ -1,8 +1,12 @@
 // Selecting by a box or a lasso: what is seen in it, or all that lies behind it as well.
+import { cornersOf } from "../camera/pose";
 import type { AssetDrawing } from "../drawing/assetDrawing";
 import { drawHullIds } from "../drawing/hullIds";
+import { planeIn } from "../drawing/section";
 import { meets, outlineOf } from "../geometry/outline";
 import { boxRegion, isInside, placesInside, type Region, type Spot } from "../geometry/region";
+import { beyond } from "../geometry/section";
+import type { Point } from "../geometry/triangles";
 import { clearRegion, setRegion, useRegion } from "../stage/regionStore";
 import type { Pane } from "../stage/panes";
 import type { Stage } from "../stage/stage";
@@ -63,7 +67,7 @@ type Finder = (region: Region, through: boolean) => ReadonlySet<string>;
 function finderOf(stage: Stage, side: AssetDrawing, pane: Pane): Finder {
   const { hulls } = side;
   const [width, height] = [Math.ceil(pane.width), Math.ceil(stage.height)];
-  const places = stage.gl ? drawHullIds(stage.gl, hulls, stage.view.camera(), width, height) : new Uint32Array();
+  const places = stage.gl ? drawHullIds(stage.gl, hulls, side.closed.geometry, stage.view.camera(), width, height) : new Uint32Array();
   const spots = vertexSpots(stage, side, pane);
   let outlines: readonly Spot[][] | null = null;
   return (region, through) => {
@@ -71,7 +75,7 @@ function finderOf(stage: Stage, side: AssetDrawing, pane: Pane): Finder {
     const inPane = region.map(([x, y]): Spot => [x - pane.x, y]);
     const found = placesInside(inPane, places, width, height);
     hulls.names.forEach((_, k) => {
-      if (!hulls.visible[k] || found.has(k)) return;
+      if (!hulls.visible[k] || found.has(k) || isCutAway(stage, side, k)) return;
       const inside = through ? meets(region, outlines?.[k] ?? []) : spots[k]?.every((spot) => isInside(region, spot));
       if (inside) found.add(k);
     });
@@ -79,18 +83,27 @@ function finderOf(stage: Stage, side: AssetDrawing, pane: Pane): Finder {
   };
 }
 
+/** Whether the whole box of a hull is beyond the section plane. */
+function isCutAway({ section, settings }: Stage, { hulls, turned }: AssetDrawing, k: number): boolean {
+  return section !== null && boxCorners(hulls, k, settings.explode).every((corner) => beyond(planeIn(section, turned.matrix), corner) > 0);
+}
+
+/** The corners of the box of a hull where it is shown. */
+function boxCorners({ shapes, aways }: AssetDrawing["hulls"], k: number, explode: number): Point[] {
+  return cornersOf([...shapes.boxes.subarray(6 * k, 6 * k + 6)]).map(([x, y, z]) => {
+    const away = aways[k] ?? [0, 0, 0];
+    return [x + explode * away[0], y + explode * away[1], z + explode * away[2]] as const;
+  });
+}
+
 /** Where the corners of each hull's box are seen. */
 function vertexSpots(stage: Stage, { hulls }: AssetDrawing, pane: Pane): Spot[][] {
-  const { boxes } = hulls.shapes;
-  return hulls.names.map((_, k) => {
-    const away = hulls.aways[k] ?? [0, 0, 0];
-    const at = (axis: number, high: boolean) =>
-      (boxes[6 * k + axis + (high ? 3 : 0)] ?? 0) + stage.settings.explode * (away[axis] ?? 0);
-    return Array.from({ length: 8 }, (_corner, c): Spot => {
-      const { x, y } = stage.pixelOf([at(0, !!(c & 1)), at(1, !!(c & 2)), at(2, !!(c & 4))], pane);
+  return hulls.names.map((_, k) =>
+    boxCorners(hulls, k, stage.settings.explode).map((corner): Spot => {
+      const { x, y } = stage.pixelOf(corner, pane);
       return [x, y];
-    });
-  });
+    }),
+  );
 }
 
 /** The outline of each hull in the picture. */

@@ -9,11 +9,13 @@ import type { Stage } from "../stage/stage";
 import { hullToCut, planeOf, setCut, shareAt, type Triple, useCut } from "../../store/cut";
 import { endStroke, paint } from "../../store/labels";
 import type { SceneHull } from "../../store/scenes";
+import { dropPoints, pointRuler, takePoint } from "../../store/ruler";
 import { hover, select, selectMore, useWorkspace } from "../../store/workspace";
 import { beginStroke } from "./brush";
 import type { Drag, PointerTool } from "./gestures";
 import { armHeldDigit } from "./heldKeys";
 import { beginRegion } from "./regions";
+import { snapAt } from "./snap";
 
 export function createPointerTool(stage: Stage): PointerTool {
   return {
@@ -25,10 +27,15 @@ export function createPointerTool(stage: Stage): PointerTool {
       return tool === "select" && brush !== null ? beginStroke(stage, spot) : null;
     },
     click: createClick(stage),
-    hover: (spot) => hover(spot && pieceAt(stage, ...spot)),
+    hover: (spot) => {
+      if (isMeasuring()) pointRuler(spot && snapAt(stage, ...spot));
+      hover(spot && pieceAt(stage, ...spot));
+    },
     drawsRegion: () => ["box", "lasso"].includes(useWorkspace.getState().tool),
   };
 }
+
+const isMeasuring = (): boolean => useWorkspace.getState().tool === "ruler";
 
 /** Clicks farther apart than this are not in one place [px]. */
 const SAME_PLACE = 3;
@@ -38,6 +45,7 @@ function createClick(stage: Stage): PointerTool["click"] {
   let last: { spot: Spot; name: string | null } = { spot: [-99, -99], name: null };
   return (spot, event) => {
     const { tool, brush, through, selection } = useWorkspace.getState();
+    if (tool === "ruler") return measureAt(stage, ...spot);
     const isAgain = Math.hypot(spot[0] - last.spot[0], spot[1] - last.spot[1]) <= SAME_PLACE;
     const isPlain = tool !== "landmark" && tool !== "cut" && !(tool === "select" && brush !== null);
     if (!isPlain || !(event.altKey || (through && isAgain))) {
@@ -60,6 +68,13 @@ function hullsThrough(stage: Stage, [x, y]: Spot): string[] {
   if (!side) return [];
   const { shapes, visible, aways, names } = side.hulls;
   return castRayThrough(shapes, rayAt(stage, x, y), visible, aways, stage.settings.explode).flatMap(({ place }) => names[place] ?? []);
+}
+
+/** A click of the ruler: a point on a hull; on nothing, the first point is dropped. */
+function measureAt(stage: Stage, x: number, y: number): void {
+  const point = snapAt(stage, x, y);
+  if (!point) return dropPoints();
+  if (stage.shown) takePoint(stage.shown.scene, point);
 }
 
 /** A click on a hull, or on nothing. */

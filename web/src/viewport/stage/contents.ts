@@ -5,6 +5,7 @@ import { CutPlaneDrawing } from "../drawing/cutPlane";
 import { Ground } from "../drawing/ground";
 import type { Appearance } from "../drawing/hullLooks";
 import { PreviewHulls } from "../drawing/previewHulls";
+import { SectionFrame } from "../drawing/section";
 import { Surfaces } from "../drawing/surface";
 import { readThemeColors, type ThemeColors } from "../drawing/themeColors";
 import { type Point, rotateBox } from "../geometry/triangles";
@@ -19,6 +20,7 @@ export class Contents {
   readonly ground = new Ground();
   readonly graph = new ContactGraph(this.ink);
   readonly cut = new CutPlaneDrawing(this.ink);
+  readonly section = new SectionFrame(this.ink);
   shown: AssetDrawing | null = null;
   before: AssetDrawing | null = null;
   made: PreviewHulls | null = null;
@@ -40,6 +42,7 @@ export class Contents {
     if (scene && (isOther || String(scene.view.upright) !== String(last?.view.upright))) this.survey(scene, isOther);
     this.shown = scene ? new AssetDrawing(scene, this.centre, this.ink) : null;
     this.shown?.turned.add(this.graph.object, this.cut.object);
+    this.shown?.root.add(this.section.object);
     if (this.ghost) this.shown?.turned.add(this.ghost.object);
     return isOther;
   }
@@ -78,6 +81,7 @@ export class Contents {
     this.before?.setInk(ink);
     this.graph.setInk(ink);
     this.cut.setInk(ink);
+    this.section.setInk(ink);
     this.ghost?.recolor(ink.text);
     this.ground.fit(this.bounds, ink);
   }
@@ -87,6 +91,7 @@ export class Contents {
     this.preview(null);
     this.graph.dispose();
     this.cut.dispose();
+    this.section.dispose();
     this.ground.dispose();
   }
 

@@ -1,7 +1,9 @@
 // What is under a pixel of the viewport.
 import { Matrix4, Vector3 } from "three";
 import { type AssetDrawing, spotsOf } from "../drawing/assetDrawing";
+import { planeIn } from "../drawing/section";
 import { castRay, type Ray } from "../geometry/ray";
+import { castThrough } from "../geometry/section";
 import type { Point } from "../geometry/triangles";
 import { useWorkspace } from "../../store/workspace";
 import type { Stage } from "./stage";
@@ -20,7 +22,7 @@ export function rayAt(stage: Stage, x: number, y: number): Ray {
 /** The hull under a pixel, null for none. */
 export function hullAt(stage: Stage, x: number, y: number): string | null {
   const side = stage.sideOf(stage.paneAt(x));
-  return side ? hullOf(side, rayAt(stage, x, y), stage.settings.explode) : null;
+  return side ? hullOf(stage, side, rayAt(stage, x, y)) : null;
 }
 
 /** The hull, or else the non-convex piece, under a pixel. */
@@ -28,11 +30,11 @@ export function pieceAt(stage: Stage, x: number, y: number): string | null {
   const side = stage.sideOf(stage.paneAt(x));
   if (!side) return null;
   const ray = rayAt(stage, x, y);
-  return hullOf(side, ray, stage.settings.explode) ?? (stage.settings.opaque ? opaqueOf(side, ray) : null);
+  return hullOf(stage, side, ray) ?? (stage.settings.opaque ? opaqueOf(side, ray) : null);
 }
 
-function hullOf({ hulls }: AssetDrawing, ray: Ray, explode: number): string | null {
-  const met = castRay(hulls.shapes, ray, hulls.visible, hulls.aways, explode);
+function hullOf({ section, settings }: Stage, { hulls, turned }: AssetDrawing, ray: Ray): string | null {
+  const met = castThrough(hulls, ray, settings.explode, section && planeIn(section, turned.matrix));
   return met ? (hulls.names[met.place] ?? null) : null;
 }
 

@@ -3,10 +3,12 @@ import { type Camera, Matrix4, OrthographicCamera, Vector2, Vector3, type WebGLR
 import { freeRoom, type Rect, type Room, shapeOf, wholeRoom } from "../camera/fit";
 import { CameraView } from "../camera/view";
 import { type AssetDrawing, pointsOf } from "../drawing/assetDrawing";
+import { clippingPlane } from "../drawing/section";
 import type { Gap } from "../drawing/contactGraph";
 import type { Eye } from "../geometry/edges";
 import type { Point } from "../geometry/triangles";
 import type { Scene } from "../../store/scenes";
+import { type SectionPlane, spanOfBox } from "../../store/section";
 import { findViewpoint } from "./viewpoint";
 import { Contents } from "./contents";
 import { FrameRate } from "./frameRate";
@@ -26,6 +28,8 @@ export class Stage {
   /** Of near misses that are pointed at. */
   gaps: readonly Gap[] = [];
   gl: WebGLRenderer | null = null;
+  /** The section plane in the canonical frame, null for none. */
+  section: SectionPlane | null = null;
   /** Asks for a frame. */
   invalidate: () => void = () => undefined;
   /** What lies over the picture [px]. */
@@ -77,6 +81,28 @@ export class Stage {
     this.view.explode = settings.explode;
     this.view.projection = settings.projection;
     this.invalidate();
+  }
+
+  /** The box around all there is, where the exploded view has moved it, in the canonical frame. */
+  get extent(): number[] {
+    const { bounds } = this.contents;
+    const grown = (axis: number, end: number): number => {
+      const middle = ((bounds[axis] ?? 0) + (bounds[axis + 3] ?? 0)) / 2;
+      return middle + (1 + this.settings.explode) * ((bounds[end] ?? 0) - middle);
+    };
+    return [0, 1, 2, 3, 4, 5].map((end) => grown(end % 3, end));
+  }
+
+  /** How far the extent reaches across the section plane [m]. */
+  get sectionSpan(): number {
+    const [low, high] = this.section ? spanOfBox(this.extent, this.section.normal) : [0, 0];
+    return high - low;
+  }
+
+  /** Cuts the picture open; null closes it. */
+  cutOpen(section: SectionPlane | null): void {
+    this.section = section;
+    this.change((contents) => contents.section.set(section, this.extent));
   }
 
   resize(width: number, height: number, pixel: number): void {
@@ -215,13 +241,16 @@ function drawPane(gl: WebGLRenderer, stage: Stage, pane: Pane): void {
   gl.setViewport(pane.x, 0, pane.width, height);
   gl.setScissor(pane.clip[0], 0, pane.clip[1] - pane.clip[0], height);
   const frame = { width: pane.width, height, pixel, explode: settings.explode, eye: stage.eye(camera) };
+  gl.clippingPlanes = [];
   if (settings.grid) gl.render(stage.contents.ground.scene, camera);
   if (!side) return;
   prepare(stage, side);
-  side.measure(frame);
+  side.measure(frame, stage.section);
   stage.contents.graph.measure(frame);
   stage.contents.cut.measure(frame);
+  stage.contents.section.measure(frame);
   stage.contents.made?.measure(frame);
+  if (stage.section) gl.clippingPlanes = [clippingPlane(stage.section)];
   shade(gl, stage, side, pane.width, camera);
   gl.render(side.root, camera);
 }
@@ -234,7 +263,8 @@ function shade(gl: WebGLRenderer, stage: Stage, { occlusion, shadow }: AssetDraw
     shadow.hide();
     return;
   }
-  occlusion.update(gl, camera, { width, height, explode, radius: stage.view.radius }, hasTime);
+  if (stage.section) occlusion.hide(); // it knows nothing of faces that close what is cut open
+  else occlusion.update(gl, camera, { width, height, explode, radius: stage.view.radius }, hasTime);
   shadow.update(gl, bounds, explode, ink.dark, hasTime);
 }
 

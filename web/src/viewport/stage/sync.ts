@@ -7,6 +7,7 @@ import { watchLabelChanges } from "../../store/labelChanges";
 import { usePreview } from "../../store/preview";
 import { useProject } from "../../store/project";
 import { type Scene, sceneOf, useScenes } from "../../store/scenes";
+import { sectionPlane, useSection } from "../../store/section";
 import { forgetMissing } from "../../store/selection";
 import { reportError } from "../../store/toasts";
 import { useTour } from "../../store/tour";
@@ -24,6 +25,7 @@ function followStores(stage: Stage): () => void {
     stage.show(scene);
     stage.change((contents) => contents.preview(usePreview.getState().preview));
     repaint();
+    updateSection(stage);
     fetchBeside(stage, scene);
   };
   const stops = [
@@ -34,6 +36,7 @@ function followStores(stage: Stage): () => void {
     }),
     useWorkspace.subscribe((now, before) => {
       if (now.view !== before.view) stage.set(settingsOf(now.view));
+      if (now.view.explode !== before.view.explode) updateSection(stage);
       if (now.view.compare !== before.view.compare || now.view.ghost !== before.view.ghost) {
         fetchBeside(stage, useScenes.getState().scene);
       }
@@ -53,6 +56,7 @@ function followStores(stage: Stage): () => void {
     watchLabelChanges(repaint),
     useCut.subscribe(() => updateCutPlane(stage)),
     fitBesideTour(stage),
+    useSection.subscribe(() => updateSection(stage)),
     watchTheme(() => {
       stage.change((contents) => contents.setInk(readThemeColors()));
       repaint();
@@ -121,6 +125,8 @@ function fetchBeside(stage: Stage, scene: Scene | null): void {
     api.visual(scene.asset).then((packet) => isStill() && stage.change((contents) => contents.setGhost(packet))).catch(reportError);
   }
 }
+
+const updateSection = (stage: Stage): void => stage.cutOpen(sectionPlane(stage.extent, useSection.getState()));
 
 /** Shows the cutting plane where the tool is in hand and a hull is chosen. */
 function updateCutPlane(stage: Stage): void {

@@ -1,4 +1,4 @@
-// The bar over the picture: tools and selecting on the first line, looking on the second.
+// The bar over the picture, one row: tools and selecting, then looking.
 import {
   BoxSelect,
   Columns2,
@@ -9,18 +9,22 @@ import {
   Layers2,
   MousePointer2,
   Network,
+  Ruler,
   Slice,
   Square,
+  SquareDashedBottom,
   SquareSplitHorizontal,
   Triangle,
 } from "lucide-react";
 import { lazy, Suspense } from "react";
 import { startCut } from "../../commands/demonstrate";
 import { useScenes, waitForFirstScene } from "../../store/scenes";
+import { useSection } from "../../store/section";
 import { type Compare, setThrough, setTool, setView, type Tool, useWorkspace, type ViewSettings } from "../../store/workspace";
 import { IconButton, Tip } from "../../ui/Button";
 import { Choice, Slide } from "../../ui/fields";
-import { keyOf } from "./commandLines";
+import { commandOf, keyOf } from "./commandLines";
+import { FittedRow, type Part } from "./FittedRow";
 import { ColorChoice, SelectionMenu, ShowingMenu, ViewMenu } from "./menus";
 import css from "./toolbar.module.css";
 
@@ -30,36 +34,45 @@ const ExtractorField = lazy(async () => {
   return { default: (await import("../../text/ExtractorField")).ExtractorField };
 });
 
+/** The parts of the bar from left to right; keep: those with the highest stay longest where there is not room for all. */
+const PARTS: readonly Part[] = [
+  { id: "tools", name: "Tools", keep: 9, node: <Tools /> },
+  { id: "selection", name: "Selection", keep: 8, node: <SelectionMenu /> },
+  {
+    id: "rule",
+    name: "Select by a rule",
+    keep: 6,
+    grows: true,
+    node: (
+      <Suspense fallback={<div className={css.field} />}>
+        <ExtractorField />
+      </Suspense>
+    ),
+  },
+  { id: "showing", name: "State", keep: 7, node: <ShowingMenu /> },
+  { id: "compare", name: "Before and after", keep: 5, node: <CompareChoice /> },
+  { id: "color", name: "Colour", keep: 4, node: <ColorChoice /> },
+  { id: "switches", name: "Overlays", keep: 2, node: <Switches /> },
+  { id: "explode", name: "Exploded view", keep: 1, node: <ExplodeSlide /> },
+  { id: "camera", name: "Camera", keep: 3, node: <ViewMenu /> },
+];
+
 export function Toolbar() {
   const there = useScenes(({ scene }) => scene !== null);
   return (
     <div className={css.bar} role="toolbar" aria-label="View" inert={!there}>
-      <div className={css.line}>
-        <Tools />
-        <SelectionMenu />
-        <Suspense fallback={<div className={css.field} />}>
-          <ExtractorField />
-        </Suspense>
-      </div>
-      <div className={css.line}>
-        <ShowingMenu />
-        <CompareChoice />
-        <span className={css.gap} />
-        <ColorChoice />
-        <Switches />
-        <ExplodeSlide />
-        <ViewMenu />
-      </div>
+      <FittedRow parts={PARTS} />
     </div>
   );
 }
 
 const TAKES = "selects hulls that are visible inside or completely inside; Shift adds, Alt subtracts";
 
-/** What the left button does: one of four tools. */
+/** What the left button does, and the section plane. */
 function Tools() {
   const tool = useWorkspace((workspace) => workspace.tool);
   const through = useWorkspace((workspace) => workspace.through);
+  const isCutOpen = useSection((section) => section.on);
   const take = (next: Tool) => setTool(tool === next ? "select" : next);
   return (
     <div className={css.group} role="group" aria-label="Tools">
@@ -96,6 +109,20 @@ function Tools() {
         keys="K"
         on={tool === "cut"}
         onClick={() => (tool === "cut" ? setTool("select") : startCut())}
+      />
+      <IconButton
+        icon={Ruler}
+        name="Ruler: measure between two points, or the selection"
+        keys={keyOf("tool-ruler")}
+        on={tool === "ruler"}
+        onClick={() => take("ruler")}
+      />
+      <IconButton
+        icon={SquareDashedBottom}
+        name="Section plane: see inside"
+        keys={keyOf("section")}
+        on={isCutOpen}
+        onClick={commandOf("section").run}
       />
     </div>
   );

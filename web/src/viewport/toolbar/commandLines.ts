@@ -1,10 +1,11 @@
 // The key of a command, as tooltips and menus show it, and a way to run one by its name.
 import type { Command } from "../../commands/command";
+import { measureCommands } from "../../commands/measure";
 import { selectCommands } from "../../commands/select";
 import { viewCommands } from "../../commands/view";
 import type { MenuLine } from "../../ui/Menu";
 
-const commands = new Map([...selectCommands, ...viewCommands].map((command) => [command.id, command]));
+const commands = new Map([...selectCommands, ...viewCommands, ...measureCommands].map((command) => [command.id, command]));
 
 /** A command of this room by its id. */
 export function commandOf(id: string): Command {

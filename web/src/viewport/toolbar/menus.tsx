@@ -3,7 +3,7 @@
 import { Box, Check, ChevronDown, Cuboid, Maximize, Palette, Video } from "lucide-react";
 import { useProject } from "../../store/project";
 import { type Scene, useAssetView, useScenes } from "../../store/scenes";
-import { type ColorBy, lookFrom, select, setView, type Showing, useWorkspace, visit } from "../../store/workspace";
+import { type ColorBy, lookFrom, select, setUnit, setView, type Showing, useUnit, useWorkspace, visit } from "../../store/workspace";
 import { Button, IconButton } from "../../ui/Button";
 import { Menu, type MenuLine } from "../../ui/Menu";
 import { Swatch } from "../../ui/Section";
@@ -128,10 +128,16 @@ export function ColorChoice() {
   );
 }
 
-/** The camera: projection, fitting, standard views; and the grid. */
+const UNITS = [
+  { value: "m", name: "Lengths in metres" },
+  { value: "mm", name: "Lengths in millimetres" },
+] as const;
+
+/** The camera: projection, fitting, standard views; the grid, and the unit of lengths. */
 export function ViewMenu() {
   const parallel = useWorkspace((workspace) => workspace.view.projection === "orthographic");
   const grid = useWorkspace((workspace) => workspace.view.grid);
+  const unit = useUnit();
   // whether something is shown decides which lines make sense
   useScenes(({ scene }) => scene === null);
   return (
@@ -145,7 +151,7 @@ export function ViewMenu() {
       <IconButton icon={Maximize} name="Fit all into the view" keys={keyOf("fit")} onClick={() => lookFrom("fit")} />
       <Menu
         trigger={
-          <button type="button" className={css.camera} aria-label="Standard views" title="Standard views">
+          <button type="button" className={css.camera} aria-label="Standard views, grid and units" title="Standard views, grid and units">
             <Video size={16} aria-hidden />
           </button>
         }
@@ -162,6 +168,15 @@ export function ViewMenu() {
             ),
             onSelect: () => setView({ grid: !grid }),
           },
+          "line",
+          ...UNITS.map(({ value, name }) => ({
+            label: (
+              <span className={css.labelLine}>
+                <Check size={13} aria-hidden style={{ visibility: value === unit ? "visible" : "hidden" }} /> {name}
+              </span>
+            ),
+            onSelect: () => setUnit(value),
+          })),
         ]}
       />
     </div>

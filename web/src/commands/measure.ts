@@ -1,0 +1,77 @@
+// Commands that look into the asset and measure it: the section plane and the ruler.
+import { nearestPoints } from "../store/nearest";
+import { addMeasure, clearMeasures, measureExtents, measureGap, useRuler } from "../store/ruler";
+import { type Scene, useScenes } from "../store/scenes";
+import { setSection, useSection } from "../store/section";
+import { setTool, setUnit, useWorkspace } from "../store/workspace";
+import type { Command } from "./command";
+
+const here = (): Scene | null => useScenes.getState().scene;
+const isHere = (): boolean => here() !== null;
+const isCutOpen = (): boolean => useSection.getState().on;
+const hasMeasures = (): boolean => useRuler.getState().measures.some(({ asset }) => asset === here()?.asset);
+
+/** Of one hull or several its extents, of two the gap between them. */
+export function measureSelection(): void {
+  const scene = here();
+  const { selection } = useWorkspace.getState();
+  if (!scene) return;
+  const [a, b, ...more] = scene.hulls.filter((hull) => selection.has(hull.name));
+  if (a && b && !more.length) {
+    const nearest = nearestPoints(a.shape.positions, b.shape.positions);
+    addMeasure(measureGap(scene, [a.name, b.name], [nearest.a, nearest.distance === 0 ? nearest.a : nearest.b]));
+    return;
+  }
+  const extents = measureExtents(scene, selection);
+  if (extents) addMeasure(extents);
+}
+
+export const measureCommands: readonly Command[] = [
+  {
+    id: "section",
+    title: "Section plane: see inside",
+    group: "View",
+    keys: ["Shift+K"],
+    enabled: isHere,
+    run: () => setSection({ on: !isCutOpen() }),
+  },
+  {
+    id: "section-flip",
+    title: "Flip the section plane",
+    group: "View",
+    keys: [],
+    enabled: isCutOpen,
+    run: () => setSection({ flipped: !useSection.getState().flipped }),
+  },
+  {
+    id: "tool-ruler",
+    title: "Ruler: measure between two points",
+    group: "View",
+    keys: ["D"],
+    enabled: isHere,
+    run: () => setTool(useWorkspace.getState().tool === "ruler" ? "select" : "ruler"),
+  },
+  {
+    id: "measure-selection",
+    title: "Measure the selection: the gap between two hulls, or extents",
+    group: "View",
+    keys: ["Shift+D"],
+    enabled: () => isHere() && useWorkspace.getState().selection.size > 0,
+    run: measureSelection,
+  },
+  {
+    id: "clear-measures",
+    title: "Clear all measures",
+    group: "View",
+    keys: [],
+    enabled: hasMeasures,
+    run: () => clearMeasures(here()?.asset ?? ""),
+  },
+  {
+    id: "unit",
+    title: "Lengths in metres or millimetres",
+    group: "View",
+    keys: [],
+    run: () => setUnit(useWorkspace.getState().unit === "m" ? "mm" : "m"),
+  },
+];
