@@ -12,9 +12,12 @@ from playwright.sync_api import Browser, Page
 
 from benchmark.studio.browser import chromium, studio
 from meshforge.cli.demo import create_tables, open_tables
+from meshforge.language import Delete, Replace
 from meshforge.project import Project
+from meshforge.project.demonstrations import demonstrate
 from meshforge.samples import TABLES, family_of
 from meshforge.symbolic import read_labels
+from meshforge.synthesis import Step
 from script.pictures import BY_HAND
 
 SIZE = (1440, 900)
@@ -30,6 +33,10 @@ def main(folder: Path) -> None:
         with studio(project.folder) as address:
             _show_demonstration(_page(browser, address, "light"), folder / "studio.png")
             _show_question(_page(browser, address, "light"), folder / "studio-learn.png")
+        project = open_tables(Path(scratch) / "four")
+        _show_first_steps(project)
+        with studio(project.folder) as address:
+            _show_question(_page(browser, address, "dark"), folder / "studio-signoff.png")
         with studio(_prepare_project(Path(scratch) / "three").folder) as address:
             _show_labels(_page(browser, address, "light"), folder / "studio-label.png")
         project = create_tables(Path(scratch) / "two")
@@ -37,6 +44,15 @@ def main(folder: Path) -> None:
         list(project.apply())
         with studio(project.folder) as address:
             _show_review(_page(browser, address, "dark"), folder / "studio-review.png")
+
+
+def _show_first_steps(project: Project) -> None:
+    """Two steps on two tables without a shelf, of which a program is learned that takes shelves for table tops."""
+    for asset in ("table_01.obj", "table_02.obj"):
+        mesh = project.mesh(asset)
+        named = {name: frozenset(hull.name for hull in mesh.hulls if hull.label == name) for name in ("misc", "panel")}
+        steps = (Step(1, named["misc"], Delete()), Step(2, named["panel"], Replace("box")))
+        demonstrate(project, asset, steps)
 
 
 def _prepare_project(folder: Path) -> Project:
@@ -79,9 +95,10 @@ def _show_demonstration(page: Page, path: Path) -> None:
 
 
 def _show_question(page: Page, path: Path) -> None:
-    """A question, as pictures, beside the program."""
+    """A question, as pictures, beside the program; the view shows what it is about."""
     page.keyboard.press("Alt+3")
     page.get_by_role("heading", name="which hulls should rule").wait_for()
+    page.keyboard.press("u")
     page.wait_for_timeout(4000)
     page.screenshot(path=path)
 

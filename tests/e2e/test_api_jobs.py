@@ -51,8 +51,9 @@ def test_apply_review_and_export_and_what_is_told_of_it(studio: Studio) -> None:
     picture = studio.get("/api/thumbnail", asset=FIRST, of="output", v=cards[FIRST]["edited_picture"])
     assert picture.content.startswith(b"\x89PNG")
     assert studio.get("/api/result", asset=FIRST, of="output").status_code == 200
+    studio.edit("review", ids=[FIRST], verdict="flagged")
     studio.edit("review", ids=[THIRD], verdict="accepted")
-    studio.cards(lambda cards: cards[THIRD]["review"] == "accepted")
+    studio.cards(lambda cards: cards[THIRD]["review"] == "accepted" and cards[FIRST]["review"] == "flagged")
     job = run(studio, kind="export", folder="out/first")
     assert job["message"] == "1 asset exported."
     exported = home(studio) / "out" / "first"
@@ -61,7 +62,7 @@ def test_apply_review_and_export_and_what_is_told_of_it(studio: Studio) -> None:
     own = {name: data for name, data in tree(exported).items() if not name.startswith(".")}
     assert own and own == {name: outputs[name] for name in own}
     assert load(exported / THIRD).hulls
-    assert run(studio, kind="export", folder="out/first", accepted_only=False)["message"] == "2 assets exported."
+    assert run(studio, kind="export", folder="out/first", signed_only=False)["message"] == "2 assets exported."
     assert (exported / FIRST).is_file()
     assert run(studio, kind="export", folder="out/first")["message"] == "1 asset exported."
     assert not (exported / FIRST).exists()
@@ -71,7 +72,7 @@ def test_exports_go_where_they_may_and_harm_nobody(studio: Studio, tmp_path: Pat
     run(studio, kind="apply", assets=[FIRST])
     studio.cards(lambda cards: cards[FIRST]["output"] == "edited")
     given = tmp_path / "given"
-    request = {"kind": "export", "accepted_only": False}
+    request = {"kind": "export", "signed_only": False}
     for folder in ("..", str(tmp_path / "elsewhere"), ".", "edited", "labels/x", ".meshforge/x", "../assets"):
         answer = studio.post("/api/jobs", request | {"folder": folder})
         assert answer.status_code == 400, folder

@@ -32,6 +32,7 @@ def save(person: Hand, button: str, folder: Path) -> Path:
 def test_results_report_and_turntable_are_saved_by_the_browser_and_can_be_opened(tmp_path: Path) -> None:
     project = applied(tmp_path)
     project.set_verdict([FIRST, SECOND], "accepted")
+    project.set_verdict([THIRD], "flagged")
     with opened(tmp_path, project.folder, "--page", str(PAGE)) as studio, chromium() as browser:
         studio.settled()
         person = hand(browser)

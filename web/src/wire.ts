@@ -760,12 +760,12 @@ export interface DecomposeJob {
 }
 /**
  * Make a file that the browser fetches then. what: a zip of outputs, the report, or a GIF in which assets turn,
- * before and after; accepted_only: of the zip; asset: the one that turns, null for the first `count` with outputs.
+ * before and after; signed_only: of the zip; asset: the one that turns, null for the first `count` with outputs.
  */
 export interface DownloadJob {
   kind: "download";
   what: "results" | "report" | "turntable";
-  accepted_only?: boolean;
+  signed_only?: boolean;
   asset?: string | null;
   count?: number;
 }
@@ -1175,11 +1175,11 @@ export interface JobChanged {
   job: Job;
 }
 /**
- * Copy outputs into a folder: the accepted ones, or all. folder: below the project, or absolute.
+ * Copy outputs into a folder: those that are signed off, or all. folder: below the project, or absolute.
  */
 export interface ExportJob {
   kind: "export";
-  accepted_only?: boolean;
+  signed_only?: boolean;
   folder?: string;
 }
 /**

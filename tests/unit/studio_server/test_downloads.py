@@ -161,7 +161,7 @@ def _is_reviewed(host: Host) -> bool:
 @pytest.mark.slow
 def test_a_zip_has_what_apply_writes_and_says_what_is_not_in_it(person: Person, tmp_path: Path) -> None:
     project = person.host.session.project
-    job = person.make(what="results", accepted_only=False)
+    job = person.make(what="results", signed_only=False)
     assert (job["state"], job["out"]) == ("done", "tables-results.zip")
     assert job["message"].startswith("2 of 3 results; not in it: 1 without output"), job["message"]
     assert [(line["asset"], line["status"]) for line in job["lines"]] == [(THIRD, "skipped")]
@@ -173,12 +173,12 @@ def test_a_zip_has_what_apply_writes_and_says_what_is_not_in_it(person: Person, 
     with ZipFile(BytesIO(answer.content)) as archive:
         assert {name: archive.read(name) for name in archive.namelist()} == wanted
         assert archive.comment.decode() == f"MeshForge, tables: {job['message']}"
-    again = person.make(what="results", accepted_only=False)
+    again = person.make(what="results", signed_only=False)
     assert person.fetch(again).content == answer.content
     assert person.client.get(str(answer.url)).status_code == 404, "a ticket is good once"
     some = person.make(what="results")
     assert some["message"].startswith("1 of 3 results; not in it: 1 "), some["message"]
-    assert re.search(r"1 (held|not accepted)", some["message"]) and "1 without output" in some["message"]
+    assert re.search(r"1 (held|not signed off)", some["message"]) and "1 without output" in some["message"]
 
 
 @pytest.mark.slow
@@ -217,7 +217,7 @@ def test_what_cannot_be_made_says_why_and_what_is_cancelled_leaves_nothing(perso
     assert not list((person.host.session.project.folder / ".meshforge" / "studio" / "downloads").rglob("*"))
     edited = person.host.session.project.layout.edited
     (edited / FIRST).write_text("changed by hand")
-    broken = person.make(what="results", accepted_only=False)
+    broken = person.make(what="results", signed_only=False)
     assert "1 changed since it was written" in broken["message"]
     assert [line["asset"] for line in broken["lines"] if line["status"] == "failed"] == [FIRST]
     only = person.make(what="results")

@@ -76,8 +76,8 @@ export const forecastModel = (mode: Model["mode"]): Promise<string | null> => re
 export const askModel = (mode: Model["mode"], max_cost: number | null): Promise<boolean> =>
   startJob({ kind: "ask", mode, max_cost });
 
-export const exportTo = (folder: string, accepted_only: boolean): Promise<boolean> =>
-  startJob({ kind: "export", folder, accepted_only });
+export const exportTo = (folder: string, signed_only: boolean): Promise<boolean> =>
+  startJob({ kind: "export", folder, signed_only });
 
 /** Has a file made for the browser to save; gives the id of the job. */
 export const makeFile = (request: Omit<DownloadJob, "kind">): Promise<string | null> => requestJob({ kind: "download", ...request });

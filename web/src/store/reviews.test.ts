@@ -1,7 +1,7 @@
 import { describe, expect, it } from "vitest";
 import type { Card, EditHeader, HullView } from "../wire";
-import { listAcceptable, nextInQueue, listOutdated, countExportable, type Group, groupCards, groupOf, numbersOf, rateOf, reviewQueue, staleText, verdictOf } from "./reviews";
-import { sampleCard } from "./sample.test-help";
+import { listAcceptable, nextInQueue, listOutdated, countExportable, type Group, groupCards, groupOf, isSignedOff, numbersOf, rateOf, reviewQueue, staleText, verdictOf } from "./reviews";
+import { sampleCard, sampleRow } from "./sample.test-help";
 
 const card = (asset: string, more: Partial<Card> = {}) =>
   sampleCard({ asset, output: "edited", after: 2, ...more });
@@ -99,8 +99,13 @@ describe("what can be done with all", () => {
     expect(listOutdated(family)).toEqual(["f", "g"]);
   });
 
-  it("exports what is written, or only what is accepted", () => {
-    expect([countExportable(family, false), countExportable(family, true)]).toEqual([5, 2]);
+  it("exports what is written, or only what is signed off and up to date", () => {
+    expect(countExportable(family, {})).toEqual({ signed: 1, all: 5 });
+    const sure = Object.fromEntries(family.map(({ asset }) => [asset, sampleRow({ asset })]));
+    const signed = family.filter((one) => isSignedOff(one, sure[one.asset]));
+    expect(signed.every(({ stale, review }) => !stale.length && review !== "flagged")).toBe(true);
+    expect(countExportable(family, sure).signed).toBe(signed.length);
+    expect(signed.length).toBeGreaterThan(1);
   });
 });
 

@@ -58,10 +58,14 @@ const isOutdated = (card: Card): boolean => card.hulls !== null && (card.output 
 export const isUpToDate = (card: Card | undefined): boolean =>
   card !== undefined && (card.output === "edited" || card.output === "unchanged") && card.stale.length === 0;
 
+/** Whether the output of an asset is up to date, and signed off: sure enough, or accepted by a person. */
+export const isSignedOff = (card: Card, sure: ConfidenceView | undefined): boolean =>
+  isUpToDate(card) && (card.review === "accepted" || (card.review === null && sure?.state === "signed"));
+
 /** How many outputs an export takes. */
-export function countExportable(cards: readonly Card[], acceptedOnly: boolean): number {
-  const written = cards.filter((card) => card.output === "edited" || card.output === "unchanged");
-  return acceptedOnly ? written.filter((card) => card.review === "accepted").length : written.length;
+export function countExportable(cards: readonly Card[], confidence: Readonly<Record<string, ConfidenceView>>): { signed: number; all: number } {
+  const all = cards.filter((card) => card.output === "edited" || card.output === "unchanged").length;
+  return { signed: cards.filter((card) => isSignedOff(card, confidence[card.asset])).length, all };
 }
 
 interface Numbers {

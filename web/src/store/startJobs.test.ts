@@ -49,7 +49,7 @@ describe("a job", () => {
       { kind: "apply", assets: ["a"] },
       { kind: "propagate" },
       { kind: "check" },
-      { kind: "export", folder: "out", accepted_only: true },
+      { kind: "export", folder: "out", signed_only: true },
       { kind: "ask", mode: "exact", max_cost: 2.5 },
       { kind: "decompose", assets: ["a"] },
     ]);

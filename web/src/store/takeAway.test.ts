@@ -31,8 +31,8 @@ afterEach(() => {
 
 describe("a file to take away", () => {
   it("is asked for as the server has it, and saved once it is made", async () => {
-    const taking = takeAway({ what: "results", accepted_only: false });
-    await vi.waitFor(() => expect(api.startJob).toHaveBeenCalledWith({ kind: "download", what: "results", accepted_only: false }));
+    const taking = takeAway({ what: "results", signed_only: false });
+    await vi.waitFor(() => expect(api.startJob).toHaveBeenCalledWith({ kind: "download", what: "results", signed_only: false }));
     show(job("running"));
     await Promise.resolve();
     expect(saveFrom).not.toHaveBeenCalled();
@@ -83,7 +83,7 @@ describe("what a zip will hold", () => {
 
   it("names held results, in it or not", () => {
     const confidence = { a: held("a"), b: held("b"), d: held("d") };
-    expect(describeResults(cards, confidence, true)).toBe("1 accepted result, in a zip; 1 held is not in it");
+    expect(describeResults(cards, confidence, true)).toBe("1 signed-off result, in a zip; 1 held is not in it");
     expect(describeResults(cards, confidence, false)).toBe("3 results, in a zip; 1 of them held");
     expect(describeResults(cards, {}, false)).toBe("3 results, in a zip");
   });

@@ -4,6 +4,7 @@ import { saveFrom } from "../server/save";
 import type { Card, ConfidenceView, DownloadJob, Job } from "../wire";
 import { makeFile } from "./jobs";
 import { useProject } from "./project";
+import { isSignedOff } from "./reviews";
 import { reportError } from "./toasts";
 import { countText } from "./words";
 
@@ -47,12 +48,12 @@ export const listWritten = (cards: readonly Card[]): readonly string[] => cards.
 export function describeResults(
   cards: readonly Card[],
   confidence: Readonly<Record<string, ConfidenceView>>,
-  acceptedOnly: boolean,
+  signedOnly: boolean,
 ): string {
   const written = cards.filter(isWritten);
-  const inside = acceptedOnly ? written.filter((card) => card.review === "accepted") : written;
+  const inside = signedOnly ? written.filter((card) => isSignedOff(card, confidence[card.asset])) : written;
   const held = written.filter((card) => confidence[card.asset]?.state === "held" && card.review !== "accepted").length;
-  const text = `${countText(inside.length, acceptedOnly ? "accepted result" : "result")}, in a zip`;
+  const text = `${countText(inside.length, signedOnly ? "signed-off result" : "result")}, in a zip`;
   if (!held) return text;
-  return acceptedOnly ? `${text}; ${held} held ${held === 1 ? "is" : "are"} not in it` : `${text}; ${held} of them held`;
+  return signedOnly ? `${text}; ${held} held ${held === 1 ? "is" : "are"} not in it` : `${text}; ${held} of them held`;
 }

@@ -16,6 +16,7 @@ from meshforge.project import build_run_report, summarize_outputs
 from meshforge.rendering import encode_gif, list_turns
 from meshforge.studio.downloads import to_file_name
 from meshforge.studio.errors import NotHereError
+from meshforge.studio.jobs.outputs import list_signed_off
 from meshforge.studio.jobs.turntable import FRAMES_A_TASK, TurntableAsset, draw_turntable
 from meshforge.studio.session.job_runner import JobProgress
 from meshforge.studio.session.session import Session
@@ -29,7 +30,7 @@ _REMEDIES = {
     "without output": "the program was not applied to it yet",
     _NOT_WHOLE: "files of its output are gone or changed: apply the program to it again",
     "flagged": "it is flagged",
-    "not accepted": "it is not accepted yet",
+    "not signed off": "it is not signed off",
 }
 """Why a result is not in a zip: in a count, and of one."""
 
@@ -42,7 +43,7 @@ def start_download(session: Session, request: DownloadJob) -> Job:
     written = [card for card in session.pages.cards if card.output in ("edited", "unchanged")]
     match request.what:
         case "results":
-            return _start_results(session, written, request.accepted_only)
+            return _start_results(session, written, request.signed_only)
         case "report":
             return _start_report(session)
         case "turntable":
@@ -73,12 +74,12 @@ def _nothing_written() -> UsageError:
 # The results
 
 
-def _start_results(session: Session, written: Sequence[Card], accepted_only: bool) -> Job:
+def _start_results(session: Session, written: Sequence[Card], signed_only: bool) -> Job:
     if not written:
         raise _nothing_written()
-    chosen = [card.asset for card in written if not accepted_only or card.review == "accepted"]
+    chosen = [card.asset for card in (list_signed_off(session) if signed_only else written)]
     if not chosen:
-        raise UsageError("no result is accepted yet", remedy="Accept what is right, or take all results.")
+        raise UsageError("no result is signed off yet", remedy="Accept what is right, or take all results.")
 
     def write(progress: JobProgress, path: Path) -> str:
         project, out = session.project, session.project.layout.edited
@@ -122,7 +123,7 @@ def _list_left_out(
         elif card.review == "flagged":
             yield card.asset, "flagged"
         else:
-            yield card.asset, "held" if card.asset in held else "not accepted"
+            yield card.asset, "held" if card.asset in held else "not signed off"
 
 
 def _describe_results(

@@ -21,6 +21,7 @@ from meshforge.project import sees_whole_family
 from meshforge.studio.session.job_runner import JobProgress
 from meshforge.studio.session.session import Session
 from meshforge.studio.wire.asset import Fault
+from meshforge.studio.wire.family import Card
 from meshforge.studio.wire.jobs import ApplyJob, ExportJob, Job, JobLine
 
 EXPORT_MARK = ".meshforge-export"
@@ -89,13 +90,21 @@ def to_line(asset: str, found: tuple[Fault, ...] | str) -> JobLine:
     return JobLine(asset=asset, status="done", text=join_names(list(rules)))
 
 
+def list_signed_off(session: Session) -> list[Card]:
+    """The assets whose output is up to date and signed off: sure enough, or accepted by a person."""
+    known = session.pages.assessment
+    sure = {row.asset for row in known.assets if row.state == "signed"} if known else set()
+    written = [card for card in session.pages.cards if card.output in ("edited", "unchanged") and not card.stale]
+    return [card for card in written if card.review == "accepted" or (card.review is None and card.asset in sure)]
+
+
 def start_export(session: Session, request: ExportJob) -> Job:
     """Start to export. Raises UsageError for a folder that is not to be written, or holds other things."""
     folder = _check_folder(session, request.folder)
     known = _read_mark(folder)
-    rows = [card for card in session.pages.cards if not request.accepted_only or card.review == "accepted"]
+    rows = list_signed_off(session) if request.signed_only else session.pages.cards
     if not rows:
-        which = "accepted" if request.accepted_only else "there"
+        which = "signed off" if request.signed_only else "there"
         raise UsageError(f"no output is {which} to be exported", remedy="Apply the program, and accept what is right.")
     edited = session.project.layout.edited
 

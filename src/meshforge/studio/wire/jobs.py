@@ -57,10 +57,10 @@ class DecomposeJob(Wire):
 
 
 class ExportJob(Wire):
-    """Copy outputs into a folder: the accepted ones, or all. folder: below the project, or absolute."""
+    """Copy outputs into a folder: those that are signed off, or all. folder: below the project, or absolute."""
 
     kind: Literal["export"] = "export"
-    accepted_only: bool = True
+    signed_only: bool = True
     folder: str = "export"
 
 
@@ -93,11 +93,11 @@ class CheckJob(Wire):
 
 class DownloadJob(Wire):
     """Make a file that the browser fetches then. what: a zip of outputs, the report, or a GIF in which assets turn,
-    before and after; accepted_only: of the zip; asset: the one that turns, null for the first `count` with outputs."""
+    before and after; signed_only: of the zip; asset: the one that turns, null for the first `count` with outputs."""
 
     kind: Literal["download"] = "download"
     what: Literal["results", "report", "turntable"]
-    accepted_only: bool = True
+    signed_only: bool = True
     asset: str | None = None
     count: Annotated[int, Field(ge=1, le=12)] = 4
 

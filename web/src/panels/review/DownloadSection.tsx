@@ -3,6 +3,7 @@ import { Download } from "lucide-react";
 import { type ReactNode, useMemo, useState } from "react";
 import { useJob } from "../../store/jobs";
 import { useProject } from "../../store/project";
+import { isSignedOff } from "../../store/reviews";
 import { describeResults, listWritten, saveFile, takeAway } from "../../store/takeAway";
 import { countText, shortName } from "../../store/words";
 import { useWorkspace } from "../../store/workspace";
@@ -15,12 +16,12 @@ import { JobLines, JobProgress } from "./JobProgress";
 
 const MOST_TURNING = 12;
 
-export function DownloadSection({ acceptedOnly }: { acceptedOnly: boolean }) {
+export function DownloadSection({ signedOnly }: { signedOnly: boolean }) {
   const job = useJob("download");
   const running = job?.state === "running";
   return (
     <Section title="Download">
-      <Files acceptedOnly={acceptedOnly} busy={running} />
+      <Files signedOnly={signedOnly} busy={running} />
       {running && <Progress job={job} />}
       <div role="status">{job && !running && <Outcome job={job} />}</div>
     </Section>
@@ -36,7 +37,7 @@ function Progress({ job }: { job: Job }) {
   );
 }
 
-function Files({ acceptedOnly, busy }: { acceptedOnly: boolean; busy: boolean }) {
+function Files({ signedOnly, busy }: { signedOnly: boolean; busy: boolean }) {
   const cards = useProject((state) => state.cards);
   const order = useProject((state) => state.order);
   const confidence = useProject((state) => state.confidence);
@@ -44,7 +45,7 @@ function Files({ acceptedOnly, busy }: { acceptedOnly: boolean; busy: boolean })
   const written = useMemo(() => listWritten(family), [family]);
   const failed = family.some((card) => card.output === "failed");
   const nothing = written.length === 0;
-  const noneAccepted = acceptedOnly && !family.some((card) => card.review === "accepted");
+  const noneSigned = signedOnly && !family.some((card) => isSignedOff(card, confidence[card.asset]));
   if (nothing && !failed) return <p className={css.dim}>Nothing is written yet: apply the program.</p>;
   return (
     <ul className={css.files}>
@@ -52,10 +53,10 @@ function Files({ acceptedOnly, busy }: { acceptedOnly: boolean; busy: boolean })
         name="Results"
         what="the results"
         busy={busy}
-        disabled={nothing || noneAccepted}
-        make={() => takeAway({ what: "results", accepted_only: acceptedOnly })}
+        disabled={nothing || noneSigned}
+        make={() => takeAway({ what: "results", signed_only: signedOnly })}
       >
-        {noneAccepted ? "Nothing is accepted yet" : describeResults(family, confidence, acceptedOnly)}
+        {noneSigned ? "Nothing that is written is signed off yet" : describeResults(family, confidence, signedOnly)}
       </File>
       <File name="Report" what="the report" busy={busy} disabled={false} make={() => takeAway({ what: "report" })}>
         One HTML page: pictures, figures, and how sure each is

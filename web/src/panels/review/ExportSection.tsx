@@ -1,6 +1,6 @@
 // Which outputs leave the project: by the browser, or copied into a folder, and where they lie then.
 import { Copy, FolderOutput } from "lucide-react";
-import { useState } from "react";
+import { useMemo, useState } from "react";
 import { exportTo, useJob } from "../../store/jobs";
 import { useProject } from "../../store/project";
 import { countExportable } from "../../store/reviews";
@@ -14,19 +14,19 @@ import { DownloadSection } from "./DownloadSection";
 import { JobLines, JobProgress } from "./JobProgress";
 import css from "./review.module.css";
 
-type What = "accepted" | "all";
+type What = "signed" | "all";
 
 export function ExportSection() {
   const job = useJob("export");
   const running = job?.state === "running";
-  const [what, setWhat] = useState<What>("accepted");
+  const [what, setWhat] = useState<What>("signed");
   return (
     <>
       <Section title="Export">
         {running ? <JobProgress job={job} unit="asset" /> : <Form what={what} setWhat={setWhat} />}
       </Section>
       {job && !running && <Outcome job={job} />}
-      <DownloadSection acceptedOnly={what === "accepted"} />
+      <DownloadSection signedOnly={what === "signed"} />
     </>
   );
 }
@@ -34,21 +34,20 @@ export function ExportSection() {
 function Form({ what, setWhat }: { what: What; setWhat: (what: What) => void }) {
   const [folder, setFolder] = useState("export");
   const project = useProject((state) => state.project.folder);
-  const counts = {
-    accepted: useProject((state) => countExportable(Object.values(state.cards), true)),
-    all: useProject((state) => countExportable(Object.values(state.cards), false)),
-  };
+  const cards = useProject((state) => state.cards);
+  const confidence = useProject((state) => state.confidence);
+  const counts = useMemo(() => countExportable(Object.values(cards), confidence), [cards, confidence]);
   const options = [
-    { value: "accepted", label: `Accepted (${counts.accepted})` },
+    { value: "signed", label: `Signed off (${counts.signed})` },
     { value: "all", label: `All (${counts.all})` },
   ] as const;
-  const why = !counts[what] ? (what === "all" ? "Nothing is written yet: apply the program." : "Nothing is accepted yet.") : null;
+  const why = !counts[what] ? (what === "all" ? "Nothing is written yet: apply the program." : "Nothing that is written is signed off yet.") : null;
   return (
     <form
       className={css.form}
       onSubmit={(event) => {
         event.preventDefault();
-        void exportTo(folder.trim(), what === "accepted");
+        void exportTo(folder.trim(), what === "signed");
       }}
     >
       <span>Outputs</span>
