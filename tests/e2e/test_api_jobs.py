@@ -138,6 +138,7 @@ def test_what_was_decomposed_is_undone_with_one_step(studio: Studio, tmp_path: P
     assert tree(home(studio) / "prepared") == before
     ok(studio.post("/api/undo"))
     assert not [card for card in studio.settled()["cards"] if card["asset"].startswith("added/")]
-    assert not (tmp_path / "assets" / "added").exists()
+    assert not (home(studio) / "added" / "room_b.obj").exists()
     ok(studio.post("/api/redo"))
-    assert (tmp_path / "assets" / "added" / "room_b.obj").read_text() == ROOM
+    assert (home(studio) / "added" / "room_b.obj").read_text() == ROOM
+    assert not (tmp_path / "assets" / "added").exists()
