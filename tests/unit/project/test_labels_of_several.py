@@ -5,11 +5,11 @@ from pathlib import Path
 import pytest
 
 from meshforge.common import ProjectError
-from tests.unit.project.tables import FIRST, SECOND, fresh
+from tests.unit.project.tables import FIRST, SECOND, labelled
 
 
 def test_labels_of_several_assets_are_written_as_those_of_each(tmp_path: Path) -> None:
-    together, apart = fresh(tmp_path / "together"), fresh(tmp_path / "apart")
+    together, apart = labelled(tmp_path / "together"), labelled(tmp_path / "apart")
     hull, word = next(iter(together.mesh(FIRST).index)), together.vocabulary[0]
     labels = {FIRST: {hull: word}, SECOND: {hull: None}}
     reports = together.set_labels_of(labels)
@@ -18,7 +18,7 @@ def test_labels_of_several_assets_are_written_as_those_of_each(tmp_path: Path) -
 
 
 def test_of_labels_of_several_assets_all_are_written_or_none(tmp_path: Path) -> None:
-    project = fresh(tmp_path)
+    project = labelled(tmp_path)
     hull = next(iter(project.mesh(FIRST).index))
     project.set_labels(FIRST, {hull: project.vocabulary[0]})
     before = [project.label_bytes(asset) for asset in (FIRST, SECOND)]
