@@ -32,7 +32,7 @@ def group(label: str | None) -> LabelGroup:
 
 def test_labels_are_on_the_cards_before_they_are_written() -> None:
     shown = pages()
-    with EarlyLabels(shown, lambda: NAMES).shown(group("panel")):
+    with EarlyLabels(shown, lambda: NAMES).show(group("panel")):
         within = shown.cards
     assert [card.labels for card in within] == [(0, 1), (0,), ()]
     assert within[0].unsure == (0,) and shown.cards == within
@@ -40,18 +40,18 @@ def test_labels_are_on_the_cards_before_they_are_written() -> None:
 
 def test_a_label_is_taken_away() -> None:
     shown = pages()
-    with EarlyLabels(shown, lambda: NAMES).shown(group(None)):
+    with EarlyLabels(shown, lambda: NAMES).show(group(None)):
         assert [card.labels for card in shown.cards] == [(0, -1), (0,), ()]
 
 
 def test_an_edit_that_is_refused_leaves_the_cards_as_they_were() -> None:
     shown = pages()
-    with pytest.raises(OSError), EarlyLabels(shown, lambda: NAMES).shown(group("panel")):
+    with pytest.raises(OSError), EarlyLabels(shown, lambda: NAMES).show(group("panel")):
         raise OSError
     assert shown.cards == CARDS
 
 
 def test_a_label_outside_of_the_vocabulary_is_not_shown() -> None:
     shown = pages()
-    with EarlyLabels(shown, lambda: NAMES).shown(group("door")):
+    with EarlyLabels(shown, lambda: NAMES).show(group("door")):
         assert [card.labels for card in shown.cards] == [(0, 0), (0,), ()]

@@ -20,16 +20,16 @@ class EarlyLabels:
         self._pages, self._names = pages, names
 
     @contextmanager
-    def shown(self, edit: Edit) -> Iterator[None]:
+    def show(self, edit: Edit) -> Iterator[None]:
         """Show the labels of an edit that is made within the block; an error in it puts the cards back."""
-        before = self._show(edit.list_labels())
+        before = self._put_on_cards(edit.list_labels())
         try:
             yield
         except BaseException:
             self._pages.set_cards(before)
             raise
 
-    def _show(self, labels: LabelsByAsset) -> tuple[Card, ...]:
+    def _put_on_cards(self, labels: LabelsByAsset) -> tuple[Card, ...]:
         """Show labels; gives the cards as they were."""
         cards = {card.asset: card for card in self._pages.cards if card.asset in labels}
         places = {word.name: place for place, word in enumerate(self._pages.vocabulary)}

@@ -133,7 +133,7 @@ class Session:
             if self.project.layout.program in edit.list_paths(self.project):
                 self.learning.pause()
             try:
-                with self._early_labels.shown(edit):
+                with self._early_labels.show(edit):
                     entry = self.history.do(self.project, edit, by)
             finally:
                 self.learning.resume()
