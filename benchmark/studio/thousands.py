@@ -42,8 +42,10 @@ def measure(tell: Tell, quick: bool) -> Result:
         tell(f"thousands: making {assets:,} assets")
         project = project_of(Path(folder), assets, HULLS)
         first = project.assets()[0]
+        tell(f"thousands: {assets:,} assets are read")
+        project.status()
         with studio(project.folder) as address, chromium() as browser:
-            tell(f"thousands: {assets:,} assets are read")
+            tell(f"thousands: the studio looks at {assets:,} assets")
             _wait_until_read(browser, address, first)
             times = []
             for turn in range(2 if quick else 5):

@@ -4,6 +4,7 @@ from meshforge.common.extras import import_extra, require_mujoco
 from meshforge.common.files import (
     FileStates,
     confine_reading,
+    do_at_once,
     expand_glob,
     file_digest,
     file_state,
@@ -16,6 +17,7 @@ from meshforge.common.files import (
     quote_path,
     relative_name,
     replace_atomically,
+    write_all_atomically,
     write_atomically,
 )
 from meshforge.common.messages import (
@@ -72,6 +74,7 @@ __all__ = [
     "confine_reading",
     "describe_error",
     "describe_invalid_field",
+    "do_at_once",
     "expand_glob",
     "file_digest",
     "file_state",
@@ -95,5 +98,6 @@ __all__ = [
     "suggest_among",
     "suggest_aside",
     "suggest_name",
+    "write_all_atomically",
     "write_atomically",
 ]

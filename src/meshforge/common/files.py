@@ -8,12 +8,18 @@ import hashlib
 import os
 import shlex
 import tempfile
-from collections.abc import Iterable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from concurrent.futures import ThreadPoolExecutor
+from contextlib import ExitStack, contextmanager
 from contextvars import ContextVar
 from pathlib import Path
+from typing import TypeVar
 
 _DRAFT_SUFFIX = ".tmp"
+_AT_ONCE = 32  # files that wait for the disk at the same time
+
+Item = TypeVar("Item")
+Result = TypeVar("Result")
 
 FileStates = dict[Path, tuple[int, int] | None]
 """Of files, what `file_state` gives: where it is the same, they most likely hold the same."""
@@ -21,13 +27,34 @@ FileStates = dict[Path, tuple[int, int] | None]
 
 def write_atomically(path: Path, content: str | bytes) -> None:
     """Write a whole file, or nothing of it. Folders are made; a file that is replaced hands on its mode."""
-    data = content.encode("utf-8") if isinstance(content, str) else content
     with replace_atomically(path) as draft:
-        with draft.open("wb") as stream:
-            stream.write(data)
-            stream.flush()
-            os.fsync(stream.fileno())
-        draft.chmod(_mode_of(path))
+        _fill(draft, content, path)
+
+
+def write_all_atomically(contents: Mapping[Path, str | bytes]) -> None:
+    """Write whole files as `write_atomically` does each; they wait for the disk together, which takes about as long as
+    one. Where an error comes up before all are written, none is replaced."""
+    with ExitStack() as stack:
+        drafts = [(stack.enter_context(replace_atomically(path)), data, path) for path, data in contents.items()]
+        do_at_once(lambda row: _fill(*row), drafts)
+
+
+def do_at_once(work: Callable[[Item], Result], items: Iterable[Item]) -> list[Result]:
+    """Do what waits for the disk for several items at once; the results in their order."""
+    items = list(items)
+    if len(items) < 2:
+        return list(map(work, items))
+    with ThreadPoolExecutor(_AT_ONCE) as pool:
+        return list(pool.map(work, items))
+
+
+def _fill(draft: Path, content: str | bytes, path: Path) -> None:
+    data = content.encode("utf-8") if isinstance(content, str) else content
+    with draft.open("wb") as stream:
+        stream.write(data)
+        stream.flush()
+        os.fsync(stream.fileno())
+    draft.chmod(_mode_of(path))
 
 
 @contextmanager

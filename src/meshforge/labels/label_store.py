@@ -13,7 +13,7 @@ from meshforge.labels.family_comparison import Stage, WriteBlock, ignore_stage
 from meshforge.labels.label_by_consensus import ConsensusResult, SourceRestoration
 from meshforge.labels.label_by_plugin import label_by_plugin, propose_by_plugin
 from meshforge.labels.label_by_propagation import PropagationResult
-from meshforge.labels.merge import LabelOutcome, OutcomeCallback, ignore_report, set_labels
+from meshforge.labels.merge import LabelOutcome, OutcomeCallback, ignore_report, set_labels, set_labels_of
 from meshforge.labels.offers import LabelOffers, OfferCache
 from meshforge.labels.summary import Proposals, Tally, describe_label_plan, tally, write_contact_sheets
 from meshforge.store import Store, VlmSettings
@@ -32,6 +32,16 @@ class LabelStore(Store):
         Raises ProjectError, with nothing written, for an unknown hull or a label that is not in the vocabulary.
         """
         return set_labels(self, asset, labels, source, confidence)
+
+    def set_labels_of(
+        self,
+        labels: Mapping[str, Mapping[str, str | None]],
+        *,
+        source: LabelSource = "user",
+        confidence: float = 1.0,
+    ) -> tuple[LabelOutcome, ...]:
+        """Label hulls of several assets as `set_labels` does, all or none. labels: by asset and hull."""
+        return set_labels_of(self, labels, source, confidence)
 
     def label_from_files(
         self,

@@ -11,7 +11,7 @@ from meshforge.common import AssetError, ProjectError, file_state, join_names, s
 from meshforge.geometry import Shape, digest, overlap_volume
 from meshforge.label_model import evidence_of
 from meshforge.rendering import UNSURE
-from meshforge.store import Store, hull_digests
+from meshforge.store import Store, hull_digests, survey
 from meshforge.symbolic import HUMAN_SOURCES, INFERRED_SOURCES, Label, SymbolicMesh
 
 ReplacePolicy = Callable[[Label | None, Label], bool]
@@ -43,21 +43,42 @@ def set_labels(
     store: Store, asset: str, labels: Mapping[str, str | None], source: symbolic.LabelSource, confidence: float
 ) -> LabelOutcome:
     """Write labels of one asset, or remove them by None. Raises ProjectError, with nothing written, for a wrong one."""
-    given = {name: Label(label, confidence, source) for name, label in labels.items() if label is not None}
-    away = [name for name, label in labels.items() if label is None]
-    with store.lock():
-        mesh, vocabulary = store.mesh(asset), store.vocabulary
-        labelled, report = merge_labels(asset, mesh.index, mesh.labels, given, vocabulary)
-        gone = [
-            f"there is no hull {name!r}{suggest_aside(name, mesh.index)}" for name in away if name not in mesh.index
-        ]
-        problems = [*report.problems, *gone]
-        if problems:
-            remedy = f"The vocabulary is: {', '.join(vocabulary) or 'empty'}."
-            raise ProjectError(problems[0], where=asset, remedy=remedy)
-        kept = {name: label for name, label in labelled.items() if name not in away}
-        store.write_labels(asset, hull_digests(mesh), kept, vocabulary)
+    (report,) = set_labels_of(store, {asset: labels}, source, confidence)
     return report
+
+
+def set_labels_of(
+    store: Store, labels: Mapping[str, Mapping[str, str | None]], source: symbolic.LabelSource, confidence: float
+) -> tuple[LabelOutcome, ...]:
+    """Write labels of several assets as `set_labels` does, all or none. labels: by asset and hull."""
+    texts, reports = dict[str, str | None](), list[LabelOutcome]()
+    with store.lock():
+        vocabulary, every = store.vocabulary, _read_digests(store, labels)
+        for asset, wanted in labels.items():
+            hulls = every[asset]
+            given = {name: Label(label, confidence, source) for name, label in wanted.items() if label is not None}
+            away = [name for name, label in wanted.items() if label is None]
+            current = symbolic.match_labels(store.labels(asset), hulls).labels
+            labelled, report = merge_labels(asset, hulls, current, given, vocabulary)
+            gone = [f"there is no hull {name!r}{suggest_aside(name, hulls)}" for name in away if name not in hulls]
+            if problems := [*report.problems, *gone]:
+                remedy = f"The vocabulary is: {', '.join(vocabulary) or 'empty'}."
+                raise ProjectError(problems[0], where=asset, remedy=remedy)
+            kept = {name: label for name, label in labelled.items() if name not in away}
+            texts[asset] = store.labels_text(asset, hulls, kept, vocabulary)
+            reports.append(report)
+        store.write_labels_files(texts)
+    return tuple(reports)
+
+
+def _read_digests(store: Store, assets: Collection[str]) -> dict[str, Mapping[str, str]]:
+    """The digests of the hulls of assets, by name, in order; of many, without reading those that did not change.
+
+    Raises AssetError where one cannot be read.
+    """
+    facts = survey(store.found, store.layout, assets) if len(assets) > 1 else {}
+    known = {asset: one.hulls for asset, one in facts.items() if not one.error}
+    return {asset: known[asset] if asset in known else hull_digests(store.mesh(asset)) for asset in assets}
 
 
 def merge_labels(

@@ -17,7 +17,7 @@ from meshforge.batch import (
     read_preparation,
     remove_preparation,
 )
-from meshforge.common import MeshForgeError, ProjectError, nearest_name, write_atomically
+from meshforge.common import MeshForgeError, ProjectError, nearest_name, write_all_atomically, write_atomically
 from meshforge.language import Orient, Program, Template
 from meshforge.store import membership
 from meshforge.store import program as program_files
@@ -181,6 +181,17 @@ class Store:
         Labels of hulls that are gone stay in the file, since hulls may come back. hulls: the digests of all, by name,
         in order; away: names of hulls that are gone whose labels do not stay.
         """
+        self.write_labels_files({asset: self.labels_text(asset, hulls, labels, vocabulary, away)})
+
+    def labels_text(
+        self,
+        asset: str,
+        hulls: Mapping[str, str],
+        labels: Mapping[str, Label],
+        vocabulary: Sequence[str],
+        away: Collection[str] = (),
+    ) -> str | None:
+        """What `write_labels` writes; None where the file is to be removed."""
         path, present = self.layout.labels(asset), {name: labels[name] for name in hulls if name in labels}
         text = format_labels(LabelFile(tuple(vocabulary), present, hulls))
         if gone := [name for name in match_labels(self.labels(asset), hulls).gone if name not in away]:
@@ -188,10 +199,14 @@ class Store:
             new["hulls"] |= {name: old["hulls"][name] for name in gone}
             new["vocabulary"] = list(dict.fromkeys([*new["vocabulary"], *old.get("vocabulary", [])]))
             text = json.dumps(new, ensure_ascii=False, indent=2) + "\n"
-        if present or gone:
-            write_atomically(path, text)
-        else:
-            path.unlink(missing_ok=True)
+        return text if present or gone else None
+
+    def write_labels_files(self, texts: Mapping[str, str | None]) -> None:
+        """Write labels files, by asset, under the lock that the caller holds; None removes one."""
+        write_all_atomically({self.layout.labels(asset): text for asset, text in texts.items() if text is not None})
+        for asset, text in texts.items():
+            if text is None:
+                self.layout.labels(asset).unlink(missing_ok=True)
 
     # Demonstrations, and edits by hand
 

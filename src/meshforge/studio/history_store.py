@@ -12,7 +12,7 @@ from typing import Any, Literal
 from pydantic import BaseModel, ConfigDict
 
 from meshforge.batch import file_digest
-from meshforge.common import ProjectError, file_state, relative_name, replace_atomically, write_atomically
+from meshforge.common import ProjectError, do_at_once, file_state, relative_name, replace_atomically, write_atomically
 
 FileState = dict[str, str | None]
 """The digest of each file by its path from the project's folder, None for a file that is not there."""
@@ -148,7 +148,9 @@ class Snapshots:
 
     def take(self, paths: Iterable[Path]) -> FileState:
         """The state of files, and of all files in folders; their contents are stored."""
-        return {relative_name(file, self.folder): self.blobs.store(file) for file in sorted(_list_files(paths))}
+        files = sorted(_list_files(paths))
+        digests = do_at_once(self.blobs.store, files)
+        return {relative_name(file, self.folder): digest for file, digest in zip(files, digests, strict=True)}
 
     def read_state(self, names: Iterable[str]) -> FileState:
         """The state of files by their names; nothing is stored."""
@@ -156,13 +158,12 @@ class Snapshots:
 
     def restore(self, wanted: Mapping[str, str | None], now: Mapping[str, str | None]) -> None:
         """Write back what files held; those that were not there are removed, and folders that are empty then."""
-        for name, digest in wanted.items():
-            if now[name] == digest:
-                continue
+        other = {name: digest for name, digest in wanted.items() if now[name] != digest}
+        written = [(digest, self.folder / name) for name, digest in other.items() if digest is not None]
+        do_at_once(lambda row: self.blobs.restore(*row), written)
+        for name, digest in other.items():
             if digest is None:
                 _remove_file(self.folder / name, self.folder)
-            else:
-                self.blobs.restore(digest, self.folder / name)
 
 
 def diff_states(before: FileState, after: FileState) -> tuple[FileState, FileState]:

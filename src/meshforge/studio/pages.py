@@ -67,6 +67,10 @@ class PageState:
     def program(self) -> ProgramView:
         return self._rest.program
 
+    @property
+    def vocabulary(self) -> tuple[VocabularyLabel, ...]:
+        return self._rest.project.vocabulary
+
     def join(self, page: PageConnection) -> None:
         """Show everything to a page, and from now on what changes."""
         with self._lock:

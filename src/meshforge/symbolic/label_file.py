@@ -7,6 +7,7 @@ import json
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import lru_cache
 from pathlib import Path
 from types import MappingProxyType
 from typing import Any
@@ -16,6 +17,7 @@ from meshforge.geometry import digest
 from meshforge.symbolic.hull import INFERRED_SOURCES, LABEL_SOURCES, Label
 from meshforge.symbolic.mesh import SymbolicMesh
 
+_MOST_FILES = 256  # contents of labels files that stay in memory
 _REMEDY = 'Expected {"vocabulary": [label, …], "hulls": {name: {"label", "confidence", "source", "given", "digest"}}}.'
 
 
@@ -68,7 +70,16 @@ def read_labels(path: Path) -> LabelFile:
 
     Raises AssetError naming file and hull: unreadable, no JSON, or not of that form.
     """
-    data = _load_json(path)
+    try:
+        content = path.read_bytes()
+    except OSError as error:
+        raise AssetError(f"the labels cannot be read ({error.strerror})", where=str(path)) from error
+    return _parse(content, path)
+
+
+@lru_cache(_MOST_FILES)  # each edit of labels asks several times for what the same file says
+def _parse(content: bytes, path: Path) -> LabelFile:
+    data = _load_json(content, path)
     known = {"vocabulary", "hulls"}
     if not isinstance(data, dict) or not isinstance(data.get("hulls"), dict):
         raise AssetError("this is no labels file", where=str(path), remedy=_REMEDY)
@@ -89,11 +100,9 @@ def read_labels(path: Path) -> LabelFile:
     )
 
 
-def _load_json(path: Path) -> Any:
+def _load_json(content: bytes, path: Path) -> Any:
     try:
-        return json.loads(path.read_text(encoding="utf-8-sig"), object_pairs_hook=_reject_duplicates)
-    except OSError as error:
-        raise AssetError(f"the labels cannot be read ({error.strerror})", where=str(path)) from error
+        return json.loads(content.decode("utf-8-sig"), object_pairs_hook=_reject_duplicates)
     except UnicodeDecodeError as error:
         raise AssetError("the labels are not UTF-8 text", where=str(path)) from error
     except json.JSONDecodeError as error:

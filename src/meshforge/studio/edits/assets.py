@@ -10,7 +10,7 @@ from meshforge.batch import SETTINGS
 from meshforge.common import join_names, pluralize
 from meshforge.project import Project
 from meshforge.store import parse_action_text
-from meshforge.studio.edits.base import PROGRAM_FILES, Edit, JobEdit
+from meshforge.studio.edits.base import PROGRAM_FILES, Edit, JobEdit, LabelsByAsset
 from meshforge.studio.wire.requests import HullOfAsset
 
 
@@ -25,6 +25,9 @@ class LabelHulls(Edit):
 
     def apply(self, project: Project) -> None:
         project.set_labels(self.asset, dict.fromkeys(self.hulls, self.label))
+
+    def list_labels(self) -> LabelsByAsset:
+        return {self.asset: dict.fromkeys(self.hulls, self.label)}
 
     def describe(self, project: Project) -> str:
         hulls = f"{pluralize(len(self.hulls), 'hull')} of {self.asset}"
@@ -72,9 +75,13 @@ class LabelGroup(Edit):
     label: str | None
 
     def apply(self, project: Project) -> None:
-        for asset in self._assets:
-            own = [one for one in self.hulls if one.asset == asset]
-            project.set_labels(asset, {one.hull: one.label or self.label for one in own})
+        project.set_labels_of(self.list_labels())
+
+    def list_labels(self) -> LabelsByAsset:
+        labels: dict[str, dict[str, str | None]] = {}
+        for one in self.hulls:
+            labels.setdefault(one.asset, {})[one.hull] = one.label or self.label
+        return labels
 
     def list_paths(self, project: Project) -> tuple[Path, ...]:
         return tuple(project.layout.labels(asset) for asset in self._assets)

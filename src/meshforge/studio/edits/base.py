@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from abc import abstractmethod
+from collections.abc import Mapping
 from pathlib import Path
 from typing import ClassVar
 
@@ -16,6 +17,9 @@ LEARNED_FILE, LEARNED_BEFORE = "learned.json", f"{STATE}/learned.json"
 """What the program was learned from, and where that was kept before (`Layout.learned_before`)."""
 PROGRAM_FILES = (PROGRAM_FILE, PREVIOUS_FILE, LEARNED_FILE, LEARNED_BEFORE)
 """The files that accepting a program writes, from the project's folder."""
+
+LabelsByAsset = Mapping[str, Mapping[str, str | None]]
+"""Labels of hulls by their names, by asset; None where one is taken away."""
 
 
 class Edit(Wire):
@@ -38,6 +42,10 @@ class Edit(Wire):
     def list_paths(self, project: Project) -> tuple[Path, ...]:
         """The files and folders that `apply` may change."""
         return tuple(project.folder / name.format(**dict(self)) for name in self.touches)
+
+    def list_labels(self) -> LabelsByAsset:
+        """The labels that `apply` gives, as far as they are known without reading anything."""
+        return {}
 
 
 class JobEdit(Edit):

@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from stat import S_ISDIR
 from threading import Event, Thread
+from time import monotonic
 
 from meshforge.batch import SETTINGS, STATE, source_files
 from meshforge.common import MeshForgeError, relative_name
@@ -32,7 +33,8 @@ _LEARNING_FILES = frozenset(("answers.json", "review.json", PROGRAM_FILE))
 SIGN_OFF_FILE = "signoff.json"
 
 POLL_SECONDS = 1.5
-"""Seconds between two polls."""
+"""Seconds between two polls; more where a poll itself takes long, so that it takes a small share of the time."""
+_SHARE = 10
 _WATCH_FOLDERS = ("labels", "demonstrations", "corrections", "prepared", "templates", f"edited/{STATE}/stamps")
 _WATCH_FILES = (SETTINGS, "answers.json", PROGRAM_FILE, "review.json", LATER_FILE, SIGN_OFF_FILE, LEARNED_FILE)
 
@@ -227,5 +229,8 @@ class FileWatcher:
             self._thread.join()
 
     def _run(self) -> None:
-        while not self._closed.wait(POLL_SECONDS):
+        took = 0.0
+        while not self._closed.wait(max(POLL_SECONDS, _SHARE * took)):
+            began = monotonic()
             self._poll()
+            took = monotonic() - began

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import logging
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from functools import partial
 from threading import Condition, Thread
 
@@ -41,6 +41,11 @@ class Refresher:
         self._names: dict[str, tuple[str, ...]] = {}
         self._read = 0
         self._job: Job | None = None
+
+    @property
+    def names(self) -> Mapping[str, tuple[str, ...]]:
+        """The names of the hulls of each asset that was read, in order."""
+        return self._names
 
     def portion_size(self) -> int:
         """How many assets are looked at together: few, so that their cards come soon."""

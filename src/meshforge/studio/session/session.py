@@ -25,6 +25,7 @@ from meshforge.studio.learning.scheduler import Learner, LearningScheduler
 from meshforge.studio.output_checks import OutputChecks
 from meshforge.studio.pages import PageHub, PageState
 from meshforge.studio.queries.programs import read_program_view
+from meshforge.studio.session.early_labels import EarlyLabels
 from meshforge.studio.session.file_sync import FileSync, FileWatcher
 from meshforge.studio.session.job_runner import JobRunner
 from meshforge.studio.session.refresh import Refresher, initial_view
@@ -74,7 +75,9 @@ class Session:
         self.checks = OutputChecks(own / "checks", self._checkers)
         self.uploads, self.downloads = Uploads(own / "uploads"), Downloads(own / "downloads")
         # the queue's thread must see the project that is open when it works, not the first one
-        self.refresh_queue = Refresher(lambda: self.project, self.pages, self.checks, self.label_changes).queue
+        refresher = Refresher(lambda: self.project, self.pages, self.checks, self.label_changes)
+        self.refresh_queue = refresher.queue
+        self._early_labels = EarlyLabels(self.pages, lambda: refresher.names)
         self.learning = LearningScheduler(
             Learner(project.folder), self.pages, self._has_demonstrations, self._end_learning, self.refresh_queue.add
         )
@@ -130,7 +133,8 @@ class Session:
             if self.project.layout.program in edit.list_paths(self.project):
                 self.learning.pause()
             try:
-                entry = self.history.do(self.project, edit, by)
+                with self._early_labels.show(edit):
+                    entry = self.history.do(self.project, edit, by)
             finally:
                 self.learning.resume()
             if entry is None:

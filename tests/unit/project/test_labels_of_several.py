@@ -1,0 +1,27 @@
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from meshforge.common import ProjectError
+from tests.unit.project.tables import FIRST, SECOND, labelled
+
+
+def test_labels_of_several_assets_are_written_as_those_of_each(tmp_path: Path) -> None:
+    together, apart = labelled(tmp_path / "together"), labelled(tmp_path / "apart")
+    hull, word = next(iter(together.mesh(FIRST).index)), together.vocabulary[0]
+    labels = {FIRST: {hull: word}, SECOND: {hull: None}}
+    reports = together.set_labels_of(labels)
+    assert reports == tuple(apart.set_labels(asset, own) for asset, own in labels.items())
+    assert [together.label_bytes(asset) for asset in labels] == [apart.label_bytes(asset) for asset in labels]
+
+
+def test_of_labels_of_several_assets_all_are_written_or_none(tmp_path: Path) -> None:
+    project = labelled(tmp_path)
+    hull = next(iter(project.mesh(FIRST).index))
+    project.set_labels(FIRST, {hull: project.vocabulary[0]})
+    before = [project.label_bytes(asset) for asset in (FIRST, SECOND)]
+    with pytest.raises(ProjectError, match="no hull"):
+        project.set_labels_of({FIRST: {hull: None}, SECOND: {"nowhere": project.vocabulary[0]}})
+    assert [project.label_bytes(asset) for asset in (FIRST, SECOND)] == before

@@ -1,0 +1,57 @@
+from __future__ import annotations
+
+import pytest
+
+from meshforge.studio.edits.assets import GroupHull, LabelGroup
+from meshforge.studio.pages import PageHub, PageState
+from meshforge.studio.session.early_labels import EarlyLabels
+from meshforge.studio.wire.family import Card, HistoryView, Next, ProjectView, VocabularyLabel
+
+WORDS = tuple(VocabularyLabel(name=name, color="#000000") for name in ("leg", "panel"))
+PROJECT = ProjectView(name="p", folder="/p", vocabulary=WORDS, next=Next(stage="label", say="Label."))
+NAMES = {"a": ("one", "two"), "b": ("one",)}
+CARDS = (
+    Card(asset="a", hulls=2, labels=(0, 0), unsure=(0, 1)),
+    Card(asset="b", hulls=1, labels=(-1,)),
+    Card(asset="c"),  # not read yet
+)
+
+
+def pages() -> PageState:
+    shown = PageState(PageHub(), PROJECT, HistoryView(), "1")
+    shown.set_assets([card.asset for card in CARDS])
+    shown.set_cards(CARDS)
+    return shown
+
+
+def group(label: str | None) -> LabelGroup:
+    """Labels of hulls of all assets, one an exception, one that is not there."""
+    hulls = [("a", "two", None), ("b", "one", "leg"), ("b", "three", None), ("c", "one", None)]
+    return LabelGroup(label=label, hulls=tuple(GroupHull(asset=a, hull=hull, label=own) for a, hull, own in hulls))
+
+
+def test_labels_are_on_the_cards_before_they_are_written() -> None:
+    shown = pages()
+    with EarlyLabels(shown, lambda: NAMES).show(group("panel")):
+        within = shown.cards
+    assert [card.labels for card in within] == [(0, 1), (0,), ()]
+    assert within[0].unsure == (0,) and shown.cards == within
+
+
+def test_a_label_is_taken_away() -> None:
+    shown = pages()
+    with EarlyLabels(shown, lambda: NAMES).show(group(None)):
+        assert [card.labels for card in shown.cards] == [(0, -1), (0,), ()]
+
+
+def test_an_edit_that_is_refused_leaves_the_cards_as_they_were() -> None:
+    shown = pages()
+    with pytest.raises(OSError), EarlyLabels(shown, lambda: NAMES).show(group("panel")):
+        raise OSError
+    assert shown.cards == CARDS
+
+
+def test_a_label_outside_of_the_vocabulary_is_not_shown() -> None:
+    shown = pages()
+    with EarlyLabels(shown, lambda: NAMES).show(group("door")):
+        assert [card.labels for card in shown.cards] == [(0, 0), (0,), ()]
