@@ -283,7 +283,7 @@ async def put_asset_file(session: CurrentSession, request: Request, path: str) -
 
 @router.post("/assets")
 def add_assets(session: CurrentSession, page: SenderId = None) -> requests.UploadReceipt:
-    """Take the files that were sent into the project, as assets, but for those that cannot be read. Raises ProjectError,
+    """Take the files that were sent as assets, but for those that cannot be read. Raises ProjectError,
     and throws them away, where none can be read, or one would take the place of another file."""
     try:
         sent = session.uploads.keep_readable(session.readers)
