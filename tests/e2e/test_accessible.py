@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 import pytest
+import trimesh
+from playwright.sync_api import Browser
 
 from tests.e2e.hand import Hand, chromium, hand
-from tests.e2e.studio import opened
+from tests.e2e.studio import ending, opened, started
 from tests.e2e.walk import PAGE, address
 from tests.studio_project import demo_project
+from tests.unit.project.tables import applied
 
 AXE = Path(__file__).parents[2] / "web" / "node_modules" / "axe-core" / "axe.min.js"
 VIEWS = {"label": "Alt+1", "demonstrate": "Alt+2", "learn": "Alt+3", "review": "Alt+4", "help": "?"}
@@ -22,21 +26,108 @@ _JUDGE = """
 """
 
 
-@pytest.mark.skipif(not AXE.exists(), reason="axe-core is not installed: run script/bootstrap dev")
+NEEDS_AXE = pytest.mark.skipif(not AXE.exists(), reason="axe-core is not installed: run script/bootstrap dev")
+
+
+def _choose(name: str) -> Callable[[Hand], None]:
+    return lambda person: person.click(person.page.get_by_role("radio", name=name))
+
+
+def _press(*keys: str) -> Callable[[Hand], None]:
+    return lambda person: person.press(*keys)
+
+
+def _open_menu(person: Hand) -> None:
+    person.press("Escape")
+    person.click(person.page.get_by_role("button", name="Leave out or remove"))
+
+
+PASSING: dict[str, Callable[[Hand], None]] = {
+    "assets side by side": _press("Alt+1", "w"),
+    "hulls of several assets": _press("a"),
+    "one asset again": _press("Escape", "Escape"),
+    "section plane": _press("Shift+K"),
+    "ruler": _press("Shift+K", "d"),
+    "extents": _press("Escape", "a", "Shift+D"),
+    "hidden hulls": _press("Escape", "a", "h"),
+    "gallery": _press("q"),
+    "review": _press("q", "Alt+4"),
+    "all results": _choose("All results"),
+    "export": _choose("Export"),
+    "commands": _press("Control+k"),
+    "menu of the asset": _open_menu,
+}
+"""Ways to what is seen for a while only, one after the other."""
+
+
+@NEEDS_AXE
 def test_every_view_can_be_read_and_reached(tmp_path: Path) -> None:
     project = demo_project(tmp_path)
     with opened(tmp_path, project.folder, "--page", str(PAGE)) as studio, chromium() as browser:
         studio.settled()
         for theme in ("light", "dark"):
-            person = hand(browser)
-            person.page.emulate_media(color_scheme=theme)
-            person.page.add_init_script(path=AXE)
+            person = _person(browser, theme)
             person.open(address(studio))
             for view, key in VIEWS.items():
                 person.press(key)
                 person.page.wait_for_timeout(800)  # until what glides and fades has come to rest
                 assert _found(person) == [], f"{view}, {theme}"
             person.page.context.close()
+
+
+@NEEDS_AXE
+@pytest.mark.slow
+def test_what_comes_and_goes_can_be_read_and_reached(tmp_path: Path) -> None:
+    project = applied(tmp_path)
+    with opened(tmp_path, project.folder, "--page", str(PAGE)) as studio, chromium() as browser:
+        studio.settled()
+        for theme in ("light", "dark"):
+            person = _person(browser, theme)
+            person.open(address(studio))
+            for view, acts in PASSING.items():
+                acts(person)
+                person.page.wait_for_timeout(800)
+                assert _found(person) == [], f"{view}, {theme}"
+            assert not person.complaints
+            person.page.context.close()
+
+
+@NEEDS_AXE
+@pytest.mark.slow
+def test_the_start_page_can_be_read_and_reached(tmp_path: Path) -> None:
+    source = tmp_path / "desks"
+    source.mkdir()
+    (source / "bad.obj").write_text("v 0 0 zero\n")
+    mesh = trimesh.creation.annulus(0.5, 1.0, 1.0)
+    mesh.export(source / "ring.stl")
+    with ending(started("studio", "--page", str(PAGE))) as studio, chromium() as browser:
+        for theme in ("light", "dark"):
+            person = _person(browser, theme)
+            person.page.goto(address(studio))
+            person.page.get_by_role("heading", name="New project").wait_for()
+            assert _found(person) == [], f"start, {theme}"
+            person.page.get_by_label("Folder of assets", exact=True).fill(str(source))
+            person.press("Enter")
+            person.sees("Make convex hulls.")
+            person.click(person.page.get_by_role("radio", name="V-HACD"))
+            person.sees("1 asset cannot be read")
+            assert _found(person) == [], f"assets found, {theme}"
+            for button in ("Open…", "Browse for the folder of assets", "Browse for the place of the project"):
+                person.click(button)
+                person.page.get_by_role("list", name="Folders").wait_for()
+                assert _found(person) == [], f"{button}, {theme}"
+                person.press("Escape")
+            for name in ("Files that you drop or pick", "A bundled family"):
+                person.click(person.page.get_by_role("radio", name=name))
+                assert _found(person) == [], f"{name}, {theme}"
+            person.page.context.close()
+
+
+def _person(browser: Browser, theme: str) -> Hand:
+    person = hand(browser)
+    person.page.emulate_media(color_scheme="dark" if theme == "dark" else "light")
+    person.page.add_init_script(path=AXE)
+    return person
 
 
 def _found(person: Hand) -> list[tuple[str, str]]:

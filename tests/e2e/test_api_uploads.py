@@ -41,6 +41,17 @@ def test_assets_that_are_dropped_belong_to_the_project(studio: Studio, folder: P
     assert len(studio.settled()["cards"]) == 14
 
 
+def test_an_asset_that_cannot_be_read_is_named_and_the_others_are_added(studio: Studio, folder: Path) -> None:
+    studio.put("/api/assets", (TABLES / "table_01.obj").read_bytes(), path="more/table_98.obj")
+    studio.put("/api/assets", b"v 0 0 zero\nf 1 1 1\n", path="more/bad.obj")
+    answer = ok(studio.post("/api/assets"))
+    assert answer["names"] == ["added/more/table_98.obj"]
+    assert len(answer["problems"]) == 1 and answer["problems"][0].startswith("more/bad.obj")
+    assert not list(folder.rglob("bad.obj"))
+    ok(studio.post("/api/undo"))
+    assert len(studio.settled()["cards"]) == 14
+
+
 def test_a_path_that_leads_elsewhere_is_refused(studio: Studio, folder: Path) -> None:
     before = sorted(folder.rglob("*.obj"))
     for path in ("/tmp/x.obj", "../x.obj", "a/../../x.obj"):

@@ -612,8 +612,8 @@ export interface AssetsChanged {
  *
  * folder: where it lies; kinds: how many of which format, in words; assets: how many; read: how many of them were
  * looked at, the first ones. Of these, pieces: how many pieces and bodies have no hulls and can be decomposed; bare:
- * how many assets have such pieces; broken: how many cannot be read; problem: why the first of them cannot be read.
- * project: the folder that is offered for the new project.
+ * how many assets have such pieces; broken: how many cannot be read; problem: why the first of them cannot be read;
+ * left_out: whether a project gets these not. project: the folder that is offered for the new project.
  */
 export interface AssetsFound {
   folder: string;
@@ -624,6 +624,7 @@ export interface AssetsFound {
   bare: number;
   broken: number;
   problem: string | null;
+  left_out: boolean;
   project: string;
 }
 /**
@@ -1417,8 +1418,10 @@ export interface SimilarView {
   unread: string[];
 }
 /**
- * An upload is stored. names: of a template, as actions write it; or the paths of asset files.
+ * An upload is stored. names: of a template, as actions write it; or the paths of asset files; problems: why other
+ * assets of it cannot be read, and were left out.
  */
 export interface UploadReceipt {
   names: string[];
+  problems?: string[];
 }

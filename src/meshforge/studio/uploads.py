@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import shutil
 from collections.abc import AsyncIterator
+from dataclasses import dataclass, field
 from pathlib import Path, PurePosixPath
 from threading import Lock
 from uuid import uuid4
@@ -24,6 +25,8 @@ from meshforge.studio.workers import Workers
 MB = 2**20
 MOST_TEMPLATE, MOST_ONE_FILE, MOST_ALL_FILES, MOST_FILES = 20 * MB, 500 * MB, 2000 * MB, 5000
 _LONGEST_PATH = 240
+REMEDY = "Send each asset together with all files that it names."
+"""For assets that cannot be read."""
 
 
 class Uploads:
@@ -61,6 +64,18 @@ class Uploads:
         home = self.folder / "assets"
         return home, tuple(sorted(file.relative_to(home).as_posix() for file in home.rglob("*") if file.is_file()))
 
+    def keep_readable(self, workers: Workers) -> SentAssets:
+        """The assets that can be read; the files of the others are removed. Raises ProjectError where there is none."""
+        home, _ = self.list_files()
+        sent = find_assets(workers, home)
+        for name in sent.unreadable:
+            path = home / name
+            if path.is_dir():
+                shutil.rmtree(path)
+            else:
+                path.unlink(missing_ok=True)
+        return sent
+
     def clear(self) -> None:
         """Remove what was uploaded."""
         shutil.rmtree(self.folder, ignore_errors=True)
@@ -92,19 +107,35 @@ def confine_path(path: str) -> PurePosixPath:
     return pure
 
 
-def find_assets(workers: Workers, home: Path) -> tuple[str, ...]:
-    """The assets among uploaded files, by their paths. Raises ProjectError: there are none, or one cannot be read."""
+@dataclass(frozen=True, slots=True)
+class SentAssets:
+    """Assets among uploaded files. names: the paths of those that can be read; unreadable: of the others, with why."""
+
+    names: tuple[str, ...]
+    unreadable: dict[str, str] = field(default_factory=dict)
+
+    @property
+    def problems(self) -> tuple[str, ...]:
+        """Why assets cannot be read, a sentence each."""
+        return tuple(self.unreadable.values())
+
+
+def find_assets(workers: Workers, home: Path) -> SentAssets:
+    """The assets among uploaded files. Raises ProjectError: there are none, or none can be read."""
     with confine_reading(home):
         found = find_assets_in(home) if home.is_dir() else []
     if not found:
         raise ProjectError("there is no asset among these files", remedy="Send URDF, MJCF, SDF, glTF or mesh files.")
-    problems = [problem for path in found if (problem := _find_problem(workers, path, home))]
-    if problems:
-        more = "" if len(problems) == 1 else f"; {len(problems) - 1} more cannot be read"
-        raise ProjectError(
-            f"{problems[0]}{more}", remedy="Send each asset together with all files that it names; nothing was added."
-        )
-    return tuple(path.relative_to(home).as_posix() for path in found)
+    looks = {path.relative_to(home).as_posix(): _find_problem(workers, path, home) for path in found}
+    sent = SentAssets(
+        tuple(name for name, problem in looks.items() if problem is None),
+        {name: problem for name, problem in looks.items() if problem is not None},
+    )
+    if not sent.names:
+        first, *others = sent.problems
+        more = f"; {len(others)} more cannot be read" if others else ""
+        raise ProjectError(f"{first}{more}", remedy=f"{REMEDY} Nothing was added.")
+    return sent
 
 
 def _find_problem(workers: Workers, path: Path, home: Path) -> str | None:

@@ -170,9 +170,9 @@ def signed_off(probabilities: Sequence[float], *, asked: QuestionKind | None = N
 @pytest.mark.parametrize(
     ("assessment", "step"),
     [
-        (signed_off([0.99, 0.4], asked="group"), ("learn", "1 of 2 results held: answer the question.", "b")),
-        (signed_off([0.1, 0.4], asked="result"), ("review", "2 of 2 results held: look at one result.", "b")),
-        (signed_off([0.6, 0.4, 0.99]), ("review", "2 of 3 results held: look at them, first b.", "b")),
+        (signed_off([0.99, 0.4], asked="group"), ("learn", "1 of 2 held: answer the question.", "b")),
+        (signed_off([0.1, 0.4], asked="result"), ("review", "2 of 2 held: look at one result.", "b")),
+        (signed_off([0.6, 0.4, 0.99]), ("review", "2 of 3 held: look at them, first b.", "b")),
         (signed_off([0.99, 0.98], asked="group"), ("review", "2 results signed off: export.", None)),
         (signed_off([0.99], unseen=3), ("review", "Look through the results: 1 asset to accept or flag.", "a")),
     ],
@@ -186,9 +186,7 @@ def test_nothing_is_exported_before_all_is_signed_off(
 
 def test_what_is_asked_comes_before_results_are_written_and_what_was_flagged_before_the_end() -> None:
     held, done = signed_off([0.1, 0.99], asked="reading"), signed_off([0.99, 0.99])
-    assert choose_next_step([SHOWN], ("leg",), True, FOUND, None, last, None, held).say.startswith(
-        "1 of 2 results held"
-    )
+    assert choose_next_step([SHOWN], ("leg",), True, FOUND, None, last, None, held).say.startswith("1 of 2 held")
     assert choose_next_step([SHOWN], ("leg",), True, FOUND, None, last, None, done).say.startswith("Apply the program")
     flagged = DONE.model_copy(update={"asset": "d", "review": "flagged"})
     assert choose_next_step([DONE, flagged], ("leg",), True, FOUND, None, last, None, done).asset == "d"

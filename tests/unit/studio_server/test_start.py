@@ -156,6 +156,22 @@ def test_a_project_of_an_upload_has_the_files_in_its_own_folder(tmp_path: Path, 
     assert not [path for path in (state / "uploads").rglob("*") if path.is_file()]
 
 
+def test_an_upload_with_one_asset_that_cannot_be_read_becomes_a_project_of_the_others(
+    tmp_path: Path, state: Path
+) -> None:
+    page = StartPage(state)
+    try:
+        asyncio.run(page.uploads.put("desks/table_01.obj", _chunks((TABLES / "table_01.obj").read_bytes())))
+        asyncio.run(page.uploads.put("desks/bad.obj", _chunks(b"v 0 0 zero\nf 1 1 1\n")))
+        found = page.look_at_upload()
+        assert (found.assets, found.broken, found.left_out) == (1, 1, True)
+        assert found.problem and "bad.obj" in found.problem
+        project = Project.open(page.create(ProjectOfUpload(project=str(tmp_path / "p"))))
+        assert project.assets() == ("table_01.obj",)
+    finally:
+        page.close()
+
+
 def test_an_upload_without_assets_is_one_sentence_and_leaves_nothing(tmp_path: Path, state: Path) -> None:
     page = StartPage(state)
     try:

@@ -8,6 +8,7 @@ from typing import TypeVar
 import pytest
 
 from meshforge.common import ProjectError, UsageError
+from meshforge.samples import TABLES
 from meshforge.studio import uploads
 from meshforge.studio.errors import TooLargeError
 from meshforge.studio.uploads import Uploads, confine_path, find_assets, save_stream
@@ -88,6 +89,7 @@ def test_what_was_sent_to_an_earlier_studio_is_gone(tmp_path: Path) -> None:
     assert Uploads(tmp_path / "uploads").list_files()[1] == ()
 
 
+BOX = (TABLES / "table_01.obj").read_bytes()
 _BODY = "<worldbody><body><geom size='1'/></body></worldbody>"
 _MESH_GEOM = "<worldbody><body><geom type='mesh' mesh='m'/></body></worldbody>"
 _MESH_LINK = "<link name='a'><collision name='c'><geometry>{}</geometry></collision></link>"
@@ -131,4 +133,14 @@ def test_what_lies_beside_in_the_sent_folder_is_still_found(tmp_path: Path) -> N
     (tmp_path / "robot" / "main.xml").write_text(f"<mujoco><include file='../shared/part.xml'/>{_BODY}</mujoco>")
     (tmp_path / "shared").mkdir()
     (tmp_path / "shared" / "part.xml").write_text("<mujocoinclude><option timestep='0.01'/></mujocoinclude>")
-    assert find_assets(InProcess(1), tmp_path) == ("robot/main.xml",)
+    assert find_assets(InProcess(1), tmp_path).names == ("robot/main.xml",)
+
+
+def test_one_asset_that_cannot_be_read_does_not_keep_the_others_out(tmp_path: Path) -> None:
+    home = Uploads(tmp_path / "uploads")
+    for name, content in (("desk.obj", BOX), ("bad.obj", b"v 0 0 zero\nf 1 1 1\n"), ("notes.txt", b"mine")):
+        asyncio.run(home.put(name, chunks(content)))
+    sent = home.keep_readable(InProcess(1))
+    assert sent.names == ("desk.obj",)
+    assert list(sent.unreadable) == ["bad.obj"] and "bad.obj" in sent.problems[0]
+    assert home.list_files()[1] == ("desk.obj", "notes.txt")

@@ -1,26 +1,30 @@
 // Which assets belong to the family: a menu that takes the open one out, and the list of those that are left out.
 import { Ellipsis, Undo } from "lucide-react";
+import { useShallow } from "zustand/react/shallow";
 import { commonPartsOf, splitName } from "../store/commonParts";
-import { leaveOut, putBack, removeAsset, whyNotLeave } from "../store/members";
+import { leaveOut, putBack, removeAssets, whyNotLeave } from "../store/members";
 import { useProject } from "../store/project";
+import { assetsInView } from "../store/sheet";
 import { countText } from "../store/words";
 import { useWorkspace } from "../store/workspace";
 import { Button, IconButton } from "../ui/Button";
 import { Menu } from "../ui/Menu";
 import css from "./members.module.css";
 
-/** What can be done with the asset that is open. */
+/** What can be done with the asset that is open, or with those side by side. */
 export function AssetMenu() {
-  const asset = useWorkspace((workspace) => workspace.asset);
+  const assets = useWorkspace(useShallow(assetsInView));
   const order = useProject((state) => state.order);
-  const name = asset === null ? "the open asset" : ownName(asset, order);
-  const disabled = order.length === 0 || whyNotLeave(asset) !== null;
+  const [first] = assets;
+  const name = first === undefined ? "the open asset" : assets.length > 1 ? `these ${assets.length} assets` : ownName(first, order);
+  const files = assets.length > 1 ? "their files stay" : "its file stays";
+  const disabled = order.length === 0 || whyNotLeave(assets) !== null;
   return (
     <Menu
-      trigger={<IconButton icon={Ellipsis} name="Leave out or remove the open asset" />}
+      trigger={<IconButton icon={Ellipsis} name={`Leave out or remove ${assets.length > 1 ? "the assets side by side" : "the open asset"}`} />}
       lines={[
-        { label: `Leave ${name} out of the family`, disabled, onSelect: () => asset !== null && void leaveOut(asset) },
-        { label: `Remove ${name} from the project; its file stays`, disabled, onSelect: () => asset !== null && void removeAsset(asset) },
+        { label: `Leave ${name} out of the family`, disabled, onSelect: () => void leaveOut(assets) },
+        { label: `Remove ${name} from the project; ${files}`, disabled, onSelect: () => void removeAssets(assets) },
       ]}
     />
   );

@@ -1,15 +1,16 @@
 // What a folder or an upload holds, and whether hulls are to be made of what has none.
 import { Boxes } from "lucide-react";
 import { useStart } from "../store/start";
-import { Check } from "../ui/fields";
+import { Check, Choice } from "../ui/fields";
 import { Note } from "../ui/Section";
 import css from "./start.module.css";
-import { brokenText, decomposeText, foundText } from "./words";
+import { brokenText, decomposeText, foundText, METHODS } from "./words";
 
 export function Found() {
   const found = useStart((state) => state.found);
   const busy = useStart((state) => state.busy);
   const decompose = useStart((state) => state.decompose);
+  const method = useStart((state) => state.method);
   const bare = found && decomposeText(found);
   const broken = found && brokenText(found);
   return (
@@ -20,11 +21,17 @@ export function Found() {
           <p className={css.kinds}>
             <Boxes size={16} aria-hidden /> <b>{foundText(found)}</b>
           </p>
-          {broken && <Note mood="warn">{broken} The project can be made all the same.</Note>}
+          {broken && <Note mood="warn">{broken}</Note>}
           {bare && (
             <Check checked={decompose} onChange={(is) => useStart.setState({ decompose: is })}>
               <b>Make convex hulls.</b> {bare}
             </Check>
+          )}
+          {bare && decompose && (
+            <div className={css.method}>
+              <Choice name="What makes the hulls" value={method} options={METHODS} onChange={(to) => useStart.setState({ method: to })} />
+              <span className={css.dim}>{METHODS.find(({ value }) => value === method)?.about}</span>
+            </div>
           )}
         </div>
       )}

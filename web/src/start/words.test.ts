@@ -3,7 +3,7 @@ import { expect, test } from "vitest";
 import { brokenText, decomposeText, foundText, moveInto, openedText } from "./words";
 import { describeFolder, joinPath } from "./FolderDialog";
 
-const found = { folder: "/a", kinds: "12 URDF", assets: 12, read: 12, pieces: 0, bare: 0, broken: 0, problem: null, project: "/p" };
+const found = { folder: "/a", kinds: "12 URDF", assets: 12, read: 12, pieces: 0, bare: 0, broken: 0, problem: null, left_out: false, project: "/p" };
 
 test("what is found says where not all was looked at", () => {
   expect(foundText(found)).toBe("12 URDF");
@@ -18,7 +18,10 @@ test("making hulls is explained where hulls are missing only", () => {
 
 test("what cannot be read says why", () => {
   expect(brokenText(found)).toBe(null);
-  expect(brokenText({ ...found, broken: 2, problem: "a.urdf: no mesh" })).toBe("2 assets cannot be read. a.urdf: no mesh");
+  expect(brokenText({ ...found, broken: 2, problem: "a.urdf: no mesh" })).toBe("2 assets cannot be read. a.urdf: no mesh. The project can be made all the same.");
+  const sent = { ...found, left_out: true, problem: "a.urdf: no mesh." };
+  expect(brokenText({ ...sent, broken: 1 })).toBe("1 asset cannot be read and is left out. a.urdf: no mesh.");
+  expect(brokenText({ ...sent, broken: 2 })).toContain("2 assets cannot be read and are left out.");
 });
 
 test("days are told as people say them", () => {

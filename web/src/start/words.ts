@@ -7,6 +7,12 @@ export function foundText({ kinds, assets, read }: AssetsFound): string {
   return read < assets ? `${kinds}; the first ${read} were looked at` : kinds;
 }
 
+/** What makes hulls, and what tells the two apart. */
+export const METHODS = [
+  { value: "coacd", label: "CoACD", about: "CoACD follows the shape closely, with few hulls; it takes seconds to minutes a piece." },
+  { value: "vhacd", label: "V-HACD", about: "V-HACD is quicker, and coarser." },
+] as const;
+
 /** What making hulls would do, null where there is nothing to decompose. */
 export function decomposeText({ assets, read, bare, pieces }: AssetsFound): string | null {
   if (!bare) return null;
@@ -14,14 +20,17 @@ export function decomposeText({ assets, read, bare, pieces }: AssetsFound): stri
   const have = bare === 1 ? "has" : "have";
   return (
     `${of} ${have} geometry that is not convex, or no collision geometry: ${countText(pieces, "piece")}. ` +
-    "CoACD makes convex hulls of it in the background; you can stop it, and undo it. The files of the assets stay as they are."
+    "It is done in the background; you can stop it, and undo it. The files of the assets stay as they are."
   );
 }
 
 /** What cannot be read, null where all can. */
-export function brokenText({ broken, problem }: AssetsFound): string | null {
+export function brokenText({ broken, problem, left_out: isLeftOut }: AssetsFound): string | null {
   if (!broken) return null;
-  return `${countText(broken, "asset")} cannot be read. ${problem ?? ""}`.trim();
+  const count = countText(broken, "asset");
+  const what = isLeftOut ? `${count} cannot be read and ${broken === 1 ? "is" : "are"} left out.` : `${count} cannot be read.`;
+  const after = isLeftOut ? "" : "The project can be made all the same.";
+  return [what, problem?.replace(/\.?$/, "."), after].filter(Boolean).join(" ");
 }
 
 const DAY = 86_400_000;

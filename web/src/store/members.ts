@@ -1,30 +1,32 @@
 // Assets that leave the family and come back: left out and kept, or removed from the project.
 import { perform } from "./edits";
-import { neighbour } from "./family";
 import { useProject } from "./project";
 import { openAsset, useWorkspace } from "./workspace";
 
-/** Why an asset cannot leave the family, null where it can. */
-export function whyNotLeave(asset: string | null): string | null {
+/** Why assets cannot leave the family, null where they can. */
+export function whyNotLeave(assets: readonly string[]): string | null {
   const { order } = useProject.getState();
-  if (asset === null || !order.includes(asset)) return "No asset is open.";
-  return order.length > 1 ? null : "It is the only asset of the family.";
+  if (!assets.length || !assets.every((asset) => order.includes(asset))) return "No asset is open.";
+  if (order.length > assets.length) return null;
+  return assets.length > 1 ? "They are all assets of the family." : "It is the only asset of the family.";
 }
 
-/** Leaves an asset out of the family; all that is kept for it stays. */
-export const leaveOut = (asset: string): Promise<void> =>
-  goOn(asset, () => perform({ kind: "leave-out", ids: [asset], out: true }));
+/** Leaves assets out of the family; all that is kept for them stays. */
+export const leaveOut = (assets: readonly string[]): Promise<void> =>
+  goOn(assets, () => perform({ kind: "leave-out", ids: [...assets], out: true }));
 
-/** Removes an asset from the project, with what is kept for it; its own file stays. */
-export const removeAsset = (asset: string): Promise<void> =>
-  goOn(asset, () => perform({ kind: "remove-assets", ids: [asset] }));
+/** Removes assets from the project, with what is kept for them; their own files stay. */
+export const removeAssets = (assets: readonly string[]): Promise<void> =>
+  goOn(assets, () => perform({ kind: "remove-assets", ids: [...assets] }));
 
 export const putBack = (assets: readonly string[]): Promise<boolean> =>
   perform({ kind: "leave-out", ids: [...assets], out: false });
 
-/** Does what takes an asset away, then opens the next one where that one was open. */
-async function goOn(asset: string, does: () => Promise<boolean>): Promise<void> {
+/** Does what takes assets away, then opens the next one that stays where one of them was open. */
+async function goOn(assets: readonly string[], does: () => Promise<boolean>): Promise<void> {
   const { order } = useProject.getState();
-  const next = neighbour(order, order, asset, 1);
-  if ((await does()) && useWorkspace.getState().asset === asset) openAsset(next);
+  const last = Math.max(...assets.map((asset) => order.indexOf(asset)));
+  const stays = (asset: string) => !assets.includes(asset);
+  const next = order.slice(last).find(stays) ?? order.findLast(stays) ?? null;
+  if ((await does()) && assets.includes(useWorkspace.getState().asset ?? "")) openAsset(next);
 }

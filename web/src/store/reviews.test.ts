@@ -1,6 +1,6 @@
 import { describe, expect, it } from "vitest";
 import type { Card, EditHeader, HullView } from "../wire";
-import { listAcceptable, nextInQueue, listOutdated, countExportable, type Group, groupCards, groupOf, isSignedOff, numbersOf, rateOf, reviewQueue, staleText, verdictOf } from "./reviews";
+import { alarmsOf, listAcceptable, nextInQueue, listOutdated, countExportable, type Group, groupCards, groupOf, isSignedOff, numbersOf, rateOf, reviewQueue, staleText, verdictOf } from "./reviews";
 import { sampleCard, sampleRow } from "./sample.test-help";
 
 const card = (asset: string, more: Partial<Card> = {}) =>
@@ -132,4 +132,15 @@ describe("numbers about a result", () => {
     expect(rateOf({ done: 2, at: 1000 }, 8, 1100)).toBeNull();
     expect(rateOf({ done: 2, at: 1000 }, 8, 3000)).toBe(3);
   });
+});
+
+it("marks the numbers that the alarms of an asset are about", () => {
+  const row = (text: string, kind: "alarm" | "label" = "alarm") => ({ doubts: [{ kind, text, hulls: [], rule: null }] });
+  const block = "nearly one solid block: 94% of the free space is filled";
+  expect(alarmsOf(row(block))).toEqual({ hulls: null, volume: block });
+  expect(alarmsOf(row("volume +762%, the family +3% to +9%")).volume).toContain("+762%");
+  expect(alarmsOf(row("number of hulls -90%, the family -40%"))).toEqual({ hulls: "number of hulls -90%, the family -40%", volume: null });
+  expect(alarmsOf(row("no hull is left"))).toEqual({ hulls: "no hull is left", volume: "no hull is left" });
+  expect(alarmsOf(row("volume of convex_1 is doubtful", "label"))).toEqual({ hulls: null, volume: null });
+  expect(alarmsOf(undefined)).toEqual({ hulls: null, volume: null });
 });

@@ -87,6 +87,19 @@ export function numbersOf(before: readonly HullView[], edit: EditHeader): Number
   };
 }
 
+/** What alarms of an asset begin with, by the number that each is about (`signoff/alarms.py`). */
+const ALARMS: Readonly<Record<"hulls" | "volume", RegExp>> = {
+  hulls: /^(number of hulls|no hull is left)/,
+  volume: /^(volume|nearly one solid block|no hull is left|extents|\d+% of the)/,
+};
+
+/** Why the numbers of an asset stand out, for those that do. */
+export function alarmsOf(row: Pick<ConfidenceView, "doubts"> | undefined): { hulls: string | null; volume: string | null } {
+  const texts = row?.doubts.flatMap(({ kind, text }) => (kind === "alarm" ? [text] : [])) ?? [];
+  const about = (what: keyof typeof ALARMS) => texts.find((text) => ALARMS[what].test(text)) ?? null;
+  return { hulls: about("hulls"), volume: about("volume") };
+}
+
 /** What the check of legality says of an edited asset, at its worst. */
 export function verdictOf(edit: EditHeader): "legal" | "doubtful" | "illegal" {
   const worst = (severity: "error" | "warning") => edit.findings.some((finding) => finding.severity === severity);

@@ -2,7 +2,7 @@
 import { neighbour, shownAssets } from "./family";
 import { useProject } from "./project";
 import { notify } from "./toasts";
-import { allSelected, lookFrom, openAsset, openStage, setLayout, showSheet, useWorkspace } from "./workspace";
+import { allSelected, lookFrom, openAsset, openStage, setLayout, showSheet, useWorkspace, type WorkspaceState } from "./workspace";
 
 /** Assets on a sheet where none were chosen, and at most. */
 export const PER_SHEET = 8;
@@ -54,7 +54,7 @@ export function openBeside(by: 1 | -1): void {
 
 /** Adds an asset to those side by side, or takes it away. */
 export function toggleOnSheet(asset: string): void {
-  const now = assetsInView();
+  const now = assetsInView(useWorkspace.getState());
   openSheet(now.includes(asset) ? now.filter((one) => one !== asset) : inOrder([...now, asset]));
 }
 
@@ -66,10 +66,11 @@ export function extendSheet(to: string): void {
   if (low >= 0) openSheet(all.slice(low, high + 1));
 }
 
-const assetsInView = (): readonly string[] => {
-  const { sheet, asset } = useWorkspace.getState();
-  return sheet.length ? sheet : asset === null ? [] : [asset];
-};
+/** The assets that are side by side, or the one that is open. */
+export function assetsInView({ sheet, asset }: Pick<WorkspaceState, "sheet" | "asset">): readonly string[] {
+  if (sheet.length) return sheet;
+  return asset === null ? [] : [asset];
+}
 
 const inOrder = (assets: readonly string[]): string[] => {
   const all = shownAssets();

@@ -11,7 +11,7 @@ vi.mock("../server/api", () => ({
 const server = vi.mocked(api);
 
 const view = { version: "1", recent: [], places: ["/home"], families: [{ name: "cups", about: "", project: "/p/cups" }, { name: "tables", about: "", project: "/p/tables" }] };
-const found: AssetsFound = { folder: "/a", kinds: "3 URDF", assets: 3, read: 3, pieces: 2, bare: 1, broken: 0, problem: null, project: "/p/a" };
+const found: AssetsFound = { folder: "/a", kinds: "3 URDF", assets: 3, read: 3, pieces: 2, bare: 1, broken: 0, problem: null, left_out: false, project: "/p/a" };
 const problem = new ServerProblem({ message: "there is no such folder", where: "/a", remedy: "Browse for it.", conflict: false }, 400);
 const state = () => start.useStart.getState();
 
@@ -37,6 +37,8 @@ describe("a project of a folder", () => {
     expect(start.newProject(state())).toMatchObject({ decompose: null });
     server.lookAtFolder.mockResolvedValue(found);
     await start.lookAtFolder("/a");
+    start.useStart.setState({ decompose: true, method: "vhacd" });
+    expect(start.newProject(state())).toMatchObject({ decompose: "vhacd" });
     start.useStart.setState({ decompose: false });
     expect(start.newProject(state())).toMatchObject({ decompose: null });
   });

@@ -23,6 +23,8 @@ export interface StartState {
   /** The folder of the new project. */
   project: string;
   decompose: boolean;
+  /** What makes the hulls. */
+  method: "coacd" | "vhacd";
   busy: "look" | "open" | "make" | null;
   problem: { place: Place; problem: Problem } | null;
 }
@@ -35,6 +37,7 @@ export const initialStart: StartState = {
   family: "",
   project: "",
   decompose: true,
+  method: "coacd",
   busy: null,
   problem: null,
 };
@@ -104,8 +107,8 @@ async function look(ask: () => Promise<AssetsFound>, isWanted = () => true): Pro
 }
 
 /** What the server is asked to make. */
-export function newProject({ source, folder, family, project, decompose, found }: StartState): NewProject {
-  const method = decompose && found !== null && found.bare > 0 ? "coacd" : null;
+export function newProject({ source, folder, family, project, decompose, method: wanted, found }: StartState): NewProject {
+  const method = decompose && found !== null && found.bare > 0 ? wanted : null;
   switch (source) {
     case "folder":
       return { kind: "folder", folder: found?.folder ?? folder, project, decompose: method };

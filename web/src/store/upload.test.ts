@@ -17,7 +17,7 @@ const said = () => useToasts.getState().toasts.map((toast) => toast.text);
 beforeEach(() => {
   vi.clearAllMocks();
   stage.mockImplementation((path) => Promise.resolve({ names: [path] }));
-  take.mockResolvedValue({ names: ["added/a.urdf"] });
+  take.mockResolvedValue({ names: ["added/a.urdf"], problems: [] });
   useToasts.setState({ toasts: [] });
 });
 
@@ -66,6 +66,13 @@ test("one can stop between files", async () => {
   expect(stage).toHaveBeenCalledOnce();
   expect(take).not.toHaveBeenCalled();
   expect(useUpload.getState().sending).toBe(null);
+});
+
+test("one asset that cannot be read is named, and the others are there", async () => {
+  take.mockResolvedValue({ names: ["added/a.urdf"], problems: ["b.urdf: mesh c.stl was not sent", "d.obj: no faces"] });
+  await addAssets([file("a.urdf"), file("b.urdf"), file("d.obj")]);
+  expect(said()).toEqual(["Added added/a.urdf.", "2 assets were left out; the first: b.urdf: mesh c.stl was not sent"]);
+  expect(useToasts.getState().toasts[0]?.undo).toBe(true);
 });
 
 test("what the server cannot read is reported with its remedy", async () => {

@@ -73,10 +73,15 @@ function withCount(message: string, count: number): string {
   return `${message} (and ${count === 2 ? "1 more file" : `${count - 1} more files`})`;
 }
 
+const unreadText = (first: string, count: number) =>
+  count === 1 ? `One asset was left out: ${first}` : `${count} assets were left out; the first: ${first}`;
+
 async function takeAll(): Promise<void> {
   try {
-    const { names } = await api.takeAssets();
+    const { names, problems = [] } = await api.takeAssets();
     notify(names.length === 1 ? `Added ${names[0]}.` : `Added ${names.length} assets.`, true);
+    const [first] = problems;
+    if (first !== undefined) reportProblem({ where: null, message: unreadText(first, problems.length), remedy: "Send it again, together with all files that it names.", conflict: false });
   } catch (error) {
     reportError(error);
   }

@@ -30,7 +30,7 @@ export function ExtractorField() {
     editorExtensions(true, "Select by a rule"),
     singleLine,
     oneLine,
-    placeholder("Select by a rule: Is(…), Geo(…)"),
+    placeholder("Select by a rule…"),
     EditorView.updateListener.of((update) => {
       if (update.docChanged) typeExtractor(update.state.doc.toString());
       if (!update.focusChanged) return;

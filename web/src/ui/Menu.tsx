@@ -10,23 +10,27 @@ export interface MenuLine {
   onSelect: () => void;
 }
 
+/** Not modal, as that hides controls from screen readers that still can take the focus; a shade takes clicks beside it. */
 export function Menu({ trigger, lines }: { trigger: ReactNode; lines: readonly (MenuLine | "line")[] }) {
   return (
-    <DropdownMenu.Root>
+    <DropdownMenu.Root modal={false}>
       <DropdownMenu.Trigger asChild>{trigger}</DropdownMenu.Trigger>
       <DropdownMenu.Portal>
-        <DropdownMenu.Content className={css.menu} sideOffset={4} align="end">
-          {lines.map((line, k) =>
-            line === "line" ? (
-              <DropdownMenu.Separator key={k} className={css.menuLine} />
-            ) : (
-              <DropdownMenu.Item key={k} className={css.menuItem} disabled={line.disabled ?? false} onSelect={line.onSelect}>
-                <span>{line.label}</span>
-                {line.keys && <kbd>{line.keys}</kbd>}
-              </DropdownMenu.Item>
-            ),
-          )}
-        </DropdownMenu.Content>
+        <section aria-label="Menu">
+          <div className={css.menuShade} aria-hidden />
+          <DropdownMenu.Content className={css.menu} sideOffset={4} align="end">
+            {lines.map((line, k) =>
+              line === "line" ? (
+                <DropdownMenu.Separator key={k} className={css.menuLine} />
+              ) : (
+                <DropdownMenu.Item key={k} className={css.menuItem} disabled={line.disabled ?? false} onSelect={line.onSelect}>
+                  <span>{line.label}</span>
+                  {line.keys && <kbd>{line.keys}</kbd>}
+                </DropdownMenu.Item>
+              ),
+            )}
+          </DropdownMenu.Content>
+        </section>
       </DropdownMenu.Portal>
     </DropdownMenu.Root>
   );

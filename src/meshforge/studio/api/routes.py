@@ -26,7 +26,6 @@ from meshforge.studio.queries.project import model_of
 from meshforge.studio.session.session import Session
 from meshforge.studio.similar_hulls import choose_assets
 from meshforge.studio.thumbnails import ThumbnailOf
-from meshforge.studio.uploads import find_assets
 from meshforge.studio.wire import requests
 from meshforge.studio.wire.asset import AssetView, CheckPart, CheckPicture, CheckResult
 from meshforge.studio.wire.jobs import Job, JobRequest
@@ -284,17 +283,17 @@ async def put_asset_file(session: CurrentSession, request: Request, path: str) -
 
 @router.post("/assets")
 def add_assets(session: CurrentSession, page: SenderId = None) -> requests.UploadReceipt:
-    """Take the files that were sent into the project, as assets. Raises ProjectError, and throws them away, where one
-    cannot be read, or would take the place of another file."""
+    """Take the files that were sent as assets, but for those that cannot be read. Raises ProjectError,
+    and throws them away, where none can be read, or one would take the place of another file."""
     try:
+        sent = session.uploads.keep_readable(session.readers)
         staged, files = session.uploads.list_files()
-        added = find_assets(session.readers, staged)
         home = session.project.found.added
         _check_free(home, files, session.project.found.ids)
-        session.edit(AddAssets(staged=str(staged), files=files, added=added, home=str(home)), page)
+        session.edit(AddAssets(staged=str(staged), files=files, added=sent.names, home=str(home)), page)
     finally:
         session.uploads.clear()
-    return requests.UploadReceipt(names=tuple(f"{ADDED}/{name}" for name in added))
+    return requests.UploadReceipt(names=tuple(f"{ADDED}/{name}" for name in sent.names), problems=sent.problems)
 
 
 def _check_free(home: Path, files: tuple[str, ...], ids: Collection[str]) -> None:

@@ -166,17 +166,15 @@ def _step_for_question(assessment: AssessmentView | None) -> Next | None:
     asked = assessment.question if assessment and assessment.held else None
     if not assessment or not asked:
         return None
-    say = (
-        f"{assessment.held} of {_count_results(assessment)} held: {_WHAT_TO_DO.get(asked.kind, 'answer the question')}."
-    )
+    say = f"{_count_held(assessment)}: {_WHAT_TO_DO.get(asked.kind, 'answer the question')}."
     return Next(stage="review" if asked.kind == "result" else "learn", say=say, asset=asked.asset)
 
 
 _WHAT_TO_DO = {"result": "look at one result", "demonstrate": "demonstrate one more asset"}
 
 
-def _count_results(assessment: AssessmentView) -> str:
-    return pluralize(len(assessment.assets), "result")
+def _count_held(assessment: AssessmentView) -> str:
+    return f"{assessment.held} of {len(assessment.assets)} held"
 
 
 def _step_for_sign_off(cards: Sequence[Card], assessment: AssessmentView | None) -> Next | None:
@@ -185,7 +183,7 @@ def _step_for_sign_off(cards: Sequence[Card], assessment: AssessmentView | None)
         return None
     if assessment.held:
         least = min((one for one in assessment.assets if one.state == "held"), key=lambda one: one.probability)
-        say = f"{assessment.held} of {_count_results(assessment)} held: look at them, first {least.asset}."
+        say = f"{_count_held(assessment)}: look at them, first {least.asset}."
         return Next(stage="review", say=say, asset=least.asset)
     if assessment.unseen:
         return None

@@ -17,7 +17,7 @@ from meshforge.studio.start import create, folders
 from meshforge.studio.start.assets import look_at_assets, look_at_folder, warm_up
 from meshforge.studio.start.building import clean_up
 from meshforge.studio.start.recent import RecentProjects
-from meshforge.studio.uploads import Uploads, find_assets
+from meshforge.studio.uploads import Uploads
 from meshforge.studio.wire import requests
 from meshforge.studio.wire import start as wire
 from meshforge.studio.workers import Workers
@@ -66,17 +66,21 @@ class StartPage:
         return look_at_folder(self._workers, folders.parse_path(folder, "the folder of assets"))
 
     def look_at_upload(self) -> wire.AssetsFound:
-        """What was sent. Raises ProjectError, and throws it away, where no project can be made of it."""
+        """What was sent; assets that cannot be read are left out. Raises ProjectError, and throws all away, where no
+        project can be made of it."""
         home, files = self.uploads.list_files()
         try:
-            found = find_assets(self._workers, home)
+            sent = self.uploads.keep_readable(self._workers)
         except MeshForgeError:
             self.uploads.clear()
             raise
         tops = {name.split("/")[0] for name in files}
         first = min(tops, key=str.casefold)
-        name = first if len(tops) == 1 and (home / first).is_dir() else Path(found[0]).stem
-        return look_at_assets(self._workers, home, [home / path for path in found], name)
+        name = first if len(tops) == 1 and (home / first).is_dir() else Path(sent.names[0]).stem
+        found = look_at_assets(self._workers, home, [home / path for path in sent.names], name)
+        if not sent.problems:
+            return found
+        return found.model_copy(update={"broken": len(sent.problems), "problem": sent.problems[0], "left_out": True})
 
     def create(self, request: requests.NewProject) -> Path:
         """Make a project, and give its folder. Raises MeshForgeError where that cannot be; then nothing is written."""
@@ -87,7 +91,7 @@ class StartPage:
                 create.create_of_folder(assets, project, self._state)
             case requests.ProjectOfUpload():
                 home, _ = self.uploads.list_files()
-                find_assets(self._workers, home)  # raises ProjectError where nothing was sent
+                self.uploads.keep_readable(self._workers)  # raises ProjectError where nothing was sent
                 create.create_of_upload(home, project, self._state)
             case requests.ProjectOfFamily():
                 create.create_of_family(request.family, project, self._state)

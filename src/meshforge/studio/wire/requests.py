@@ -96,9 +96,11 @@ class DownloadTicket(Wire):
 
 
 class UploadReceipt(Wire):
-    """An upload is stored. names: of a template, as actions write it; or the paths of asset files."""
+    """An upload is stored. names: of a template, as actions write it; or the paths of asset files; problems: why other
+    assets of it cannot be read, and were left out."""
 
     names: tuple[str, ...]
+    problems: tuple[str, ...] = ()
 
 
 class EditReceipt(Wire):

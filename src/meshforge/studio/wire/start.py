@@ -57,8 +57,8 @@ class AssetsFound(Wire):
 
     folder: where it lies; kinds: how many of which format, in words; assets: how many; read: how many of them were
     looked at, the first ones. Of these, pieces: how many pieces and bodies have no hulls and can be decomposed; bare:
-    how many assets have such pieces; broken: how many cannot be read; problem: why the first of them cannot be read.
-    project: the folder that is offered for the new project.
+    how many assets have such pieces; broken: how many cannot be read; problem: why the first of them cannot be read;
+    left_out: whether a project gets these not. project: the folder that is offered for the new project.
     """
 
     folder: str
@@ -69,4 +69,5 @@ class AssetsFound(Wire):
     bare: int = 0
     broken: int = 0
     problem: str | None = None
+    left_out: bool = False
     project: str

@@ -44,7 +44,7 @@ function OneAsset({ asset }: { asset: string }) {
       )}
       {result.kind === "there" && result.scene.edit && (
         <>
-          <NumbersTable before={result.scene.view.hulls} edit={result.scene.edit} />
+          <NumbersTable asset={asset} before={result.scene.view.hulls} edit={result.scene.edit} />
           <Findings edit={result.scene.edit} />
           <Checks asset={asset} />
           <Trace asset={asset} of={result.of} edit={result.scene.edit} />

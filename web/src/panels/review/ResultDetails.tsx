@@ -5,7 +5,7 @@ import { RuleText } from "../learn/RuleText";
 import { ServerProblem } from "../../server/http";
 import { highlightOfRule } from "../../store/highlight";
 import { useProject } from "../../store/project";
-import { numbersOf, verdictOf } from "../../store/reviews";
+import { alarmsOf, numbersOf, verdictOf } from "../../store/reviews";
 import { type Scene, sceneOf } from "../../store/scenes";
 import { textIn, volumeText } from "../../store/units";
 import { changeText, countText, listText } from "../../store/words";
@@ -14,9 +14,11 @@ import { Section } from "../../ui/Section";
 import type { EditHeader, FindingView, HullView, Problem, TraceLine } from "../../wire";
 import css from "./review.module.css";
 
-export function NumbersTable({ before, edit }: { before: readonly HullView[]; edit: EditHeader }) {
+export function NumbersTable({ asset, before, edit }: { asset: string; before: readonly HullView[]; edit: EditHeader }) {
   const unit = useUnit();
   const numbers = numbersOf(before, edit);
+  const row = useProject((state) => state.confidence[asset]);
+  const alarms = alarmsOf(row);
   const whole = (value: number) => value.toLocaleString("en-GB");
   return (
     <Section title="Numbers" aside={`${edit.made.length} made, ${edit.removed.length} removed`}>
@@ -30,10 +32,10 @@ export function NumbersTable({ before, edit }: { before: readonly HullView[]; ed
           </tr>
         </thead>
         <tbody>
-          <NumbersRow what="Hulls" pair={numbers.hulls} text={whole} />
+          <NumbersRow what="Hulls" pair={numbers.hulls} alarm={alarms.hulls} text={whole} />
           <NumbersRow what="Vertices" pair={numbers.vertices} text={whole} />
           <NumbersRow what="Faces" pair={numbers.faces} text={whole} />
-          <NumbersRow what="Volume" pair={numbers.volume} text={(volume) => volumeText(volume, unit)} />
+          <NumbersRow what="Volume" pair={numbers.volume} alarm={alarms.volume} text={(volume) => volumeText(volume, unit)} />
         </tbody>
       </table>
       {edit.note && <p className={css.dim}>{edit.note}</p>}
@@ -41,13 +43,24 @@ export function NumbersTable({ before, edit }: { before: readonly HullView[]; ed
   );
 }
 
-function NumbersRow({ what, pair: [before, after], text }: { what: string; pair: readonly [number, number]; text: (value: number) => string }) {
+interface NumbersRowProps {
+  what: string;
+  pair: readonly [number, number];
+  /** Why the change stands out. */
+  alarm?: string | null;
+  text: (value: number) => string;
+}
+
+function NumbersRow({ what, pair: [before, after], alarm = null, text }: NumbersRowProps) {
   return (
     <tr>
       <th scope="row">{what}</th>
       <td>{text(before)}</td>
       <td>{text(after)}</td>
-      <td>{changeText(before, after) ?? "–"}</td>
+      <td data-alarm={alarm !== null || undefined} title={alarm ?? undefined}>
+        {alarm !== null && <TriangleAlert size={13} aria-label={`Alarm: ${alarm}:`} />}
+        {changeText(before, after) ?? "–"}
+      </td>
     </tr>
   );
 }

@@ -1,0 +1,71 @@
+"""The start page without a pointer: a project is made, an asset left out and put back, and that is undone."""
+
+from __future__ import annotations
+
+import shutil
+from pathlib import Path
+
+import pytest
+
+from meshforge.samples import TABLES
+from tests.e2e.hand import Hand, chromium, hand
+from tests.e2e.studio import ending, started
+from tests.e2e.walk import PAGE, address
+
+_FOCUSED = """
+() => {
+  const one = document.activeElement;
+  return [one.ariaLabel, one.labels?.[0]?.innerText, one.innerText].find(Boolean) ?? '';
+}
+"""
+
+
+def reach(person: Hand, name: str) -> None:
+    """Press Tab until a control has the focus."""
+    for _ in range(60):
+        person.press("Tab")
+        if person.page.evaluate(_FOCUSED).strip().startswith(name):
+            return
+    raise AssertionError(f"Tab never comes to {name}")
+
+
+@pytest.mark.slow
+def test_a_project_is_made_and_its_family_changed_by_the_keyboard_alone(tmp_path: Path) -> None:
+    source = tmp_path / "desks"
+    source.mkdir()
+    names = ["table_01.obj", "table_02.obj", "table_03.obj"]
+    for name in names:
+        shutil.copyfile(TABLES / name, source / name)
+    with ending(started("studio", "--page", str(PAGE))) as studio, chromium() as browser:
+        person = hand(browser)
+        person.page.goto(address(studio))
+        person.page.get_by_role("heading", name="New project").wait_for()
+        reach(person, "Folder of assets")
+        person.type(str(source))
+        person.press("Enter")
+        person.sees("3 OBJ")
+        reach(person, "Project folder")
+        person.press("Control+a")
+        person.type(str(tmp_path / "mine"))
+        person.press("Enter")
+        person.drawn("table_01.obj")
+
+        shown = person.page.get_by_role("option")
+        person.press("Control+k")
+        person.type("leave this asset")
+        person.press("Enter")
+        person.sees("1 asset left out")
+        assert shown.count() == 2
+        while person.page.evaluate("document.activeElement.closest('[data-part]')?.ariaLabel") != "Family":
+            person.press("F6")
+        reach(person, "1 asset left out")
+        person.press("Enter")
+        reach(person, "Put back table_01.obj")
+        person.press("Enter")
+        person.page.get_by_role("option", name="table_01.obj").wait_for()
+        assert shown.count() == 3
+        person.press("Control+z")
+        person.sees("1 asset left out")
+        person.press("Control+z")
+        person.page.get_by_role("option", name="table_01.obj").wait_for()
+        assert person.complaints == []
