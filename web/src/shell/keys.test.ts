@@ -8,7 +8,10 @@ import { bindKeys } from "./keys";
 class FakeElement {
   constructor(private readonly fits: readonly string[] = []) {}
   closest(selector: string): this | null {
-    return this.fits.some((one) => selector.includes(one)) ? this : null;
+    return this.matches(selector) ? this : null;
+  }
+  matches(selector: string): boolean {
+    return this.fits.some((one) => selector.includes(one));
   }
 }
 
@@ -25,6 +28,7 @@ interface Press {
 const body = new FakeElement();
 const field = new FakeElement(["textarea"]);
 const button = new FakeElement(["[role=slider]"]);
+const hulls = new FakeElement(["[role=grid]"]);
 const family = new FakeElement(["[role=listbox]"]);
 const dialog = new FakeElement(["[role=dialog]"]);
 
@@ -95,6 +99,11 @@ describe("a control that a key brought the focus to", () => {
     expect(press({ key: "Enter", code: "Enter", on: button })).toBe(false);
   });
 
+  it("leaves it to the action in hand where it is the list of hulls, which Enter means nothing to", () => {
+    expect(press({ key: "Enter", code: "Enter", on: hulls })).toBe(true);
+    expect(press({ key: " ", code: "Space", on: hulls })).toBe(false);
+  });
+
   it("has it no longer after a click: then Enter is for the action in hand", () => {
     listeners.get("pointerdown")?.({});
     expect(press({ key: "Enter", code: "Enter", on: button })).toBe(true);
@@ -141,7 +150,11 @@ describe("Tab", () => {
 describe("F6", () => {
   const part = (name: string, focused: string[]) => {
     const first = { focus: () => focused.push(name), offsetParent: {} };
-    return { contains: (element: unknown) => element === name, querySelector: () => null, querySelectorAll: () => [first] };
+    const part = {
+      contains: (element: unknown) => element === name,
+      querySelectorAll: (selector: string) => (selector === "[data-first]" ? [] : [{ ...first, closest: () => part }]),
+    };
+    return part;
   };
 
   it("moves the focus from part to part, round the end, also out of a field", () => {
@@ -157,5 +170,24 @@ describe("F6", () => {
     press({ key: "F6", code: "F6" });
     press({ key: "F6", code: "F6", shiftKey: true });
     expect(focused).toEqual(["panel", "top", "view", "top", "panel"]);
+  });
+
+  it("leads to a part that has another within it, and from there to that one", () => {
+    const focused: string[] = [];
+    const inner = { contains: (element: unknown) => element === "row", querySelectorAll: () => [row] };
+    const row = { focus: () => focused.push("row"), offsetParent: {}, closest: () => inner };
+    const tab = { focus: () => focused.push("tab"), offsetParent: {}, closest: (): unknown => outer };
+    const outer = {
+      contains: (element: unknown) => element === "tab" || element === "row",
+      querySelectorAll: (selector: string) => (selector === "[data-first]" ? [row] : [tab, row]),
+    };
+    const document = { body, activeElement: "nowhere", querySelectorAll: () => [outer, inner] };
+    vi.stubGlobal("document", document);
+    press({ key: "F6", code: "F6" });
+    document.activeElement = "tab";
+    press({ key: "F6", code: "F6" });
+    document.activeElement = "row";
+    press({ key: "F6", code: "F6", shiftKey: true });
+    expect(focused).toEqual(["tab", "row", "tab"]);
   });
 });

@@ -13,6 +13,8 @@ const FIELDS =
   "input:not([type=checkbox], [type=radio], [type=range], [type=button]), textarea, select, [contenteditable=true]";
 const ROLES = ["tab", "option", "switch", "checkbox", "radio", "slider", "row", "gridcell", "listbox", "grid"];
 const CONTROLS = ["button", "a", "summary", "input", ...ROLES.map((role) => `[role=${role}]`)].join(", ");
+/** The list of hulls selects by Space alone, so that Enter is for the action in hand. */
+const NO_ENTER = "[role=grid]";
 /** Where Tab goes to the next asset even though a key brought one there; F6 leads on. */
 const ASSET_TABS = "[data-testid=viewport]";
 
@@ -44,7 +46,8 @@ function isOpen(key: string, target: EventTarget | null, byKey: boolean): boolea
   if (isToPart(key)) return true;
   if (target.closest(FIELDS) && !IN_FIELDS.has(key)) return false;
   if (/Tab$/.test(key) && byKey && !target.closest(ASSET_TABS)) return false;
-  return !(OF_CONTROLS.has(key) && byKey && target.closest(CONTROLS));
+  const control = OF_CONTROLS.has(key) && byKey ? target.closest(CONTROLS) : null;
+  return control === null || (key === "Enter" && control.matches(NO_ENTER));
 }
 
 const isToPart = (key: string): boolean => key === "F6" || key === "Shift+F6";
@@ -69,8 +72,10 @@ function toNextPart(by: 1 | -1): void {
   if (part) firstIn(part)?.focus();
 }
 
+/** The first element of a part that can take the focus, but for those of parts within it. */
 function firstIn(part: HTMLElement): HTMLElement | null {
-  const chosen = part.querySelector<HTMLElement>("[data-first]");
+  const isOwn = (one: HTMLElement) => one.closest("[data-part]") === part;
+  const chosen = [...part.querySelectorAll<HTMLElement>("[data-first]")].find(isOwn);
   if (chosen) return chosen;
-  return [...part.querySelectorAll<HTMLElement>(FOCUSABLE)].find((one) => one.offsetParent !== null) ?? null;
+  return [...part.querySelectorAll<HTMLElement>(FOCUSABLE)].find((one) => isOwn(one) && one.offsetParent !== null) ?? null;
 }

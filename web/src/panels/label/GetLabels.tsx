@@ -5,7 +5,7 @@ import { type ReactNode, useEffect, useState } from "react";
 import { api } from "../../server/api";
 import { perform } from "../../store/edits";
 import { askModel, cancelJob, forecastModel, propagateLabels, useJob, whyNotPropagate } from "../../store/jobs";
-import { useProject } from "../../store/project";
+import { countReadable, useProject } from "../../store/project";
 import { reportError } from "../../store/toasts";
 import { givenLabels } from "../../store/unsureHulls";
 import { countText } from "../../store/words";
@@ -30,11 +30,12 @@ export function GetLabels() {
   );
 }
 
-/** How much there is, asked anew when labels or assets change. */
+/** How much there is, asked anew when labels or assets change, and as more assets are read. */
 function useSources(): LabelSources {
   const [sources, setSources] = useState<LabelSources>({ files: 0, names: 0, model: null });
   const vocabulary = useProject((state) => state.project.vocabulary);
   const assets = useProject((state) => state.order.length);
+  const read = useProject((state) => countReadable(state.cards));
   useEffect(() => {
     let is = true;
     const timer = setTimeout(() => {
@@ -44,7 +45,7 @@ function useSources(): LabelSources {
       is = false;
       clearTimeout(timer);
     };
-  }, [vocabulary, assets]);
+  }, [vocabulary, assets, read]);
   return sources;
 }
 
