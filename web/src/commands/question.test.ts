@@ -3,7 +3,8 @@ import { afterEach, describe, expect, it, vi } from "vitest";
 import { api } from "../server/api";
 import { emptyProject, useProject } from "../store/project";
 import { sampleCard, sampleQuestion } from "../store/sample.test-help";
-import { acceptResult, editsFor, labelGroup } from "./question";
+import { initialWorkspace, useWorkspace } from "../store/workspace";
+import { acceptResult, editsFor, labelGroup, questionCommands, takeCall } from "./question";
 
 const choice = (text: string, more: object = {}) => ({ text, label: null, select: null, sentence: "", orient: null, ...more });
 const hulls = [{ asset: "a", hull: "x", place: 0 }, { asset: "b", hull: "y", place: 1 }];
@@ -82,5 +83,13 @@ describe("a reply with more to it", () => {
     useProject.setState({ cards: { a: sampleCard({ output: "failed" }) }, jobs: [{ ...failed, state: "done" } as never] }); // the program fails on it
     expect(await acceptResult("a")).toBe(false);
     expect(edit).not.toHaveBeenCalled();
+  });
+});
+
+describe("a call for the card", () => {
+  it("is there for a card that comes after it, once", () => {
+    useWorkspace.setState({ ...initialWorkspace, stage: "demonstrate" }, true);
+    questionCommands[0]?.run();
+    expect([takeCall(), takeCall()]).toEqual([true, false]);
   });
 });

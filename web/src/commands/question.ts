@@ -85,8 +85,15 @@ export function lookAtHeld(): void {
   setFilters({ search: "", only: ["held"], sort: "probability", chosen: true });
 }
 
-/** Counts how often the card was called for. */
-export const useCardCalls = create<{ count: number }>()(() => ({ count: 0 }));
+/** Counts how often the card was called for, and up to which call it came. */
+export const useCardCalls = create<{ count: number; taken: number }>()(() => ({ count: 0, taken: 0 }));
+
+/** Whether the card was called for since this was asked last; so a stage that a call opens knows of it, too. */
+export function takeCall(): boolean {
+  const { count, taken } = useCardCalls.getState();
+  if (count !== taken) useCardCalls.setState({ taken: count });
+  return count !== taken;
+}
 
 function goToCard(): void {
   const { stage } = useWorkspace.getState();

@@ -2,7 +2,7 @@
 import { CircleCheck, CircleQuestionMark, LoaderCircle } from "lucide-react";
 import { type ReactNode, useCallback, useEffect, useMemo, useRef, useState } from "react";
 import { showQuestion } from "../../commands/learn";
-import { lookAtHeld, showAsked, useCardCalls } from "../../commands/question";
+import { lookAtHeld, showAsked, takeCall, useCardCalls } from "../../commands/question";
 import { asReadings, openQuestion } from "../../store/assessment";
 import { useProject } from "../../store/project";
 import { countText } from "../../store/words";
@@ -22,12 +22,9 @@ export function Questions() {
   const hold = useCallback(() => box.current?.focus({ preventScroll: true }), []);
   const focus = useMemo(() => ({ keys, hold }), [hold]);
   const calls = useCardCalls((state) => state.count);
-  const seen = useRef(calls);
   const id = asked && (asked.own ?? asked.review)?.id;
   useEffect(() => {
-    const called = calls !== seen.current;
-    seen.current = calls;
-    if (called) hold();
+    if (takeCall()) hold();
     if (id && box.current?.contains(document.activeElement)) showInView(asked);
     // only another question, or a call, moves the view
   }, [id, calls]);
