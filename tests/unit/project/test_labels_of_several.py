@@ -11,7 +11,7 @@ from tests.unit.project.tables import FIRST, SECOND, labelled
 def test_labels_of_several_assets_are_written_as_those_of_each(tmp_path: Path) -> None:
     together, apart = labelled(tmp_path / "together"), labelled(tmp_path / "apart")
     hull, word = next(iter(together.mesh(FIRST).index)), together.vocabulary[0]
-    labels = {FIRST: {hull: word}, SECOND: {hull: None}}
+    labels: dict[str, dict[str, str | None]] = {FIRST: {hull: word}, SECOND: {hull: None}}
     reports = together.set_labels_of(labels)
     assert reports == tuple(apart.set_labels(asset, own) for asset, own in labels.items())
     assert [together.label_bytes(asset) for asset in labels] == [apart.label_bytes(asset) for asset in labels]
