@@ -64,7 +64,7 @@ class Uploads:
         home = self.folder / "assets"
         return home, tuple(sorted(file.relative_to(home).as_posix() for file in home.rglob("*") if file.is_file()))
 
-    def keep_readable(self, workers: Workers) -> _SentAssets:
+    def keep_readable(self, workers: Workers) -> _Readable:
         """The assets that can be read; the files of the others are removed. Raises ProjectError where there is none."""
         home, _ = self.list_files()
         sent = find_assets(workers, home)
@@ -108,7 +108,7 @@ def confine_path(path: str) -> PurePosixPath:
 
 
 @dataclass(frozen=True, slots=True)
-class _SentAssets:
+class _Readable:
     """Assets among uploaded files. names: the paths of those that can be read; unreadable: of the others, with why."""
 
     names: tuple[str, ...]
@@ -120,14 +120,14 @@ class _SentAssets:
         return tuple(self.unreadable.values())
 
 
-def find_assets(workers: Workers, home: Path) -> _SentAssets:
+def find_assets(workers: Workers, home: Path) -> _Readable:
     """The assets among uploaded files. Raises ProjectError: there are none, or none can be read."""
     with confine_reading(home):
         found = find_assets_in(home) if home.is_dir() else []
     if not found:
         raise ProjectError("there is no asset among these files", remedy="Send URDF, MJCF, SDF, glTF or mesh files.")
     looks = {path.relative_to(home).as_posix(): _find_problem(workers, path, home) for path in found}
-    sent = _SentAssets(
+    sent = _Readable(
         tuple(name for name, problem in looks.items() if problem is None),
         {name: problem for name, problem in looks.items() if problem is not None},
     )
