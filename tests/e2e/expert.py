@@ -102,10 +102,10 @@ class Expert:
     def _judge_proposal(self, repair: dict[str, Any]) -> None:
         """Accept or reject that learning thinks a label wrong."""
         right = self.truth[repair["asset"]][repair["hull"]] == repair["to"]
-        self.person.press("Alt+3")
+        self.person.press("u")
         card = self.person.page.get_by_role("article", name=f"{repair['hull']} of {repair['asset']}")
-        self.person.reach(card.get_by_role("button", name="Accept" if right else "Reject"))
-        self.person.press("Enter")
+        card.get_by_role("button", name="Accept").locator("kbd").wait_for()
+        self.person.press("y" if right else "n")
 
     def is_right(self, asset: str) -> bool:
         """Whether what the program makes of an asset now is what is wanted."""
@@ -186,9 +186,16 @@ def open_question(hello: dict[str, Any]) -> dict[str, Any] | None:
     if own := outcome.get("question"):
         return {"kind": "reading", "text": None, "hulls": [], **own}
     found: dict[str, Any] | None = (hello["assessment"] or {}).get("question")
-    if found is None and outcome.get("repairs"):
-        return {"kind": "proposal", **outcome["repairs"][0]}
+    repairs = outcome.get("repairs") or []
+    if repairs and (found is None or _is_among(found, repairs)):
+        return {"kind": "proposal", **repairs[0]}
     return found
+
+
+def _is_among(question: dict[str, Any], repairs: list[dict[str, Any]]) -> bool:
+    """Whether learning proposes the same, which the page then shows once."""
+    places = [(hull["asset"], hull["hull"]) for hull in question["hulls"]]
+    return question["kind"] in ("group", "repair") and places in [[(one["asset"], one["hull"])] for one in repairs]
 
 
 def volumes_of(mesh: SymbolicMesh) -> list[float]:
