@@ -113,17 +113,48 @@ def chair_family(
     folder: Path, shapes: Sequence[ChairShape] = SHAPES, names: Mapping[str, str] | None = None
 ) -> ChairFamily:
     """A project of chairs. names: what the parts are called, None for their own words."""
-    (folder / "assets").mkdir(parents=True)
-    called = names or {word: word for word in WORDS}
+    truth, known = write_chairs(folder / "assets", shapes, names)
+    words = tuple(dict.fromkeys(names.values())) if names else WORDS
+    project = Project.create(folder / "project", [folder / "assets" / "*.obj"], name="chairs", vocabulary=words)
+    return ChairFamily(project, truth, known)
+
+
+def write_chairs(
+    folder: Path, shapes: Sequence[ChairShape] = SHAPES, names: Mapping[str, str] | None = None
+) -> tuple[dict[str, dict[str, str]], dict[str, list[str]]]:
+    """The files of chairs in a new folder; gives the label of each hull, by asset and name, and the part of each."""
+    folder.mkdir(parents=True)
     truth, known = dict[str, dict[str, str]](), dict[str, list[str]]()
     for k, shape in enumerate(shapes):
         parts = list(shape.parts())
         order = np.random.default_rng(k).permutation(len(parts)).tolist()
-        hulls = [SampleHull(f"hull_{n:02}", called[parts[place][0]], parts[place][1]) for n, place in enumerate(order)]
-        asset = f"chair_{k}.obj"
-        (folder / "assets" / asset).write_bytes(format_hulls(hulls, "a chair"))
+        hulls = [
+            SampleHull(f"hull_{n:02}", (names or {}).get(parts[place][0], parts[place][0]), parts[place][1])
+            for n, place in enumerate(order)
+        ]
+        asset = f"chair_{k:0{len(str(len(shapes) - 1))}}.obj"
+        (folder / asset).write_bytes(format_hulls(hulls, "a chair"))
         truth[asset] = {hull.name: hull.label for hull in hulls}
         known[asset] = [parts[place][0] for place in order]
-    words = tuple(dict.fromkeys(called.values()))
-    project = Project.create(folder / "project", [folder / "assets" / "*.obj"], name="chairs", vocabulary=words)
-    return ChairFamily(project, truth, known)
+    return truth, known
+
+
+def draw_shapes(count: int, seed: int = 0) -> list[ChairShape]:
+    """Shapes of a family that differ in every measure, the same each time."""
+    rng = np.random.default_rng(seed)
+    return [
+        ChairShape(
+            width=rng.uniform(0.44, 0.62),
+            depth=rng.uniform(0.42, 0.56),
+            height=rng.uniform(0.4, 0.5),
+            back=rng.uniform(0.42, 0.6),
+            lean=rng.uniform(0.02, 0.08),
+            slats=int(rng.integers(2, 5)),
+            level=bool(rng.random() < 0.6),
+            splay=rng.uniform(1.0, 1.15),
+            leg_pieces=int(rng.integers(1, 3)),
+            seat_cuts=(((X, 2),), ((Y, 2),), ((X, 3),))[int(rng.integers(3))],
+            round_legs=bool(rng.random() < 0.5),
+        )
+        for _ in range(count)
+    ]

@@ -18,6 +18,19 @@ CHROMIUM = Path(os.environ.get("CHROMIUM", "/usr/bin/chromium"))
 PATIENCE = 60_000.0
 """Milliseconds that anything may take before a test gives up; nothing is measured by it."""
 
+_MOST_KEYS = 60
+_KEY_TOWARDS = """
+target => {
+  const now = document.activeElement;
+  if (now === target) return null;
+  const parts = [...document.querySelectorAll('[data-part]')];
+  const partOf = element => parts.findLast(part => part.contains(element));
+  if (parts.length && partOf(now) !== partOf(target)) return 'F6';
+  return now.compareDocumentPosition(target) & Node.DOCUMENT_POSITION_PRECEDING ? 'Shift+Tab' : 'Tab';
+}
+"""
+"""The key that leads from where the focus is towards an element."""
+
 
 @dataclass
 class Hand:
@@ -78,6 +91,16 @@ class Hand:
         for key in held:
             self.page.keyboard.up(key)
         self.actions += 1 + len(held)
+
+    def reach(self, target: Locator) -> None:
+        """Put the focus on something by keys: F6 goes from part to part, Tab within one."""
+        target.wait_for()
+        for _ in range(_MOST_KEYS):
+            if key := target.evaluate(_KEY_TOWARDS):
+                self.press(key)
+            else:
+                return
+        raise AssertionError("no key leads there")
 
     # Looking
 

@@ -9,6 +9,7 @@ from pathlib import Path
 
 from tests.e2e.chair_family import FIVE, WORDS, ChairFamily, ChairShape, chair_family
 from tests.e2e.hand import Hand, chromium, hand
+from tests.e2e.labelling import label_look_alikes, visible
 from tests.e2e.studio import PATIENCE, opened
 from tests.e2e.walk import PAGE, address
 
@@ -65,21 +66,7 @@ def test_a_family_of_eight_chairs_takes_few_acts(tmp_path: Path) -> None:
         studio.settled()
         person = hand(browser)
         person.open(address(studio))
-        person.press("w")
-        person.page.wait_for_function(
-            "() => document.querySelector('[data-testid=counts]')?.textContent.startsWith('206')"
-        )
-        truth = {f"{hull} · {asset}": part for asset, own in family.truth.items() for hull, part in own.items()}
-        done = set[str]()
-        for digit, word in enumerate(WORDS, 1):
-            while left := [name for name, part in truth.items() if part == word and name not in done]:
-                person.hull(next(name for name in left if visible(person, name)))
-                person.press("Shift+J")
-                taken = until_found(person)
-                for wrong in [name for name in taken if truth[name] != word]:
-                    person.hull(wrong, "Control")
-                person.press(str(digit))
-                done |= {name for name in taken if truth[name] == word}
+        label_look_alikes(person, family.truth, WORDS)
         until_right(family)
         assert not person.complaints
         acts = person.actions
@@ -88,11 +75,6 @@ def test_a_family_of_eight_chairs_takes_few_acts(tmp_path: Path) -> None:
         person.sees("Undone")
     print(f"\neight chairs, eight labels: {acts} acts (at most {MOST_FOR_EIGHT})")
     assert acts <= MOST_FOR_EIGHT
-
-
-def visible(person: Hand, hull: str) -> bool:
-    """Whether something of a hull is seen in the view."""
-    return person.page.evaluate("name => window.meshforgeViewport.project(name)", hull) is not None
 
 
 def see(person: Hand, hull: str) -> Spot:
@@ -116,13 +98,6 @@ def stroke(person: Hand, spots: list[Spot]) -> None:
 def selected(person: Hand, count: int) -> None:
     """Wait until so many hulls are outlined."""
     person.page.wait_for_function("count => window.meshforgeViewport.selected().length === count", arg=count)
-
-
-def until_found(person: Hand) -> list[str]:
-    """The hulls that are outlined once look-alikes were found."""
-    person.page.wait_for_function("() => window.meshforgeViewport.selected().length > 1")
-    found: list[str] = person.page.evaluate("window.meshforgeViewport.selected()")
-    return found
 
 
 def until_right(family: ChairFamily) -> None:

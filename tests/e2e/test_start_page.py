@@ -9,8 +9,9 @@ from pathlib import Path
 import pytest
 
 from meshforge.samples import TABLES
-from tests.e2e.hand import Hand, chromium, hand
+from tests.e2e.hand import chromium, hand
 from tests.e2e.studio import Studio, ending, started
+from tests.e2e.transfer import drop
 from tests.e2e.walk import PAGE, address
 
 
@@ -18,14 +19,6 @@ from tests.e2e.walk import PAGE, address
 def studio() -> Iterator[Studio]:
     with ending(started("studio", "--page", str(PAGE))) as found:
         yield found
-
-
-def drop(person: Hand, *paths: Path) -> None:
-    """Drop files or folders of this machine on the page, as from a file manager."""
-    session = person.page.context.new_cdp_session(person.page)
-    data = {"items": [], "files": [str(path) for path in paths], "dragOperationsMask": 1}
-    for kind in ("dragEnter", "dragOver", "drop"):
-        session.send("Input.dispatchDragEvent", {"type": kind, "x": 400, "y": 500, "data": data})
 
 
 @pytest.mark.slow

@@ -8,25 +8,13 @@ from zipfile import ZipFile
 import pytest
 import trimesh
 from PIL import Image
-from playwright.sync_api import Download
 
 from meshforge.formats import load
-from tests.e2e.hand import Hand, chromium, hand
+from tests.e2e.hand import chromium, hand
 from tests.e2e.studio import opened
+from tests.e2e.transfer import save
 from tests.e2e.walk import PAGE, address
 from tests.unit.project.tables import FIRST, SECOND, THIRD, applied
-
-
-def save(person: Hand, button: str, folder: Path) -> Path:
-    """Press a button by the keyboard, and keep what the browser saves for it."""
-    with person.page.expect_download() as found:
-        person.page.get_by_role("button", name=button).focus()
-        person.press("Enter")
-    saved: Download = found.value
-    assert "token" not in saved.url
-    path = folder / saved.suggested_filename
-    saved.save_as(path)
-    return path
 
 
 def test_results_report_and_turntable_are_saved_by_the_browser_and_can_be_opened(tmp_path: Path) -> None:

@@ -96,9 +96,9 @@ export function openQuestion({ assessment, outcome }: Pick<ProjectState, "assess
   return asked && !(outcome && asksSame(asked, outcome)) ? asked : null;
 }
 
-/** Whether a question is open, of learning itself or of the assessment. */
+/** Whether a question is open, of learning itself, of the assessment, or about a label that learning thinks wrong. */
 export const isAsked = (state: Pick<ProjectState, "assessment" | "outcome">): boolean =>
-  (state.outcome?.question ?? openQuestion(state)) !== null;
+  (state.outcome?.question ?? openQuestion(state) ?? state.outcome?.repairs[0] ?? null) !== null;
 
 /** Assets of a group whose hulls get another label than the others, or, with null, none. */
 export type Exceptions = Readonly<Record<string, string | null>>;

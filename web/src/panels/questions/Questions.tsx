@@ -1,18 +1,20 @@
 // The one queue of questions: the card that makes most results right for a person's time; the view goes along with it.
 import { CircleCheck, CircleQuestionMark, LoaderCircle } from "lucide-react";
 import { type ReactNode, useCallback, useEffect, useMemo, useRef, useState } from "react";
-import { showQuestion } from "../../commands/learn";
+import { showQuestion, showRepair } from "../../commands/learn";
 import { lookAtHeld, showAsked, takeCall, useCardCalls } from "../../commands/question";
 import { asReadings, openQuestion } from "../../store/assessment";
 import { useProject } from "../../store/project";
 import { countText } from "../../store/words";
 import { Button } from "../../ui/Button";
-import type { AssessmentView, QuestionView, ReviewQuestionView } from "../../wire";
+import type { AssessmentView, QuestionView, RepairView, ReviewQuestionView } from "../../wire";
 import { CardFocusContext, type CardKeys, pressOnCard } from "./cardKeys";
 import { PlainCard } from "./PlainCard";
 import css from "./questions.module.css";
 import { ReadingsCard } from "./ReadingsCard";
 import { Repairs } from "./Repairs";
+
+const NO_REPAIRS: readonly RepairView[] = [];
 
 export function Questions() {
   const [skipped, skip] = useState<string | null>(null);
@@ -22,13 +24,16 @@ export function Questions() {
   const hold = useCallback(() => box.current?.focus({ preventScroll: true }), []);
   const focus = useMemo(() => ({ keys, hold }), [hold]);
   const calls = useCardCalls((state) => state.count);
-  const id = asked && (asked.own ?? asked.review)?.id;
+  const repairs = useProject((state) => state.outcome?.repairs) ?? NO_REPAIRS;
+  const [repair] = repairs;
+  const id = asked ? (asked.own ?? asked.review)?.id : repair?.id;
   useEffect(() => {
     if (takeCall()) hold();
-    if (id && box.current?.contains(document.activeElement)) showInView(asked);
+    if (!id || !box.current?.contains(document.activeElement)) return;
+    if (asked) showInView(asked);
+    else if (repair) showRepair(repair);
     // only another question, or a call, moves the view
   }, [id, calls]);
-  const repairs = useProject((state) => state.outcome?.repairs) ?? [];
   return (
     <CardFocusContext value={focus}>
       <div
@@ -40,8 +45,8 @@ export function Questions() {
         onKeyDown={(event) => pressOnCard(event, keys.current, hold)}
       >
         {asked ? <Card key={id} asked={asked} onSkip={skip} /> : repairs.length === 0 && <NoQuestion />}
+        {repairs.length > 0 && <Repairs repairs={repairs} withKeys={!asked} />}
       </div>
-      {repairs.length > 0 && <Repairs repairs={repairs} />}
     </CardFocusContext>
   );
 }

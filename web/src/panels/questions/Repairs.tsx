@@ -4,27 +4,32 @@ import { useMemo } from "react";
 import { answerRepair, showRepair } from "../../commands/learn";
 import { useProject } from "../../store/project";
 import { confidenceText, countText, shortName } from "../../store/words";
-import { Button } from "../../ui/Button";
 import { Section, Swatch } from "../../ui/Section";
 import type { RepairView } from "../../wire";
 import { HullsPicture, useRulePicture } from "../learn/RulePicture";
 import css from "../learn/learn.module.css";
+import { useCardKeys } from "./cardKeys";
+import { Reply } from "./Replies";
 
-export function Repairs({ repairs }: { repairs: readonly RepairView[] }) {
+/** withKeys: whether the first one is the card that keys are about. */
+export function Repairs({ repairs, withKeys }: { repairs: readonly RepairView[]; withKeys: boolean }) {
   return (
     <Section title="Labels that may be wrong" aside={countText(repairs.length, "label")}>
-      {repairs.map((repair) => (
-        <RepairCard key={repair.id} repair={repair} />
+      {repairs.map((repair, k) => (
+        <RepairCard key={repair.id} repair={repair} withKeys={withKeys && k === 0} />
       ))}
     </Section>
   );
 }
 
 /** One label that is probably wrong: the hull, what it is labelled, and what it looks like. */
-function RepairCard({ repair }: { repair: RepairView }) {
+function RepairCard({ repair, withKeys }: { repair: RepairView; withKeys: boolean }) {
   const { asset, hull, was, to, belief, why } = repair;
   const hulls = useMemo(() => [hull], [hull]);
   const picture = useRulePicture(asset, 1, hulls);
+  const [accept, reject, show] = [() => void answerRepair(repair, true), () => void answerRepair(repair, false), () => showRepair(repair)];
+  const doing = useCardKeys(withKeys ? { accept, reject, show } : null);
+  const key = (name: string) => (withKeys ? { keyName: name } : {});
   return (
     <article className={css.repair} aria-label={`${hull} of ${asset}`}>
       <div className={css.repairPicture}>
@@ -46,15 +51,15 @@ function RepairCard({ repair }: { repair: RepairView }) {
         <p className={css.dim}>{why}</p>
       </div>
       <div className={css.row}>
-        <Button look="primary" icon={Check} onClick={() => void answerRepair(repair, true)}>
+        <Reply {...key("Y")} look="primary" icon={Check} onClick={doing(accept)}>
           Accept
-        </Button>
-        <Button icon={X} tip="The label is right; this repair is not proposed again" onClick={() => void answerRepair(repair, false)}>
+        </Reply>
+        <Reply {...key("N")} icon={X} tip="The label is right; this repair is not proposed again" onClick={doing(reject)}>
           Reject
-        </Button>
-        <Button look="quiet" icon={Crosshair} tip="Open the asset with this hull selected" onClick={() => showRepair(repair)}>
+        </Reply>
+        <Reply {...key("S")} look="quiet" icon={Crosshair} tip="Open the asset with this hull selected" onClick={doing(show)}>
           Show
-        </Button>
+        </Reply>
       </div>
     </article>
   );

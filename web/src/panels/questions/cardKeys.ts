@@ -21,12 +21,13 @@ export const CardFocusContext = createContext<CardFocus>({ keys: { current: {} }
 
 const LETTERS: Readonly<Record<string, Exclude<keyof CardKeys, "choices">>> = { Y: "accept", N: "reject", L: "later", S: "show" };
 
-/** Tells what keys mean on a card, and gives a function that does a thing and keeps the focus here. */
-export function useCardKeys(own: CardKeys): (run: (() => void) | undefined) => () => void {
+/** Tells what keys mean on a card, null for one that has none, and gives a function that does a thing and keeps the focus. */
+export function useCardKeys(own: CardKeys | null): (run: (() => void) | undefined) => () => void {
   const { keys, hold } = useContext(CardFocusContext);
   const mine = useRef(own);
   useLayoutEffect(() => {
     mine.current = own;
+    if (!own) return;
     keys.current = own;
     return () => {
       if (keys.current === mine.current) keys.current = {};

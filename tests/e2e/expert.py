@@ -1,0 +1,203 @@
+"""A person who knows what every hull is and what is wanted of each asset, and answers the studio's cards by keys."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from functools import cached_property, partial
+from pathlib import Path
+from typing import Any
+
+from meshforge.common import MeshForgeError
+from meshforge.formats import load
+from meshforge.language import Program
+from meshforge.project import Project
+from meshforge.symbolic import SymbolicMesh
+from tests.e2e.hand import Hand
+from tests.e2e.studio import Studio
+from tests.e2e.walk import guessed, stepped
+
+Selections = tuple[frozenset[str], ...]
+_TRIES = 150
+
+
+@dataclass
+class Expert:
+    """assets: the folder of the files; truth: the label of each hull, by asset and name; meant: the program that does
+    what is wanted, on true labels; folder: of the project; answered: cards by kind."""
+
+    person: Hand
+    studio: Studio
+    assets: Path
+    truth: Mapping[str, Mapping[str, str]]
+    meant: Program
+    folder: Path
+    answered: Counter[str] = field(default_factory=Counter)
+
+    @cached_property
+    def selections(self) -> dict[str, Selections]:
+        """What each rule should select, by asset."""
+        results = {asset: self.meant.run(self.mesh(asset)) for asset in self.truth}
+        return {asset: tuple(frozenset(line.selected) for line in one.trace) for asset, one in results.items()}
+
+    @cached_property
+    def volumes(self) -> dict[str, list[float]]:
+        """What each result should be: the volumes of its hulls [m³], in order."""
+        return {asset: volumes_of(self.meant.run(self.mesh(asset)).mesh) for asset in self.truth}
+
+    def mesh(self, asset: str) -> SymbolicMesh:
+        """An asset with its true labels."""
+        return load(self.assets / asset).with_labels(self.truth[asset])
+
+    def answer_all(self, watch: Callable[[dict[str, Any]], None]) -> None:
+        """Answer cards until none is left. watch: sees each assessment."""
+        last: dict[str, Any] | None = {}  # which is no question
+        for _ in range(_TRIES):
+            hello = self.studio.until(partial(_asks_another, last))
+            watch(hello)
+            last = open_question(hello)
+            if last is None:
+                return
+            self.answered[last["kind"]] += 1
+            if last["kind"] == "proposal":
+                self._judge_proposal(last)
+            else:
+                self.person.press("u")
+                self._wait_for_card(last)
+                self._answer(last)
+        raise AssertionError("the studio asks without end")
+
+    def _wait_for_card(self, question: dict[str, Any]) -> None:
+        card = self.person.page.locator(f'[id="question-{question["id"]}"]')
+        if question["text"]:
+            card = card.or_(self.person.page.get_by_role("heading", name=question["text"], exact=True))
+        card.first.wait_for()
+
+    def _answer(self, question: dict[str, Any]) -> None:
+        kind, asset, rule = question["kind"], question["asset"], (question["rule"] or 1) - 1
+        choices = question["choices"]
+        if kind in ("reading", "label", "selection"):
+            wanted = self.selections[asset][rule]
+            right = [k for k, choice in enumerate(choices) if frozenset(choice["select"] or ()) == wanted]
+            self.person.press(str(right[0] + 1) if right else "n")
+        elif kind in ("group", "repair"):
+            names = {self.truth[hull["asset"]][hull["hull"]] for hull in question["hulls"]}
+            right = [k for k, choice in enumerate(choices) if {choice["label"]} == names]
+            self.person.press(str(right[0] + 1) if right else "n")
+            if not right:
+                self.label([(hull["asset"], hull["hull"]) for hull in question["hulls"]])
+        elif kind == "result":
+            if self.is_right(asset):
+                self.person.press("y")
+            else:
+                self.person.press("n")
+                self.show(asset)
+        elif kind == "demonstrate":
+            self.person.press("y")
+            self.show(asset)
+        else:
+            self.person.press("l")
+
+    def _judge_proposal(self, repair: dict[str, Any]) -> None:
+        """Accept or reject that learning thinks a label wrong."""
+        right = self.truth[repair["asset"]][repair["hull"]] == repair["to"]
+        self.person.press("u")
+        card = self.person.page.get_by_role("article", name=f"{repair['hull']} of {repair['asset']}")
+        card.get_by_role("button", name="Accept").locator("kbd").wait_for()
+        self.person.press("y" if right else "n")
+
+    def is_right(self, asset: str) -> bool:
+        """Whether what the program makes of an asset now is what is wanted."""
+        project = Project.open(self.folder)
+        program = project.program()
+        if program is None:
+            return False
+        try:
+            return volumes_of(program.run(project.mesh(asset)).mesh) == self.volumes[asset]
+        except MeshForgeError:
+            return False
+
+    # Acting without the mouse
+
+    def open_asset(self, asset: str) -> None:
+        """Open an asset by the list of commands."""
+        self.person.press("Control+k")
+        self.person.page.get_by_role("combobox").wait_for()
+        self.person.type(asset)
+        self.person.press("Enter")
+        self.person.drawn(asset)
+
+    def choose(self, asset: str, hulls: frozenset[str]) -> None:
+        """Select hulls of the asset that is open, in the list of hulls."""
+        person, grid = self.person, self.person.page.get_by_role("grid", name="Hulls")
+        person.drawn(asset)
+        person.reach(grid)
+        person.press("Alt+a", "Control+Home")
+        left, last = set(hulls), None
+        while left:
+            at = grid.evaluate(
+                "grid => document.getElementById(grid.getAttribute('aria-activedescendant'))?.dataset.name ?? null"
+            )
+            if at in left:
+                person.press("Space")
+                left.remove(at)
+            elif at == last:
+                raise AssertionError(f"not in the list: {left}")
+            else:
+                last = at
+                person.press("Control+ArrowDown")
+        self.person.page.wait_for_function(
+            "count => window.meshforgeViewport.selected().length === count", arg=len(hulls)
+        )
+
+    def label(self, hulls: list[tuple[str, str]]) -> None:
+        """Say of some hulls what they are, one asset and label after the other."""
+        words = [row["name"] for row in self.studio.settled()["project"]["vocabulary"]]
+        wanted = dict[tuple[str, str], set[str]]()
+        for asset, hull in hulls:
+            wanted.setdefault((asset, self.truth[asset][hull]), set()).add(hull)
+        self.person.press("Alt+1")
+        for (asset, word), names in wanted.items():
+            self.open_asset(asset)
+            self.choose(asset, frozenset(names))
+            self.person.press(str(words.index(word) + 1))
+
+    def show(self, asset: str) -> None:
+        """Demonstrate on an asset all that is wanted of it, where earlier demonstrations say what the rules do."""
+        self.person.drawn(asset)
+        for step, wanted in enumerate(self.selections[asset], 1):
+            guessed(self.person, step)
+            if frozenset(self.person.page.evaluate("window.meshforgeViewport.selected()")) != wanted:
+                self.choose(asset, wanted)
+            self.person.press("Enter")
+            stepped(self.person, step)
+
+
+def _asks_another(last: dict[str, Any] | None, hello: dict[str, Any]) -> bool:
+    """Whether all is worked out, and something else is asked than before."""
+    over = not hello["learning"] and not hello["assessing"] and hello["outcome"] is not None
+    return over and open_question(hello) != last
+
+
+def open_question(hello: dict[str, Any]) -> dict[str, Any] | None:
+    """What is asked: by learning itself, as a reading; by the assessment; or a label that learning thinks wrong."""
+    outcome = hello["outcome"] or {}
+    if own := outcome.get("question"):
+        return {"kind": "reading", "text": None, "hulls": [], **own}
+    found: dict[str, Any] | None = (hello["assessment"] or {}).get("question")
+    repairs = outcome.get("repairs") or []
+    if repairs and (found is None or _is_among(found, repairs)):
+        return {"kind": "proposal", **repairs[0]}
+    return found
+
+
+def _is_among(question: dict[str, Any], repairs: list[dict[str, Any]]) -> bool:
+    """Whether learning proposes the same, which the page then shows once."""
+    places = [(hull["asset"], hull["hull"]) for hull in question["hulls"]]
+    return question["kind"] in ("group", "repair") and places in [[(one["asset"], one["hull"])] for one in repairs]
+
+
+def volumes_of(mesh: SymbolicMesh) -> list[float]:
+    """The volumes of the hulls of a mesh [m³], in order."""
+    return sorted(round(hull.volume, 6) for hull in mesh.hulls)

@@ -1,0 +1,73 @@
+"""Eight chairs from a dropped folder, from nothing to signed off and exported: all of it in the browser."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+from zipfile import ZipFile
+
+from meshforge.formats import load
+from meshforge.language import Program
+from tests.e2e.chair_family import WORDS, write_chairs
+from tests.e2e.expert import Expert, volumes_of
+from tests.e2e.hand import Hand, chromium, hand
+from tests.e2e.labelling import label_look_alikes
+from tests.e2e.studio import ending, started
+from tests.e2e.transfer import drop, save
+from tests.e2e.walk import PAGE, address, show_alike
+
+MEANT = Program.parse(f"""labels {", ".join(WORDS)}
+
+Is(slat) => Delete
+Is(leg)  => Each(Merge)
+""")
+FIRST, SECOND = "chair_0.obj", "chair_1.obj"
+
+
+def test_eight_chairs_go_from_a_dropped_folder_to_an_export(tmp_path: Path) -> None:
+    source, folder = tmp_path / "chairs", tmp_path / "projects" / "my chairs"
+    truth, _ = write_chairs(source)
+    with ending(started("studio", "--page", str(PAGE))) as studio, chromium() as browser:
+        person = hand(browser)
+        person.page.goto(address(studio))
+        person.page.get_by_role("heading", name="Recent projects").wait_for()
+        drop(person, source)
+        person.sees("8 OBJ")
+        person.page.get_by_label("Project folder").fill(str(folder))
+        person.press("Enter")
+        person.drawn(FIRST)
+        studio.settled()
+        person.click(person.page.get_by_label("New labels, separated by commas"))
+        person.type(", ".join(WORDS))
+        person.press("Enter", "Escape")
+        label_look_alikes(person, truth, WORDS)
+        studio.cards(lambda cards: all(card["given"] == card["hulls"] for card in cards.values()))
+        person.press("Escape", "Alt+2")
+        expert = Expert(person, studio, source, truth, MEANT, folder)
+        expert.open_asset(FIRST)
+        slat, leg = (next(name for name, its in truth[FIRST].items() if its == part) for part in ("slat", "leg"))
+        show_alike(person, slat, "x", steps=1)
+        show_alike(person, leg, "m", "e", steps=2)
+        expert.open_asset(SECOND)
+        expert.show(SECOND)
+        expert.answer_all(lambda hello: _is_honest(person, hello))
+        person.press("Alt+4")
+        person.sees("Signed off 8 of 8")
+        assert person.page.locator("[data-mood=good]").count()
+        person.click("Apply to all")
+        studio.cards(lambda cards: all(card["output"] == "edited" and not card["stale"] for card in cards.values()))
+        person.click(person.page.get_by_role("radio", name="Export"))
+        person.click("Export 8 assets")
+        person.sees("The last export")
+        with ZipFile(save(person, "Download the results", tmp_path)) as archive:
+            archive.extractall(tmp_path / "zipped")
+        assert not person.complaints
+    print(f"\neight chairs: {person.actions} clicks and keys, cards: {dict(expert.answered)}")
+    for exported in (folder / "export", tmp_path / "zipped"):
+        assert {asset: volumes_of(load(exported / asset)) for asset in truth} == expert.volumes
+
+
+def _is_honest(person: Hand, hello: dict[str, Any]) -> None:
+    """Nothing is green while something is held."""
+    if hello["assessment"] and hello["assessment"]["held"]:
+        assert not person.page.locator("[data-mood=good]").count()
