@@ -30,7 +30,10 @@ def reach(person: Hand, name: str) -> None:
 
 
 @pytest.mark.slow
-def test_a_project_is_made_and_its_family_changed_by_the_keyboard_alone(tmp_path: Path) -> None:
+def test_a_project_is_made_and_its_family_changed_by_the_keyboard_alone(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("MESHFORGE_STATE", str(tmp_path / "state"))  # no projects of other tests among the recent ones
     source = tmp_path / "desks"
     source.mkdir()
     names = ["table_01.obj", "table_02.obj", "table_03.obj"]
