@@ -38,6 +38,22 @@ addEventListener('keydown', () => window.watched.keys.push(performance.now()), t
 """Notes when an asset's first frame was drawn, and when keys were pressed [ms since the page was asked for]."""
 
 
+def watch_events(start: str, event: str) -> str:
+    """A script for a page, before its own: `start` first, then `event` for each `event` that the server sends."""
+    return f"""{start}
+const Before = window.WebSocket;
+window.WebSocket = class extends Before {{
+  constructor(...given) {{
+    super(...given);
+    this.addEventListener('message', ({{ data }}) => {{
+      const event = JSON.parse(data);
+      {event}
+    }});
+  }}
+}};
+"""
+
+
 @contextmanager
 def studio(project: Path) -> Iterator[str]:
     """The address of a studio that serves a project, which the user's list of recent projects does not get."""

@@ -16,25 +16,20 @@ from websockets.sync.client import connect
 from websockets.typing import Subprotocol
 
 from benchmark.report import Goal, Result, Table, Tell
-from benchmark.studio.browser import chromium, open_asset, studio
+from benchmark.studio.browser import chromium, open_asset, studio, watch_events
 from meshforge.cli.demo import create_tables
 from meshforge.studio.api.connection import PROTOCOL
 
 OPEN, SHOWN = "table_05.obj", "table_08.obj"
 """A table of which nothing is shown, and one that demonstrates."""
-OUTCOMES = """
+OUTCOMES = watch_events(
+    start="""
 window.outcomes = [];
-const Before = window.WebSocket;
-window.WebSocket = class extends Before {
-  constructor(...given) {
-    super(...given);
-    this.addEventListener('message', ({ data }) => {
-      const event = JSON.parse(data);
-      if (event.kind === 'outcome' && !event.learning) requestAnimationFrame(() => outcomes.push(performance.now()));
-    });
-  }
-};
-"""
+""",
+    event="""
+if (event.kind === 'outcome' && !event.learning) requestAnimationFrame(() => outcomes.push(performance.now()));
+""",
+)
 """Notes when what was learned is on the page [ms since the page was asked for]."""
 
 Change = Callable[[], None]

@@ -10,27 +10,22 @@ from pathlib import Path
 from playwright.sync_api import Page
 
 from benchmark.report import Goal, Result, Table, Tell
-from benchmark.studio.browser import chromium, open_asset, studio
+from benchmark.studio.browser import chromium, open_asset, studio, watch_events
 from meshforge.project import Project
 from meshforge.samples import TABLES
 
 ASSETS = 75
 HULL = "convex_02"
 """A hull that every table has, and that no demonstration is about."""
-_WATCH = """
+_WATCH = watch_events(
+    start="""
 window.shown = { cards: new Set(), reach: 0 };
-const Before = window.WebSocket;
-window.WebSocket = class extends Before {
-  constructor(...given) {
-    super(...given);
-    this.addEventListener('message', ({ data }) => {
-      const event = JSON.parse(data);
-      if (event.kind === 'cards') for (const card of event.cards) window.shown.cards.add(card.asset);
-      if (event.kind === 'reach' && event.reach.length) window.shown.reach += 1;
-    });
-  }
-};
-"""
+""",
+    event="""
+if (event.kind === 'cards') for (const card of event.cards) window.shown.cards.add(card.asset);
+if (event.kind === 'reach' && event.reach.length) window.shown.reach += 1;
+""",
+)
 """Notes which cards came anew, and how often what the program does on all assets came."""
 _REPLY = """
 async ([token, edit, patience]) => {

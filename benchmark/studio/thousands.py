@@ -9,28 +9,23 @@ from pathlib import Path
 from playwright.sync_api import Browser
 
 from benchmark.report import Goal, Result, Table, Tell
-from benchmark.studio.browser import chromium, open_asset, studio
+from benchmark.studio.browser import chromium, open_asset, studio, watch_events
 from benchmark.studio.families import project_of
 from benchmark.studio.scrolling import SCROLL
 
 HULLS = 4
 SLOW = 1000 / 30
 """Milliseconds of a frame that is seen to stutter."""
-_COUNT_UNREAD = """
+_COUNT_UNREAD = watch_events(
+    start="""
 window.unread = -1;
 const known = new Map();
-const Before = window.WebSocket;
-window.WebSocket = class extends Before {
-  constructor(...given) {
-    super(...given);
-    this.addEventListener('message', ({ data }) => {
-      const event = JSON.parse(data);
-      for (const card of event.cards ?? []) known.set(card.asset, card.hulls !== null || card.error !== null);
-      if (event.cards) window.unread = [...known.values()].filter((read) => !read).length;
-    });
-  }
-};
-"""
+""",
+    event="""
+for (const card of event.cards ?? []) known.set(card.asset, card.hulls !== null || card.error !== null);
+if (event.cards) window.unread = [...known.values()].filter((read) => !read).length;
+""",
+)
 """Counts the assets that are not read yet."""
 _WAIT_MINUTES = 20
 
