@@ -27,13 +27,17 @@ export function Questions() {
   const repairs = useProject((state) => state.outcome?.repairs) ?? NO_REPAIRS;
   const [repair] = repairs;
   const id = asked ? (asked.own ?? asked.review)?.id : repair?.id;
+  const last = useRef<string | null>(null);
   useEffect(() => {
+    // only another question, or a call, moves the view
+    const now = `${id} ${calls}`;
+    if (now === last.current) return;
+    last.current = now;
     if (takeCall()) hold();
     if (!id || !box.current?.contains(document.activeElement)) return;
     if (asked) showInView(asked);
     else if (repair) showRepair(repair);
-    // only another question, or a call, moves the view
-  }, [id, calls]);
+  }, [id, calls, asked, repair, hold]);
   return (
     <CardFocusContext value={focus}>
       <div
