@@ -48,12 +48,17 @@ class AssetSet:
         """The assets by id: the path below the common folder, with forward slashes."""
         return {asset_id(path, self.base_of(path)): path for path in self.paths}
 
+    @cached_property
+    def suffixes(self) -> frozenset[str]:
+        """Those of the assets, as they are written."""
+        return frozenset(path.suffix for path in self.paths)
+
     def base_of(self, path: Path) -> Path:
         """The folder that the id of an asset counts from."""
         is_own = self.home is not None and path.is_relative_to(self.added) and not path.is_relative_to(self.base)
         return self.home if self.home is not None and is_own else self.base
 
-    @property
+    @cached_property
     def added(self) -> Path:
         """The folder that assets come to which are added: never one of somebody's sources, in a project."""
         return (self.home or self.base) / ADDED
@@ -111,7 +116,8 @@ def _match_glob(pattern: str, root: Path) -> list[Path]:
     """What a glob matches: files of known formats, and the assets of folders; under `**`, files only."""
     start = _base_folder(pattern, root)
     hits = [plain_path(root / name) for name in expand_glob(pattern, root)]
-    hits = [hit for hit in hits if not is_own(hit, start)]
+    own = {folder for folder in {hit.parent for hit in hits} if is_own(folder, start)}
+    hits = [hit for hit in hits if hit.parent not in own and not (hit.is_dir() and is_own(hit, start))]
     found = [hit for hit in hits if is_asset(hit)]
     if "**" not in pattern:
         found += [asset for hit in hits if hit.is_dir() for asset in find_assets_in(hit)]

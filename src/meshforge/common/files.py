@@ -136,7 +136,7 @@ def is_beyond_reach(path: Path) -> bool:
 
 def relative_name(path: Path, base: Path) -> str:
     """A path as seen from a folder, with forward slashes."""
-    return Path(os.path.relpath(path, base)).as_posix()
+    return os.path.relpath(path, base).replace(os.sep, "/")
 
 
 def plain_path(path: Path) -> Path:

@@ -23,6 +23,7 @@ from meshforge.synthesis import Demonstration, advance, begin_replay
 def build_jobs(store: Store, only: Collection[str] | None = None) -> tuple[batch.AssetJob, ...]:
     """A job for each asset, or for some, with the project's labels and edits by hand."""
     layout = store.layout
+    some = store.found.ids.keys() if only is None else frozenset(only)
     return tuple(
         batch.AssetJob(
             asset,
@@ -33,7 +34,7 @@ def build_jobs(store: Store, only: Collection[str] | None = None) -> tuple[batch
             layout.preparation(asset) if (layout.preparation(asset) / batch.RECORD_FILE).exists() else None,
         )
         for asset, path in store.found.ids.items()
-        if only is None or asset in only
+        if asset in some
     )
 
 

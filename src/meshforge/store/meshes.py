@@ -6,6 +6,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Generator, Mapping
 from dataclasses import dataclass, replace
+from functools import lru_cache
 from pathlib import Path
 from time import monotonic
 from typing import Literal
@@ -79,8 +80,9 @@ def iterate_survey(
     Those whose files changed since are read; what was read is kept now and then, and at the end. layout: where the
     project keeps preparations, and these facts; progress: called for each that had to be read.
     """
-    known = _FactsMemory(layout.survey, found.ids)
-    wanted = {key: path for key, path in found.ids.items() if only is None or key in only}
+    known = _FactsMemory(layout.survey, found)
+    some = found.ids.keys() if only is None else frozenset(only)
+    wanted = {key: path for key, path in found.ids.items() if key in some}
     work = {key: _AssetPaths(path, found.base_of(path), layout.preparation(key)) for key, path in wanted.items()}
     fresh = {key for key, own in work.items() if key in known.facts and _is_current(known.facts[key], own)}
     todo = tuple(own for key, own in work.items() if key not in fresh)
@@ -102,13 +104,13 @@ def iterate_survey(
 
 
 class _FactsMemory:
-    """What is known of assets, in memory and in a file; ids: of those that there are."""
+    """What is known of assets, in memory and in a file; found: those that there are."""
 
-    def __init__(self, file: Path, ids: Collection[str]) -> None:
-        self._file, self._ids = file, ids
-        self._software = batch.software_version(map(plugin_of_suffix, {Path(key).suffix for key in ids}))
+    def __init__(self, file: Path, found: batch.AssetSet) -> None:
+        self._file, self._ids = file, found.ids
+        self._software = batch.software_version(map(plugin_of_suffix, found.suffixes))
         kept = _read_memory(file, self._software)
-        self.facts = {key: kept[key] for key in ids if key in kept}
+        self.facts = {key: kept[key] for key in self._ids if key in kept}
         self._has_news = len(self.facts) < len(kept)
         self._kept_at, self._pause = monotonic(), _OFTEN
 
@@ -135,13 +137,19 @@ def geometry_digest(hulls: Mapping[str, str]) -> str:
     return batch.text_digest("\n".join(f"{name} {known}" for name, known in hulls.items()))
 
 
-def _read_memory(memory: Path, software: str) -> dict[str, AssetFacts]:
+def _read_memory(memory: Path, software: str) -> Mapping[str, AssetFacts]:
     """The facts that were kept; none of them where the file is damaged or from another version."""
     try:
-        kept = _SurveyFile.model_validate_json(memory.read_bytes())
+        kept = _parse_memory(memory, _time_and_size(memory))
     except (OSError, ValidationError):
         return {}
     return kept.assets if kept.software == software else {}
+
+
+@lru_cache(maxsize=1)
+def _parse_memory(memory: Path, time_and_size: tuple[int, int]) -> _SurveyFile:
+    """The file as it was at that time: the studio looks at the same one for each portion of a large family."""
+    return _SurveyFile.model_validate_json(memory.read_bytes())
 
 
 @dataclass(frozen=True, slots=True)

@@ -56,6 +56,11 @@ class PageState:
             return tuple(self._cards.values())
 
     @property
+    def count(self) -> int:
+        """How many assets there are."""
+        return len(self._cards)
+
+    @property
     def outcome(self) -> OutcomeView | None:
         return self._rest.outcome
 
@@ -90,7 +95,8 @@ class PageState:
         """Show cards of these assets, in this order, and no others; gives those that are new."""
         with self._lock:
             new = tuple(asset for asset in assets if asset not in self._cards)
-            gone = tuple(asset for asset in self._cards if asset not in set(assets))
+            present = set(assets)
+            gone = tuple(asset for asset in self._cards if asset not in present)
             fresh = {asset: Card(asset=asset) for asset in new}
             self._cards = {asset: fresh.get(asset) or self._cards[asset] for asset in assets}
             if new or gone:

@@ -4,7 +4,7 @@ import { Boxes, LayoutGrid, PanelLeftClose } from "lucide-react";
 import { LabelChanges } from "./LabelChanges";
 import { useShown } from "../store/family";
 import { makeHulls, useIsDecomposing } from "../store/jobs";
-import { useProject } from "../store/project";
+import { oncePerFamily, useProject } from "../store/project";
 import { setLayout, useLayout } from "../store/workspace";
 import { Button, IconButton } from "../ui/Button";
 import { AddMenu } from "./AddAssets";
@@ -92,14 +92,13 @@ function ReadProgress() {
   );
 }
 
+const listBare = oncePerFamily((cards) => cards.filter((card) => card.hulls === 0 && card.sources > 0).map((card) => card.asset));
+
 /** Assets that have geometry, yet no hulls: making them. */
 function MissingHulls() {
-  const bare = useProject((state) =>
-    state.order.filter((asset) => state.cards[asset]?.hulls === 0 && (state.cards[asset]?.sources ?? 0) > 0).join("\n"),
-  );
+  const assets = useProject((state) => listBare(state.cards));
   const making = useIsDecomposing();
-  if (!bare || making) return null;
-  const assets = bare.split("\n");
+  if (!assets.length || making) return null;
   return (
     <div className={css.notice}>
       <span>{assets.length === 1 ? "One asset has no hulls." : `${assets.length} assets have no hulls.`}</span>

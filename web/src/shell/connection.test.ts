@@ -215,6 +215,27 @@ describe("the first word of the server", () => {
     expect([page.useWorkspace.getState().stage, page.useWorkspace.getState().asset]).toEqual(["label", "b"]);
   });
 
+  it("leaves an asset that turns out to be unreadable, unless the person has opened another", async () => {
+    const unread = { hulls: null, picture: null };
+    for (const moved of [false, true]) {
+      const page = await load();
+      const cards = ["a", "b", "c"].map((asset) => page.sampleCard({ asset, ...unread }));
+      page.connect();
+      hello(page, { cards });
+      expect(page.useWorkspace.getState().asset).toBe("a");
+      if (moved) page.openAsset("b");
+      page.receive({ kind: "cards", cards: [page.sampleCard({ asset: "a", ...unread, error: "no mesh" })], gone: [] });
+      expect(page.useWorkspace.getState().asset).toBe(moved ? "b" : "a");
+      page.receive({ kind: "cards", cards: [page.sampleCard({ asset: "c" })], gone: [] });
+      expect(page.useWorkspace.getState().asset).toBe(moved ? "b" : "c");
+      page.openAsset("a");
+      page.receive({ kind: "cards", cards: [page.sampleCard({ asset: "b" })], gone: [] });
+      expect(page.useWorkspace.getState().asset).toBe("a");
+      storage.kept.clear();
+      shared.kept.clear();
+    }
+  });
+
   it("is not disturbed by what was kept and cannot be read", async () => {
     storage.setItem("meshforge.place", "{broken");
     const page = await load();

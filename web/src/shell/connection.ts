@@ -77,8 +77,23 @@ function restorePlace(): void {
   const known = before.asset !== null && before.asset in cards ? before.asset : null;
   const readable = order.find((asset) => cards[asset]?.error === null && cards[asset].hulls !== 0);
   openAsset(known ?? project.next.asset ?? readable ?? order[0] ?? null);
+  if (known === null) leaveUnreadable();
   const { hand } = own;
   if (hand && known !== null) useWorkspace.setState({ ...hand, selection: new Set(hand.selection) });
+}
+
+/** Where the asset that was opened unasked cannot be read, or has no hulls, goes on to the first that has some. */
+function leaveUnreadable(): void {
+  const { asset: opened } = useWorkspace.getState();
+  const stop = useProject.subscribe(({ cards, order }) => {
+    const card = cards[opened ?? ""];
+    const isUnread = card?.hulls === null && card.error === null;
+    if (isUnread) return;
+    const better = useWorkspace.getState().asset === opened && !card?.hulls ? order.find((asset) => cards[asset]?.hulls) : opened;
+    if (better === undefined) return; // the others are still being read
+    stop();
+    if (better !== opened) openAsset(better);
+  });
 }
 
 const PLACE_KEY = "meshforge.place";

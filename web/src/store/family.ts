@@ -42,8 +42,11 @@ export const matchesFilter = (card: Card, filter: FilterName, engine = "", sure?
 
 /** How many cards each filter would show. */
 export function countByFilter(cards: Cards, engine = "", confidence: Confidence = {}): Record<FilterName, number> {
-  const all = Object.values(cards);
-  return Object.fromEntries(FILTERS.map((name) => [name, all.filter((card) => MATCHES[name](card, engine, confidence[card.asset])).length])) as Record<FilterName, number>;
+  const counts = Object.fromEntries(FILTERS.map((name) => [name, 0])) as Record<FilterName, number>;
+  for (const card of Object.values(cards)) {
+    for (const name of FILTERS) counts[name] += Number(MATCHES[name](card, engine, confidence[card.asset]));
+  }
+  return counts;
 }
 
 /** The assets to show: any of the filters that are on, every word of the search, sorted. */
@@ -57,7 +60,7 @@ export function filterAssets(
 ): readonly string[] {
   const words = filters.search.toLowerCase().split(/\s+/).filter(Boolean);
   const labels = project.vocabulary.map((label) => label.name.toLowerCase());
-  const kept = order.filter((asset) => {
+  const kept = sortByName(order).filter((asset) => {
     const card = cards[asset];
     if (!card) return false;
     const wanted = filters.only.length === 0 || filters.only.some((name) => MATCHES[name](card, engine, confidence[asset]));
@@ -82,18 +85,29 @@ const AMOUNT: Readonly<Record<Amount, (card: Card, engine: string) => number>> =
   findings: (card, engine) => weightOf(card, engine),
 };
 
+/** Sorts assets that are in order by name. */
 function sortAssets(
-  assets: readonly string[],
+  named: readonly string[],
   cards: Cards,
   by: Filters["sort"],
   engine: string,
   confidence: Confidence,
 ): readonly string[] {
-  const natural = [...assets].sort(byName.compare);
-  if (by === "name") return natural;
-  if (by === "probability") return natural.sort((a, b) => urgency(confidence[a]) - urgency(confidence[b]));
-  const amounts = new Map(natural.map((asset) => [asset, amount(cards[asset], by, engine)]));
-  return natural.sort((a, b) => (amounts.get(b) ?? 0) - (amounts.get(a) ?? 0));
+  if (by === "name") return named;
+  const amounts =
+    by === "probability"
+      ? new Map(named.map((asset) => [asset, -urgency(confidence[asset])]))
+      : new Map(named.map((asset) => [asset, amount(cards[asset], by, engine)]));
+  return [...named].sort((a, b) => (amounts.get(b) ?? 0) - (amounts.get(a) ?? 0));
+}
+
+const sorted = new WeakMap<readonly string[], readonly string[]>();
+
+/** The assets by name, numbers in them by their size; a list is sorted once. */
+function sortByName(order: readonly string[]): readonly string[] {
+  const found = sorted.get(order) ?? [...order].sort(byName.compare);
+  sorted.set(order, found);
+  return found;
 }
 
 /** The least probable first; after them those that a person set aside, and those of which nothing is known. */

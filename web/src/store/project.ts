@@ -126,11 +126,11 @@ export function applyEvent(state: ProjectState, event: Event): ProjectState {
     case "cards": {
       const gone = new Set(event.gone);
       const fresh = event.cards.map((card) => card.asset).filter((asset) => !(asset in state.cards));
-      const cards = Object.fromEntries(Object.entries(state.cards).filter(([asset]) => !gone.has(asset)));
+      const kept = gone.size ? Object.fromEntries(Object.entries(state.cards).filter(([asset]) => !gone.has(asset))) : state.cards;
       const order = gone.size ? state.order.filter((asset) => !gone.has(asset)) : state.order;
       return {
         ...state,
-        cards: { ...cards, ...byAsset(event.cards) },
+        cards: { ...kept, ...byAsset(event.cards) },
         order: fresh.length ? [...order, ...fresh].sort() : order,
       };
     }
@@ -167,9 +167,20 @@ export function receive(event: Event): void {
   useProject.setState((state) => applyEvent(state, event), true);
 }
 
+type Cards = ProjectState["cards"];
+
+/** Works something out from all cards once, however many ask, until one of the cards is another. */
+export function oncePerFamily<T>(compute: (cards: readonly Card[]) => T): (cards: Cards) => T {
+  const known = new WeakMap<Cards, { result: T }>();
+  return (cards) => {
+    const found = known.get(cards) ?? { result: compute(Object.values(cards)) };
+    known.set(cards, found);
+    return found.result;
+  };
+}
+
 /** How many assets could be read. */
-export const countReadable = (cards: ProjectState["cards"]): number =>
-  Object.values(cards).filter((card) => card.hulls !== null).length;
+export const countReadable = oncePerFamily((cards) => cards.filter((card) => card.hulls !== null).length);
 
 function byAsset<T extends { asset: string }>(rows: readonly T[]): Record<string, T> {
   return Object.fromEntries(rows.map((row) => [row.asset, row]));

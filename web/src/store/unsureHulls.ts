@@ -1,7 +1,7 @@
 // Hulls whose label is not sure: how many, and the queue in which each is labelled and then comes the next.
 import type { Card } from "../wire";
 import { labelHulls, ownHulls } from "./labels";
-import { useProject } from "./project";
+import { oncePerFamily, useProject } from "./project";
 import { getDetails, useScenes } from "./scenes";
 import { notify, reportError } from "./toasts";
 import { lookFrom, openAsset, openStage, select, setBrush, setLayout, useWorkspace } from "./workspace";
@@ -30,27 +30,27 @@ export function nextUnsure(cards: Cards, order: readonly string[], from: Place |
 }
 
 /** Hulls of the family with and without a label, those that are unsure, and on how many assets. */
-export function labelProgress(cards: Cards): { hulls: number; labelled: number; unsure: number; assets: number } {
+export const labelProgress = oncePerFamily((cards) => {
   const sum = { hulls: 0, labelled: 0, unsure: 0, assets: 0 };
-  for (const { labels, unsure } of Object.values(cards)) {
+  for (const { labels, unsure } of cards) {
     sum.hulls += labels.length;
     sum.labelled += labels.filter((label) => label >= 0).length;
     sum.unsure += unsure.length;
     sum.assets += unsure.length ? 1 : 0;
   }
   return sum;
-}
+});
 
 /** Hulls of the family, how many of them a person or a file labelled, and on how many assets. */
-export function givenLabels(cards: Cards): { hulls: number; given: number; assets: number } {
+export const givenLabels = oncePerFamily((cards) => {
   const sum = { hulls: 0, given: 0, assets: 0 };
-  for (const { labels, given } of Object.values(cards)) {
+  for (const { labels, given } of cards) {
     sum.hulls += labels.length;
     sum.given += given;
     sum.assets += given ? 1 : 0;
   }
   return sum;
-}
+});
 
 /** Whether a hull of an asset, by name, is one of those whose label is not sure. */
 export function isUnsure(card: Card | undefined, own: readonly { name: string }[], name: string): boolean {

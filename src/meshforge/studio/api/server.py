@@ -88,6 +88,7 @@ def _make_config(host: Host, token: str, page: Path) -> uvicorn.Config:
         lifespan="off",
         ws="websockets-sansio",
         ws_max_size=2**16,
+        ws_per_message_deflate=False,  # pages are on this machine: packing what they get takes longer than sending it
         timeout_graceful_shutdown=2,
         server_header=False,
     )

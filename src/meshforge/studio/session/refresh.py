@@ -5,7 +5,9 @@ from __future__ import annotations
 import logging
 from collections.abc import Callable, Iterable, Mapping
 from functools import partial
+from itertools import islice
 from threading import Condition, Thread
+from time import monotonic
 
 from meshforge.batch import read_stamp
 from meshforge.common import MeshForgeError, StoppedError, describe_error
@@ -20,6 +22,7 @@ from meshforge.studio.wire.jobs import Job
 
 _LOG = logging.getLogger(__name__)
 _FEWEST, _PORTIONS = 8, 20
+_REPORT_SECONDS = 0.2
 
 
 def initial_view(project: Project) -> ProjectView:
@@ -39,7 +42,7 @@ class Refresher:
         self._project, self._pages, self._checks, self._label_changes = project, pages, checks, label_changes
         self.queue = RefreshQueue(self.refresh, self.portion_size)
         self._names: dict[str, tuple[str, ...]] = {}
-        self._read = 0
+        self._read, self._next_report = 0, 0.0
         self._job: Job | None = None
 
     @property
@@ -99,11 +102,13 @@ class Refresher:
     def _count_read(self) -> None:
         """One asset had to be read; called from another thread."""
         self._read += 1
-        self._report_progress()
+        if monotonic() >= self._next_report:
+            self._next_report = monotonic() + _REPORT_SECONDS
+            self._report_progress()
 
     def _report_progress(self) -> None:
         """Show how far the reading is, where there is any that takes time."""
-        total, left = len(self._pages.cards), self.queue.remaining
+        total, left = self._pages.count, self.queue.remaining
         if self._job is None and self._read and left:
             self._job = Job(id="read", kind="read", title="Reading assets", total=total)
         if self._job:
@@ -136,7 +141,12 @@ class RefreshQueue:
     def add(self, assets: Iterable[str] = (), *, later: bool = False) -> None:
         """Have some assets refreshed, and the project; later: after those that are urgent."""
         with self._wake:
-            (self._rest if later else self._urgent).update(dict.fromkeys(assets))
+            for asset in assets:
+                if not later:
+                    self._rest.pop(asset, None)
+                    self._urgent[asset] = None
+                elif asset not in self._urgent:
+                    self._rest[asset] = None
             self._whole = True
             self._wake.notify()
 
@@ -144,7 +154,7 @@ class RefreshQueue:
     def remaining(self) -> int:
         """How many assets are still to be refreshed."""
         with self._wake:
-            return len(self._urgent | self._rest)
+            return len(self._urgent) + len(self._rest)
 
     def is_closed(self) -> bool:
         """Whether the queue is closed, so that the refresh that is running is to stop."""
@@ -170,8 +180,7 @@ class RefreshQueue:
 
     def _take_portion(self) -> tuple[str, ...]:
         source = self._urgent or self._rest
-        assets = tuple(source)[: self._size()]
+        assets = tuple(islice(source, self._size()))
         for asset in assets:
-            self._urgent.pop(asset, None)
-            self._rest.pop(asset, None)
+            del source[asset]
         return assets
