@@ -2,6 +2,7 @@
 import { useEffect, useMemo, useRef, useState, useSyncExternalStore } from "react";
 import { useProject } from "../store/project";
 import { toRgb } from "./cssColor";
+import { drawSoon } from "./drawQueue";
 import { type IdMap, paintPixels } from "./idMap";
 import { decodePicture, findPicture, requestPicture } from "./pictureCache";
 import css from "./pictures.module.css";
@@ -22,12 +23,17 @@ type IdPictureProps = Source & {
 export function IdPicture({ asset, label, colors, hatched, width, className, ...source }: IdPictureProps) {
   const canvas = useRef<HTMLCanvasElement>(null);
   const { map, current, failed } = useIdMap(source.png ? { png: source.png } : { url: source.url ?? "" });
+  const [drawn, setDrawn] = useState(false);
   const look = useTheme();
   const paint = useMemo(() => ({ color: (k: number) => toRgb(colors(k)), hatched }), [colors, hatched]);
   useEffect(() => {
+    const element = canvas.current;
     // what was painted before stays until the next picture is there: its hulls are others
-    if (!map || !current || !canvas.current) return;
-    draw(canvas.current, new ImageData(paintPixels(map, paint), map.width, map.height));
+    if (!map || !current || !element) return;
+    return drawSoon(element, () => {
+      draw(element, new ImageData(paintPixels(map, paint), map.width, map.height));
+      setDrawn(true);
+    });
   }, [map, current, paint, look]);
   const said = label ?? (asset === undefined ? "Picture of an asset" : `Picture of ${asset}`);
   return (
@@ -37,7 +43,7 @@ export function IdPicture({ asset, label, colors, hatched, width, className, ...
       role={said ? "img" : undefined}
       aria-label={said || undefined}
       aria-hidden={said ? undefined : true}
-      data-state={map ? "there" : failed ? "failed" : "coming"}
+      data-state={drawn ? "there" : failed ? "failed" : "coming"}
     >
       <canvas ref={canvas} aria-hidden />
       {failed && !map && <span className={css.missing}>No picture</span>}
