@@ -89,7 +89,7 @@ function OutputCounts() {
   return (
     <dl className={css.tally}>
       {rows.map(([what, count]) => (
-        <div key={what} data-what={what}>
+        <div key={what} data-what={what} data-some={count > 0}>
           <dd>{count.toLocaleString("en-GB")}</dd>
           <dt>{what}</dt>
         </div>
