@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from meshforge.labels.label_by_propagation import PropagationResult
     from meshforge.labels.label_store import LabelStore
     from meshforge.labels.merge import LabelOutcome, label_new_hulls
-    from meshforge.labels.offers import OfferCache
+    from meshforge.labels.offers import LabelOffers, OfferCache
     from meshforge.labels.summary import Proposal, Proposals, SourceTally, Tally
     from meshforge.labels.vlm.endpoint import endpoint_of
     from meshforge.labels.vlm.label_by_vlm import VlmForecast, VlmResult, check_vlm_settings
@@ -31,6 +31,7 @@ __all__ = [
     "ConsensusResult",
     "LabelChange",
     "LabelFileOptions",
+    "LabelOffers",
     "LabelOutcome",
     "LabelStore",
     "OfferCache",

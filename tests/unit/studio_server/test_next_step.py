@@ -4,6 +4,7 @@ from collections.abc import Sequence
 
 import pytest
 
+from meshforge.labels import LabelOffers
 from meshforge.studio.queries.project import choose_next_step
 from meshforge.studio.wire.family import Card, Next
 from meshforge.studio.wire.jobs import PropagationState
@@ -41,6 +42,18 @@ def test_the_stages_follow_one_another() -> None:
     assert stage(SHOWN, outcome=FOUND) == "learn"
     assert stage(SHOWN, program=True, outcome=FOUND) == "review"
     assert stage(DONE, program=True, outcome=FOUND) == "review"
+
+
+def test_labels_that_are_there_already_are_taken_first() -> None:
+    def say(card: Card, offers: LabelOffers, words: tuple[str, ...] = ()) -> str:
+        return choose_next_step([card], words, False, None, None, last, find_offers=lambda: offers).say
+
+    files, names = LabelOffers(files=("a", "b")), LabelOffers(names={"a": {"h": "leg"}})
+    assert say(BARE, files) == "Labels files lie beside 2 assets: take their labels."
+    assert say(BARE, names, ("leg",)) == "The names of 1 hull say a label: take their labels."
+    for offers in (files, names):
+        assert "take" not in say(BEGUN, offers, ("leg",)) and "take" not in say(SHOWN, offers, ("leg",))
+    assert say(BARE, LabelOffers()) == "Name what hulls can be: the labels of this family."
 
 
 def test_the_step_names_the_asset_to_go_to() -> None:

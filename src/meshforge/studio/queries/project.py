@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from importlib.util import find_spec
 
 from meshforge.common import MeshForgeError, pluralize
-from meshforge.labels import check_vlm_settings, endpoint_of
+from meshforge.labels import LabelOffers, check_vlm_settings, endpoint_of
 from meshforge.language import explain
 from meshforge.project import AssetStatus, Project
 from meshforge.rendering import UNSURE, label_color
@@ -31,15 +31,17 @@ def choose_next_step(
     suggest: Callable[[Sequence[str]], str | None],
     propagated: PropagationState | None = None,
     assessment: AssessmentView | None = None,
+    find_offers: Callable[[], LabelOffers] = LabelOffers,
 ) -> Next:
     """The first thing that is missing on the way from assets to exported outputs.
 
     outcome: the outcome of the last learning run; problem: why the program cannot be applied; suggest: which of some
     assets, by id, to demonstrate first; propagated: what is known of the last propagation of labels; assessment: how
-    sure the edits are, as far as it is known.
+    sure the edits are, as far as it is known; find_offers: labels that files and names say.
     """
     return (
         _step_for_hulls(cards)
+        or _step_for_first_labels(cards, find_offers)
         or (None if vocabulary else Next(stage="label", say="Name what hulls can be: the labels of this family."))
         or _step_before_learning(cards, has_program, suggest, propagated)
         or _step_for_learning(outcome, has_program)
@@ -57,6 +59,20 @@ def _step_for_hulls(cards: Sequence[Card]) -> Next | None:
         return None
     say = f"{_count_assets(bare, 'has', 'have')} no hulls: decompose what is shown there."
     return Next(stage="label", say=say, asset=bare[0].asset)
+
+
+def _step_for_first_labels(cards: Sequence[Card], find_offers: Callable[[], LabelOffers]) -> Next | None:
+    """To take labels that are there already, where no hull has one yet."""
+    if any(place >= 0 or card.demonstrated for card in cards for place in card.labels):
+        return None
+    offers = find_offers()
+    if offers.files:
+        say = f"Labels files lie beside {pluralize(len(offers.files), 'asset')}: take their labels."
+        return Next(stage="label", say=say)
+    if offers.names:
+        count = sum(map(len, offers.names.values()))
+        return Next(stage="label", say=f"The names of {pluralize(count, 'hull')} say a label: take their labels.")
+    return None
 
 
 def _count_assets(cards: Sequence[Card], one: str, many: str) -> str:

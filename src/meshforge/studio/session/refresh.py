@@ -11,6 +11,7 @@ from time import monotonic
 
 from meshforge.batch import read_stamp
 from meshforge.common import MeshForgeError, StoppedError, describe_error
+from meshforge.labels import LabelOffers, OfferCache
 from meshforge.project import Project, Status, suggest_first_demonstration
 from meshforge.studio.label_changes import LabelChanges
 from meshforge.studio.output_checks import OutputChecks
@@ -37,9 +38,15 @@ class Refresher:
     """
 
     def __init__(
-        self, project: Callable[[], Project], pages: PageState, checks: OutputChecks, label_changes: LabelChanges
+        self,
+        project: Callable[[], Project],
+        pages: PageState,
+        checks: OutputChecks,
+        label_changes: LabelChanges,
+        offers: OfferCache,
     ) -> None:
         self._project, self._pages, self._checks, self._label_changes = project, pages, checks, label_changes
+        self._offers = offers
         self.queue = RefreshQueue(self.refresh, self.portion_size)
         self._names: dict[str, tuple[str, ...]] = {}
         self._read, self._next_report = 0, 0.0
@@ -96,8 +103,17 @@ class Refresher:
             suggest,
             propagated,
             self._pages.assessment,
+            self._find_offers,
         )
         return build_project_view(project, cards, next_step, status.problem, status.lost, propagated)
+
+    def _find_offers(self) -> LabelOffers:
+        try:
+            return self._offers.of(
+                self._project(), {card.asset for card in self._pages.cards if card.hulls is not None}
+            )
+        except MeshForgeError:  # taking the labels says why
+            return LabelOffers()
 
     def _count_read(self) -> None:
         """One asset had to be read; called from another thread."""

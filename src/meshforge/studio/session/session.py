@@ -75,7 +75,7 @@ class Session:
         self.checks = OutputChecks(own / "checks", self._checkers)
         self.uploads, self.downloads = Uploads(own / "uploads"), Downloads(own / "downloads")
         # the queue's thread must see the project that is open when it works, not the first one
-        refresher = Refresher(lambda: self.project, self.pages, self.checks, self.label_changes)
+        refresher = Refresher(lambda: self.project, self.pages, self.checks, self.label_changes, self.offers)
         self.refresh_queue = refresher.queue
         self._early_labels = EarlyLabels(self.pages, lambda: refresher.names)
         self.learning = LearningScheduler(
