@@ -1409,13 +1409,15 @@ export interface SimilarRequest {
 }
 /**
  * Hulls that look like those of the request, these included. step: the one that was taken; more: whether another
- * step may take more; unread: assets that could not be looked in.
+ * step may take more; unread: assets that could not be looked in; passed_over: how many were not, as there are too
+ * many.
  */
 export interface SimilarView {
   found: HullsOfAsset[];
   step: number;
   more: boolean;
   unread: string[];
+  passed_over: number;
 }
 /**
  * An upload is stored. names: of a template, as actions write it; or the paths of asset files; problems: why other

@@ -70,10 +70,13 @@ class SimilarHulls:
         Raises NotHereError for a hull that is not there, AssetError where its asset cannot be read.
         """
         homes = tuple(dict.fromkeys(one.asset for one in request.hulls))
-        wanted = [asset for asset in request.assets or readable if asset in set(readable)]
-        described, unread = self._describe_all(project, homes, choose_assets(homes, wanted))
+        present = set(readable)
+        wanted = [asset for asset in request.assets or readable if asset in present]
+        chosen = choose_assets(homes, wanted)
+        described, unread = self._describe_all(project, homes, chosen)
+        passed_over = len(set(wanted) - set(chosen)) if request.assets else 0
         if not homes:
-            return SimilarView(found=(), step=0, more=False, unread=unread)
+            return SimilarView(found=(), step=0, more=False, unread=unread, passed_over=passed_over)
         hulls = _find_places(described, request)
         none = np.zeros((0, 2), dtype=np.int64)
         table = FamilyTable.of([(one.rows, none) for one in described.values()])
@@ -81,7 +84,9 @@ class SimilarHulls:
         others = None if request.assets is None else np.arange(len(described))
         found, step = find_similar(table, np.unique(hulls), excluded, others, request.step)
         last = len(OWN_STEPS if others is None else OTHER_STEPS) - 1
-        return SimilarView(found=_group(described, found), step=step, more=step < last, unread=unread)
+        return SimilarView(
+            found=_group(described, found), step=step, more=step < last, unread=unread, passed_over=passed_over
+        )
 
     def _describe_all(
         self, project: Project, homes: Iterable[str], assets: Iterable[str]

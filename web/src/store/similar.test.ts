@@ -8,6 +8,7 @@ import { sampleCard } from "./sample.test-help";
 import { useScenes } from "./scenes";
 import { selectSimilar, useSimilar } from "./similar";
 import { applyLabel } from "./unsureHulls";
+import { useToasts } from "./toasts";
 import { initialWorkspace, openAsset, openStage, select, selectMore, showSheet, useWorkspace } from "./workspace";
 
 const hulls = ["x", "y", "z"].map((name) => ({ name, label: null }));
@@ -16,6 +17,7 @@ const answer = (found: Record<string, string[]>, more = true, step = 0): Similar
   step,
   more,
   unread: [],
+  passed_over: 0,
 });
 const selected = () => [...useWorkspace.getState().selection].sort();
 const elsewhere = () => Object.fromEntries(useWorkspace.getState().elsewhere);
@@ -38,6 +40,13 @@ describe("look-alikes on all assets", () => {
     await selectSimilar("everywhere");
     expect(vi.mocked(api.similar).mock.calls[0]?.[0]).toEqual({ hulls: [{ asset: "a", hull: "x" }], assets: ["a", "b", "c"], step: 0 });
     expect([selected(), elsewhere()]).toEqual([["x", "y"], { b: ["u"], c: ["v", "w"] }]);
+  });
+
+  it("are not looked for in more assets than there is time for, and the person is told so", async () => {
+    vi.mocked(api.similar).mockResolvedValue({ ...answer({ a: ["x", "y"] }), passed_over: 9600 });
+    select(["x"]);
+    await selectSimilar("everywhere");
+    expect(useToasts.getState().toasts.at(-1)?.text).toBe("9,600 assets were not looked in, as there are too many: filter the family to look in others.");
   });
 
   it("are asked for in the next step by the same key, from what one began with, as long as nothing was changed", async () => {

@@ -40,6 +40,8 @@ export async function selectSimilar(where: Where): Promise<void> {
     useSimilar.setState({ last: { where, origin, found: keyOf(all), step: found.step, more: found.more } });
     if (all.length === selected.length) notify(`No other hull looks like ${selected.length === 1 ? "it" : "these"}.`);
     if (found.unread.length) notify(`${countText(found.unread.length, "asset")} could not be looked in: ${found.unread[0]}`);
+    const { passed_over: over } = found;
+    if (over) notify(`${countText(over, "asset")} ${over === 1 ? "was" : "were"} not looked in, as there are too many: filter the family to look in others.`);
   } catch (error) {
     if (!(error instanceof ServerProblem)) throw error;
     reportError(error);

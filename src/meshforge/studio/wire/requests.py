@@ -63,12 +63,14 @@ class HullsOfAsset(Wire):
 
 class SimilarView(Wire):
     """Hulls that look like those of the request, these included. step: the one that was taken; more: whether another
-    step may take more; unread: assets that could not be looked in."""
+    step may take more; unread: assets that could not be looked in; passed_over: how many were not, as there are too
+    many."""
 
     found: tuple[HullsOfAsset, ...]
     step: int
     more: bool
     unread: tuple[str, ...]
+    passed_over: int
 
 
 class CheckRequest(Wire):
