@@ -109,10 +109,9 @@ def _apply(person: Hand) -> None:
 
 
 def _export(person: Hand) -> None:
-    person.reach(person.page.get_by_role("group", name="What to review").locator("[tabindex='0']"))
-    person.press("End", "Enter")
-    person.reach(person.page.get_by_role("group", name="Which outputs").locator("[tabindex='0']"))
-    person.press("End", "Enter")
+    for choice in ("What to review", "Which outputs"):
+        person.reach(person.page.get_by_label(choice).get_by_role("radio", checked=True))
+        person.press("End", "Enter")
     person.reach(person.button(f"Export {COUNT} assets"))
     person.press("Enter")
     person.sees("The last export")
