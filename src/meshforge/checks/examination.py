@@ -18,7 +18,7 @@ from meshforge.checks.registry import CHECKS, MEASURES, run_checks
 from meshforge.common import UsageError, suggest_among
 from meshforge.engines import ENGINES, Finding, check_limits, find_engine
 from meshforge.geometry import Floats, Ints
-from meshforge.rendering import draw_heat_map, draw_volumes
+from meshforge.rendering import LengthUnit, draw_heat_map, draw_volumes
 from meshforge.symbolic import Surface, SymbolicMesh
 
 if TYPE_CHECKING:
@@ -188,10 +188,13 @@ COLORS = {"closed": "#D64545", "opened": "#3B7DD8"}
 
 
 def draw_examination(
-    mesh: SymbolicMesh, found: Examination, size: tuple[int, int] = (640, 480)
+    mesh: SymbolicMesh, found: Examination, size: tuple[int, int] = (640, 480), unit: LengthUnit = "m"
 ) -> Iterator[tuple[str, str, Image]]:
-    """A name for a file, a line of text and a picture each: heat maps of the fit, and what was closed and opened."""
-    maps = draw_fit(mesh, found.fit, size) if found.fit else None
+    """A name for a file, a line of text and a picture each: heat maps of the fit, and what was closed and opened.
+
+    unit: of the legends; the lines have metres and litres.
+    """
+    maps = draw_fit(mesh, found.fit, size, unit) if found.fit else None
     if maps and found.fit:
         yield "fit-out", f"hulls stick out by {found.fit.out:.3g} m at most", maps[0]
         yield "fit-bare", f"visual mesh, {found.fit.bare:.3g} m off all hulls at most", maps[1]
@@ -202,7 +205,9 @@ def draw_examination(
             yield name, text, draw_volumes(mesh, marked, size=size, title=f"space about the {part.reference}")
 
 
-def draw_fit(mesh: SymbolicMesh, found: MeshFit, size: tuple[int, int] = (640, 480)) -> tuple[Image, Image] | None:
+def draw_fit(
+    mesh: SymbolicMesh, found: MeshFit, size: tuple[int, int] = (640, 480), unit: LengthUnit = "m"
+) -> tuple[Image, Image] | None:
     """Two pictures: the hulls by how far they stick out, and the visual mesh by how far it lies off all hulls.
 
     None where nothing is shown. The strongest colour is for twice the length that matters; what is below a cell has
@@ -224,8 +229,8 @@ def draw_fit(mesh: SymbolicMesh, found: MeshFit, size: tuple[int, int] = (640, 4
 
     titles = "hulls: how far they stick out", "visual mesh: how far off all hulls"
     return (
-        draw_heat_map(mesh, hulls, out, most, size=size, title=titles[0]),
-        draw_heat_map(mesh, seen, bare, most, size=size, title=titles[1]),
+        draw_heat_map(mesh, hulls, out, most, size=size, title=titles[0], unit=unit),
+        draw_heat_map(mesh, seen, bare, most, size=size, title=titles[1], unit=unit),
     )
 
 

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from meshforge.common.exports import export_lazily
 from meshforge.rendering.compare import (
+    LengthUnit,
     compare,
     draw_before_after,
     draw_changes,
@@ -58,6 +59,7 @@ __all__ = [
     "VIEWS",
     "ColorBy",
     "LabelingPicture",
+    "LengthUnit",
     "RenderMesh",
     "ThumbnailPixels",
     "Up",

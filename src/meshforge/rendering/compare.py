@@ -7,7 +7,7 @@ import itertools
 from collections import Counter
 from collections.abc import Callable, Collection, Container, Sequence
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
@@ -186,6 +186,8 @@ def _draw_bare(what: Subject, bounds: Aabb | None, view: View, size: tuple[int, 
 BANDS = ("#E4E8EC", "#F6D55C", "#F29E4C", "#E5573F", "#B3164B", "#5B0F5E")
 """The colours of lengths, from nothing to most."""
 
+LengthUnit = Literal["m", "mm"]
+
 VolumeMark = tuple[str, str, Surface]
 """What a part of space is called, its colour `#rrggbb`, and its surface."""
 
@@ -198,10 +200,12 @@ def draw_heat_map(
     *,
     size: tuple[int, int],
     title: str,
+    unit: LengthUnit = "m",
 ) -> Image:
     """Things coloured by `measure`, a length [m] at points (n, 3) of things of these numbers (n,), in six bands.
 
-    most: where the last band begins [m], the first is a quarter of it wide; mesh: says which axis points up.
+    most: where the last band begins [m], the first is a quarter of it wide; mesh: says which axis points up; unit: of
+    the legend.
     """
     edges: Floats = np.maximum(most, 1e-9) * np.array([0.25, 0.4, 0.6, 0.8, 1.0])  # after the first band
     colors = np.array([rgb(color) for color in BANDS])
@@ -212,15 +216,15 @@ def draw_heat_map(
     render_meshes = [to_render_mesh(thing) for thing in things]
     layer = DrawLayer(render_meshes, np.tile(colors[0], (len(render_meshes), 1)), tint=tint)
     subject = Subject((layer,), points_to_frame(render_meshes, ()), picture.up_axis(mesh))
-    canvas = Canvas(size, "light", title, None, HullColors(colors, _band_legend(edges)))
+    canvas = Canvas(size, "light", title, None, HullColors(colors, _band_legend(edges, unit)))
     draw_on_canvas(canvas, subject)
     return canvas.image
 
 
-def _band_legend(edges: Floats) -> tuple[LegendEntry, ...]:
-    texts = [f"{edge:.3g}" for edge in edges]
+def _band_legend(edges: Floats, unit: LengthUnit) -> tuple[LegendEntry, ...]:
+    texts = [f"{edge:.3g}" for edge in edges * {"m": 1, "mm": 1000}[unit]]
     between = [f"{a} to {b}" for a, b in itertools.pairwise(texts)]
-    words = [f"below {texts[0]} m", *between, f"above {texts[-1]} m"]
+    words = [f"below {texts[0]} {unit}", *between, f"above {texts[-1]} {unit}"]
     return tuple(LegendEntry(color, word) for color, word in zip(BANDS, words, strict=True))
 
 

@@ -14,7 +14,7 @@ from meshforge.batch import ExecutionOptions, WorkerFailure, count_processors, m
 from meshforge.checks import draw_examination, examine_mesh
 from meshforge.common import MeshForgeError, ProjectError, describe_error, write_atomically
 from meshforge.project import Project
-from meshforge.rendering import encode_png
+from meshforge.rendering import LengthUnit, encode_png
 from meshforge.studio.errors import NotHereError
 from meshforge.studio.output_measures import MEASURES, MeasureTask, check_key, measure, read_pair
 from meshforge.studio.wire.asset import CheckPart, CheckPicture, CheckResult, Fault
@@ -42,11 +42,13 @@ class OutputChecks:
         kept = self._cache.read(work.key, part)
         return future_of(kept) if kept else self._workers.start(_measure_part, work, part, self._cache)
 
-    def draw_pictures(self, project: Project, asset: str, part: CheckPart) -> Future[tuple[CheckPicture, ...]]:
+    def draw_pictures(
+        self, project: Project, asset: str, part: CheckPart, unit: LengthUnit = "m"
+    ) -> Future[tuple[CheckPicture, ...]]:
         """The pictures of a part, drawn if they are not cached. Raises ProjectError where there is no output."""
         work = _make_task(project, asset)
-        kept = self._cache.read_pictures(work.key, part)
-        return future_of(kept) if kept is not None else self._workers.start(_draw, work, part, self._cache)
+        kept = self._cache.read_pictures(work.key, part, unit)
+        return future_of(kept) if kept is not None else self._workers.start(_draw, work, part, unit, self._cache)
 
     def read_picture(self, asset: str, key: str, name: str) -> bytes:
         """A picture that was drawn. Raises NotHereError for any other."""
@@ -122,12 +124,12 @@ def _measure_all(work: tuple[MeasureTask, ResultCache]) -> str | None:
     return problem
 
 
-def _draw(task: MeasureTask, part: CheckPart, cache: ResultCache) -> tuple[CheckPicture, ...]:
+def _draw(task: MeasureTask, part: CheckPart, unit: LengthUnit, cache: ResultCache) -> tuple[CheckPicture, ...]:
     pair = read_pair(task)
     found = examine_mesh(pair.after, MEASURES[part], pair.before) if part in MEASURES else None
-    rows = draw_examination(pair.after, found, PICTURE_SIZE) if found else ()
-    drawn = [(CheckPicture(name=name, text=text), encode_png(image)) for name, text, image in rows]
-    cache.write_pictures(task.key, part, drawn)
+    rows = draw_examination(pair.after, found, PICTURE_SIZE, unit) if found else ()
+    drawn = [(CheckPicture(name=f"{name}-{unit}", text=text), encode_png(image)) for name, text, image in rows]
+    cache.write_pictures(task.key, part, unit, drawn)
     return tuple(picture for picture, _ in drawn)
 
 
@@ -160,20 +162,25 @@ class ResultCache:
         found = [finding for checked in parts for finding in checked.findings]
         return tuple(Fault(rule=f.rule, severity=f.severity, engine=f.engine, new=f.new) for f in found)
 
-    def read_pictures(self, key: str, part: CheckPart) -> tuple[CheckPicture, ...] | None:
+    def read_pictures(self, key: str, part: CheckPart, unit: LengthUnit) -> tuple[CheckPicture, ...] | None:
         """The pictures of a part that were drawn."""
         try:
-            return _PICTURE_LIST.validate_json((self.folder / f"{key}.{part}.pictures.json").read_bytes())
+            return _PICTURE_LIST.validate_json(self._list_path(key, part, unit).read_bytes())
         except (OSError, ValidationError):
             return None
 
-    def write_pictures(self, key: str, part: CheckPart, drawn: Iterable[tuple[CheckPicture, bytes]]) -> None:
+    def write_pictures(
+        self, key: str, part: CheckPart, unit: LengthUnit, drawn: Iterable[tuple[CheckPicture, bytes]]
+    ) -> None:
         """Keep the pictures of a part; the list of them comes last."""
         drawn = tuple(drawn)
         for picture, data in drawn:
             write_atomically(self.picture_path(key, picture.name), data)
         names = _PICTURE_LIST.dump_json(tuple(picture for picture, _ in drawn))
-        write_atomically(self.folder / f"{key}.{part}.pictures.json", names)
+        write_atomically(self._list_path(key, part, unit), names)
+
+    def _list_path(self, key: str, part: CheckPart, unit: LengthUnit) -> Path:
+        return self.folder / f"{key}.{part}.{unit}.pictures.json"
 
     def picture_path(self, key: str, name: str) -> Path:
         """Where a picture is kept."""

@@ -1,12 +1,16 @@
 from __future__ import annotations
 
+from importlib import import_module
+
 import numpy as np
 import pytest
 
 from meshforge.checks.examination import draw_fit
 from meshforge.checks.fit import measure_fit
 from meshforge.checks.legality import find_oddities
-from meshforge.geometry import Aabb, Box, Shape
+from meshforge.geometry import Aabb, Box, Floats, Shape
+from meshforge.rendering import LengthUnit
+from meshforge.rendering.colors import HullColors, LegendEntry
 from meshforge.symbolic import Hull, SymbolicMesh
 from tests.cups import BOTTOM, WALLS, WHOLE, cup
 
@@ -68,6 +72,24 @@ def test_the_heat_map_is_hot_where_the_hull_sticks_out() -> None:
     cool = np.asarray(pair[1].convert("RGB")).astype(int).reshape(-1, 3)
     legend = (cool[:, 0] > cool[:, 1] + 20).sum()
     assert hot > 3 * legend > 0
+
+
+def test_the_legend_of_a_heat_map_has_the_unit_that_is_asked_for(monkeypatch: pytest.MonkeyPatch) -> None:
+    legends: list[list[str]] = []
+    ends: dict[LengthUnit, list[str]] = {
+        "m": ["below 0.00335 m", "above 0.0134 m"],
+        "mm": ["below 3.35 mm", "above 13.4 mm"],
+    }
+
+    def note(colors: Floats, legend: tuple[LegendEntry, ...] = ()) -> HullColors:
+        legends.append([entry.name for entry in legend])
+        return HullColors(colors, legend)
+
+    monkeypatch.setattr(import_module("meshforge.rendering.compare"), "HullColors", note)
+    mesh = cup(box([0, 0, 0], [0.1, 0.1, 0.3]), shown=[WHOLE])
+    for unit, wanted in ends.items():
+        assert draw_fit(mesh, measure_fit(mesh), size=(200, 150), unit=unit)
+        assert [legends[-1][0], legends[-1][-1]] == wanted
 
 
 def rules(*shapes: Shape) -> dict[str, tuple[str, ...]]:

@@ -54,8 +54,8 @@ export const api = {
     withQuery("api/thumbnail", { asset, of, v: version }),
   checked: (asset: string, part: CheckResult["part"], stop: AbortSignal) =>
     getJson<CheckResult>("api/checked", { asset, part }, stop),
-  checkPictures: (asset: string, part: CheckResult["part"], stop: AbortSignal) =>
-    getJson<CheckPicture[]>("api/checked/pictures", { asset, part }, stop),
+  checkPictures: (asset: string, part: CheckResult["part"], unit: "m" | "mm", stop: AbortSignal) =>
+    getJson<CheckPicture[]>("api/checked/pictures", { asset, part, unit }, stop),
   checkPicture: (asset: string, name: string, version: string) =>
     withQuery("api/checked/picture", { asset, name, v: version }),
   edit: (edit: AnyEdit) => postJson<EditReceipt>("api/edit", edit),

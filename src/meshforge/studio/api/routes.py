@@ -16,6 +16,7 @@ from starlette.concurrency import run_in_threadpool
 from meshforge.batch import ADDED
 from meshforge.common import ProjectError, StoppedError, join_names
 from meshforge.language import Program
+from meshforge.rendering import LengthUnit
 from meshforge.studio.api.connection import CurrentSession, SenderId, packet_response
 from meshforge.studio.edits import AnyEdit
 from meshforge.studio.edits.assets import AddAssets, AddTemplate
@@ -174,11 +175,11 @@ async def get_checked(session: CurrentSession, request: Request, asset: str, par
 
 @router.get("/checked/pictures")
 async def get_check_pictures(
-    session: CurrentSession, request: Request, asset: str, part: Literal["fit", "clearance"]
+    session: CurrentSession, request: Request, asset: str, part: Literal["fit", "clearance"], unit: LengthUnit = "m"
 ) -> tuple[CheckPicture, ...]:
-    """The pictures of what is measured."""
+    """The pictures of what is measured; unit: of the lengths in them."""
     session.check_assets(asset)
-    return await _wait_while_connected(request, session.checks.draw_pictures(session.project, asset, part))
+    return await _wait_while_connected(request, session.checks.draw_pictures(session.project, asset, part, unit))
 
 
 @router.get("/checked/picture")

@@ -6,7 +6,7 @@ import { api } from "../../server/api";
 import { getBlob, ServerProblem } from "../../server/http";
 import { type Part, showPictures, useShowsPictures } from "../../store/checks";
 import { reportError } from "../../store/toasts";
-import { textIn } from "../../store/units";
+import { type LengthUnit, textIn } from "../../store/units";
 import { toSentence } from "../../store/words";
 import { useUnit } from "../../store/workspace";
 import { Button, IconButton } from "../../ui/Button";
@@ -36,7 +36,7 @@ type PicturesState = { kind: "coming" } | { kind: "there"; pictures: readonly Ch
 
 function Pictures({ asset, version, part }: PartId) {
   const unit = useUnit();
-  const drawn = usePictures(asset, version, part);
+  const drawn = usePictures(asset, version, part, unit);
   if (drawn.kind === "problem") return <Note mood="bad">{drawn.problem.message}</Note>;
   if (drawn.kind === "coming") {
     return (
@@ -57,12 +57,12 @@ function Pictures({ asset, version, part }: PartId) {
   });
 }
 
-/** The pictures, drawn anew when the output changes; the drawing stops when nobody looks any more. */
-function usePictures(asset: string, version: string, part: Part): PicturesState {
+/** The pictures, drawn anew when the output or the unit changes; the drawing stops when nobody looks any more. */
+function usePictures(asset: string, version: string, part: Part, unit: LengthUnit): PicturesState {
   const [drawn, setDrawn] = useState<PicturesState>({ kind: "coming" });
   useEffect(() => {
     const stop = new AbortController();
-    api.checkPictures(asset, part, stop.signal).then(
+    api.checkPictures(asset, part, unit, stop.signal).then(
       (pictures) => setDrawn({ kind: "there", pictures }),
       (error: unknown) => {
         if (stop.signal.aborted) return;
@@ -71,7 +71,7 @@ function usePictures(asset: string, version: string, part: Part): PicturesState 
       },
     );
     return () => stop.abort();
-  }, [asset, version, part]);
+  }, [asset, version, part, unit]);
   return drawn;
 }
 
