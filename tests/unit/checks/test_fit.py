@@ -77,8 +77,8 @@ def test_the_heat_map_is_hot_where_the_hull_sticks_out() -> None:
 def test_the_legend_of_a_heat_map_has_the_unit_that_is_asked_for(monkeypatch: pytest.MonkeyPatch) -> None:
     legends: list[list[str]] = []
     ends: dict[LengthUnit, list[str]] = {
-        "m": ["below 0.00335 m", "above 0.0134 m"],
-        "mm": ["below 3.35 mm", "above 13.4 mm"],
+        "m": ["below 0.00332 m", "above 0.0133 m"],
+        "mm": ["below 3.32 mm", "above 13.3 mm"],
     }
 
     def note(colors: Floats, legend: tuple[LegendEntry, ...] = ()) -> HullColors:
