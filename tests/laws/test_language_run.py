@@ -3,17 +3,21 @@
 from __future__ import annotations
 
 import itertools
+import re
 from collections import Counter
 
 import numpy as np
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from scipy.spatial import ConvexHull
 
-from meshforge.geometry import Shape
+from meshforge.common import MeshForgeError
+from meshforge.geometry import Shape, digest
 from meshforge.language import All, Delete, Each, Is, Merge, Program, Rule, Scale, apply_action, select_mask
 from meshforge.language.actions.base import Axis
 from meshforge.symbolic import Hull, SymbolicMesh
+from meshforge.synthesis import memoize
 from tests.examples import examples
 from tests.strategies import TEMPLATES, VOCABULARY, meshes, programs, rules, seeds, shape_of
 
@@ -72,6 +76,25 @@ def test_a_hull_that_no_rule_touches_is_the_very_same_object(mesh: SymbolicMesh,
     if result.mesh.hulls == mesh.hulls:
         assert result.mesh is mesh
     assert result.mesh.scale is None and result.mesh.epsilon == mesh.epsilon
+
+
+@given(meshes(), st.lists(programs(VOCABULARY), min_size=1, max_size=3))
+@examples(60)
+def test_runs_that_keep_what_was_made_come_to_the_same(mesh: SymbolicMesh, some: list[Program]) -> None:
+    for program in [*some, *some]:
+        try:
+            wanted = program.run(mesh, TEMPLATES)
+        except MeshForgeError as error:
+            with pytest.raises(type(error), match=re.escape(error.message)):
+                program.run(mesh, TEMPLATES, memo=memoize)
+            continue
+        found = program.run(mesh, TEMPLATES, memo=memoize)
+        assert found.trace == wanted.trace
+        assert [(h.name, h.body, h.annotation, h.parent) for h in found.mesh.hulls] == [
+            (h.name, h.body, h.annotation, h.parent) for h in wanted.mesh.hulls
+        ]
+        for one, other in zip(found.mesh.hulls, wanted.mesh.hulls, strict=True):
+            assert digest(one.shape) == digest(other.shape)
 
 
 @given(meshes(), st.lists(rules(), max_size=3))

@@ -26,6 +26,7 @@ if TYPE_CHECKING:
         RuleTrace,
         apply_action,
         apply_rule,
+        apply_to_selection,
         from_canonical_frame,
         to_canonical_frame,
     )
@@ -107,6 +108,7 @@ __all__ = [
     "WordArgument",
     "apply_action",
     "apply_rule",
+    "apply_to_selection",
     "attach_mask",
     "check_declared",
     "explain",

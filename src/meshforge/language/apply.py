@@ -4,9 +4,9 @@ that frame and back."""
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Hashable, Iterable, Mapping
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import Any, Protocol, TypeVar
 
 import numpy as np
 
@@ -22,6 +22,19 @@ from meshforge.symbolic import Hull, Label, SymbolicMesh, bits_of
 
 _NEW_SUFFIX = re.compile(r"~\d+$")
 _CONVEXITY = 1e-7  # relative to the size
+
+Value = TypeVar("Value")
+
+
+class Memo(Protocol):
+    """Gives what `make` makes for a mesh and a key; where that was asked before, what was made then."""
+
+    def __call__(self, mesh: SymbolicMesh, key: Hashable, kind: type[Value], make: Callable[[], Value]) -> Value: ...
+
+
+def make_anew(mesh: SymbolicMesh, key: Hashable, kind: type[Value], make: Callable[[], Value]) -> Value:
+    """The memo that keeps nothing."""
+    return make()
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -179,12 +192,19 @@ class RuleTrace:
 
 
 def to_canonical_frame(
-    mesh: SymbolicMesh, orient: Orient | None, contact: float | None = None
+    mesh: SymbolicMesh, orient: Orient | None, contact: float | None = None, memo: Memo = make_anew
 ) -> tuple[SymbolicMesh, geometry.Pose]:
     """The mesh as the first rule sees it: oriented, with L fixed; and the pose oriented_T_incoming.
 
     contact: the program's epsilon, None keeps the mesh's.
     """
+    staged, pose = memo(mesh, (orient, contact), tuple, lambda: _to_canonical_frame(mesh, orient, contact))
+    return staged, pose
+
+
+def _to_canonical_frame(
+    mesh: SymbolicMesh, orient: Orient | None, contact: float | None
+) -> tuple[SymbolicMesh, geometry.Pose]:
     oriented, pose = orient_mesh(mesh, orient)
     staged = replace(oriented, epsilon=mesh.epsilon if contact is None else contact, scale=oriented.diagonal)
     if oriented.known_graph is not None and staged.contact_distance == oriented.contact_distance:
@@ -209,11 +229,31 @@ def apply_rule(
     templates: Mapping[str, Template] | None = None,
     extremity: float | None = None,
     used: frozenset[str] = frozenset(),
+    memo: Memo = make_anew,
 ) -> tuple[tuple[str, ...], ActionResult]:
     """Names of the hulls that a rule selects in a staged mesh, and what its action makes of them."""
     mask = select_mask(rule.extractor, mesh, EXTREMITY if extremity is None else extremity)
-    selected = tuple(mesh.hulls[index].name for index in sorted(bits_of(mask)))
-    return selected, apply_action(mesh, mask, rule.action, templates, rule.label, used)
+    return mesh.names_of(mask), apply_to_selection(mesh, mask, rule, templates or {}, used, memo)
+
+
+def apply_to_selection(
+    mesh: SymbolicMesh,
+    mask: int,
+    rule: Rule,
+    templates: Mapping[str, Template],
+    used: frozenset[str],
+    memo: Memo = make_anew,
+) -> ActionResult:
+    """What the action of a rule makes of the hulls of a bit set, whatever its extractor selects."""
+
+    def applied() -> ActionResult:
+        return apply_action(mesh, mask, rule.action, templates, rule.label, used)
+
+    wanted = rule.action.templates
+    if not mask or any(name not in templates for name in wanted):  # nothing to do, or it fails
+        return applied()
+    made_of = tuple(templates[name].digest for name in wanted)
+    return memo(mesh, (mask, rule.action, rule.label, used, made_of), ActionResult, applied)
 
 
 def _restore_hull(incoming: SymbolicMesh, hull: Hull, back: geometry.Pose | None) -> Hull:

@@ -11,7 +11,7 @@ from meshforge.common import MeshForgeError, ProgramError
 from meshforge.language import parse, syntax
 from meshforge.language.actions.base import show_number
 from meshforge.language.actions.edit import Template, check_templates
-from meshforge.language.apply import RuleTrace, apply_rule, from_canonical_frame, to_canonical_frame
+from meshforge.language.apply import Memo, RuleTrace, apply_rule, from_canonical_frame, make_anew, to_canonical_frame
 from meshforge.language.labels import check_declared, check_label, show_label
 from meshforge.language.print import CommentLines, Comments, Rule, show, show_rule
 from meshforge.language.text import Node, ProgramText, TreeReader, subtrees_of
@@ -105,9 +105,12 @@ class Program:
         except UnicodeDecodeError:
             raise ProgramError("the program is not text in UTF-8", where=str(path)) from None
 
-    def run(self, mesh: SymbolicMesh, templates: Mapping[str, Template] | None = None) -> RunResult:
+    def run(
+        self, mesh: SymbolicMesh, templates: Mapping[str, Template] | None = None, *, memo: Memo = make_anew
+    ) -> RunResult:
         """The program's edit of a mesh, with a trace.
 
+        memo: where many programs are run on the same mesh, keeps what each step made, for those that begin alike.
         Hulls that no rule touches come back as the same objects. Raises ProgramError, about the mesh's file where it
         has one: a missing template, no labels, a landmark that gives no direction; GeometryError for a hull that
         cannot be made.
@@ -116,7 +119,7 @@ class Program:
         try:
             check_templates(self.templates, templates)
             self._check_has_labels(mesh)
-            return self._run_rules(mesh, templates)
+            return self._run_rules(mesh, templates, memo)
         except MeshForgeError as error:
             raise error.at(str(mesh.asset.path)) if mesh.asset else error from None
 
@@ -125,11 +128,11 @@ class Program:
             remedy = "Label the asset first (meshforge label), or give its labels with --labels FILE."
             raise ProgramError("no labels: the program asks for labels, and no hull has one", remedy=remedy)
 
-    def _run_rules(self, mesh: SymbolicMesh, templates: Mapping[str, Template]) -> RunResult:
-        current, pose = to_canonical_frame(mesh, self.orient, self.contact)
+    def _run_rules(self, mesh: SymbolicMesh, templates: Mapping[str, Template], memo: Memo) -> RunResult:
+        current, pose = to_canonical_frame(mesh, self.orient, self.contact, memo)
         trace, used = [], frozenset[str]()
         for number, rule in enumerate(self.rules, 1):
-            selected, result = apply_rule(current, rule, templates, self.extremity, used)
+            selected, result = apply_rule(current, rule, templates, self.extremity, used, memo)
             current, used = result.mesh, result.used
             trace.append(RuleTrace(number, selected, result.made, result.note, result.sources))
         return RunResult(from_canonical_frame(mesh, current, pose), tuple(trace))

@@ -80,7 +80,7 @@ class _Plan:
         program, templates = self.task.program, self.task.templates
 
         def make() -> EditMeasures:
-            after = program.run(mesh, templates).mesh
+            after = program.run(mesh, templates, memo=memoize).mesh
             return measure_edit(mesh, replay_corrections(corrections, mesh, after, program, templates)[0])
 
         return memoize(mesh, ("measures", self.key, *map(str, corrections)), EditMeasures, make)

@@ -17,6 +17,7 @@ from meshforge.signoff import ReviewState
 from meshforge.signoff.question import Selections
 from meshforge.store import Review, Store
 from meshforge.symbolic import SymbolicMesh
+from meshforge.synthesis import memoize
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -92,7 +93,7 @@ class FamilyStateReader:
         if program is None or mesh is None:
             return None
         try:
-            trace = program.run(mesh, self._read_templates(program)).trace
+            trace = program.run(mesh, self._read_templates(program), memo=memoize).trace
         except MeshForgeError:
             return None
         found = number_selections(program, {r.rule: r.selected for r in trace})

@@ -179,7 +179,7 @@ def choose_first_demonstration(
 def _stage_or_none(mesh: SymbolicMesh, orient: Orient | None, contact: float | None) -> SymbolicMesh | None:
     """The mesh as the first rule meets it, None where it cannot be turned so."""
     try:
-        return memoize(mesh, (orient, contact), SymbolicMesh, lambda: to_canonical_frame(mesh, orient, contact)[0])
+        return to_canonical_frame(mesh, orient, contact, memoize)[0]
     except MeshForgeError:
         return None
 

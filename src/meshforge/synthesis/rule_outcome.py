@@ -60,7 +60,7 @@ def verify(program: Program, demos: Sequence[Demonstration], templates: Mapping[
 
 def _check_demonstration(program: Program, demo: Demonstration, templates: Mapping[str, Template], name: str) -> bool:
     try:
-        trace = program.run(demo.mesh, templates).trace
+        trace = program.run(demo.mesh, templates, memo=memoize).trace
     except MeshForgeError as error:
         raise error.at(name) from None
     for done in trace:

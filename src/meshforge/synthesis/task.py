@@ -196,12 +196,7 @@ class Replay:
 def begin_replay(name: str, demo: Demonstration, orient: language.Orient | None, contact: float | None) -> Replay:
     """A demonstration before its first rule. Raises ProgramError where the orientation fails on its mesh."""
     try:
-        mesh = memoize(
-            demo.mesh,
-            (orient, contact),
-            SymbolicMesh,
-            lambda: language.to_canonical_frame(demo.mesh, orient, contact)[0],
-        )
+        mesh, _ = language.to_canonical_frame(demo.mesh, orient, contact, memoize)
     except MeshForgeError as error:
         raise error.at(name) from None
     return Replay(name, demo, mesh)
@@ -233,23 +228,10 @@ def advance(
     delta = language.EXTREMITY if extremity is None else extremity
     mask = _mask_of_step(replay, number) if is_given else language.select_mask(rule.extractor, replay.mesh, delta)
     try:
-        applied = _apply(replay, mask, rule, templates)
+        applied = language.apply_to_selection(replay.mesh, mask, rule, templates, replay.used, memoize)
     except MeshForgeError as error:
         raise error.at(f"{replay.name}, rule {number}") from None
     return replace(replay, mesh=applied.mesh, used=applied.used)
-
-
-def _apply(
-    replay: Replay, mask: int, rule: language.Rule, templates: Mapping[str, language.Template]
-) -> language.ActionResult:
-    def applied() -> language.ActionResult:
-        return language.apply_action(replay.mesh, mask, rule.action, templates, rule.label, replay.used)
-
-    wanted = rule.action.templates
-    if not mask or any(name not in templates for name in wanted):  # nothing to do, or it fails
-        return applied()
-    made_of = tuple(templates[name].digest for name in wanted)
-    return memoize(replay.mesh, (mask, rule.action, rule.label, replay.used, made_of), language.ActionResult, applied)
 
 
 def _mask_of_step(replay: Replay, number: int) -> int:

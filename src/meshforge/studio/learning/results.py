@@ -136,7 +136,7 @@ def measure_reach(plan: ProgramWithTemplates, asset: str, mesh: SymbolicMesh) ->
 
 def _measure_reach(plan: ProgramWithTemplates, asset: str, mesh: SymbolicMesh) -> wire.Reach:
     try:
-        run = plan.program.run(mesh, plan.templates)
+        run = plan.program.run(mesh, plan.templates, memo=synthesis.memoize)
     except MeshForgeError as error:
         return wire.Reach(asset=asset, before=len(mesh.hulls), after=len(mesh.hulls), error=error.message)
     origins, rules = HullOrigins(mesh), []
@@ -178,7 +178,7 @@ def _run_rules(plan: ProgramWithTemplates, mesh: SymbolicMesh) -> _RuleMesh:
     try:
         current = synthesis.begin_replay("", synthesis.Demonstration(mesh, ()), program.orient, program.contact).mesh
         for rule in program.rules:
-            _, applied = apply_rule(current, rule, plan.templates, program.extremity, used)
+            _, applied = apply_rule(current, rule, plan.templates, program.extremity, used, synthesis.memoize)
             origins.add(applied.made, applied.sources)
             current, used = applied.mesh, applied.used
     except MeshForgeError:

@@ -12,9 +12,9 @@ from meshforge import language
 from meshforge.common import MeshForgeError
 from meshforge.symbolic import NEAR_MISS, SymbolicMesh
 from meshforge.synthesis.demonstration import Demonstration, Example, RuleSpec, name_demonstrations
-from meshforge.synthesis.options import Layers, Options, OutOfTime, TimeBudget
+from meshforge.synthesis.options import Layers, Options, TimeBudget
 from meshforge.synthesis.search.observation_table import HullTable
-from meshforge.synthesis.search.smallest import Hit, Search, Unfinished
+from meshforge.synthesis.search.smallest import Search
 from meshforge.synthesis.search.terms import enumerate_leaves
 from meshforge.synthesis.task import Replay, example_of
 from meshforge.synthesis.task import advance as advanced
@@ -97,11 +97,10 @@ class OrientationSearch:
         return all(language.select_mask(extractor, one.mesh, delta) == one.selection for one in examples)
 
     def _search(self, rule: RuleInFrame, most: int) -> None:
-        answer = Search(rule.examples, self._frame.labels, self._budget, replace(self._options, max_size=most)).run()
-        if isinstance(answer, Unfinished):
-            raise OutOfTime
-        if isinstance(answer, Hit):
-            self._extractors[rule.signatures] = answer.extractor
+        options = replace(self._options, max_size=most)
+        hit = Search(rule.examples, self._frame.labels, self._budget, options).find_hit()
+        if hit:
+            self._extractors[rule.signatures] = hit.extractor
         else:
             self._none_up_to[rule.signatures] = most
 

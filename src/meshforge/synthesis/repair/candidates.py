@@ -21,7 +21,7 @@ from meshforge.synthesis.demonstration import Example
 from meshforge.synthesis.options import Options, TimeBudget
 from meshforge.synthesis.repair.relabelings import Relabeling, Variant, Variants, relabel
 from meshforge.synthesis.search.bank import Bank, Level, positions
-from meshforge.synthesis.search.smallest import Hit, Search
+from meshforge.synthesis.search.smallest import Search
 from meshforge.synthesis.search.terms import Key, order_key
 
 RelabelingRows = list[tuple[Relabeling, int]]
@@ -163,11 +163,10 @@ def search_larger(
         if largest <= above or searched == MAX_SEARCHES:
             return
         shown = [relabel(example, way.changes) for example, way in zip(examples, ways, strict=True)]
-        answer = Search(shown, vocabulary, budget, replace(options, max_size=largest)).run()
-        budget.check()
-        if isinstance(answer, Hit) and (key := order_key(answer.extractor, places)) not in known and key[0] > above:
+        hit = Search(shown, vocabulary, budget, replace(options, max_size=largest)).find_hit()
+        if hit and (key := order_key(hit.extractor, places)) not in known and key[0] > above:
             known.add(key)
-            candidate = Candidate(answer.extractor, key, tuple(map(tuple, variants.relabelings_for(answer.extractor))))
+            candidate = Candidate(hit.extractor, key, tuple(map(tuple, variants.relabelings_for(hit.extractor))))
             within = min(within, candidate.cost + RIVAL_MARGIN)
             yield candidate
 

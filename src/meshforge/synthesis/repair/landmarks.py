@@ -18,7 +18,7 @@ from meshforge.common import MeshForgeError, pluralize
 from meshforge.geometry import Floats
 from meshforge.label_model import LabelBeliefs, LabelOdds, is_human
 from meshforge.language import All, Extractor, Orient, find_rotation, size_of
-from meshforge.symbolic import Hull, SymbolicMesh
+from meshforge.symbolic import SymbolicMesh
 from meshforge.synthesis.demonstration import name_demonstrations
 from meshforge.synthesis.options import TimeBudget
 from meshforge.synthesis.orientation.attempts import OrientationSearch
@@ -114,22 +114,27 @@ class LandmarkCorrectionSearch:
         return key_cost(order_key(extractor, self._places))
 
     def _find_changes(self) -> list[FrameChange]:
-        """Single corrections that could pay, the least improbable first."""
+        """Single corrections that could pay, the least improbable first, as many as can be tried."""
         orient, within = self._task.frame.orient, self._now - self._least
         if not orient or within <= 0:
             return []
-        found = [
-            change
-            for name, demo in name_demonstrations(self._task.demos)
-            for hull, to, cost in self._list_suspects(name, demo.mesh, orient, within)
-            if (change := self._to_change(name, demo.mesh, hull, to, cost))
-        ]
-        return sorted(found, key=lambda one: (one.cost, one.correction))
+        meshes = {name: demo.mesh for name, demo in name_demonstrations(self._task.demos)}
+        frames = {name: frame for name, mesh in meshes.items() if (frame := self._rotate(mesh)) is not None}
+        suspects = [row for name in frames for row in self._list_suspects(name, meshes[name], orient, within)]
+        found, tried = list[FrameChange](), 0
+        for cost, correction in sorted(suspects):
+            change = self._to_change(correction, meshes[correction.asset], frames[correction.asset], cost)
+            if change:
+                found.append(change)
+                tried += self._is_allowed((change,))
+            if tried == MAX_TRIED:  # a dearer one alone is never tried, nor in a pair
+                break
+        return found
 
     def _list_suspects(
         self, name: str, mesh: SymbolicMesh, orient: Orient, within: float
-    ) -> Iterator[tuple[Hull, str, float]]:
-        """Hulls with the labels that they may have in truth, where either of the two is a landmark's."""
+    ) -> Iterator[tuple[float, LabelCorrection]]:
+        """What it costs to correct labels that may be wrong, where one before or after it is a landmark's."""
         bases = [base for pair in orient.pairs for base in (pair.start, pair.end)]
         landmarks = {base.label for base in bases if not isinstance(base, All)}
         rejected = {(one.hull, one.was) for one in self._task.rejected if one.asset == name}
@@ -140,17 +145,18 @@ class LandmarkCorrectionSearch:
                 if (to in landmarks or hull.label in landmarks) and to != hull.label:
                     cost = self._labels.cost(name, hull, to)
                     if cost < within:
-                        yield hull, to, cost
+                        yield cost, LabelCorrection(name, hull.name, hull.label, to)
 
-    def _to_change(self, name: str, mesh: SymbolicMesh, hull: Hull, to: str, cost: float) -> FrameChange | None:
-        """None where the correction leaves the frame as it is, or leaves no frame."""
-        correction = LabelCorrection(name, hull.name, hull.label, to)
-        labels = [to if one is hull else one.label for one in mesh.hulls]
-        now, then = self._rotate(mesh), self._rotate(mesh, labels)
-        if now is None or then is None:
+    def _to_change(
+        self, correction: LabelCorrection, mesh: SymbolicMesh, now: Floats, cost: float
+    ) -> FrameChange | None:
+        """None where the correction leaves the frame as it is, or leaves no frame. now: the rotation as labels are."""
+        hull = mesh.hull_of(correction.hull)
+        then = self._rotate(mesh, [correction.to if one is hull else one.label for one in mesh.hulls])
+        if then is None:
             return None
         angle = float(np.arccos(np.clip((np.trace(now @ then.T) - 1) / 2, -1, 1)))
-        odds = self._labels.odds_of(name, hull)
+        odds = self._labels.odds_of(correction.asset, hull)
         return FrameChange(correction, cost, odds, angle) if odds and angle >= MIN_TURN else None
 
     def _rotate(self, mesh: SymbolicMesh, labels: Sequence[str | None] | None = None) -> Floats | None:

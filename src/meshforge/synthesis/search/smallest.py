@@ -90,7 +90,7 @@ class Search:
     def run(self) -> SearchResult:
         """The answer, within the limits of the options and the budget."""
         try:
-            return self._find_hit() or self._report_miss()
+            return self.find_hit() or self._report_miss()
         except OutOfTime:
             return Unfinished(
                 self._find_nearest(min(self._exhausted, _NEAREST_SIZE_LATE), TimeBudget(math.inf)), self.tried
@@ -109,7 +109,11 @@ class Search:
         shown = [group for group in every if self.need >> group & 1][: few // 2]
         return tuple(sorted([*shown, *[g for g in every if not self.need >> g & 1][: few - len(shown)]]))
 
-    def _find_hit(self) -> Hit | None:
+    def find_hit(self) -> Hit | None:
+        """The smallest extractor, None where there is none within the limits: what comes nearest is not looked for.
+
+        Raises OutOfTime.
+        """
         if self.options.shortcuts.group and self.field.find_conflict(self.selections):
             return None
         while True:
