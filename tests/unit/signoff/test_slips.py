@@ -97,6 +97,7 @@ def test_a_program_that_nobody_demonstrated_has_no_slips() -> None:
     assert list(find_slips(ReviewState(meshes, FRAME, accepted=seen), program, trials)) == []
 
 
+@pytest.mark.slow
 def test_a_mended_result_is_no_slip() -> None:
     state = answer_wrongly()
     mended = replace(state, mended={"t1": (legs_of("t1") | {"drawer0_bottom", "handle0"},)})

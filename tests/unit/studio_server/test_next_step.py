@@ -5,7 +5,7 @@ from collections.abc import Sequence
 import pytest
 
 from meshforge.labels import LabelOffers
-from meshforge.studio.queries.project import choose_next_step
+from meshforge.studio.queries.project import Lookups, choose_next_step
 from meshforge.studio.wire.family import Card, Next
 from meshforge.studio.wire.jobs import PropagationState
 from meshforge.studio.wire.program import NearestView, OutcomeView, QuestionView, RepairView
@@ -23,8 +23,11 @@ ASKING = FOUND.model_copy(
 REPAIR = RepairView(id="c#h=leg", rule=1, asset="c", hull="h", was=None, to="leg", belief=0.9, why="it looks like one")
 
 
-def last(assets: Sequence[str]) -> str | None:
+def suggest_last(assets: Sequence[str]) -> str | None:
     return assets[-1] if len(assets) > 1 else None
+
+
+last = Lookups(suggest_last)
 
 
 def stage(
@@ -46,7 +49,7 @@ def test_the_stages_follow_one_another() -> None:
 
 def test_labels_that_are_there_already_are_taken_first() -> None:
     def say(card: Card, offers: LabelOffers, words: tuple[str, ...] = ()) -> str:
-        return choose_next_step([card], words, False, None, None, last, find_offers=lambda: offers).say
+        return choose_next_step([card], words, False, None, None, Lookups(suggest_last, lambda: offers)).say
 
     files, names = LabelOffers(files=("a", "b")), LabelOffers(names={"a": {"h": "leg"}})
     assert say(BARE, files) == "Labels files lie beside 2 assets: take their labels."

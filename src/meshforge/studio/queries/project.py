@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass
 from importlib.util import find_spec
 
 from meshforge.common import MeshForgeError, pluralize
@@ -22,28 +23,37 @@ from meshforge.symbolic import GIVEN_SOURCES
 from meshforge.synthesis import Step
 
 
+@dataclass(frozen=True, slots=True)
+class Lookups:
+    """What is looked up only where a step asks for it.
+
+    suggest: which of some assets, by id, to demonstrate first; find_offers: labels that files and names say.
+    """
+
+    suggest: Callable[[Sequence[str]], str | None]
+    find_offers: Callable[[], LabelOffers] = LabelOffers
+
+
 def choose_next_step(
     cards: Sequence[Card],
     vocabulary: Sequence[str],
     has_program: bool,
     outcome: OutcomeView | None,
     problem: str | None,
-    suggest: Callable[[Sequence[str]], str | None],
+    lookups: Lookups,
     propagated: PropagationState | None = None,
     assessment: AssessmentView | None = None,
-    find_offers: Callable[[], LabelOffers] = LabelOffers,
 ) -> Next:
     """The first thing that is missing on the way from assets to exported outputs.
 
-    outcome: the outcome of the last learning run; problem: why the program cannot be applied; suggest: which of some
-    assets, by id, to demonstrate first; propagated: what is known of the last propagation of labels; assessment: how
-    sure the edits are, as far as it is known; find_offers: labels that files and names say.
+    outcome: the outcome of the last learning run; problem: why the program cannot be applied; propagated: what is
+    known of the last propagation of labels; assessment: how sure the edits are, as far as it is known.
     """
     return (
         _step_for_hulls(cards)
-        or _step_for_first_labels(cards, find_offers)
+        or _step_for_first_labels(cards, lookups.find_offers)
         or (None if vocabulary else Next(stage="label", say="Name what hulls can be: the labels of this family."))
-        or _step_before_learning(cards, has_program, suggest, propagated)
+        or _step_before_learning(cards, has_program, lookups.suggest, propagated)
         or _step_for_learning(outcome, has_program)
         or (Next(stage="learn", say=f"The program cannot be applied: {problem.splitlines()[0]}") if problem else None)
         or _step_for_question(assessment)

@@ -17,7 +17,7 @@ from meshforge.studio.label_changes import LabelChanges
 from meshforge.studio.output_checks import OutputChecks
 from meshforge.studio.output_measures import check_key
 from meshforge.studio.pages import PageState
-from meshforge.studio.queries.project import build_card, build_project_view, choose_next_step
+from meshforge.studio.queries.project import Lookups, build_card, build_project_view, choose_next_step
 from meshforge.studio.wire.family import Next, ProjectView
 from meshforge.studio.wire.jobs import Job
 
@@ -92,7 +92,7 @@ class Refresher:
         project, cards = self._project(), self._pages.cards
         program = self._pages.program
         has_program = bool(program.text) and not program.error
-        suggest = partial(suggest_first_demonstration, project)
+        lookups = Lookups(partial(suggest_first_demonstration, project), self._find_offers)
         propagated = self._label_changes.propagation_state(project, cards)
         next_step = choose_next_step(
             cards,
@@ -100,10 +100,9 @@ class Refresher:
             has_program,
             self._pages.outcome,
             status.problem,
-            suggest,
+            lookups,
             propagated,
             self._pages.assessment,
-            self._find_offers,
         )
         return build_project_view(project, cards, next_step, status.problem, status.lost, propagated)
 
