@@ -96,13 +96,14 @@ def open_asset(browser: Browser, address: str, asset: str, watch: str = "") -> P
 def warm(browser: Browser, address: str, asset: str) -> None:
     """Opens the studio once, until the pictures of the family are drawn: server and browser keep much from then on."""
     page = open_asset(browser, address, asset)
-    page.wait_for_function(_DRAWN)
+    page.wait_for_function(DRAWN)
     page.context.close()
 
 
-_DRAWN = """
+DRAWN = """
 () => {
   const pictures = [...document.querySelectorAll('[data-testid=family] [data-state]:has(> canvas)')];
   return pictures.length > 0 && pictures.every((picture) => picture.dataset.state === 'there');
 }
 """
+"""Whether all thumbnails in sight are drawn."""

@@ -6,10 +6,10 @@ import statistics
 import tempfile
 from pathlib import Path
 
-from playwright.sync_api import Browser
+from playwright.sync_api import Browser, Page
 
 from benchmark.report import Goal, Result, Table, Tell
-from benchmark.studio.browser import chromium, open_asset, studio, watch_events
+from benchmark.studio.browser import DRAWN, chromium, open_asset, studio, watch_events
 from benchmark.studio.families import project_of
 from benchmark.studio.scrolling import SCROLL
 
@@ -50,9 +50,11 @@ def measure(tell: Tell, quick: bool) -> Result:
                 page.context.close()
             page = open_asset(browser, address, first)
             page.wait_for_timeout(3000)
-            rows = []
+            rows = list[tuple[str, float, float, float, float]]()
             for turn_name in ("thumbnails not drawn yet", "thumbnails drawn before"):
                 tell(f"thousands: scrolling, {turn_name}")
+                if rows:
+                    _draw_up_to_here(page)
                 page.evaluate("document.querySelector('[data-testid=family]').scrollTop = 0")
                 gaps = page.evaluate(SCROLL, 2000 if quick else 10_000)
                 slow = 100 * sum(gap > SLOW for gap in gaps) / len(gaps)
@@ -72,8 +74,21 @@ def measure(tell: Tell, quick: bool) -> Result:
             Goal("frames a second while scrolling thumbnails drawn before", "at least", 55, rows[1][1]),
             Goal("% of frames over 33 ms while scrolling thumbnails drawn before", "at most", 1, rows[1][4]),
         ),
-        (f"Assets of {HULLS} hulls; every asset was read once before the page was opened.",),
+        (
+            f"Assets of {HULLS} hulls; every asset was read once before the page was opened. Between the two rows each "
+            "thumbnail was waited for; without that a part of them is drawn in the second row, too (2% over 33 ms).",
+        ),
     )
+
+
+def _draw_up_to_here(page: Page) -> None:
+    """Waits screen by screen until all thumbnails from the first one on are drawn."""
+    family = "document.querySelector('[data-testid=family]')"
+    reached, height = page.evaluate(f"[{family}.scrollTop, {family}.clientHeight]")
+    for top in range(0, int(reached) + int(height), int(height)):
+        page.evaluate(f"{family}.scrollTop = {top}")
+        page.wait_for_timeout(100)
+        page.wait_for_function(DRAWN)
 
 
 def _wait_until_read(browser: Browser, address: str, first: str) -> None:

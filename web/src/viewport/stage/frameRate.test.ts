@@ -103,4 +103,15 @@ describe("time for shadows", () => {
     expect(rested).toHaveBeenCalledOnce();
     expect(rate.hasTime(100.17)).toBe(true);
   });
+
+  it("is not there in a first frame that comes late either", () => {
+    const rested = vi.fn();
+    const rate = new FrameRate(rested, true);
+    rate.settle(100);
+    expect(rate.begin(100.5)).toBeLessThan(1);
+    expect(rate.hasTime(100.5)).toBe(false);
+    vi.advanceTimersByTime(200);
+    expect(rested).toHaveBeenCalledOnce();
+    expect([rate.begin(100.7), rate.hasTime(100.7)]).toEqual([1, true]);
+  });
 });

@@ -16,6 +16,8 @@ export class FrameRate {
   private timer: ReturnType<typeof setTimeout> | undefined;
 
   private settles = -Infinity;
+  /** Whether no frame was drawn since it was last to settle. */
+  private waits = false;
 
   /** rested: called when it has come to rest after it was drawn coarsely; slow: whether drawing always is. */
   constructor(
@@ -33,6 +35,7 @@ export class FrameRate {
   settle(now: number): void {
     this.settles = now + REST;
     if (!this.heavy && !this.slow) return;
+    this.waits = true;
     clearTimeout(this.timer);
     this.timer = setTimeout(this.rested, 1000 * (REST + LATE));
   }
@@ -48,17 +51,21 @@ export class FrameRate {
     this.taken = 0;
   }
 
-  /** The share of the pixels in each direction that a frame that begins now is to have; below 1 it is coarse. */
+  /** The share of the pixels in each direction that a frame that begins now is to have; below 1 it is coarse, as also
+   * the first of another asset where drawing is slow. */
   begin(now: number): number {
     const moves = now - this.moved < REST;
     const apart = now - this.last;
     this.last = now;
+    if (this.waits && now >= this.settles) this.settle(now); // a first frame that comes late is quick all the same
+    this.waits = false;
     if (moves && apart < PAUSE && !this.heavy) {
       this.taken = 0.6 * this.taken + 0.4 * apart;
       this.heavy = this.taken > SLOW;
       if (this.heavy) this.move(this.moved);
     }
-    return moves && this.heavy ? SHARE : 1;
+    const isFirst = this.slow && now < this.settles;
+    return (moves && this.heavy) || isFirst ? SHARE : 1;
   }
 
   stop(): void {
