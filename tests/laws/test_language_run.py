@@ -79,7 +79,7 @@ def test_a_hull_that_no_rule_touches_is_the_very_same_object(mesh: SymbolicMesh,
 
 
 @given(meshes(), st.lists(programs(VOCABULARY), min_size=1, max_size=3))
-@examples(60)
+@examples(25)
 def test_runs_that_keep_what_was_made_come_to_the_same(mesh: SymbolicMesh, some: list[Program]) -> None:
     for program in [*some, *some]:
         try:

@@ -60,6 +60,7 @@ def test_the_learned_program_does_what_was_shown_and_is_not_larger(hidden: Progr
         assert names[0] == names[1]
 
 
+@pytest.mark.slow
 @examples(50)
 @given(hidden_programs, batches, st.data())
 def test_a_demonstration_that_ends_early_leaves_the_later_rules_to_the_others(
