@@ -23,6 +23,11 @@ class LabelOffers:
     files: tuple[str, ...] = ()
     names: Mapping[str, Mapping[str, str]] = field(default_factory=dict)
 
+    @property
+    def named(self) -> int:
+        """How many hulls without a label have names that say one."""
+        return sum(map(len, self.names.values()))
+
 
 class OfferCache:
     """What assets offer, remembered until a file of theirs or the vocabulary changes."""

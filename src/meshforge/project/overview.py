@@ -72,7 +72,7 @@ def compute_status(
 def _count_names(store: Store) -> int:
     """How many hulls without a label have names that say one; 0 where the patterns of the settings make no sense."""
     try:
-        return sum(map(len, OfferCache().of(store).names.values()))
+        return OfferCache().of(store).named
     except MeshForgeError:  # `label --with names` says why
         return 0
 

@@ -56,6 +56,11 @@ class PageState:
             return tuple(self._cards.values())
 
     @property
+    def readable(self) -> frozenset[str]:
+        """The assets that could be read by now."""
+        return frozenset(card.asset for card in self.cards if card.hulls is not None)
+
+    @property
     def count(self) -> int:
         """How many assets there are."""
         return len(self._cards)

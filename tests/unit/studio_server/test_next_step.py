@@ -48,14 +48,15 @@ def test_the_stages_follow_one_another() -> None:
 
 
 def test_labels_that_are_there_already_are_taken_first() -> None:
-    def say(card: Card, offers: LabelOffers, words: tuple[str, ...] = ()) -> str:
-        return choose_next_step([card], words, False, None, None, Lookups(suggest_last, lambda: offers)).say
+    def say(card: Card, offers: LabelOffers, words: tuple[str, ...] = (), program: bool = False) -> str:
+        return choose_next_step([card], words, program, None, None, Lookups(suggest_last, lambda: offers)).say
 
     files, names = LabelOffers(files=("a", "b")), LabelOffers(names={"a": {"h": "leg"}})
     assert say(BARE, files) == "Labels files lie beside 2 assets: take their labels."
     assert say(BARE, names, ("leg",)) == "The names of 1 hull say a label: take their labels."
     for offers in (files, names):
         assert "take" not in say(BEGUN, offers, ("leg",)) and "take" not in say(SHOWN, offers, ("leg",))
+        assert "take" not in say(BARE, offers, ("leg",), program=True), "it asks for no labels: it is applied"
     assert say(BARE, LabelOffers()) == "Name what hulls can be: the labels of this family."
 
 

@@ -252,9 +252,8 @@ def cancel_job(session: CurrentSession, request: requests.JobCancel) -> Job:
 @router.get("/labels/sources")
 def get_label_sources(session: CurrentSession) -> requests.LabelSources:
     """Where labels could come from, as far as assets are read by now."""
-    offered = session.offers.of(session.project, {card.asset for card in session.pages.cards if card.hulls is not None})
-    names = sum(map(len, offered.names.values()))
-    return requests.LabelSources(files=len(offered.files), names=names, model=model_of(session.project))
+    offered = session.offers.of(session.project, session.pages.readable)
+    return requests.LabelSources(files=len(offered.files), names=offered.named, model=model_of(session.project))
 
 
 @router.put("/templates")

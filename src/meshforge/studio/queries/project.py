@@ -51,7 +51,7 @@ def choose_next_step(
     """
     return (
         _step_for_hulls(cards)
-        or _step_for_first_labels(cards, lookups.find_offers)
+        or _step_for_first_labels(cards, has_program, lookups.find_offers)
         or (None if vocabulary else Next(stage="label", say="Name what hulls can be: the labels of this family."))
         or _step_before_learning(cards, has_program, lookups.suggest, propagated)
         or _step_for_learning(outcome, has_program)
@@ -71,17 +71,19 @@ def _step_for_hulls(cards: Sequence[Card]) -> Next | None:
     return Next(stage="label", say=say, asset=bare[0].asset)
 
 
-def _step_for_first_labels(cards: Sequence[Card], find_offers: Callable[[], LabelOffers]) -> Next | None:
-    """To take labels that are there already, where no hull has one yet."""
-    if any(place >= 0 or card.demonstrated for card in cards for place in card.labels):
+def _step_for_first_labels(
+    cards: Sequence[Card], has_program: bool, find_offers: Callable[[], LabelOffers]
+) -> Next | None:
+    """To take labels that are there already, where no hull has one yet and nothing was done without any."""
+    if has_program or any(card.demonstrated or max(card.labels, default=-1) >= 0 for card in cards):
         return None
     offers = find_offers()
     if offers.files:
         say = f"Labels files lie beside {pluralize(len(offers.files), 'asset')}: take their labels."
         return Next(stage="label", say=say)
     if offers.names:
-        count = sum(map(len, offers.names.values()))
-        return Next(stage="label", say=f"The names of {pluralize(count, 'hull')} say a label: take their labels.")
+        say = f"The names of {pluralize(offers.named, 'hull')} say a label: take their labels."
+        return Next(stage="label", say=say)
     return None
 
 

@@ -108,9 +108,7 @@ class Refresher:
 
     def _find_offers(self) -> LabelOffers:
         try:
-            return self._offers.of(
-                self._project(), {card.asset for card in self._pages.cards if card.hulls is not None}
-            )
+            return self._offers.of(self._project(), self._pages.readable)
         except MeshForgeError:  # taking the labels says why
             return LabelOffers()
 

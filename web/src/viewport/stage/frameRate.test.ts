@@ -77,6 +77,12 @@ it("tries another asset finely at first", () => {
   expect(turn(rate, 0.016, 3, 200).at(-1)).toBe(1);
 });
 
+it("draws the first frame of another asset coarsely on a processor, and no other that is drawn quickly", () => {
+  const rate = new FrameRate(() => undefined, true);
+  rate.settle(100);
+  expect([rate.begin(100.4), rate.begin(100.45), ...turn(rate, 0.016, 10, 200)]).toEqual([0.5, ...Array<number>(11).fill(1)]);
+});
+
 describe("time for shadows", () => {
   it("is there in every frame where drawing is fast", () => {
     const rate = new FrameRate(() => undefined);

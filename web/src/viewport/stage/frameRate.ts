@@ -16,7 +16,7 @@ export class FrameRate {
   private timer: ReturnType<typeof setTimeout> | undefined;
 
   private settles = -Infinity;
-  /** Whether no frame was drawn since it was last to settle. */
+  /** Whether the first frame of another asset is still to be drawn. */
   private waits = false;
 
   /** rested: called when it has come to rest after it was drawn coarsely; slow: whether drawing always is. */
@@ -28,14 +28,18 @@ export class FrameRate {
   /** The camera is moved; now: [s]. */
   move(now: number): void {
     this.moved = now;
-    this.settle(now);
+    this.rest(now);
   }
 
   /** What is shown is another one: its first frame is to be quick; now: [s]. */
   settle(now: number): void {
+    this.waits = this.slow;
+    this.rest(now);
+  }
+
+  private rest(now: number): void {
     this.settles = now + REST;
     if (!this.heavy && !this.slow) return;
-    this.waits = true;
     clearTimeout(this.timer);
     this.timer = setTimeout(this.rested, 1000 * (REST + LATE));
   }
@@ -57,14 +61,14 @@ export class FrameRate {
     const moves = now - this.moved < REST;
     const apart = now - this.last;
     this.last = now;
-    if (this.waits && now >= this.settles) this.settle(now); // a first frame that comes late is quick all the same
+    const isFirst = this.waits;
     this.waits = false;
+    if (isFirst) this.rest(now); // however late it comes
     if (moves && apart < PAUSE && !this.heavy) {
       this.taken = 0.6 * this.taken + 0.4 * apart;
       this.heavy = this.taken > SLOW;
       if (this.heavy) this.move(this.moved);
     }
-    const isFirst = this.slow && now < this.settles;
     return (moves && this.heavy) || isFirst ? SHARE : 1;
   }
 
