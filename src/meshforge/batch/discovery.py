@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import glob
 import os
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -47,6 +47,13 @@ class AssetSet:
     def ids(self) -> Mapping[str, Path]:
         """The assets by id: the path below the common folder, with forward slashes."""
         return {asset_id(path, self.base_of(path)): path for path in self.paths}
+
+    def choose(self, only: Collection[str] | None) -> Mapping[str, Path]:
+        """The assets of some ids, in order; None for all."""
+        if only is None:
+            return self.ids
+        some = frozenset(only)
+        return {key: path for key, path in self.ids.items() if key in some}
 
     @cached_property
     def suffixes(self) -> frozenset[str]:

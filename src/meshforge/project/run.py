@@ -23,7 +23,6 @@ from meshforge.synthesis import Demonstration, advance, begin_replay
 def build_jobs(store: Store, only: Collection[str] | None = None) -> tuple[batch.AssetJob, ...]:
     """A job for each asset, or for some, with the project's labels and edits by hand."""
     layout = store.layout
-    some = store.found.ids.keys() if only is None else frozenset(only)
     return tuple(
         batch.AssetJob(
             asset,
@@ -33,8 +32,7 @@ def build_jobs(store: Store, only: Collection[str] | None = None) -> tuple[batch
             store.corrections(asset),
             layout.preparation(asset) if (layout.preparation(asset) / batch.RECORD_FILE).exists() else None,
         )
-        for asset, path in store.found.ids.items()
-        if asset in some
+        for asset, path in store.found.choose(only).items()
     )
 
 

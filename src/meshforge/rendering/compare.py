@@ -187,6 +187,7 @@ BANDS = ("#E4E8EC", "#F6D55C", "#F29E4C", "#E5573F", "#B3164B", "#5B0F5E")
 """The colours of lengths, from nothing to most."""
 
 LengthUnit = Literal["m", "mm"]
+"""What lengths are written in."""
 
 VolumeMark = tuple[str, str, Surface]
 """What a part of space is called, its colour `#rrggbb`, and its surface."""

@@ -81,9 +81,8 @@ def iterate_survey(
     project keeps preparations, and these facts; progress: called for each that had to be read.
     """
     known = _FactsMemory(layout.survey, found)
-    some = found.ids.keys() if only is None else frozenset(only)
-    wanted = {key: path for key, path in found.ids.items() if key in some}
-    work = {key: _AssetPaths(path, found.base_of(path), layout.preparation(key)) for key, path in wanted.items()}
+    wanted = found.choose(only).items()
+    work = {key: _AssetPaths(path, found.base_of(path), layout.preparation(key)) for key, path in wanted}
     fresh = {key for key, own in work.items() if key in known.facts and _is_current(known.facts[key], own)}
     todo = tuple(own for key, own in work.items() if key not in fresh)
     results = batch.execute(_read_facts, todo, replace(execution or batch.ExecutionOptions(), progress=progress))

@@ -2,7 +2,7 @@
 import { useEffect, useMemo, useRef, useState, useSyncExternalStore } from "react";
 import { useProject } from "../store/project";
 import { toRgb } from "./cssColor";
-import { drawSoon } from "./drawQueue";
+import { drawOn, drawSoon } from "./drawQueue";
 import { type IdMap, paintPixels } from "./idMap";
 import { decodePicture, findPicture, requestPicture } from "./pictureCache";
 import css from "./pictures.module.css";
@@ -31,7 +31,7 @@ export function IdPicture({ asset, label, colors, hatched, width, className, ...
     // what was painted before stays until the next picture is there: its hulls are others
     if (!map || !current || !element) return;
     return drawSoon(element, () => {
-      draw(element, new ImageData(paintPixels(map, paint), map.width, map.height));
+      drawOn(element, new ImageData(paintPixels(map, paint), map.width, map.height));
       setDrawn(true);
     });
   }, [map, current, paint, look]);
@@ -49,21 +49,6 @@ export function IdPicture({ asset, label, colors, hatched, width, className, ...
       {failed && !map && <span className={css.missing}>No picture</span>}
     </div>
   );
-}
-
-/** Draws a picture; one that is shown much smaller is made smaller first, as browsers leave its edges ragged. */
-function draw(canvas: HTMLCanvasElement, image: ImageData): void {
-  const wide = canvas.clientWidth * window.devicePixelRatio;
-  const scale = wide > 0 && image.width > 2 * wide ? wide / image.width : 1;
-  canvas.width = Math.round(image.width * scale);
-  canvas.height = Math.round(image.height * scale);
-  // kept by the processor, so that it is painted into the page and not a layer of its own that each frame puts together
-  const context = canvas.getContext("2d", { willReadFrequently: true });
-  if (!context || scale === 1) return context?.putImageData(image, 0, 0);
-  const whole = new OffscreenCanvas(image.width, image.height);
-  whole.getContext("2d")?.putImageData(image, 0, 0);
-  context.imageSmoothingQuality = "high";
-  context.drawImage(whole, 0, 0, canvas.width, canvas.height);
 }
 
 type Source = { url: string; png?: undefined } | { url?: undefined; png: Blob };

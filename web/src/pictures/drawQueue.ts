@@ -1,4 +1,4 @@
-// Pictures are drawn a few in each frame, so that none takes so long that scrolling stutters.
+// Drawing pictures on canvases, a few in each frame, so that none takes so long that scrolling stutters.
 const MOST = 6; // [ms] of drawing in a frame; at least one picture is drawn
 
 const waiting = new Map<object, () => void>();
@@ -30,4 +30,19 @@ function drawSome(): void {
     draw();
     if (performance.now() - began > MOST) return;
   }
+}
+
+/** Draws a picture; one that is shown much smaller is made smaller first, as browsers leave its edges ragged. */
+export function drawOn(canvas: HTMLCanvasElement, image: ImageData): void {
+  const wide = canvas.clientWidth * window.devicePixelRatio;
+  const scale = wide > 0 && image.width > 2 * wide ? wide / image.width : 1;
+  canvas.width = Math.round(image.width * scale);
+  canvas.height = Math.round(image.height * scale);
+  // kept by the processor, so that it is painted into the page and not a layer of its own that each frame puts together
+  const context = canvas.getContext("2d", { willReadFrequently: true });
+  if (!context || scale === 1) return context?.putImageData(image, 0, 0);
+  const whole = new OffscreenCanvas(image.width, image.height);
+  whole.getContext("2d")?.putImageData(image, 0, 0);
+  context.imageSmoothingQuality = "high";
+  context.drawImage(whole, 0, 0, canvas.width, canvas.height);
 }

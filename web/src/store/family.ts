@@ -94,10 +94,8 @@ function sortAssets(
   confidence: Confidence,
 ): readonly string[] {
   if (by === "name") return named;
-  const amounts =
-    by === "probability"
-      ? new Map(named.map((asset) => [asset, -urgency(confidence[asset])]))
-      : new Map(named.map((asset) => [asset, amount(cards[asset], by, engine)]));
+  const weigh = (asset: string) => (by === "probability" ? -urgency(confidence[asset]) : amount(cards[asset], by, engine));
+  const amounts = new Map(named.map((asset) => [asset, weigh(asset)]));
   return [...named].sort((a, b) => (amounts.get(b) ?? 0) - (amounts.get(a) ?? 0));
 }
 
