@@ -4,9 +4,10 @@ A plain run (`script/test`) leaves out what is marked `slow`, the loops on real 
 and tries a fifth of the examples of each law. `--all` runs all of them; so does naming a path, `-k` or `-m`, for what
 is named. Laws are tried on the same examples every time; `--explore` draws new ones.
 
-In an `--all` run a test that is not marked and takes more than `LIMIT` seconds of CPU time fails the run. CPU time
-counts rather than the clock, so that a busy machine does not matter; it is that of the test and its fixtures of scope
-"function", child processes included. A law may take as much longer as it tries more examples than in a quick run.
+An `--all` run names the tests that are not marked and take more than a second of CPU time, and fails on one that takes
+more than `LIMIT`: so much that no slow machine explains it. CPU time counts rather than the clock, so that a busy
+machine does not matter; it is that of the test and its fixtures of scope "function", child processes included. A law
+may take as much longer as it tries more examples than in a quick run.
 """
 
 from __future__ import annotations
@@ -23,9 +24,10 @@ from hypothesis import is_hypothesis_test, settings
 
 from tests.corpus_path import ABSENT
 
-LIMIT = 2.0
 WARNING = 1.0
-"""Seconds of CPU time; a test that takes more than the lower one today may be over the upper one elsewhere."""
+LIMIT = 5.0
+"""Seconds of CPU time: what is named, and what fails the run. The same test takes twice as long on some machines, and a
+run must not fail for that."""
 SLOW_FOLDERS = ("tests/e2e/", "tests/loop/", "tests/unit/benchmark/")
 QUICK_EXAMPLES = 20
 ALL_EXAMPLES = 100
