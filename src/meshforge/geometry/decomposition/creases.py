@@ -171,8 +171,8 @@ def _choose(piece: Polytope, creases: Creases) -> tuple[Polytope, Polytope] | No
 def _is_inside(points: Floats, piece: Polytope, margin: float) -> Bools:
     """Whether each of some points (n, 3) is in a piece, or at most `margin` [m] outside."""
     low, high = piece.aabb.min - margin, piece.aabb.max + margin
-    found: Bools = ((points >= low) & (points <= high)).all(axis=1)
+    found = np.asarray(((points >= low) & (points <= high)).all(axis=1))
     planes = planes_of(piece.vertices, piece.faces)
     near = points[found] - planes.middle
-    found[found] = (near @ planes.normals.T <= planes.offsets + margin).all(axis=1)
+    found[np.flatnonzero(found)] = (near @ planes.normals.T <= planes.offsets + margin).all(axis=1)
     return found
