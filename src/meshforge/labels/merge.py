@@ -223,22 +223,40 @@ class NewHullLabels:
     gone: tuple[str, ...]
     notes: tuple[str, ...]
 
+    @property
+    def text(self) -> str | None:
+        """What the labels file says at the end; None for no file."""
+        mesh, words = self.mesh, self.store.vocabulary
+        return self.store.labels_text(self.asset, hull_digests(mesh), mesh.labels, words, self.gone)
+
     def write(self, *, keep_old: bool) -> None:
         """Write the labels; keep_old: those of hulls that go stay beside them."""
         store, mesh, away = self.store, self.mesh, () if keep_old else self.gone
         store.write_labels(self.asset, hull_digests(mesh), mesh.labels, store.vocabulary, away)
 
 
-def label_new_hulls(store: Store, asset: str, old: Mapping[str, Shape], mesh: SymbolicMesh) -> NewHullLabels | None:
-    """The labels where hulls `old`, by name, become those of a mesh; None where no label is concerned."""
+def label_new_hulls(
+    store: Store,
+    asset: str,
+    old: Mapping[str, Shape],
+    mesh: SymbolicMesh,
+    known: Mapping[str, Label | None] | None = None,
+) -> NewHullLabels | None:
+    """The labels where hulls `old`, by name, become those of a mesh; None where no label is concerned.
+
+    known: labels of new hulls that are known otherwise than by overlap, None for no label. One of a person, by
+    overlap, stays where it says the same.
+    """
+    known = known or {}
     file = store.labels(asset)
     here = hull_digests(mesh)
     were = {name: digest(shape) for name, shape in old.items()}
     gone = {name: old[name] for name in file.labels if name in old and here.get(name) != were[name]}
-    if not gone:
+    if not gone and not known:
         return None
     labels = {name: file.labels[name] for name in gone}
     fresh = {h.name: _label_by_overlap(h, gone, labels) for h in mesh.hulls if were.get(h.name) != here[h.name]}
+    fresh = {name: _choose_label(label, known[name]) if name in known else label for name, label in fresh.items()}
     rest = replace(file, labels={n: label for n, label in file.labels.items() if n not in gone})
     followed = symbolic.transfer_labels(rest, mesh).mesh
     taken = {name: label for name, label in fresh.items() if label and not followed.hull_of(name).annotation}
@@ -247,6 +265,12 @@ def label_new_hulls(store: Store, asset: str, old: Mapping[str, Shape], mesh: Sy
     notes += [f"no hull takes over the label {join_names(lost)}"] if lost else []
     away = tuple(name for name in gone if name not in taken)
     return NewHullLabels(store, asset, followed.with_labels(taken), away, tuple(notes))
+
+
+def _choose_label(by_overlap: Label | None, known: Label | None) -> Label | None:
+    """The label that is known, or a person's by overlap where it is the same."""
+    is_same = by_overlap and known and by_overlap.name == known.name and by_overlap.source in HUMAN_SOURCES
+    return by_overlap if is_same else known
 
 
 def _label_by_overlap(hull: symbolic.Hull, gone: Mapping[str, Shape], labels: Mapping[str, Label]) -> Label | None:

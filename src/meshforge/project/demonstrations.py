@@ -10,6 +10,7 @@ from pathlib import Path
 from meshforge import store as files
 from meshforge.common import MeshForgeError, ProjectError, UsageError, suggest_among, suggest_name
 from meshforge.labels import merge
+from meshforge.project.selections import confirm_selections
 from meshforge.store import Store
 from meshforge.symbolic import Label, SymbolicMesh
 from meshforge.synthesis import Answer, Demonstration, LabelCorrection, Question, Step
@@ -31,6 +32,7 @@ def demonstrate(store: Store, asset: str, steps: Iterable[Step]) -> None:
         remedy = suggest_name(name, mesh.index)
         raise ProjectError(f"rule {rule}: there is no hull {name!r}", where=asset, remedy=remedy)
     store.write_steps(asset, steps)
+    confirm_selections(store, asset)
 
 
 def correct_selection(store: Store, asset: str, rule: int, select: Sequence[str]) -> None:

@@ -4,18 +4,20 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import AbstractContextManager, nullcontext
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from itertools import takewhile
 from pathlib import Path
 from typing import Any
 
 from meshforge import batch
 from meshforge.common import AssetError, MeshForgeError, ProjectError, describe_error, join_names
 from meshforge.formats import read
-from meshforge.geometry import CoacdSettings, DecomposeSettings, Shape, cache_folder
+from meshforge.geometry import CoacdSettings, DecomposeSettings, Shape, cache_folder, digest
 from meshforge.labels import label_new_hulls
+from meshforge.project import selections
 from meshforge.project.demonstrations import find_unknown_hulls
-from meshforge.store import Store
-from meshforge.symbolic import Asset, SymbolicMesh
+from meshforge.store import Store, hull_digests
+from meshforge.symbolic import Asset, Label, SymbolicMesh, parse_labels_text
 
 
 @dataclass(frozen=True, slots=True)
@@ -100,12 +102,18 @@ def _read_or_empty(folder: Path) -> batch.Preparation:
         return batch.Preparation()
 
 
-def exchange_preparation(store: Store, asset: str, after: batch.Preparation, seen: str | None) -> list[str]:
-    """Write a preparation in the place of the one of a known digest. Raises ProjectError where that is another now."""
+def exchange_preparation(
+    store: Store, asset: str, after: batch.Preparation, seen: str | None, labels: Mapping[str, Label] | None = None
+) -> list[str]:
+    """Write a preparation in the place of the one of a known digest. Raises ProjectError where that is another now.
+
+    labels: of new hulls by name, as what made them knows them; they are marked as propagated, but where a person gave
+    the hull that is split the same label.
+    """
     with store.lock():
         if batch.record_digest(store.layout.preparation(asset)) != seen:
             raise ProjectError("someone else has prepared it meanwhile", where=asset, remedy="Try again.")
-        return _exchange(store, asset, after)
+        return _exchange(store, asset, after, labels or {})
 
 
 def _hulls_before(source: Asset, folder: Path) -> dict[str, Shape]:
@@ -119,11 +127,12 @@ def _hulls_before(source: Asset, folder: Path) -> dict[str, Shape]:
     return {name: shape for name, shape in there.items() if name not in before.hulls_replaced}
 
 
-def _exchange(store: Store, asset: str, after: batch.Preparation) -> list[str]:
-    """Write a preparation, under the lock that the caller holds, and let labels follow; notes on what that means.
+def _exchange(store: Store, asset: str, after: batch.Preparation, labels: Mapping[str, Label]) -> list[str]:
+    """Write a preparation, under the lock that the caller holds, and let labels and selections follow; notes on that.
 
-    Labels of the new hulls are written before these, and labels of the old hulls go after them: killed in between,
-    labels of hulls that are not there are left, which is harmless.
+    What selections and labels were is written first. Labels of the new hulls are written before these, selections and
+    the removal of old labels after them: killed in between, labels of hulls that are not there are left, which is
+    harmless, and selections of such hulls, which the status names.
     """
     folder = store.layout.preparation(asset)
     try:
@@ -132,22 +141,88 @@ def _exchange(store: Store, asset: str, after: batch.Preparation) -> list[str]:
         if after.steps:
             raise
         batch.remove_preparation(folder)
+        selections.write_journal(store, asset, ())
         return [f"its labels stay as they are: {error.problem}"] if store.layout.labels(asset).exists() else []
-    mesh = SymbolicMesh.of(batch.apply_preparation(source, after))
-    follow = label_new_hulls(store, asset, _hulls_before(source, folder), mesh)
+    before = _read_or_empty(folder).steps
+    common = sum(1 for _ in takewhile(lambda pair: pair[0] == pair[1], zip(before, after.steps, strict=False)))
+    journal = selections.read_journal(store, asset).steps
+    undone = [step for step in reversed(journal) if step.place >= common]
+    kept = [step for step in journal if step.place < common]
+    mesh, old = SymbolicMesh.of(batch.apply_preparation(source, after)), _hulls_before(source, folder)
+    label_bytes = store.label_bytes(asset).decode("utf-8") or None
+    known, notes = _find_labels_before(store, asset, undone, mesh) if common == len(after.steps) else ({}, [])
+    known |= {name: replace(label, source="propagated") for name, label in labels.items()}
+    follow = label_new_hulls(store, asset, old, mesh, known)
+    restored = _restore_label_text(label_bytes, undone)
+    final = (
+        restored if restored is not _CHANGED and common == len(after.steps) else follow.text if follow else label_bytes
+    )
+    if common < len(after.steps):
+        was = {name: digest(shape) for name, shape in old.items()}
+        successors = selections.Successors.between(after, was, hull_digests(mesh))
+        changes = selections.carry_selections(store, asset, successors) if successors.parts else ()
+        if changes or (successors.parts and final != label_bytes):
+            kept.append(
+                selections.StepSelections(
+                    place=common,
+                    parts=dict(successors.parts),
+                    digests=dict(successors.digests),
+                    changes=changes,
+                    labels_before=label_bytes,
+                    labels_after=final,
+                )
+            )
+            selections.write_journal(store, asset, [*journal, kept[-1]])
     if follow:
         follow.write(keep_old=True)
     if after.steps:
         batch.write_preparation(folder, after)
     else:
         batch.remove_preparation(folder)
+    for step in undone:
+        selections.restore_selections(store, asset, step)
+    for step in kept:
+        if step not in journal:
+            selections.apply_changes(store, asset, step)
+            notes += [f"look at it: {one}" for one in selections.describe_carried(store, asset)]
     if follow:
-        follow.write(keep_old=False)
+        store.write_labels_files({asset: final})
+    selections.write_journal(store, asset, kept)
     gone = sorted({name for _, name in find_unknown_hulls(store.steps(asset), mesh.index)})
-    notes = list(follow.notes) if follow else []
+    notes = [*(follow.notes if follow else ()), *notes]
     if gone:
         notes.append(f"the demonstration on it names {join_names(gone)}, which it has no more: demonstrate it anew")
     return notes
+
+
+_CHANGED = "changed since"
+
+
+def _restore_label_text(text: str | None, undone: Sequence[selections.StepSelections]) -> str | None:
+    """The text of a labels file before steps, the last one first; `_CHANGED` where it is another since."""
+    for step in undone:
+        if text != step.labels_after:
+            return _CHANGED
+        text = step.labels_before
+    return text if undone else _CHANGED
+
+
+def _find_labels_before(
+    store: Store, asset: str, undone: Sequence[selections.StepSelections], mesh: SymbolicMesh
+) -> tuple[dict[str, Label | None], list[str]]:
+    """The labels that hulls had before they were split, unless those of their parts were changed since; notes on
+    these."""
+    now: dict[str, Label | None] = dict(store.labels(asset).labels)
+    notes, found = list[str](), dict[str, Label | None]()
+    for step in undone:
+        were, became = (parse_labels_text(text).labels for text in (step.labels_before, step.labels_after))
+        for hull, parts in step.parts.items():
+            if all(now.get(part) == became.get(part) for part in parts):
+                now[hull] = found[hull] = were.get(hull)
+            else:
+                now[hull] = None
+                notes.append(f"{hull} gets its label from its parts, which were labelled since it was split")
+    return {name: label for name, label in found.items() if name in mesh.index}, notes
 
 
 @dataclass(frozen=True, slots=True)

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
         Verdict,
         repair_id,
     )
-    from meshforge.store.layout import json_text, read_json, write_json
+    from meshforge.store.layout import JsonFile, json_text, read_json, write_json
     from meshforge.store.meshes import AssetFacts, AssetFiles, geometry_digest, hull_digests, iterate_survey, survey
     from meshforge.store.program import (
         CorrectionsFile,
@@ -58,6 +58,7 @@ __all__ = [
     "ConfirmationLine",
     "CorrectionsFile",
     "DemonstrationFile",
+    "JsonFile",
     "LabelBefore",
     "ProgramRecord",
     "RepairLine",

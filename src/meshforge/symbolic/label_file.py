@@ -77,6 +77,11 @@ def read_labels(path: Path) -> LabelFile:
     return _parse(content, path)
 
 
+def parse_labels_text(text: str | None) -> LabelFile:
+    """The labels in the text of a labels file, none for None. Raises AssetError as `read_labels` does."""
+    return _parse(text.encode(), Path("labels")) if text else LabelFile()
+
+
 @lru_cache(_MOST_FILES)  # each edit of labels asks several times for what the same file says
 def _parse(content: bytes, path: Path) -> LabelFile:
     data = _load_json(content, path)

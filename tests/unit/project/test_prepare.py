@@ -275,14 +275,14 @@ def test_a_hull_between_two_labels_takes_that_of_its_greater_part_with_less_conf
     assert "no hull takes over the label b" in done.notes
 
 
-def test_a_demonstration_that_names_a_split_hull_is_flagged_and_kept(tmp_path: Path) -> None:
+def test_a_demonstration_that_names_a_split_hull_names_its_parts_and_is_flagged(tmp_path: Path) -> None:
     project = applied(tmp_path)
     done = project.cut(FIRST, "crumb", (5.05, 5.05, 5.05), (0, 0, 1))
-    assert any("the demonstration on it names crumb" in note for note in done.notes)
-    assert project.steps(FIRST)[0].select == frozenset({"crumb"})
+    assert any("look whether all parts are meant" in note for note in done.notes)
+    assert project.steps(FIRST)[0].select == frozenset({"crumb#0", "crumb#1"})
     found = project.status(workers=0).assets
     assert found[0].flags == (
-        "crumb, which is demonstrated for rule 1, was split into crumb#0, crumb#1: demonstrate it anew",
+        "crumb, which is demonstrated for rule 1, was split into crumb#0, crumb#1: look whether all parts are meant",
     )
     assert found[1].flags == ()
     project.demonstrate(FIRST, [Step(1, {"crumb#0", "crumb#1"}, Delete()), *project.steps(FIRST)[1:]])

@@ -183,7 +183,13 @@ Vector = tuple[float, float, float]
 
 
 class _PreparationEdit(Edit):
-    touches = ("prepared/{asset}", "labels/{asset}.json")
+    touches = (
+        "prepared/{asset}",
+        "labels/{asset}.json",
+        "demonstrations/{asset}.json",
+        "corrections/{asset}.json",
+        "answers.json",
+    )
     asset: str
 
 
