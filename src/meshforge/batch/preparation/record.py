@@ -12,7 +12,7 @@ import numpy as np
 
 from meshforge.common import AssetError, join_names, pluralize
 from meshforge.formats import NO_GEOMETRY
-from meshforge.geometry import Polytope, digest, is_line
+from meshforge.geometry import Polytope, SurfaceParts, digest, is_line, stack_parts
 from meshforge.symbolic import Asset, Geom, Surface
 
 SourceKind = Literal["opaque", "body", "hull"]
@@ -152,7 +152,8 @@ def merge_visuals(asset: Asset, body: str) -> Surface | None:
     if not own:
         return None
     faces = [s.faces + start for s, start in zip(own, np.cumsum([0, *(len(s.vertices) for s in own)]), strict=False)]
-    return Surface(np.concatenate([s.vertices for s in own]), np.concatenate(faces), body)
+    parts = [s.parts or SurfaceParts(np.zeros(len(s.faces), np.int64), (f"part_{k}",)) for k, s in enumerate(own)]
+    return Surface(np.concatenate([s.vertices for s in own]), np.concatenate(faces), body, parts=stack_parts(parts))
 
 
 def surface_digest(surface: Surface) -> str:
