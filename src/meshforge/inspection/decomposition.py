@@ -107,7 +107,9 @@ def advise_decomposition(
         progress(f"{title} by {by}")
         made = decompose(mesh, own, by=by, hollow=hollow, timeout=timeout, cache=cache)
         hulls = [hull.shape for hull in made.hulls if isinstance(hull.shape, Polytope)]
-        spanning = None if regions is None else int(find_spanning(surface, regions, hulls).sum())
+        spanning = None if regions is None else 0  # by parts, each hull is made of the surface of one
+        if regions is not None and by == "whole":
+            spanning = int(find_spanning(surface, regions, hulls).sum())
         excess = geometry.volume_of_union(hulls) / inside - 1 if inside else None
         trials.append(DecompositionTrial(title, by, made, spanning, excess))
     return DecompositionAdvice(judged, tuple(trials))
