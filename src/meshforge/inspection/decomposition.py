@@ -6,7 +6,7 @@ import itertools
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
@@ -51,10 +51,11 @@ class DecompositionTrial:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class DecompositionAdvice:
-    """judged: by what it was judged which hulls span parts, or why not."""
+    """judged: by what it was judged which hulls span parts, or why not; up: the axis that points up in pictures."""
 
     judged: str
     trials: tuple[DecompositionTrial, ...]
+    up: Literal["y", "z"] = "z"
 
     def to_json(self) -> dict[str, Any]:
         """For scripts: `judged`, and `trials` in the order of the table."""
@@ -76,7 +77,7 @@ class DecompositionAdvice:
 
         boxes = [trial.mesh.aabb for trial in self.trials if trial.mesh.aabb]
         box = geometry.Aabb.union(boxes) if boxes else None
-        pictures = [render(trial.mesh, size=_CELL, legend=False, bounds=box) for trial in self.trials]
+        pictures = [render(trial.mesh, size=_CELL, legend=False, bounds=box, up=self.up) for trial in self.trials]
         titles = [f"{one.setting} by {one.by}: {pluralize(len(one.mesh.hulls), 'hull')}" for one in self.trials]
         return make_contact_sheet(pictures, columns=len(THRESHOLDS), titles=titles)
 
@@ -112,7 +113,8 @@ def advise_decomposition(
             spanning = int(find_spanning(surface, regions, hulls).sum())
         excess = geometry.volume_of_union(hulls) / inside - 1 if inside else None
         trials.append(DecompositionTrial(title, by, made, spanning, excess))
-    return DecompositionAdvice(judged, tuple(trials))
+    up: Literal["y", "z"] = "y" if Path(mesh).suffix.lower() in (".glb", ".gltf") else "z"
+    return DecompositionAdvice(judged, tuple(trials), up)
 
 
 def _list_settings(settings: DecomposeSettings) -> list[tuple[str, DecomposeSettings]]:

@@ -1,10 +1,23 @@
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import pytest
 
 from meshforge.common import GeometryError
-from meshforge.geometry import Floats, Ints, SurfaceParts, convex_hull, decompose_by_parts, sample_surface, stack_parts
+from meshforge.geometry import (
+    Floats,
+    Ints,
+    Polytope,
+    SurfaceParts,
+    convex_hull,
+    decompose,
+    decompose_by_parts,
+    sample_surface,
+    stack_parts,
+)
+from meshforge.geometry.decomposition import by_parts
 from meshforge.geometry.decomposition.engines import CoacdSettings, EngineControl, VhacdSettings
 from meshforge.geometry.decomposition.parts import join_small_parts
 from meshforge.geometry.surface import heights_above, rises_above
@@ -105,13 +118,13 @@ def test_the_inside_of_a_cup_is_no_part_of_its_own_so_the_cup_stays_hollow() -> 
 
 
 def test_parts_are_no_finer_than_the_whole_at_a_threshold_relative_to_it(monkeypatch: pytest.MonkeyPatch) -> None:
-    from meshforge.geometry.decomposition import by_parts
-
     asked: list[CoacdSettings] = []
-    real = by_parts.decompose
-    monkeypatch.setattr(
-        by_parts, "decompose", lambda v, f, settings, **more: (asked.append(settings), real(v, f, settings, **more))[1]
-    )
+
+    def record(vertices: Floats, faces: Ints, settings: CoacdSettings, **more: Any) -> list[Polytope]:
+        asked.append(settings)
+        return decompose(vertices, faces, settings, **more)
+
+    monkeypatch.setattr(by_parts, "decompose", record)
     vertices, faces, parts = stack(box((0, 0, 0), (4, 1, 1)), box((5, 0, 0), (6, 1, 1)))
     decompose_by_parts(vertices, faces, parts, CoacdSettings(threshold=0.2, resolution=200, max_convex_hull=5))
     assert [settings.threshold for settings in asked] == [pytest.approx(0.3), 1.0]
