@@ -55,7 +55,7 @@ class DecompositionAdvice:
 
     judged: str
     trials: tuple[DecompositionTrial, ...]
-    up: Literal["y", "z"] = "z"
+    up: Literal["Y", "Z"] = "Z"
 
     def to_json(self) -> dict[str, Any]:
         """For scripts: `judged`, and `trials` in the order of the table."""
@@ -113,7 +113,7 @@ def advise_decomposition(
             spanning = int(find_spanning(surface, regions, hulls).sum())
         excess = geometry.volume_of_union(hulls) / inside - 1 if inside else None
         trials.append(DecompositionTrial(title, by, made, spanning, excess))
-    up: Literal["y", "z"] = "y" if Path(mesh).suffix.lower() in (".glb", ".gltf") else "z"
+    up: Literal["Y", "Z"] = "Y" if Path(mesh).suffix.lower() in (".glb", ".gltf") else "Z"
     return DecompositionAdvice(judged, tuple(trials), up)
 
 
