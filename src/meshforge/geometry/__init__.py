@@ -21,9 +21,11 @@ if TYPE_CHECKING:
     from meshforge.geometry.convex import FLATNESS, convex_hull, measure_extents, principal_extents, spans_volume
     from meshforge.geometry.decomposition.by_parts import PartHull, decompose_by_parts
     from meshforge.geometry.decomposition.engines import CoacdSettings, DecomposeSettings, EngineControl, VhacdSettings
+    from meshforge.geometry.decomposition.fine import decompose_finely
     from meshforge.geometry.decomposition.parts import SurfaceParts, stack_parts
     from meshforge.geometry.decomposition.run import cache_folder, decompose
     from meshforge.geometry.decomposition.triangles import is_line, is_sheet, sheet_hulls, volume_inside
+    from meshforge.geometry.division import HullPart, divide
     from meshforge.geometry.faults import HullFault, describe_fault, find_fault
     from meshforge.geometry.fill import aabb_box, aabb_capsule, aabb_cylinder, aabb_sphere, longest_axis, map_to_box
     from meshforge.geometry.fit import tight_box, tight_capsule, tight_cylinder
@@ -76,6 +78,7 @@ __all__ = [
     "Floats",
     "HullBudget",
     "HullFault",
+    "HullPart",
     "Ints",
     "PartHull",
     "Piece",
@@ -98,9 +101,11 @@ __all__ = [
     "cut",
     "decompose",
     "decompose_by_parts",
+    "decompose_finely",
     "describe_fault",
     "digest",
     "distance",
+    "divide",
     "enclose",
     "find_fault",
     "freeze_floats",

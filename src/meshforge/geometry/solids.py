@@ -235,3 +235,21 @@ def partition(shape: Shape, by: Sequence[Shape], least: float = 1e-3) -> Partiti
     parts = tuple(part for part in found if part.volume >= least * shape.volume)
     lost = 1.0 - volume_of_union(parts) / shape.tessellate().volume
     return Partition(parts, len(found) - len(parts), min(max(lost, 0.0), 1.0))
+
+
+def section(shape: Polytope, point: Floats, normal: Floats) -> tuple[float, float]:
+    """The area [m^2] and the perimeter [m] of the section of a polytope by a plane; zeros where it misses it."""
+    from scipy.spatial import ConvexHull, QhullError  # lazy: 0.5 s, half of all imports
+
+    crossing = _cross_edges(shape, (shape.vertices - point) @ normal)
+    if len(crossing) < 3:
+        return 0.0, 0.0
+    side = np.eye(3)[int(np.abs(normal).argmin())]
+    u = np.cross(normal, side)
+    u /= np.linalg.norm(u)
+    flat = (crossing - point) @ np.column_stack([u, np.cross(normal, u)])
+    try:
+        outline = ConvexHull(flat)
+    except QhullError:  # a line
+        return 0.0, 0.0
+    return float(outline.volume), float(outline.area)

@@ -13,12 +13,14 @@ if TYPE_CHECKING:
     from meshforge.label_model.posterior import FamilyModel, FamilyPosterior, infer_labels, model_family
     from meshforge.label_model.sides import correct_upright, find_doubtful_sides
     from meshforge.label_model.similar import find_similar
+    from meshforge.label_model.spans import AssetPieces, SpanModel, SpanPosterior, piece_mesh
     from meshforge.label_model.table import FamilyTable, Observations, evidence_of, metric_weights, reference_label
 else:
     __getattr__ = export_lazily(__name__)
 
 __all__ = [
     "EVIDENCE",
+    "AssetPieces",
     "FamilyModel",
     "FamilyPosterior",
     "FamilyTable",
@@ -27,6 +29,8 @@ __all__ = [
     "MeshDescriber",
     "Observations",
     "ShapeDescriptor",
+    "SpanModel",
+    "SpanPosterior",
     "consensus_weights",
     "correct_upright",
     "evidence_of",
@@ -36,6 +40,7 @@ __all__ = [
     "is_human",
     "metric_weights",
     "model_family",
+    "piece_mesh",
     "reference_label",
     "remember_descriptor",
 ]

@@ -1,0 +1,178 @@
+"""Where a surface shows that a part ends: flat patches that go on inside of a convex piece, and loops of concave edges
+around it; and pieces cut along their planes."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from meshforge.common import GeometryError
+from meshforge.geometry import connectivity
+from meshforge.geometry.arrays import Bools, Floats, Ints, cross
+from meshforge.geometry.shape import Polytope
+from meshforge.geometry.solids import cut, section
+from meshforge.geometry.surface import neighbour_faces, planes_of
+
+_LEVEL = np.cos(np.radians(1.0))  # neighbouring faces that turn by less lie in one patch
+_CONCAVE = np.sin(np.radians(20.0))  # edges that turn inward by more are creases
+_FLAT = 0.08  # of its length, within which a loop of concave edges lies in one plane
+_PATCHES, _LOOPS = 200, 60  # that are looked at, the largest
+_SAMPLES = 48  # points that stand for a patch or a loop
+_COVER = {"patch": 0.4, "loop": 0.5}  # of a section that a patch, or of its outline that a loop has, to end a part
+_DEEP = 2e-3  # of the surface's diagonal: a cut that takes less off is none
+_LEAST = 0.01  # of a piece's volume: as above
+_DEPTH = 6  # cuts through one piece, one after the other
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Creases:
+    """Planes where parts may end.
+
+    points: (p, s, 3) [m] that stand for each patch or loop; sizes: (p,) its area [m^2] or length [m]; normals: (p, 3);
+    loops: (p,) whether it is a loop; diagonal: of the surface [m].
+    """
+
+    points: Floats
+    sizes: Floats
+    normals: Floats
+    loops: Bools
+    diagonal: float
+
+
+def find_creases(vertices: Floats, faces: Ints) -> Creases:
+    """The creases of welded vertices (n, 3) [m] and faces (m, 3)."""
+    corners = vertices[faces]
+    normal = cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    areas = np.linalg.norm(normal, axis=1)
+    proper = areas > 1e-12 * max(float(areas.max(initial=0.0)), np.finfo(float).tiny)
+    corners, faces, areas = corners[proper], faces[proper], areas[proper] / 2
+    normal = normal[proper] / (2 * areas[:, None])
+    pairs = neighbour_faces(faces)
+    diagonal = float(np.linalg.norm(np.ptp(vertices, axis=0)))
+    rows = [*_find_patches(corners, normal, areas, pairs), *_find_loops(vertices, faces, corners, normal, pairs)]
+    return Creases(
+        np.array([row[0] for row in rows]).reshape(-1, _SAMPLES, 3),
+        np.array([row[1] for row in rows]),
+        np.array([row[2] for row in rows]).reshape(-1, 3),
+        np.array([row[3] for row in rows], dtype=np.bool_),
+        diagonal,
+    )
+
+
+_Row = tuple[Floats, float, Floats, bool]
+
+
+def _find_patches(corners: Floats, normal: Floats, areas: Floats, pairs: Ints) -> list[_Row]:
+    level = pairs[np.einsum("ij,ij->i", normal[pairs[:, 0]], normal[pairs[:, 1]]) >= _LEVEL]
+    root = connectivity.component_roots(level[:, 0], level[:, 1], len(areas))
+    total = np.bincount(root, weights=areas, minlength=len(areas))
+    largest = np.argsort(-total, kind="stable")[:_PATCHES]
+    found: list[_Row] = []
+    for place in largest[total[largest] > 0].tolist():
+        own = root == place
+        across = (normal[own] * areas[own, None]).sum(axis=0)
+        length = float(np.linalg.norm(across))
+        if length > 0.99 * total[place]:
+            found.append((_sample_triangles(corners[own], areas[own]), float(total[place]), across / length, False))
+    return found
+
+
+def _find_loops(vertices: Floats, faces: Ints, corners: Floats, normal: Floats, pairs: Ints) -> list[_Row]:
+    if not len(pairs):
+        return []
+    away = corners[pairs[:, 1]].mean(axis=1) - corners[pairs[:, 0]].mean(axis=1)
+    turn = np.linalg.norm(cross(normal[pairs[:, 0]], normal[pairs[:, 1]]), axis=1)
+    concave = pairs[(np.einsum("ij,ij->i", normal[pairs[:, 0]], away) > 0) & (turn > _CONCAVE)]
+    shared = (np.intersect1d(faces[a], faces[b])[:2] for a, b in concave.tolist())
+    edges = np.array([both for both in shared if len(both) == 2], dtype=np.int64).reshape(-1, 2)
+    if not len(edges):
+        return []
+    root = connectivity.component_roots(edges[:, 0], edges[:, 1], len(vertices))[edges[:, 0]]
+    lengths = np.linalg.norm(vertices[edges[:, 0]] - vertices[edges[:, 1]], axis=1)
+    total = np.bincount(root, weights=lengths)
+    found: list[_Row] = []
+    for place in np.argsort(-total, kind="stable")[:_LOOPS].tolist():
+        own = root == place
+        if own.sum() < 4:
+            continue
+        ends = vertices[edges[own]]
+        points = _sample_edges(ends, lengths[own])
+        _, extents, axes = np.linalg.svd(points - points.mean(axis=0), full_matrices=False)
+        if extents[2] <= _FLAT * extents[0]:
+            found.append((points, float(total[place]), axes[2], True))
+    return found
+
+
+def _sample_triangles(corners: Floats, areas: Floats) -> Floats:
+    """Points (_SAMPLES, 3) that lie evenly on triangles (k, 3, 3), the same every time."""
+    random = np.random.default_rng(0).random((2, _SAMPLES))
+    a, b, c = corners[_spread(areas)].transpose(1, 0, 2)
+    u, v = np.where(random.sum(axis=0) > 1, 1 - random, random)[:, :, None]
+    points: Floats = a + u * (b - a) + v * (c - a)
+    return points
+
+
+def _sample_edges(ends: Floats, lengths: Floats) -> Floats:
+    """Points (_SAMPLES, 3) that lie evenly on edges (k, 2, 3)."""
+    share = np.random.default_rng(0).random((_SAMPLES, 1))
+    a, b = ends[_spread(lengths)].transpose(1, 0, 2)
+    points: Floats = a + share * (b - a)
+    return points
+
+
+def _spread(sizes: Floats) -> Ints:
+    """The places (_SAMPLES,) of sizes (k,) in proportion to these."""
+    ends = np.cumsum(sizes)
+    found = np.searchsorted(ends, (np.arange(_SAMPLES) + 0.5) / _SAMPLES * ends[-1])
+    places: Ints = np.minimum(found, len(sizes) - 1)
+    return places
+
+
+def cut_at_creases(piece: Polytope, creases: Creases) -> list[Polytope]:
+    """The convex parts of a piece between the creases that go through it."""
+    return _cut(piece, creases, _DEPTH)
+
+
+def _cut(piece: Polytope, creases: Creases, depth: int) -> list[Polytope]:
+    best = _choose(piece, creases) if depth and len(creases.sizes) else None
+    if best is None:
+        return [piece]
+    return [half for part in best for half in _cut(part, creases, depth - 1)]
+
+
+def _choose(piece: Polytope, creases: Creases) -> tuple[Polytope, Polytope] | None:
+    """The two halves of a piece at the crease that has most of its section there, None where none has enough."""
+    deep = _DEEP * creases.diagonal
+    inside = _is_inside(creases.points.reshape(-1, 3), piece, deep / 4).reshape(creases.points.shape[:2])
+    share = inside.mean(axis=1)
+    covers = list[tuple[float, int]]()
+    for place in np.flatnonzero(share > 0).tolist():
+        at, across = creases.points[place][inside[place]].mean(axis=0), creases.normals[place]
+        heights = (piece.vertices - at) @ across
+        if min(float(heights.max()), float(-heights.min())) < deep:
+            continue
+        area, perimeter = section(piece, at, across)
+        kind, whole = ("loop", perimeter) if creases.loops[place] else ("patch", area)
+        cover = float(share[place]) * float(creases.sizes[place]) / max(whole, np.finfo(float).tiny)
+        if cover >= _COVER[kind]:
+            covers.append((-min(cover, 1.0), place))
+    for _, place in sorted(covers):
+        at = creases.points[place][inside[place]].mean(axis=0)
+        try:
+            below, above = cut(piece, at, creases.normals[place])
+        except GeometryError:
+            continue
+        if below and above and min(below.volume, above.volume) >= _LEAST * piece.volume:
+            return below, above
+    return None
+
+
+def _is_inside(points: Floats, piece: Polytope, margin: float) -> Bools:
+    """Whether each of some points (n, 3) is in a piece, or at most `margin` [m] outside."""
+    low, high = piece.aabb.min - margin, piece.aabb.max + margin
+    found: Bools = ((points >= low) & (points <= high)).all(axis=1)
+    planes = planes_of(piece.vertices, piece.faces)
+    near = points[found] - planes.middle
+    found[found] = (near @ planes.normals.T <= planes.offsets + margin).all(axis=1)
+    return found

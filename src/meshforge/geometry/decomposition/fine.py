@@ -1,0 +1,95 @@
+"""Fine convex pieces of a surface, none of which reaches over a part boundary that the surface shows: each connected
+solid decomposed by itself, its pieces cut at creases."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+
+from meshforge.common import GeometryError, pluralize
+from meshforge.geometry import connectivity
+from meshforge.geometry.arrays import Floats, Ints
+from meshforge.geometry.convex import FLATNESS, convex_hull, principal_extents
+from meshforge.geometry.decomposition.creases import cut_at_creases, find_creases
+from meshforge.geometry.decomposition.engines import CoacdSettings
+from meshforge.geometry.decomposition.run import decompose
+from meshforge.geometry.decomposition.triangles import clean_triangles, is_sheet, sheet_hulls
+from meshforge.geometry.shape import Polytope, volume_and_centroid
+
+FINE = CoacdSettings(threshold=0.05, resolution=500, mcts_iterations=20, mcts_nodes=10, mcts_max_depth=2)
+"""CoACD's settings for fine pieces: those of its authors, but for a shorter search, for time."""
+_CONVEX = 0.995  # of the volume of its convex hull: such a solid is one piece
+_SMALL = 0.03  # of the surface's diagonal: a smaller component is one piece
+_MOST = 80  # components that are decomposed, the largest
+
+
+def decompose_finely(
+    vertices: Floats,
+    faces: Ints,
+    *,
+    cache: Path | None = None,
+    note: Callable[[str], None] = lambda _: None,
+) -> tuple[Polytope, ...]:
+    """Fine convex pieces of vertices (n, 3) [m] and faces (m, 3), the same for the same input.
+
+    cache: a folder for results of the engine, None keeps none; note: called with what a user should know.
+    Raises GeometryError: nothing that has an area, a coordinate that is not finite.
+    """
+    mesh = clean_triangles(vertices, faces)
+    creases = find_creases(mesh.vertices, mesh.faces)
+    solids = _find_solids(mesh.vertices, mesh.faces)
+    sizes = [float(np.linalg.norm(np.ptp(mesh.vertices[solid], axis=(0, 1)))) for solid in solids]
+    least = max(_SMALL * mesh.diagonal, sorted(sizes, reverse=True)[_MOST - 1] if len(sizes) >= _MOST else 0.0)
+    pieces: list[Polytope] = []
+    for solid, size in zip(solids, sizes, strict=True):
+        pieces += _decompose_solid(mesh.vertices, solid, size >= least, cache, note)
+    if not pieces:
+        raise GeometryError("the surface has no piece that spans an area")
+    return tuple(part for piece in pieces for part in cut_at_creases(piece, creases))
+
+
+def _find_solids(vertices: Floats, faces: Ints) -> list[Ints]:
+    """The connected components of faces, each cavity with the solid that it is in."""
+    component = connectivity.components_by_vertices(faces)
+    closed = set(connectivity.find_closed_components(faces, component).tolist())
+    numbers = np.unique(component).tolist()
+    own = {number: faces[component == number] for number in numbers}
+    volumes = {number: volume_and_centroid(vertices, own[number])[0] for number in numbers}
+    outer = [number for number in numbers if volumes[number] > 0]
+    found = {number: [own[number]] for number in numbers}
+    for number in numbers:
+        homes = [o for o in outer if volumes[o] > -volumes[number] and _is_within(vertices, own[number], own[o])]
+        if number in closed and volumes[number] < 0 and homes:
+            found[min(homes, key=lambda o: volumes[o])] += found.pop(number)
+    return [np.concatenate(rows) for rows in found.values()]
+
+
+def _is_within(vertices: Floats, inner: Ints, outer: Ints) -> bool:
+    a, b = vertices[inner].reshape(-1, 3), vertices[outer].reshape(-1, 3)
+    return bool((a.min(axis=0) >= b.min(axis=0)).all() and (a.max(axis=0) <= b.max(axis=0)).all())
+
+
+def _decompose_solid(
+    vertices: Floats, faces: Ints, is_large: bool, cache: Path | None, note: Callable[[str], None]
+) -> list[Polytope]:
+    """The pieces of one solid; one that no engine takes is its convex hull."""
+    points = vertices[np.unique(faces)]
+    if len(points) < 3 or principal_extents(points)[2][1] <= 0:
+        return []
+    thickness = FLATNESS * float(np.linalg.norm(np.ptp(points, axis=0)))
+    hull = convex_hull(points, name="a piece of the surface", thicken=thickness)
+    if not is_large or volume_and_centroid(vertices, faces)[0] >= _CONVEX * hull.volume:
+        return [hull]
+
+    def run(corners: Floats, triangles: Ints) -> list[Polytope]:
+        return decompose(corners, triangles, FINE, close=True, cache=cache, note=note)
+
+    try:
+        if is_sheet(vertices[faces].reshape(-1, 3)):
+            return sheet_hulls(vertices, faces, run, "a piece of the surface")
+        return run(vertices, faces)
+    except GeometryError as error:
+        note(f"{pluralize(len(faces), 'triangle')} taken as one convex piece: {error.problem}")
+        return [hull]

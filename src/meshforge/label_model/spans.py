@@ -1,0 +1,154 @@
+"""The probability that a hull holds more than one part: from fine pieces of the surface that hulls stand for, whose
+labels are inferred as those of hulls are."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import cache, cached_property
+from importlib.resources import files
+
+import numpy as np
+
+from meshforge.geometry import Floats, HullPart, Ints, Polytope, divide, overlap_volume
+from meshforge.label_model.posterior import FamilyPosterior, model_family
+from meshforge.symbolic import Hull, Label, SymbolicMesh
+
+WEIGHTS_FILE = "spans.json"
+WHOLE = 0.9
+"""A hull of which one label has this share, by volume of what it stands for, is of one part."""
+_SURE = 0.005  # a share of other labels is at least this, for its logarithm
+_DOUBT = 0.03  # standard deviation of a share whose labels are all certain
+_MOST = 0.8  # how much a label is believed that a piece takes from the hull that it lies in
+_WITHIN = 0.5  # of a piece's volume that the hull must have
+
+
+@cache
+def span_weights() -> Floats:
+    """The weights (3,) of one, of the logit of the share of other labels, and of its distance from the limit."""
+    read = json.loads(files("meshforge.label_model").joinpath(WEIGHTS_FILE).read_text("utf-8"))
+    found = np.array(read["weights"], dtype=float)
+    found.flags.writeable = False
+    return found
+
+
+def piece_mesh(pieces: Mapping[str, Sequence[Polytope]], mesh: SymbolicMesh) -> SymbolicMesh:
+    """The fine pieces of an asset, by body, as a mesh that lies as its own does."""
+    hulls = (Hull(f"{body}/{k}", body, piece) for body, own in pieces.items() for k, piece in enumerate(own))
+    return SymbolicMesh(tuple(hulls), mesh.asset, mesh.epsilon, mesh.scale)
+
+
+@dataclass(frozen=True, eq=False)
+class AssetPieces:
+    """The hulls of an asset, and the fine pieces of the surface that they stand for.
+
+    common: (hulls, pieces) [m^3] the volume that each hull has of each piece of its body.
+    """
+
+    mesh: SymbolicMesh
+    pieces: SymbolicMesh
+
+    @cached_property
+    def common(self) -> Floats:
+        found = np.zeros((len(self.mesh.hulls), len(self.pieces.hulls)))
+        if not found.size:
+            return found
+        (low, high), (below, above) = self.mesh.corners, self.pieces.corners
+        meet = ((low[:, None] <= above[None]) & (high[:, None] >= below[None])).all(axis=2)
+        for hull, piece in np.argwhere(meet).tolist():
+            one, other = self.mesh.hulls[hull], self.pieces.hulls[piece]
+            if one.body == other.body:
+                found[hull, piece] = overlap_volume(one.shape, other.shape)
+        return found
+
+    def take_labels(self, labels: Sequence[Label | None]) -> list[Label | None]:
+        """What labels of hulls say about each piece: that of the hull that most of it lies in, not quite believed."""
+        best = self.common.argmax(axis=0) if len(labels) else np.zeros(len(self.pieces.hulls), np.int64)
+        found = list[Label | None]()
+        for piece, hull in zip(self.pieces.hulls, best.tolist(), strict=True):
+            label = labels[hull] if labels else None
+            held = label and self.common[hull, len(found)] >= _WITHIN * piece.shape.volume
+            found.append(Label(label.name, min(label.confidence, _MOST), "file") if label and held else None)
+        return found
+
+
+class SpanModel:
+    """Assets of one kind, each with its hulls and the fine pieces of its surface."""
+
+    def __init__(self, meshes: Sequence[SymbolicMesh], pieces: Sequence[SymbolicMesh]) -> None:
+        self.assets = [AssetPieces(mesh, own) for mesh, own in zip(meshes, pieces, strict=True)]
+        self._family = model_family(pieces)
+
+    def infer(
+        self,
+        labels: Sequence[Label | None],
+        piece_labels: Sequence[Label | None] | None = None,
+        weights: Floats | None = None,
+    ) -> SpanPosterior:
+        """What labels say: of the hulls of all meshes in order, None for an unlabelled one; piece_labels: of all pieces
+        in order, where they are known; weights: (3,), None for those that ship."""
+        sizes = np.cumsum([0, *(len(asset.mesh.hulls) for asset in self.assets)])
+        rows = [labels[a:b] for a, b in zip(sizes[:-1].tolist(), sizes[1:].tolist(), strict=True)]
+        said = [label for asset, own in zip(self.assets, rows, strict=True) for label in asset.take_labels(own)]
+        if piece_labels is not None:
+            said = [known or label for known, label in zip(piece_labels, said, strict=True)]
+        found = self._family.infer(said)
+        return SpanPosterior(self.assets, found, span_weights() if weights is None else weights)
+
+
+@dataclass(frozen=True, eq=False)
+class SpanPosterior:
+    """What is known of the parts that hulls hold. found: the posterior of the labels of all pieces."""
+
+    assets: Sequence[AssetPieces]
+    found: FamilyPosterior
+    weights: Floats
+
+    @property
+    def labels(self) -> tuple[str, ...]:
+        """The labels that anything says, in the order of the columns of shares."""
+        return self.found.seen.labels
+
+    def shares_of(self, mesh: int) -> Floats:
+        """The expected share of each label in each hull (hulls, labels); zeros for one that stands for nothing."""
+        common = self.assets[mesh].common
+        return _scale(common @ self._chances_of(mesh), common.sum(axis=1))
+
+    def chances_of(self, mesh: int) -> Floats:
+        """The probability that each hull (hulls,) holds more than one label; 0 where it stands for nothing."""
+        evidence = self.collect_evidence(mesh)
+        found: Floats = 1 / (1 + np.exp(-(evidence @ self.weights)))
+        return np.where(self.assets[mesh].common.sum(axis=1) > 0, found, 0.0)
+
+    def collect_evidence(self, mesh: int) -> Floats:
+        """What the probability is made from (hulls, 3), as `span_weights` has it."""
+        common, chances = self.assets[mesh].common, self._chances_of(mesh)
+        if not chances.size:
+            return np.tile(np.array([1.0, -5.0, -5.0]), (len(common), 1))
+        held = common.sum(axis=1)
+        likeliest = np.eye(chances.shape[1])[chances.argmax(axis=1)]
+        rest = 1 - _scale(common @ likeliest, held).max(axis=1)
+        expected = _scale(common @ chances, held)
+        main = expected.argmax(axis=1)
+        sure = chances[:, main].T
+        spread = np.sqrt((_scale(common, held) ** 2 * sure * (1 - sure)).sum(axis=1) + _DOUBT**2)
+        rest = np.clip(rest, _SURE, 1 - _SURE)
+        away = (WHOLE - expected[np.arange(len(main)), main]) / spread
+        limit = np.log((1 - WHOLE) / WHOLE)
+        return np.column_stack([np.ones(len(rest)), np.log(rest / (1 - rest)) - limit, np.clip(away, -5, 5)])
+
+    def divide(self, mesh: int, hull: int) -> tuple[HullPart, ...]:
+        """The parts that a hull is divided into; one alone where it is not to be divided."""
+        asset = self.assets[mesh]
+        own: Ints = np.flatnonzero(asset.common[hull] > 0)
+        pieces = [asset.pieces.hulls[place].shape.tessellate() for place in own.tolist()]
+        return divide(asset.mesh.hulls[hull].shape, pieces, self._chances_of(mesh)[own])
+
+    def _chances_of(self, mesh: int) -> Floats:
+        return self.found.chances_of(mesh)
+
+
+def _scale(rows: Floats, totals: Floats) -> Floats:
+    """Rows (n, k) by their totals (n,), zeros where these are zero."""
+    return rows / np.where(totals > 0, totals, 1.0)[:, None]
