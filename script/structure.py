@@ -20,7 +20,9 @@ ROOT = "meshforge"
 FILES, LINES, IMPORT_SHARE, PARAMETERS = 520, 73_500, 0.08, 8
 DEPTH = {"formats": 3, "studio": 3}
 """Levels of packages below `meshforge`; two where none is given."""
-MANY_PARAMETERS = frozenset({"meshforge.rendering.picture:render"})  # what people ask of a picture, all with defaults
+MANY_PARAMETERS = frozenset(  # what people ask of a picture and of a preparation, all with defaults
+    {"meshforge.rendering.picture:render", "meshforge.project.prepare:decompose"}
+)
 """Functions that may take more than PARAMETERS parameters, as `module:function`."""
 IRREGULAR = frozenset(
     re.findall(

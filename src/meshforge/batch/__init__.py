@@ -51,6 +51,7 @@ if TYPE_CHECKING:
         to_json_line,
     )
     from meshforge.batch.preparation.decompose import DecompositionResult, decompose_asset
+    from meshforge.batch.preparation.fine import find_surfaces
     from meshforge.batch.preparation.record import (
         Preparation,
         Replacement,
@@ -58,7 +59,7 @@ if TYPE_CHECKING:
         find_sources,
         replay_preparation,
     )
-    from meshforge.batch.preparation.split import cut_hull, split_hull
+    from meshforge.batch.preparation.split import HullDivision, cut_hull, divide_hulls, split_hull
     from meshforge.batch.preparation.storage import (
         RECORD_FILE,
         read_preparation,
@@ -143,6 +144,7 @@ __all__ = [
     "ExecutionOptions",
     "Failed",
     "Held",
+    "HullDivision",
     "LabelStatus",
     "MeshReader",
     "OutputInputs",
@@ -172,12 +174,14 @@ __all__ = [
     "cut_hull",
     "decompose_asset",
     "describe_alarms",
+    "divide_hulls",
     "examine_file",
     "execute",
     "expand",
     "file_digest",
     "find_assets_in",
     "find_sources",
+    "find_surfaces",
     "has_same_files",
     "hold_lock",
     "inputs_of",

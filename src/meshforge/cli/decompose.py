@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated
 
@@ -9,35 +11,105 @@ import typer
 from rich.console import Console
 
 from meshforge import formats
-from meshforge.cli.options import EngineMethod, EngineOptions, Hollow, Seconds, parse_engine_settings
-from meshforge.cli.terminal import remark
-from meshforge.common import pluralize
+from meshforge.cli import options
+from meshforge.cli.terminal import print_json, remark
+from meshforge.common import UsageError, pluralize
+from meshforge.geometry import DecomposeSettings
+
+_PICTURE = "advice.png"
+_PICTURES = (".png", ".jpg", ".jpeg")
 
 
-def decompose(
-    mesh: Annotated[Path, typer.Argument(help="A mesh file: OBJ, STL, PLY, DAE, GLB.")],
-    out: Annotated[Path, typer.Option("-o", "--out", help="The file of hulls to write; its suffix names the format.")],
-    method: Annotated[EngineMethod, typer.Option("--decompose", help="The engine.")] = EngineMethod.COACD,
-    option: EngineOptions = None,
-    hollow: Hollow = False,
-    timeout: Seconds = None,
-    cache: Annotated[bool, typer.Option("--cache/--no-cache", help="Keep results, and use kept ones.")] = True,
-    overwrite: Annotated[bool, typer.Option("--overwrite", help="Replace the file if it is there.")] = False,
-) -> None:
+@dataclass(frozen=True, slots=True)
+class DecomposeArguments:
+    """What is typed after `meshforge decompose`."""
+
+    context: typer.Context
+    mesh: Annotated[Path, typer.Argument(help="A mesh file: OBJ, STL, PLY, DAE, GLB.")]
+    out: Annotated[
+        Path | None,
+        typer.Option(
+            "-o",
+            "--out",
+            help="The file of hulls to write; its suffix names the format. With --advise a picture, or its folder.",
+        ),
+    ] = None
+    method: Annotated[options.EngineMethod, typer.Option("--decompose", help="The engine.")] = (
+        options.EngineMethod.COACD
+    )
+    option: options.EngineOptions = None
+    by: options.By = "whole"
+    advise: Annotated[
+        bool,
+        typer.Option(
+            "--advise",
+            help="Write no hulls: print what three settings come to, as a whole and by parts, and draw them.",
+        ),
+    ] = False
+    hollow: options.Hollow = False
+    timeout: options.Seconds = None
+    cache: Annotated[bool, typer.Option("--cache/--no-cache", help="Keep results, and use kept ones.")] = True
+    overwrite: Annotated[bool, typer.Option("--overwrite", help="Replace the file if it is there.")] = False
+    json: options.Json = False
+
+
+@options.takes(DecomposeArguments)
+def decompose(given: DecomposeArguments) -> None:
     """Decompose a mesh into convex hulls by CoACD or V-HACD; the same input gives the same hulls."""
-    settings = parse_engine_settings(method, option)
-    console = Console(stderr=True)
-    title = f"{method.value} on {mesh.name}"
-    with console.status(title) as status:
+    settings = options.parse_engine_settings(given.method, given.option)
+    if given.advise:
+        options.refuse_with(given.context, ("by",), "--advise, which tries both")
+        _advise(given, settings)
+        return
+    options.refuse_options(given.context, ("json",), "--advise")
+    if given.out is None:
+        raise UsageError("nothing says what to write", remedy="Give --out FILE, or --advise for advice on settings.")
+    with Console(stderr=True).status(title := f"{given.method.value} on {given.mesh.name}") as status:
         made = formats.decompose(
-            mesh,
+            given.mesh,
             settings,
-            hollow=hollow,
-            timeout=timeout,
-            cache=cache,
+            by=given.by,
+            hollow=given.hollow,
+            timeout=given.timeout,
+            cache=given.cache,
             progress=lambda text: status.update(f"{title}: {text}"),
         )
-    saved = formats.save(made, out, overwrite=overwrite)
+    saved = formats.save(made, given.out, overwrite=given.overwrite)
     for note in (*(made.asset.notes if made.asset else ()), *saved.notes):
         remark(f"note: {note}")
     remark(f"wrote {saved.path}: {pluralize(len(made.hulls), 'hull')}")
+
+
+def _advise(given: DecomposeArguments, settings: DecomposeSettings) -> None:
+    """Print and draw what several settings come to."""
+    from meshforge.inspection import advise_decomposition  # lazy: most runs of this command draw nothing
+
+    picture = _picture_path(given.out, given.overwrite)
+    title = f"{given.method.value} on {given.mesh.name}"
+    with Console(stderr=True).status(title) as status:
+        show: Callable[[str], None] = lambda text: status.update(f"{title}: {text}")  # noqa: E731
+        advice = advise_decomposition(
+            given.mesh, settings, hollow=given.hollow, timeout=given.timeout, cache=given.cache, progress=show
+        )
+    if given.json:
+        print_json(advice.to_json())
+    else:
+        typer.echo("\n".join(advice.describe()))
+    if picture:
+        from meshforge.rendering import write_picture  # lazy: as above
+
+        picture.parent.mkdir(parents=True, exist_ok=True)
+        write_picture(picture, advice.draw())
+        remark(f"wrote {picture}")
+
+
+def _picture_path(out: Path | None, overwrite: bool) -> Path | None:
+    """Where the picture goes: a file, or one in a folder. Raises UsageError for another kind of file, or one there."""
+    if out is None:
+        return None
+    if out.suffix and out.suffix.lower() not in _PICTURES and not out.is_dir():
+        raise UsageError("--advise writes a picture, no hulls", where=str(out), remedy="Give -o FILE.png or a folder.")
+    path = out if out.suffix.lower() in _PICTURES else out / _PICTURE
+    if path.exists() and not overwrite:
+        raise UsageError("the file is there already", where=str(path), remedy="Give another name, or --overwrite.")
+    return path

@@ -30,6 +30,7 @@ class NewArguments:
     ] = None
     option: options.EngineOptions = None
     hollow: options.Hollow = False
+    by: options.By = "whole"
     workers: options.Workers = None
     timeout: options.AssetTimeout = 600.0
 
@@ -41,7 +42,7 @@ def new(given: NewArguments) -> None:
     With --decompose, exit code 1 when some pieces could not be decomposed (each named); the project is there.
     """
     if given.method is None:
-        options.refuse_options(given.context, ("option", "hollow", "workers", "timeout"), "--decompose METHOD")
+        options.refuse_options(given.context, ("option", "hollow", "by", "workers", "timeout"), "--decompose METHOD")
     settings = options.parse_engine_settings(given.method, given.option) if given.method else None
     vocabulary = options.split_words(given.vocabulary)
     project = Project.create(given.project, given.assets, vocabulary=vocabulary, orient=given.orient)
@@ -50,7 +51,13 @@ def new(given: NewArguments) -> None:
     failed = 0
     if settings:
         failed = decompose_assets(
-            project, assets, settings, hollow=given.hollow, workers=given.workers, timeout=given.timeout
+            project,
+            assets,
+            settings,
+            hollow=given.hollow,
+            by=given.by,
+            workers=given.workers,
+            timeout=given.timeout,
         )
     typer.echo(f"Next: meshforge status {given.project}")
     raise typer.Exit(failed)

@@ -164,6 +164,16 @@ def _to_parameter(field: Field[Any], hint: Any) -> Parameter:
     return Parameter(field.name, Parameter.KEYWORD_ONLY, default=default, annotation=hint)
 
 
+By = Annotated[
+    Literal["whole", "parts"],
+    typer.Option(
+        "--by",
+        help="Decompose a mesh at once, or each of its parts (groups, nodes, materials) by itself, so that no hull "
+        "crosses from one to another.",
+    ),
+]
+
+
 class EngineMethod(StrEnum):
     """The decomposition engines."""
 
@@ -197,6 +207,13 @@ def refuse_options(context: typer.Context, names: Collection[str], without: str)
     for name, option in list_typed(context):
         if name in names:
             raise UsageError(f"{option} says nothing without {without}", remedy=f"Give {without} too, or leave it out.")
+
+
+def refuse_with(context: typer.Context, names: Collection[str], other: str) -> None:
+    """Raise UsageError for a parameter among some that was typed, though it does not go with another option."""
+    for name, option in list_typed(context):
+        if name in names:
+            raise UsageError(f"{option} does not go with {other}", remedy="Leave it out.")
 
 
 def list_typed(context: typer.Context) -> Iterator[tuple[str, str]]:

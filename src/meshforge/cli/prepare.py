@@ -37,6 +37,7 @@ class PrepareArguments:
     ] = None
     again: Annotated[bool, typer.Option("--again", help="Decompose anew what is decomposed already.")] = False
     hollow: options.Hollow = False
+    by: options.By = "whole"
     undo: Annotated[bool, typer.Option("--undo", help="Take back the last thing that was done to each.")] = False
     remove: Annotated[bool, typer.Option("--remove", help="Take back all that was done to each.")] = False
     workers: options.Workers = None
@@ -58,7 +59,7 @@ def prepare(given: PrepareArguments) -> None:
         raise UsageError("--undo of which asset?", remedy="Name it; --remove takes back everything, of all assets too.")
     project = Project.open(given.project)
     if given.method is None:
-        only_with_method = ("option", "only", "again", "hollow", "workers", "timeout")
+        only_with_method = ("option", "only", "again", "hollow", "by", "workers", "timeout")
         options.refuse_options(given.context, only_with_method, "--decompose METHOD")
         results = _undo_preparation(project, _select_assets(project, given.assets), everything=given.remove)
         raise typer.Exit(print_results(results, given.json))
@@ -72,6 +73,7 @@ def prepare(given: PrepareArguments) -> None:
             only=given.only or (),
             again=given.again,
             hollow=given.hollow,
+            by=given.by,
             workers=given.workers,
             timeout=given.timeout,
             json=given.json,

@@ -9,7 +9,7 @@ from meshforge.common.exports import export_lazily
 if TYPE_CHECKING:
     from meshforge.formats.base import Collision, Format, Loss, Mass, Output, ReadOptions
     from meshforge.formats.convert_asset import convert, to_mjspec
-    from meshforge.formats.decompose_mesh import decompose
+    from meshforge.formats.decompose_mesh import DecomposeBy, decompose, name_hulls, read_surface
     from meshforge.formats.engine_names.conventions import EngineName, MarkName
     from meshforge.formats.mesh_reader import read_triangles, split_into_pieces
     from meshforge.formats.meshfile.surface import RawSurface
@@ -50,6 +50,7 @@ if TYPE_CHECKING:
         read_semantics,
     )
     from meshforge.formats.segmentation.reader import attach_own_mesh, read_segmentation
+    from meshforge.formats.surface_parts import plain_part_name
     from meshforge.formats.trimesh_meshes import from_trimesh
     from meshforge.formats.visuals import VisualSurfaces
 else:
@@ -66,6 +67,7 @@ __all__ = [
     "SEMANTICS_FILE",
     "SUFFIXES",
     "Collision",
+    "DecomposeBy",
     "EngineName",
     "Format",
     "Loss",
@@ -95,14 +97,17 @@ __all__ = [
     "labels_beside",
     "load",
     "load_many",
+    "name_hulls",
     "output_path_of",
     "path_of",
+    "plain_part_name",
     "plugin_of_suffix",
     "points_beside",
     "read",
     "read_class_names",
     "read_segmentation",
     "read_semantics",
+    "read_surface",
     "read_triangles",
     "resolve_asset_path",
     "save",

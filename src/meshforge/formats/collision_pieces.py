@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import posixpath
 from collections.abc import Callable, Container, Hashable, Iterable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -15,6 +15,7 @@ from meshforge.common import AssetError, GeometryError, MeshForgeError, file_dig
 from meshforge.formats.mesh_reader import read_triangles, split_into_pieces
 from meshforge.formats.meshfile.surface import RawSurface
 from meshforge.formats.references import Resolver
+from meshforge.formats.surface_parts import parts_of_surfaces
 from meshforge.geometry import FLATNESS, Floats, Ints, Piece, Pose, Shape, Sphere, principal_extents
 from meshforge.symbolic import Asset, Geom, Mentions, Opaque, Surface, unique_names
 
@@ -49,14 +50,22 @@ ElementMentions = Sequence[Sequence[Mentions]]
 """What else the file calls each of them."""
 
 
-def place_pieces(pieces: Sequence[Piece], linear: Floats, offset: Floats) -> list[CollisionPiece]:
-    """The pieces of a mesh file under x -> linear @ x + offset, reflections included."""
-    parts = [
-        CollisionPiece(piece.shape.transform(linear, offset))
-        if piece.shape is not None
-        else CollisionPiece(None, piece.reason or "no hull", place_surface(piece.vertices, piece.faces, linear, offset))
-        for piece in pieces
-    ]
+def place_pieces(
+    pieces: Sequence[Piece], linear: Floats, offset: Floats, surfaces: Sequence[RawSurface] = ()
+) -> list[CollisionPiece]:
+    """The pieces of a mesh file under x -> linear @ x + offset, reflections included.
+
+    surfaces: those that the pieces are of, where their names and materials are to be kept as parts.
+    """
+    known = parts_of_surfaces(surfaces) if surfaces and any(piece.shape is None for piece in pieces) else None
+    parts: list[CollisionPiece] = []
+    for piece in pieces:
+        if piece.shape is not None:
+            parts.append(CollisionPiece(piece.shape.transform(linear, offset)))
+            continue
+        placed = place_surface(piece.vertices, piece.faces, linear, offset)
+        own = known.select(piece.face_indices) if known else None
+        parts.append(CollisionPiece(None, piece.reason or "no hull", replace(placed, parts=own)))
     return parts or [CollisionPiece(None, "the mesh holds no triangles")]
 
 

@@ -3,21 +3,29 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable
+from collections import Counter
+from collections.abc import Callable, Sequence
 from pathlib import Path
+from typing import Literal
 
+from meshforge import geometry
+from meshforge.common import UsageError, join_names
 from meshforge.formats.mesh_reader import read_triangles
-from meshforge.formats.meshfile.surface import check_surfaces, stack_triangles
+from meshforge.formats.meshfile.surface import RawSurface, check_surfaces, stack_triangles
+from meshforge.formats.surface_parts import parts_of_surfaces, plain_part_name
 from meshforge.formats.trimesh_meshes import WHERE, TrimeshObject, list_surfaces
-from meshforge.geometry import CoacdSettings, DecomposeSettings, EngineControl, Polytope, Pose, cache_folder
-from meshforge.geometry import decompose as run_engine
-from meshforge.symbolic import Asset, Body, Document, Geom, SymbolicMesh
+from meshforge.geometry import CoacdSettings, DecomposeSettings, Polytope, Pose, SurfaceParts
+from meshforge.symbolic import Asset, Body, Document, Geom, Surface, SymbolicMesh, unique_names
+
+DecomposeBy = Literal["whole", "parts"]
+"""Whether a surface is decomposed at once, or each of its parts by itself."""
 
 
 def decompose(
     mesh: str | os.PathLike[str] | TrimeshObject,
     settings: DecomposeSettings | None = None,
     *,
+    by: DecomposeBy = "whole",
     hollow: bool = False,
     timeout: float | None = None,
     cache: bool = True,
@@ -26,29 +34,86 @@ def decompose(
     """Decompose a mesh into convex hulls by CoACD or V-HACD; the same input gives the same hulls.
 
     mesh: a mesh file (OBJ, STL, PLY, DAE, GLB), or a mesh or scene of trimesh. settings: `CoacdSettings` or
-    `VhacdSettings`, by default CoACD's own; hollow: leave planar holes open, so that shells of one sheet are not
+    `VhacdSettings`, by default CoACD's own; by: `parts` decomposes each group, node and material by itself, so that no
+    hull crosses from one to another; hollow: leave planar holes open, so that shells of one sheet are not
     filled; timeout [s]; cache: keep results, and use kept ones; progress: called with what the engine is at.
-    The hulls are called `hull_0` and so on, of one body; `.asset.notes` says what is to be known about them.
-    Raises AssetError: the file cannot be read; GeometryError: it cannot be decomposed, or the engine took too long.
+    The hulls are called `hull_0` and so on, or by their parts, `handle_0`, of one body; `.asset.notes` says what is to
+    be known about them.
+    Raises AssetError: the file cannot be read; GeometryError: it cannot be decomposed, or the engine took too long;
+    UsageError: no such `by`.
     """
+    if by not in ("whole", "parts"):
+        raise UsageError(f"{by!r} is neither whole nor parts", where="by")
+    path, surface = read_surface(mesh)
+    notes: list[str] = []
+    engine, known = settings or CoacdSettings(), surface.parts
+    folder = geometry.cache_folder() if cache else None
+    control = geometry.EngineControl(progress, timeout=timeout)
+    if by == "parts" and known and known.is_divided:
+        found = geometry.decompose_by_parts(
+            surface.vertices,
+            surface.faces,
+            known,
+            engine,
+            close=not hollow,
+            cache=folder,
+            note=notes.append,
+            control=control,
+        )
+        hulls, names = [one.hull for one in found], name_hulls([known.names[one.part] for one in found])
+    else:
+        hulls = geometry.decompose(
+            surface.vertices,
+            surface.faces,
+            engine,
+            close=not hollow,
+            cache=folder,
+            note=notes.append,
+            control=control,
+        )
+        names = _number(["hull"] * len(hulls))
+        notes += _describe_parts(known, by)
+    return SymbolicMesh.of(_to_asset(path, names, hulls, notes))
+
+
+def read_surface(mesh: str | os.PathLike[str] | TrimeshObject) -> tuple[Path, Surface]:
+    """The triangles of a mesh file, or of a mesh or scene of trimesh, with their parts. Raises AssetError."""
+    surfaces: Sequence[RawSurface]
     if isinstance(mesh, str | os.PathLike):
         path, surfaces = Path(mesh), read_triangles(Path(mesh))
     else:
         path, surfaces = Path(WHERE), check_surfaces(list_surfaces(mesh), WHERE)
-    notes: list[str] = []
-    hulls = run_engine(
-        *stack_triangles((surface.vertices, surface.faces) for surface in surfaces),
-        settings or CoacdSettings(),
-        close=not hollow,
-        cache=cache_folder() if cache else None,
-        note=notes.append,
-        control=EngineControl(progress, timeout=timeout),
-    )
-    return SymbolicMesh.of(_to_asset(path, hulls, notes))
+    vertices, faces = stack_triangles((surface.vertices, surface.faces) for surface in surfaces)
+    return path, Surface(vertices, faces, parts=parts_of_surfaces(surfaces))
 
 
-def _to_asset(path: Path, hulls: list[Polytope], notes: list[str]) -> Asset:
+def name_hulls(parts: Sequence[str]) -> list[str]:
+    """The names of hulls, each by its part and a number: `handle_0`; parts of one name are numbered together."""
+    return unique_names(_number([plain_part_name(part) for part in parts]))
+
+
+def _number(bases: Sequence[str]) -> list[str]:
+    """`hull_0`, `hull_1`, ...: each base with the number of its occurrence, all of as many digits."""
+    widths = {base: len(str(count - 1)) for base, count in Counter(bases).items()}
+    seen: Counter[str] = Counter()
+    names = []
+    for base in bases:
+        names.append(f"{base}_{seen[base]:0{widths[base]}}")
+        seen[base] += 1
+    return names
+
+
+def _describe_parts(known: SurfaceParts | None, by: DecomposeBy) -> list[str]:
+    """A note where parts were asked for and are not there, or are there and were not asked for."""
+    names = list(dict.fromkeys(known.names[k] for k in known.numbers)) if known else []
+    if by == "parts":
+        return ["no parts are known, by groups, nodes or materials: decomposed as a whole"]
+    if known and known.is_divided:
+        return [f"a hull may hold several of its parts ({join_names(names, 3)}); --by parts keeps them apart"]
+    return []
+
+
+def _to_asset(path: Path, names: Sequence[str], hulls: Sequence[Polytope], notes: Sequence[str]) -> Asset:
     """The hulls as an asset of one body, to be written in any format."""
-    width = len(str(len(hulls) - 1))
-    geoms = tuple(Geom(f"hull_{k:0{width}}", "body", hull) for k, hull in enumerate(hulls))
+    geoms = tuple(Geom(name, "body", hull) for name, hull in zip(names, hulls, strict=True))
     return Asset(path, "decomposition", (Body("body", Pose.identity()),), geoms, Document(), notes=tuple(notes))

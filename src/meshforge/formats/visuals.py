@@ -13,6 +13,7 @@ import numpy as np
 from meshforge.common import MeshForgeError
 from meshforge.formats import base, collision_pieces, looks, mesh_reader
 from meshforge.formats.meshfile.surface import GAMMA
+from meshforge.formats.surface_parts import parts_of_surfaces
 from meshforge.geometry import Floats, Ints, Pose, Shape
 from meshforge.symbolic import Asset, FeatureKind, Rgba, Surface
 
@@ -45,7 +46,10 @@ class Visual:
             read = mesh_reader.read_triangles(self.what)
         except MeshForgeError:
             return []
-        return [replace(self._place(s.vertices, s.faces), rgba=self.rgba) for s in read]
+        return [
+            replace(self._place(s.vertices, s.faces), rgba=self.rgba, parts=parts_of_surfaces([s], self.what.stem))
+            for s in read
+        ]
 
     def surfaces_with_looks(self) -> list[Surface]:
         """Its surfaces with the base colours and pictures of their file, unless it has a colour itself."""

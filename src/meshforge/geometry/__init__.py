@@ -17,10 +17,12 @@ if TYPE_CHECKING:
         freeze_ints,
         nearest_on_triangles,
     )
-    from meshforge.geometry.connectivity import component_roots
+    from meshforge.geometry.connectivity import component_roots, components_by_vertices, weld
     from meshforge.geometry.convex import FLATNESS, convex_hull, measure_extents, principal_extents, spans_volume
+    from meshforge.geometry.decomposition.by_parts import PartHull, decompose_by_parts
     from meshforge.geometry.decomposition.engines import CoacdSettings, DecomposeSettings, EngineControl, VhacdSettings
-    from meshforge.geometry.decomposition.fine import decompose_finely
+    from meshforge.geometry.decomposition.fine import FINE, decompose_finely
+    from meshforge.geometry.decomposition.parts import SurfaceParts, stack_parts
     from meshforge.geometry.decomposition.run import cache_folder, decompose
     from meshforge.geometry.decomposition.triangles import is_line, is_sheet, sheet_hulls, volume_inside
     from meshforge.geometry.division import HullPart, divide
@@ -45,6 +47,7 @@ if TYPE_CHECKING:
     from meshforge.geometry.solids import cut, inertia, overlap_volume, partition, principal_axes, volume_of_union
     from meshforge.geometry.surface import (
         LEVEL,
+        heights_above,
         is_closed,
         is_convex,
         is_convex_hull,
@@ -54,11 +57,13 @@ if TYPE_CHECKING:
         planes_of,
         polygon_sizes,
         rises_above,
+        sample_surface,
     )
 else:
     __getattr__ = export_lazily(__name__)
 
 __all__ = [
+    "FINE",
     "FLATNESS",
     "LEVEL",
     "Aabb",
@@ -76,11 +81,13 @@ __all__ = [
     "HullFault",
     "HullPart",
     "Ints",
+    "PartHull",
     "Piece",
     "Polytope",
     "Pose",
     "Shape",
     "Sphere",
+    "SurfaceParts",
     "VhacdSettings",
     "aabb_box",
     "aabb_capsule",
@@ -90,9 +97,11 @@ __all__ = [
     "cache_folder",
     "close_pairs",
     "component_roots",
+    "components_by_vertices",
     "convex_hull",
     "cut",
     "decompose",
+    "decompose_by_parts",
     "decompose_finely",
     "describe_fault",
     "digest",
@@ -102,6 +111,7 @@ __all__ = [
     "find_fault",
     "freeze_floats",
     "freeze_ints",
+    "heights_above",
     "inertia",
     "is_closed",
     "is_convex",
@@ -130,14 +140,17 @@ __all__ = [
     "rises_above",
     "rotation_about",
     "rotation_of_quaternion",
+    "sample_surface",
     "sheet_hulls",
     "smallest_rotation",
     "snap_rotation",
     "spans_volume",
     "split_pieces",
+    "stack_parts",
     "tight_box",
     "tight_capsule",
     "tight_cylinder",
     "volume_inside",
     "volume_of_union",
+    "weld",
 ]

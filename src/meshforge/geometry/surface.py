@@ -163,3 +163,31 @@ def normals_of(hull: Polytope) -> Floats:
     a, b, c = (hull.vertices[hull.faces[:, k]] for k in range(3))
     normals = np.cross(b - a, c - a)
     return np.asarray(normals / np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), np.finfo(float).tiny))
+
+
+def heights_above(points: Floats, hull: Polytope) -> Floats:
+    """How far (n,) [m] points (n, 3) are above the face of a hull that they are highest above."""
+    a, b, c = (hull.vertices[hull.faces[:, k]] for k in range(3))
+    normals = np.cross(b - a, c - a)
+    lengths = np.linalg.norm(normals, axis=1)
+    normals, a = normals[lengths > 0] / lengths[lengths > 0, None], a[lengths > 0]
+    heights: Floats = (points @ normals.T - np.einsum("ij,ij->i", normals, a)).max(axis=1, initial=-np.inf)
+    return heights
+
+
+def sample_surface(vertices: Floats, faces: Ints, count: int) -> tuple[Floats, Ints]:
+    """Points (count, 3) that lie evenly on a surface of faces (m, 3), the same every time, and the face of each.
+
+    Of a surface without area they are the first corners of all faces.
+    """
+    a, b, c = (vertices[faces[:, k]] for k in range(3))
+    areas = np.linalg.norm(np.cross(b - a, c - a), axis=1)
+    if not areas.sum() > 0:
+        return a, np.arange(len(a))
+    chosen = np.searchsorted(np.cumsum(areas) / areas.sum(), (np.arange(count) + 0.5) / count)
+    chosen = np.minimum(chosen, len(areas) - 1)
+    u, v = np.random.default_rng(0).random((2, count, 1))
+    folded = u + v > 1
+    u, v = np.where(folded, 1 - u, u), np.where(folded, 1 - v, v)
+    points: Floats = a[chosen] + u * (b[chosen] - a[chosen]) + v * (c[chosen] - a[chosen])
+    return points, chosen

@@ -1,7 +1,8 @@
 """Looking at one asset, given as a mesh or as a file: checks, pictures, and the difference that an edit made."""
 
+from meshforge.inspection.decomposition import advise_decomposition
 from meshforge.inspection.difference import Difference, diff
 from meshforge.inspection.findings import check
 from meshforge.inspection.picture import render
 
-__all__ = ["Difference", "check", "diff", "render"]
+__all__ = ["Difference", "advise_decomposition", "check", "diff", "render"]

@@ -11,7 +11,7 @@ from typing import Any
 
 from meshforge import batch
 from meshforge.common import AssetError, MeshForgeError, ProjectError, describe_error, join_names
-from meshforge.formats import read
+from meshforge.formats import DecomposeBy, read
 from meshforge.geometry import CoacdSettings, DecomposeSettings, Shape, cache_folder, digest
 from meshforge.labels import label_new_hulls
 from meshforge.project import selections
@@ -243,6 +243,7 @@ def decompose(
     only: Sequence[str] = (),
     again: bool = False,
     hollow: bool = False,
+    by: DecomposeBy = "whole",
     execution: batch.ExecutionOptions = batch.EXECUTION_DEFAULTS,
     write_block: Callable[[str], AbstractContextManager[object]] = nullcontext,
 ) -> Iterator[PreparationResult]:
@@ -250,11 +251,12 @@ def decompose(
 
     It is done in worker processes. assets: all when None; settings: CoACD's defaults when None; only: names of pieces
     and bodies, or patterns; again: also what is decomposed already; hollow: shells of one sheet are not filled;
+    by: `parts` decomposes each group, node and material by itself, so that no hull crosses from one to another;
     write_block: the block in which an asset's files are written. Each is kept as soon as it is done, and what is done
     stays done when the caller stops in the midst.
     """
     ids = store.assets() if assets is None else tuple(dict.fromkeys(assets))
-    engine, options = settings or CoacdSettings(), {"only": tuple(only), "again": again, "hollow": hollow}
+    engine, options = settings or CoacdSettings(), {"only": tuple(only), "again": again, "hollow": hollow, "by": by}
     work = [_DecomposeWork(store.path(asset), store.layout.preparation(asset), engine, options) for asset in ids]
     results = batch.run_isolated(_decompose_one, work, execution)
     for asset, result in zip(ids, results, strict=True):

@@ -10,7 +10,7 @@ from typing import Literal
 
 import numpy as np
 
-from meshforge.geometry import Aabb, Floats, Ints, Pose, Shape, freeze_floats
+from meshforge.geometry import Aabb, Floats, Ints, Pose, Shape, SurfaceParts, freeze_floats
 
 JointKind = Literal["fixed", "revolute", "prismatic", "ball", "floating", "planar"]
 Mentions = tuple[tuple[str, str], ...]
@@ -79,7 +79,7 @@ class Surface:
     """Triangles to look at, or to decompose; vertices (n, 3) [m] in the root frame, faces (m, 3).
 
     body: the one that shows it, None where the file does not say; rgba: its colour, None where it has no single one;
-    texture: the picture that it has instead.
+    texture: the picture that it has instead; parts: of its faces, where the file names or separates some.
     """
 
     vertices: Floats
@@ -87,6 +87,7 @@ class Surface:
     body: str | None = None
     rgba: Rgba | None = None
     texture: Texture | None = None
+    parts: SurfaceParts | None = None
 
 
 @dataclass(frozen=True, eq=False, slots=True)

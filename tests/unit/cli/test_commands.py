@@ -183,6 +183,61 @@ def test_decompose_makes_hulls_that_info_reads(run: Run) -> None:
     assert len(run("info", "hulls.obj", "--json").json["hulls"]) >= 1
 
 
+QUICK_VOXELS = ("--no-cache", "--decompose", "vhacd", "--set", "resolution=5000")
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("suffix", [".obj", ".urdf", ".xml", ".sdf", ".usda", ".glb"])
+def test_hulls_by_parts_are_called_by_them_in_every_format_with_names(run: Run, suffix: str) -> None:
+    boxes = [CUBE.format(*(8 * k + i for i in range(1, 9)), name=n, x=2 * k, x1=2 * k + 1) for k, n in enumerate(PARTS)]
+    Path("mug.obj").write_text("".join(boxes))
+    assert run("decompose", "mug.obj", "-o", f"hulls{suffix}", "--by", "parts", *QUICK_VOXELS).code == 0
+    names = {hull["name"].rpartition("/")[2] for hull in run("info", f"hulls{suffix}", "--json").json["hulls"]}
+    assert names == {"wall_0", "handle_left_0", "part_3_0", "handle_left_1"}
+
+
+PARTS = ("wall", "handle left", "3", "handle.left")
+
+
+def test_a_mesh_of_several_parts_has_a_note_and_one_without_too_where_they_are_asked_for(run: Run) -> None:
+    told = run("decompose", "row.obj", "-o", "hulls.obj", *QUICK_VOXELS)
+    assert "--by parts keeps them apart" in told.err
+    Path("bar.obj").write_text(CUBE.format(*range(1, 9), name="bar", x=0, x1=3))
+    assert "no parts are known" in run("decompose", "bar.obj", "-o", "h.obj", "--by", "parts", *QUICK_VOXELS).err
+
+
+@pytest.mark.slow
+def test_advice_compares_settings_and_draws_them(run: Run) -> None:
+    told = run("decompose", "row.obj", "--advise", "--json", "-o", "advice.png", *QUICK_VOXELS)
+    assert told.code == 0 and Path("advice.png").read_bytes().startswith(b"\x89PNG")
+    assert [(one["by"], one["setting"]) for one in told.json["trials"]][2:4] == [
+        ("whole", "max_convex_hulls 8"), ("parts", "max_convex_hulls 64"),
+    ]  # fmt: skip
+    assert {one["spanning"] for one in told.json["trials"] if one["by"] == "parts"} == {0}
+    again = run("decompose", "row.obj", "--advise", "-o", "advice.png", *QUICK_VOXELS)
+    assert again.code == 2 and "there already" in again.err
+
+
+def test_advice_does_not_judge_one_solid_without_parts(run: Run) -> None:
+    Path("bar.obj").write_text(CUBE.format(*range(1, 9), name="bar", x=0, x1=3))
+    told = run("decompose", "bar.obj", "--advise", *QUICK_VOXELS)
+    assert "not judged: one solid without named parts" in told.out and len(told.out.splitlines()) == 5
+
+
+@pytest.mark.parametrize(
+    ("words", "problem"),
+    [
+        ((), "nothing says what to write"),
+        (("-o", "h.obj", "--json"), "--json says nothing without --advise"),
+        (("--advise", "--by", "parts"), "--by does not go with --advise"),
+        (("--advise", "-o", "h.obj"), "writes a picture, no hulls"),
+    ],
+)
+def test_options_of_decompose_that_do_not_fit_are_refused(run: Run, words: tuple[str, ...], problem: str) -> None:
+    told = run("decompose", "row.obj", *words)
+    assert told.code == 2 and problem in told.err
+
+
 def test_decompose_lists_the_options_when_one_is_unknown(run: Run) -> None:
     told = run("decompose", "row.obj", "-o", "hulls.obj", "--set", "treshold=0.1")
     assert told.code == 2

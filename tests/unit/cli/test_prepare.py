@@ -8,6 +8,7 @@ import pytest
 
 from tests.unit.batch.preparation.samples import write_boxes, write_stand
 from tests.unit.cli.in_process import Run, runner
+from tests.urdf_sample import boxes_obj
 
 VOXELS = ("--decompose", "vhacd", "--set", "resolution=5000", "--set", "max_convex_hulls=4", "--workers", "1")
 
@@ -41,6 +42,25 @@ def test_new_with_decompose_makes_hulls_and_says_what_it_made(run: Run) -> None:
     assert "\n    frame/body: " in told.out
     assert "2 pieces decomposed into" in run("status", "p").out
     assert run("prepare", "p", *VOXELS).out == "row.obj: nothing new\nstand.urdf: nothing new\n"
+
+
+@pytest.mark.slow
+def test_preparing_by_parts_names_hulls_by_them_and_is_kept_and_undone(run: Run) -> None:
+    left, right = boxes_obj(((0, 0, 0), (1, 1, 1))), boxes_obj(((1, 0, 0), (3, 1, 1)))
+    faces = [line for line in right.splitlines() if line.startswith("f")]
+    count = left.count("\nv ") + left.startswith("v ")
+    moved = ["f " + " ".join(str(int(word) + count) for word in line.split()[1:]) for line in faces]
+    places = [line for line in right.splitlines() if line.startswith("v")]
+    Path("in/corner.obj").write_text("o wall\n" + left + "\no handle\n" + "\n".join([*places, *moved]) + "\n")
+    assert run("new", "p", "in/stand.urdf", "--by", "parts", *VOXELS).code == 0
+    names = [hull["name"] for hull in run("info", "stand.urdf", "--project", "p", "--json").json["hulls"]]
+    assert {"cover/wall#0", "cover/handle#0"} <= set(names)
+    assert '"by": "parts"' in "".join(path.read_text() for path in Path("p/prepared").rglob("*.json"))
+    assert run("prepare", "p", "stand.urdf", "--undo").code == 0
+    assert not any(
+        "#" in h["name"] and "cover" in h["name"]
+        for h in run("info", "stand.urdf", "--project", "p", "--json").json["hulls"]
+    )
 
 
 def test_new_with_decompose_exits_with_1_where_a_piece_fails_and_the_project_is_there(run: Run) -> None:
@@ -188,7 +208,13 @@ def test_a_damaged_record_is_taken_back_and_a_folder_in_its_place_is_told(run: R
 
 @pytest.mark.parametrize(
     ("option", "words"),
-    [("--set", ("threshold=1",)), ("--hollow", ()), ("--timeout", ("600",)), ("--workers", ("1",))],
+    [
+        ("--set", ("threshold=1",)),
+        ("--hollow", ()),
+        ("--by", ("parts",)),
+        ("--timeout", ("600",)),
+        ("--workers", ("1",)),
+    ],
 )
 def test_options_of_decomposing_make_no_project_without_it(run: Run, option: str, words: tuple[str, ...]) -> None:
     told = run("new", "p", "in/row.obj", option, *words)

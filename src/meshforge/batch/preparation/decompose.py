@@ -14,6 +14,7 @@ import numpy as np
 from meshforge import geometry
 from meshforge.batch.preparation import record
 from meshforge.common import MeshForgeError, join_names, pluralize
+from meshforge.formats import DecomposeBy, plain_part_name
 from meshforge.geometry import DecomposeSettings, Floats, Polytope
 from meshforge.symbolic import Asset, Surface
 
@@ -46,13 +47,15 @@ def decompose_asset(
     only: Sequence[str] = (),
     again: bool = False,
     hollow: bool = False,
+    by: DecomposeBy = "whole",
     cache: Path | None = None,
 ) -> DecompositionResult:
     """Decompose all opaque pieces of an asset, and what bodies without collision geometry show.
 
     asset: as it was read; before: what is prepared already and stays as it is, as far as it still fits the asset;
     only: names, or patterns of them, of pieces and bodies, none for all; again: decompose anew what is decomposed;
-    hollow: planar holes are not closed first, so that shells of one sheet are not filled.
+    hollow: planar holes are not closed first, so that shells of one sheet are not filled; by: `parts` decomposes each
+    group, node and material by itself, where a file has several.
     One piece that fails does not keep the others from being done.
     """
     fit = record.replay_preparation(asset, _drop_decompositions(before, only) if again else before)
@@ -67,7 +70,7 @@ def decompose_asset(
         if not _is_chosen(source.what, only):
             continue
         try:
-            entry, own = _decompose_source(source, settings, taken, hollow, cache)
+            entry, own = _decompose_source(source, settings, taken, hollow, by, cache)
         except MeshForgeError as error:
             own_name = None if error.where == source.what else error.where  # the name of the piece comes with Lost
             why = MeshForgeError(error.problem, where=own_name, remedy=error.remedy).message
@@ -77,20 +80,45 @@ def decompose_asset(
         hulls += own
         taken |= entry.made.keys()
     if made:
-        used = settings_to_json(settings, hollow)
+        used = {**settings_to_json(settings, hollow), "by": by}
         step = record.PreparationStep("decompose", used, software_versions(settings), tuple(made))
         kept = kept.with_step(step, hulls)
     return DecompositionResult(kept, tuple(made), tuple(failed), fit.lost, missed)
 
 
 def _decompose_source(
-    source: record.DecompositionSource, settings: DecomposeSettings, taken: set[str], hollow: bool, cache: Path | None
+    source: record.DecompositionSource,
+    settings: DecomposeSettings,
+    taken: set[str],
+    hollow: bool,
+    by: DecomposeBy,
+    cache: Path | None,
 ) -> tuple[record.Replacement, list[Polytope]]:
     notes: list[str] = []
-    hulls = decompose_surface(source.surface, settings, source.what, hollow=hollow, cache=cache, note=notes.append)
-    made = dict(zip(record.free_names(source.base, len(hulls), taken), map(record.hull_digest, hulls), strict=True))
+    surface = source.surface
+    if by == "parts" and surface.parts and surface.parts.is_divided:
+        found = geometry.decompose_by_parts(
+            surface.vertices, surface.faces, surface.parts, settings, close=not hollow, cache=cache, note=notes.append
+        )
+        hulls = [one.hull for one in found]
+        names = _name_by_parts(source.base, [surface.parts.names[one.part] for one in found], taken)
+    else:
+        hulls = decompose_surface(surface, settings, source.what, hollow=hollow, cache=cache, note=notes.append)
+        names = record.free_names(source.base, len(hulls), taken)
+        notes += ["no parts are known, so it was decomposed as a whole"] if by == "parts" else []
+    made = dict(zip(names, map(record.hull_digest, hulls), strict=True))
     remarks = "; ".join([describe_fit(source.surface, hulls, solid=source.kind == "opaque" and not hollow), *notes])
     return record.Replacement(source.what, source.kind, record.surface_digest(source.surface), made, remarks), hulls
+
+
+def _name_by_parts(base: str, parts: Sequence[str], taken: set[str]) -> list[str]:
+    """The names of hulls by their parts, `door/handle#0`, numbers that are taken left out; base: `door/geom0`."""
+    body, slash, _ = base.rpartition("/")
+    known, names = set(taken), list[str]()
+    for part in parts:
+        names += record.free_names(f"{body}{slash}{plain_part_name(part)}", 1, known)
+        known.add(names[-1])
+    return names
 
 
 def _drop_decompositions(before: record.Preparation, only: Sequence[str]) -> record.Preparation:
@@ -165,35 +193,9 @@ def describe_fit(surface: Surface, hulls: Sequence[Polytope], *, solid: bool) ->
 
 def measure_uncovered(surface: Surface, hulls: Sequence[Polytope]) -> float:
     """The share of a surface's area that is farther outside of all hulls than 1% of its diagonal."""
-    points = _sample_surface(surface)
+    points, _ = geometry.sample_surface(surface.vertices, surface.faces, _POINTS)
     reach = _NEAR * float(np.linalg.norm(np.ptp(points, axis=0)))
     outside = np.ones(len(points), dtype=bool)
     for hull in hulls:
-        outside[outside] = _height_above(points[outside], hull) > reach
+        outside[outside] = geometry.heights_above(points[outside], hull) > reach
     return float(outside.mean())
-
-
-def _height_above(points: Floats, hull: Polytope) -> Floats:
-    """How far (n,) [m] points (n, 3) are above the face of a hull that they are highest above."""
-    a, b, c = (hull.vertices[hull.faces[:, k]] for k in range(3))
-    normals = np.cross(b - a, c - a)
-    lengths = np.linalg.norm(normals, axis=1)
-    normals, a = normals[lengths > 0] / lengths[lengths > 0, None], a[lengths > 0]
-    heights: Floats = (points @ normals.T - np.einsum("ij,ij->i", normals, a)).max(axis=1, initial=-np.inf)
-    return heights
-
-
-def _sample_surface(surface: Surface) -> Floats:
-    """Points (n, 3) that lie evenly on a surface, the same every time."""
-    a, b, c = (surface.vertices[surface.faces[:, k]] for k in range(3))
-    areas = np.linalg.norm(np.cross(b - a, c - a), axis=1)
-    random = np.random.default_rng(0)
-    if not areas.sum() > 0:
-        return a
-    chosen = np.searchsorted(np.cumsum(areas) / areas.sum(), (np.arange(_POINTS) + 0.5) / _POINTS)
-    chosen = np.minimum(chosen, len(areas) - 1)
-    u, v = random.random((2, _POINTS, 1))
-    folded = u + v > 1
-    u, v = np.where(folded, 1 - u, u), np.where(folded, 1 - v, v)
-    points: Floats = a[chosen] + u * (b[chosen] - a[chosen]) + v * (c[chosen] - a[chosen])
-    return points

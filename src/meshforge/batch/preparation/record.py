@@ -12,7 +12,7 @@ import numpy as np
 
 from meshforge.common import AssetError, join_names, pluralize
 from meshforge.formats import NO_GEOMETRY
-from meshforge.geometry import Polytope, digest, is_line
+from meshforge.geometry import Polytope, SurfaceParts, digest, is_line, stack_parts
 from meshforge.symbolic import Asset, Geom, Surface
 
 SourceKind = Literal["opaque", "body", "hull"]
@@ -41,11 +41,12 @@ class Replacement:
 class PreparationStep:
     """One thing done to an asset.
 
-    do: `decompose` by an engine, `cut` a hull along a plane, or `split` it by a decomposition of what is seen there.
+    do: `decompose` by an engine, `cut` a hull along a plane, `split` it by a decomposition of what is seen there, or
+    `divide` hulls that span parts where the labels of what they stand for change.
     settings: all that it was done with; software: the versions of what did it.
     """
 
-    do: Literal["decompose", "cut", "split"]
+    do: Literal["decompose", "cut", "split", "divide"]
     settings: dict[str, Any]
     software: dict[str, str]
     replaced: tuple[Replacement, ...]
@@ -53,8 +54,9 @@ class PreparationStep:
     def __str__(self) -> str:
         """`link/geom0 decomposed into 12 hulls by coacd`."""
         names = [entry.what for entry in self.replaced]
-        what = names[0] if len(names) == 1 else f"{len(names)} pieces"
-        done = {"decompose": "decomposed", "cut": "cut", "split": "split"}[self.do]
+        kind = "hulls" if self.do == "divide" else "pieces"
+        what = names[0] if len(names) == 1 else f"{len(names)} {kind}"
+        done = {"decompose": "decomposed", "cut": "cut", "split": "split", "divide": "divided"}[self.do]
         by = f" by {self.settings['method']}" if "method" in self.settings else ""
         return f"{what} {done} into {pluralize(sum(len(entry.made) for entry in self.replaced), 'hull')}{by}"
 
@@ -152,7 +154,8 @@ def merge_visuals(asset: Asset, body: str) -> Surface | None:
     if not own:
         return None
     faces = [s.faces + start for s, start in zip(own, np.cumsum([0, *(len(s.vertices) for s in own)]), strict=False)]
-    return Surface(np.concatenate([s.vertices for s in own]), np.concatenate(faces), body)
+    parts = [s.parts or SurfaceParts(np.zeros(len(s.faces), np.int64), (f"part_{k}",)) for k, s in enumerate(own)]
+    return Surface(np.concatenate([s.vertices for s in own]), np.concatenate(faces), body, parts=stack_parts(parts))
 
 
 def surface_digest(surface: Surface) -> str:

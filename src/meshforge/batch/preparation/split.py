@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
 from meshforge.batch.preparation import record
 from meshforge.batch.preparation.decompose import decompose_surface, settings_to_json, software_versions
 from meshforge.common import GeometryError, pluralize, suggest_name
-from meshforge.geometry import DecomposeSettings, Floats, Polytope, cut, digest, partition
+from meshforge.geometry import FINE, DecomposeSettings, Floats, Polytope, cut, digest, partition
 from meshforge.symbolic import Asset, Geom, Surface
 
 Vector = Sequence[float]
@@ -68,6 +70,34 @@ def split_hull(
     remarks += [f"{pluralize(parting.dropped, 'crumb')} dropped"] if parting.dropped else []
     step = record.PreparationStep("split", settings_to_json(settings, hollow), software_versions(settings), ())
     return _add_step(asset, before, geom, step, parting.parts, [*remarks, *notes])
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class HullDivision:
+    """A hull that spans parts. chance: of that; parts: convex, together the hull; told: in words."""
+
+    hull: str
+    chance: float
+    parts: tuple[Polytope, ...]
+    told: str
+
+
+def divide_hulls(
+    asset: Asset, before: record.Preparation, divisions: Sequence[HullDivision], settings: Mapping[str, Any]
+) -> record.Preparation:
+    """Put the parts of hulls that span parts in their place, in one step. Raises GeometryError: no such hull."""
+    geoms = {geom.name: geom for geom in record.apply_preparation(asset, before).geoms}
+    taken = {*(g.name for g in asset.geoms), *(o.name for o in asset.opaque), *before.hull_digests}
+    entries = list[record.Replacement]()
+    for one in divisions:
+        if one.hull not in geoms:
+            raise GeometryError(f"there is no hull {one.hull!r}", where=str(asset.path))
+        names = record.free_names(one.hull, len(one.parts), taken)
+        made = dict(zip(names, map(record.hull_digest, one.parts), strict=True))
+        entries.append(record.Replacement(one.hull, "hull", digest(geoms[one.hull].shape), made, one.told))
+        taken |= made.keys()
+    step = record.PreparationStep("divide", dict(settings), software_versions(FINE), tuple(entries))
+    return before.with_step(step, [part for one in divisions for part in one.parts])
 
 
 def _find_hull(asset: Asset, before: record.Preparation, name: str) -> Geom:

@@ -118,9 +118,14 @@ def _refuse_numbers(geometry: Any) -> None:
 
 def _read_surface(bound: Any, name: str | None, unit: float) -> Iterator[RawSurface]:
     """The surface of a geometry; its sets of triangles, one a material, are joined."""
-    parts = [_read_triangles(triangles) for _, triangles in _list_triangles(bound)]
+    listed = list(_list_triangles(bound))
+    parts = [_read_triangles(triangles) for _, triangles in listed]
     if parts:
-        yield RawSurface(name, *stack_triangles(parts), unit)
+        names = [str(getattr(part.original, "material", None) or "") for part, _ in listed]
+        known = ("", *dict.fromkeys(filter(None, names)))
+        places = np.array([known.index(name) for name in names])
+        materials = (np.repeat(places, [len(faces) for _, faces in parts]), known) if len(known) > 1 else None
+        yield RawSurface(name, *stack_triangles(parts), unit, materials)
 
 
 def _list_triangles(bound: Any) -> Iterator[tuple[Any, Any]]:

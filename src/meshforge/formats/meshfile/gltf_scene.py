@@ -14,7 +14,7 @@ import numpy as np
 from meshforge.formats.meshfile import gltf_buffers, gltf_meshes
 from meshforge.formats.meshfile.gltf_document import Container, Json, entries, entry, numbers, parse_json, report_damage
 from meshforge.formats.meshfile.surface import RawSurface, check_surfaces
-from meshforge.geometry import Floats
+from meshforge.geometry import Floats, Ints
 
 _PLACED = frozenset(("matrix", "translation", "rotation", "scale"))
 
@@ -35,7 +35,21 @@ def _read_surface(scene: GltfScene, placement: Placement) -> Iterator[RawSurface
     if "mesh" in placement.node:
         mesh, linear, offset = scene.place_mesh(placement)
         name = placement.node.get("name") or entry(scene.tree, "meshes", placement.node["mesh"]).get("name")
-        yield RawSurface(name, mesh.vertices @ linear.T + offset, mesh.faces)
+        materials = _materials_of(scene, placement.node["mesh"], mesh)
+        yield RawSurface(name, mesh.vertices @ linear.T + offset, mesh.faces, materials=materials)
+
+
+def _materials_of(scene: GltfScene, index: int, mesh: gltf_meshes.GltfMesh) -> tuple[Ints, tuple[str, ...]] | None:
+    """The material of each face of a mesh, and the names of all, the first of those without; None where none is."""
+    parts = entries(entry(scene.tree, "meshes", index), "primitives")
+    numbers = [parts[patch.index].get("material") for patch in mesh.patches]
+    names = [str(entry(scene.tree, "materials", k).get("name") or f"material_{k}") for k in numbers if k is not None]
+    if not names:
+        return None
+    known = ("", *dict.fromkeys(names))
+    said = iter(names)
+    places = [0 if k is None else known.index(next(said)) for k in numbers]
+    return np.repeat(np.array(places), [len(patch.faces) for patch in mesh.patches]), known
 
 
 @dataclass(frozen=True, eq=False, slots=True)

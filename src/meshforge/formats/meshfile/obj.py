@@ -60,9 +60,12 @@ class ObjText:
     def surfaces(self, where: str) -> list[surface.RawSurface]:
         """A surface for each group that has faces; they share the vertices of the file. Raises AssetError."""
         names = group_names(self.groups)
-        parts = [
-            surface.RawSurface(names[k], self.vertices, self.faces[self.face_group == k]) for k in range(len(names))
-        ]
+        of_face, materials = self.materials()
+        parts = []
+        for k, name in enumerate(names):
+            own = self.face_group == k
+            said = (of_face[own], materials) if len(materials) > 1 else None
+            parts.append(surface.RawSurface(name, self.vertices, self.faces[own], materials=said))
         return surface.check_surfaces(parts, where)
 
 

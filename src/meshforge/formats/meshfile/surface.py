@@ -26,12 +26,14 @@ class RawSurface:
     """A named part of a mesh file (group, object, node); vertices (n, 3) in the file's own unit, faces (m, 3).
 
     unit: the metres that the file says its unit has; most engines take no notice of it.
+    materials: (m,) the material of each face, and the names of all; None where the file has none.
     """
 
     name: str | None
     vertices: Floats
     faces: Ints
     unit: float = 1.0
+    materials: tuple[Ints, tuple[str, ...]] | None = None
 
 
 def check_surfaces(surfaces: Iterable[RawSurface], where: str) -> list[RawSurface]:

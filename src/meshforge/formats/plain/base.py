@@ -33,6 +33,7 @@ from meshforge.formats.plain.parts import (
     owners_of,
     to_parts,
 )
+from meshforge.formats.surface_parts import parts_of_groups
 from meshforge.geometry import Ints, Piece, Pose, Shape, convex_hull, split_pieces
 from meshforge.symbolic import PRIMITIVE_FEATURES, Asset, Body, FeatureKind, Geom, Mentions, Opaque, Surface
 
@@ -96,7 +97,7 @@ class PlainFormat(Format):
             geoms=tuple(Geom(name, BODY, shapes[name], mentions=said) for name, _, said in named if name in shapes),
             document=document,
             opaque=tuple(
-                Opaque(name, BODY, piece.reason or "", Surface(piece.vertices, piece.faces), mentions=said)
+                Opaque(name, BODY, piece.reason or "", _surface_of(soup, piece), mentions=said)
                 for name, piece, said in named
                 if not piece.shape
             ),
@@ -195,6 +196,13 @@ def _mentions_of(soup: Soup, piece: Piece) -> Mentions:
     return collision_pieces.drop_repeats(
         (kind, names[k]) for kind, owner, names in soup.mentions for k in np.unique(owner[piece.face_indices]).tolist()
     )
+
+
+def _surface_of(soup: Soup, piece: Piece) -> Surface:
+    """The triangles of a piece, in parts by the groups and materials of the file."""
+    own = piece.face_indices
+    materials = next(((owner[own], names) for kind, owner, names in soup.mentions if kind == "material"), None)
+    return Surface(piece.vertices, piece.faces, parts=parts_of_groups(soup.group[own], soup.names, materials))
 
 
 def _visual_surface(soup: Soup) -> tuple[Surface, ...]:

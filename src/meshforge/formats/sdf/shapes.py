@@ -162,7 +162,7 @@ def read_parts(collision: models.SdfCollision, use: MeshUse | None, meshes: Coll
         linear = pose.rotation * read_mesh_scale(kind, where, use.label)
         if kind.attributes.get("optimization") == "convex_hull":
             return [hull_of(meshes.surfaces(use), linear, pose.translation)]
-        return place_pieces(meshes.pieces(use), linear, pose.translation)
+        return place_pieces(meshes.pieces(use), linear, pose.translation, meshes.surfaces(use))
     geometry = collision.element.first("geometry")
     assert geometry is not None  # it holds the kind
     return [read_polylines(geometry, pose, where) if kind.tag == "polyline" else read_primitive(kind, pose, where)]

@@ -80,7 +80,9 @@ def read_parts(
             parts.append([])
         elif use is not None:
             linear = pose.rotation * read_mesh_scale(kind, where, use.label)
-            parts.append(collision_pieces.place_pieces(meshes.pieces(use), linear, pose.translation))
+            parts.append(
+                collision_pieces.place_pieces(meshes.pieces(use), linear, pose.translation, meshes.surfaces(use))
+            )
         else:
             parts.append([read_primitive(kind, pose, where)])
     return parts

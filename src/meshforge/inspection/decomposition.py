@@ -1,0 +1,152 @@
+"""What several settings of a decomposition come to, side by side: hulls, how many hold more than one part, volume."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Literal
+
+import numpy as np
+
+from meshforge import geometry
+from meshforge.common import pluralize
+from meshforge.formats import DecomposeBy, decompose, read_surface
+from meshforge.geometry import CoacdSettings, DecomposeSettings, Ints, Polytope
+from meshforge.symbolic import Surface, SymbolicMesh
+
+if TYPE_CHECKING:
+    from PIL.Image import Image
+
+THRESHOLDS = (0.05, 0.12, 0.3)
+"""CoACD's thresholds that are tried: its default, and two coarser ones."""
+COUNTS = (64, 24, 8)
+"""V-HACD's most hulls that are tried."""
+PURE = 0.9
+"""A hull spans parts when no part has this share of the surface that it stands for."""
+
+_NEAR = 0.01  # of the diagonal: how far outside a hull the surface that it stands for may be
+_POINTS = 20_000
+_CELL = (480, 400)  # [px] of a picture
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class DecompositionTrial:
+    """One setting and what it came to. setting: `threshold 0.05`; spanning: how many hulls hold more than one part,
+    None where that was not judged; excess: the share of the volume that was added, None for an open surface."""
+
+    setting: str
+    by: DecomposeBy
+    mesh: SymbolicMesh
+    spanning: int | None
+    excess: float | None
+
+    def to_json(self) -> dict[str, Any]:
+        """Without the mesh."""
+        told = {"setting": self.setting, "by": self.by, "hulls": len(self.mesh.hulls)}
+        notes = list(self.mesh.asset.notes) if self.mesh.asset else []
+        return {**told, "spanning": self.spanning, "extra_volume": self.excess, "notes": notes}
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class DecompositionAdvice:
+    """judged: by what it was judged which hulls span parts, or why not; up: the axis that points up in pictures."""
+
+    judged: str
+    trials: tuple[DecompositionTrial, ...]
+    up: Literal["Y", "Z"] = "Z"
+
+    def to_json(self) -> dict[str, Any]:
+        """For scripts: `judged`, and `trials` in the order of the table."""
+        return {"judged": self.judged, "trials": [trial.to_json() for trial in self.trials]}
+
+    def describe(self) -> list[str]:
+        """A table as lines of text, and by what it was judged."""
+        rows = [("setting", "by", "hulls", "span parts", "extra volume")]
+        for trial in self.trials:
+            spanning = "-" if trial.spanning is None else str(trial.spanning)
+            rows.append((trial.setting, trial.by, str(len(trial.mesh.hulls)), spanning, _format(trial.excess)))
+        widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
+        lines = ["  ".join(text.ljust(width) for text, width in zip(row, widths, strict=True)).rstrip() for row in rows]
+        return [*lines, f"span parts: {self.judged}"]
+
+    def draw(self) -> Image:
+        """A picture of each, three in a row, under one camera."""
+        from meshforge.rendering import make_contact_sheet, render  # lazy: a table needs no pictures
+
+        boxes = [trial.mesh.aabb for trial in self.trials if trial.mesh.aabb]
+        box = geometry.Aabb.union(boxes) if boxes else None
+        pictures = [render(trial.mesh, size=_CELL, legend=False, bounds=box, up=self.up) for trial in self.trials]
+        titles = [f"{one.setting} by {one.by}: {pluralize(len(one.mesh.hulls), 'hull')}" for one in self.trials]
+        return make_contact_sheet(pictures, columns=len(THRESHOLDS), titles=titles)
+
+
+def _format(excess: float | None) -> str:
+    return "-" if excess is None else f"{excess:+.0%}"
+
+
+def advise_decomposition(
+    mesh: str | Path,
+    settings: DecomposeSettings | None = None,
+    *,
+    hollow: bool = False,
+    timeout: float | None = None,
+    cache: bool = True,
+    progress: Callable[[str], None] = lambda _: None,
+) -> DecompositionAdvice:
+    """What three thresholds of CoACD, or most counts of V-HACD, make of a mesh file, as a whole and by known parts.
+
+    settings: all else about the engine; timeout [s]: of each decomposition. Raises AssetError, GeometryError.
+    """
+    _, surface = read_surface(mesh)
+    regions, judged = find_regions(surface)
+    ways: list[DecomposeBy] = ["whole", "parts"] if surface.parts and surface.parts.is_divided else ["whole"]
+    inside = None if hollow else geometry.volume_inside(surface.vertices, surface.faces)
+    trials = []
+    for by, (title, own) in itertools.product(ways, _list_settings(settings or CoacdSettings())):
+        progress(f"{title} by {by}")
+        made = decompose(mesh, own, by=by, hollow=hollow, timeout=timeout, cache=cache)
+        hulls = [hull.shape for hull in made.hulls if isinstance(hull.shape, Polytope)]
+        spanning = None if regions is None else 0  # by parts, each hull is made of the surface of one
+        if regions is not None and by == "whole":
+            spanning = int(find_spanning(surface, regions, hulls).sum())
+        excess = geometry.volume_of_union(hulls) / inside - 1 if inside else None
+        trials.append(DecompositionTrial(title, by, made, spanning, excess))
+    up: Literal["Y", "Z"] = "Y" if Path(mesh).suffix.lower() in (".glb", ".gltf") else "Z"
+    return DecompositionAdvice(judged, tuple(trials), up)
+
+
+def _list_settings(settings: DecomposeSettings) -> list[tuple[str, DecomposeSettings]]:
+    if isinstance(settings, CoacdSettings):
+        return [(f"threshold {value:g}", replace(settings, threshold=value)) for value in THRESHOLDS]
+    return [(f"max_convex_hulls {value}", replace(settings, max_convex_hulls=value)) for value in COUNTS]
+
+
+def find_regions(surface: Surface) -> tuple[Ints | None, str]:
+    """The region (m,) of each face that a hull should not leave, and what the regions are; None where there is one."""
+    if surface.parts and surface.parts.is_divided:
+        return surface.parts.of_face, f"judged by {pluralize(len(surface.parts.numbers), 'named part')}"
+    component = geometry.components_by_vertices(geometry.weld(surface.vertices)[surface.faces])
+    if (count := len(np.unique(component))) > 1:
+        return component, f"judged by {pluralize(count, 'connected piece')}, since no parts are named"
+    return None, "not judged: one solid without named parts"
+
+
+def find_spanning(surface: Surface, regions: Ints, hulls: Sequence[Polytope]) -> Any:
+    """Which hulls (k,) span regions (m,) of the faces: no region has 90% of the surface that the hull stands for.
+
+    A place on the surface counts for the hull that it is deepest in.
+    """
+    points, face = geometry.sample_surface(surface.vertices, surface.faces, _POINTS)
+    reach = _NEAR * float(np.linalg.norm(np.ptp(points, axis=0)))
+    lowest, owner = np.full(len(points), reach), np.full(len(points), -1)
+    for k, hull in enumerate(hulls):
+        heights = geometry.heights_above(points, hull)
+        closer = heights < lowest
+        lowest[closer], owner[closer] = heights[closer], k
+    _, places = np.unique(regions, return_inverse=True)
+    counts = np.zeros((len(hulls), int(places.max()) + 1), dtype=np.int64)
+    held = owner >= 0
+    np.add.at(counts, (owner[held], places.reshape(-1)[face[held]]), 1)
+    return counts.max(axis=1) < PURE * counts.sum(axis=1)
