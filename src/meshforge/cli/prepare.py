@@ -15,7 +15,7 @@ from meshforge.cli.console import progress
 from meshforge.cli.terminal import print_json
 from meshforge.common import UsageError, describe_error, pluralize
 from meshforge.geometry import DecomposeSettings
-from meshforge.project import PreparationResult, Project
+from meshforge.project import SURE_TO_SPAN, PreparationResult, Project
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,6 +38,14 @@ class PrepareArguments:
     again: Annotated[bool, typer.Option("--again", help="Decompose anew what is decomposed already.")] = False
     hollow: options.Hollow = False
     by: options.By = "whole"
+    split_spanning: Annotated[
+        bool, typer.Option("--split-spanning", help="Split hulls that span parts, where labels change within them.")
+    ] = False
+    sure: Annotated[
+        float | None,
+        typer.Option("--sure", metavar="P", help="Split hulls that span parts with at least this probability [0.9]."),
+    ] = None
+    dry_run: Annotated[bool, typer.Option("--dry-run", help="Say which hulls would be split; write nothing.")] = False
     undo: Annotated[bool, typer.Option("--undo", help="Take back the last thing that was done to each.")] = False
     remove: Annotated[bool, typer.Option("--remove", help="Take back all that was done to each.")] = False
     workers: options.Workers = None
@@ -53,11 +61,15 @@ def prepare(given: PrepareArguments) -> None:
     asset; the asset's own files stay as they are. To split one hull: meshforge split.
     Exit code 1 when some pieces could not be decomposed, or something could not be taken back (each named).
     """
-    if (given.method is not None) + given.undo + given.remove != 1:
-        raise UsageError("say what to do: --decompose METHOD, --undo or --remove")
+    if (given.method is not None) + given.split_spanning + given.undo + given.remove != 1:
+        raise UsageError("say what to do: --decompose METHOD, --split-spanning, --undo or --remove")
+    if not given.split_spanning:
+        options.refuse_options(given.context, ("sure", "dry_run"), "--split-spanning")
     if given.undo and not given.assets:
         raise UsageError("--undo of which asset?", remedy="Name it; --remove takes back everything, of all assets too.")
     project = Project.open(given.project)
+    if given.split_spanning:
+        raise typer.Exit(_split_spanning(project, given))
     if given.method is None:
         only_with_method = ("option", "only", "again", "hollow", "by", "workers", "timeout")
         options.refuse_options(given.context, only_with_method, "--decompose METHOD")
@@ -79,6 +91,19 @@ def prepare(given: PrepareArguments) -> None:
             json=given.json,
         )
     )
+
+
+def _split_spanning(project: Project, given: PrepareArguments) -> int:
+    """Split hulls that span parts and print what became of each asset; the exit code."""
+    options.refuse_options(given.context, ("option", "only", "again", "hollow", "by"), "--decompose METHOD")
+    results = project.split_spanning(
+        [options.asset_id(asset, project) for asset in given.assets] if given.assets else None,
+        sure=SURE_TO_SPAN if given.sure is None else given.sure,
+        dry_run=given.dry_run,
+        execution=ExecutionOptions(workers=given.workers, timeout=given.timeout),
+        stage=progress,
+    )
+    return print_results(results, given.json)
 
 
 def decompose_assets(

@@ -10,6 +10,7 @@ import numpy as np
 
 from meshforge.common import GeometryError
 from meshforge.geometry.arrays import Bools, Floats, Ints
+from meshforge.geometry.convex import FLATNESS, convex_hull, spans_volume
 from meshforge.geometry.shape import Polytope, Shape
 from meshforge.geometry.solids import cut, intersect
 from meshforge.geometry.surface import planes_of
@@ -18,7 +19,8 @@ _POINTS = 1500  # that stand for what lies in a shape
 _LEAST_POINTS = 4  # of each piece
 _LEAST = 0.01  # of the shape's volume: a smaller part is a sliver, and stays with its neighbour
 _PURE = 0.98  # of what lies in a part that is of one kind: it is not divided
-_GAIN = 0.01  # of what lies in the shape that a plane must set right
+_GAIN = 0.004  # of what lies in the shape that a plane must set right
+_ALL = 0.85  # of a piece that a part has, from which it has all of it
 _PARTS = 12  # at most
 _SAME = 1e-3  # planes whose normals and offsets (of the diagonal) differ by less are one
 
@@ -55,7 +57,8 @@ class _Contents:
 
 
 def divide(shape: Shape, pieces: Sequence[Polytope], chances: Floats) -> tuple[HullPart, ...]:
-    """The convex parts of a shape, which together are the shape: one alone where no plane sets kinds apart.
+    """The convex parts of a shape, each drawn tight around what lies in it; the shape alone where no plane sets kinds
+    apart. Parts lie within the shape, to rounding, and hold all that it has of the pieces.
 
     pieces: convex, of what the shape stands for; chances: (pieces, kinds) the probability of each kind for each.
     """
@@ -84,7 +87,30 @@ def divide(shape: Shape, pieces: Sequence[Polytope], chances: Floats) -> tuple[H
             break
         _, place, halves = max(splits, key=lambda row: (row[0], -row[1]))
         found[place : place + 1] = halves
-    return tuple(HullPart(part, _to_shares(own.volumes)) for part, own in found)
+    if len(found) == 1:
+        return (HullPart(whole, _to_shares(held.volumes)),)
+    tight = _tighten([part for part, _ in found], [part for part, _ in commons], whole)
+    return tuple(HullPart(part, _to_shares(own.volumes)) for part, (_, own) in zip(tight, found, strict=True))
+
+
+def _tighten(parts: Sequence[Polytope], solids: Sequence[Polytope], whole: Polytope) -> list[Polytope]:
+    """The convex hull of what solids have in each part; a solid that a part has nearly all of is all of that part."""
+    inside = [[intersect(part, solid) for part in parts] for solid in solids]
+    corners: list[list[Floats]] = [[np.zeros((0, 3))] for _ in parts]
+    for solid, commons in zip(solids, inside, strict=True):
+        volumes = [common.volume if common else 0.0 for common in commons]
+        most = int(np.argmax(volumes))
+        if volumes[most] >= _ALL * sum(volumes):
+            corners[most].append(solid.vertices)
+        else:
+            for own, common in zip(corners, commons, strict=True):
+                own += [common.vertices] if common else []
+    points = [np.concatenate(rows) for rows in corners]
+    thickness = FLATNESS * whole.aabb.diagonal
+    return [
+        convex_hull(own, name="a part of a hull", thicken=thickness) if len(own) > 3 and spans_volume(own) else part
+        for part, own in zip(parts, points, strict=True)
+    ]
 
 
 def _to_shares(volumes: Floats) -> Floats:

@@ -21,6 +21,7 @@ WHOLE = 0.9
 _SURE = 0.005  # a share of other labels is at least this, for its logarithm
 _DOUBT = 0.03  # standard deviation of a share whose labels are all certain
 _MOST = 0.8  # how much a label is believed that a piece takes from the hull that it lies in
+_ALL = 0.85  # of a piece, from which a hull has nearly all of it
 _WITHIN = 0.5  # of a piece's volume that the hull must have
 
 
@@ -60,6 +61,13 @@ class AssetPieces:
             one, other = self.mesh.hulls[hull], self.pieces.hulls[piece]
             if one.body == other.body:
                 found[hull, piece] = overlap_volume(one.shape, other.shape)
+        return found
+
+    def pieces_of(self, hull: int) -> Ints:
+        """The pieces that a hull stands for: those that it meets, but for what another hull has nearly all of."""
+        held = self.common / np.array([max(piece.shape.volume, 1e-300) for piece in self.pieces.hulls])
+        others = np.delete(held, hull, axis=0).max(axis=0, initial=0.0)
+        found: Ints = np.flatnonzero((held[hull] > 0) & ((others < _ALL) | (held[hull] >= others)))
         return found
 
     def take_labels(self, labels: Sequence[Label | None]) -> list[Label | None]:
@@ -141,7 +149,7 @@ class SpanPosterior:
     def divide(self, mesh: int, hull: int) -> tuple[HullPart, ...]:
         """The parts that a hull is divided into; one alone where it is not to be divided."""
         asset = self.assets[mesh]
-        own: Ints = np.flatnonzero(asset.common[hull] > 0)
+        own = asset.pieces_of(hull)
         pieces = [asset.pieces.hulls[place].shape.tessellate() for place in own.tolist()]
         return divide(asset.mesh.hulls[hull].shape, pieces, self._chances_of(mesh)[own])
 

@@ -9,6 +9,7 @@ from meshforge.common.exports import export_lazily
 
 if TYPE_CHECKING:
     from meshforge.labels.by_hand import label_command
+    from meshforge.labels.family_comparison import ignore_stage
     from meshforge.labels.from_files.points import PointsOptions
     from meshforge.labels.from_files.read import LabelFileOptions, label_file_beside
     from meshforge.labels.from_files.segments import PointAlignment
@@ -18,6 +19,7 @@ if TYPE_CHECKING:
     from meshforge.labels.label_store import LabelStore
     from meshforge.labels.merge import LabelOutcome, label_new_hulls
     from meshforge.labels.offers import LabelOffers, OfferCache
+    from meshforge.labels.spans import HullSpan, SpanReport, find_spans
     from meshforge.labels.summary import Proposal, Proposals, SourceTally, Tally
     from meshforge.labels.vlm.endpoint import endpoint_of
     from meshforge.labels.vlm.label_by_vlm import VlmForecast, VlmResult, check_vlm_settings
@@ -29,6 +31,7 @@ __all__ = [
     "LABELERS",
     "AssetLabeler",
     "ConsensusResult",
+    "HullSpan",
     "LabelChange",
     "LabelFileOptions",
     "LabelOffers",
@@ -42,6 +45,7 @@ __all__ = [
     "Proposals",
     "SourceRestoration",
     "SourceTally",
+    "SpanReport",
     "Tally",
     "Usage",
     "VlmForecast",
@@ -49,6 +53,8 @@ __all__ = [
     "check_labeler",
     "check_vlm_settings",
     "endpoint_of",
+    "find_spans",
+    "ignore_stage",
     "label_command",
     "label_file_beside",
     "label_new_hulls",

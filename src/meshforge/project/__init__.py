@@ -22,11 +22,13 @@ if TYPE_CHECKING:
     from meshforge.project.run_report import add_standings, build_run_report, summarize_outputs
     from meshforge.project.sign_off_text import format_review, format_share, format_standing, format_status
     from meshforge.project.sign_offs import AssessmentBasis, digest_lesson, keep_assessment
+    from meshforge.project.spans import SURE_TO_SPAN
     from meshforge.project.status import AssetStatus, Status
 else:
     __getattr__ = export_lazily(__name__)
 
 __all__ = [
+    "SURE_TO_SPAN",
     "AssessmentBasis",
     "AssetStatus",
     "FamilyMeshes",

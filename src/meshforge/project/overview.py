@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterable, Iterator
+from dataclasses import replace
 from functools import partial
 
 from meshforge.batch import ApplyTask, AssetJob, ExecutionOptions, Stamp, inputs_of, read_stamp
@@ -18,7 +19,7 @@ from meshforge.project.sign_offs import digest_lesson
 from meshforge.project.standings import Standings
 from meshforge.project.status import AssetStatus, Status
 from meshforge.signoff import BAR
-from meshforge.store import AssetFacts, Review, Store, geometry_digest, survey
+from meshforge.store import AssetFacts, Review, SpansFile, Store, geometry_digest, survey
 from meshforge.symbolic import LabelFile, match_labels
 
 
@@ -45,8 +46,9 @@ def compute_status(
     program, task, problem = _read_program(store)
     rows = [_asset_status(store, job, facts[job.id], task, reviews.get(job.id)) for job in work]
     now = {job.id: inputs_of(task, job, dict(facts[job.id].files)) for job in work if task and not facts[job.id].error}
-    last = store.assessment()
+    last, spans = store.assessment(), store.spans()
     standings = Standings(now, store.sign_offs(), last if last and last.holds(digest_lesson(store), now) else None)
+    rows = [replace(row, spans=_list_spans(spans, row.id, facts[row.id])) for row in rows]
     assets = tuple(map(standings.add_to, rows))
     state = program_state_of(store, program)
     rules = len(program.rules) if program else None
@@ -122,6 +124,11 @@ def _asset_status(
         corrections=len(job.corrections),
         review_note=current_review.note if current_review else None,
     )
+
+
+def _list_spans(spans: SpansFile, asset: str, facts: AssetFacts) -> tuple[str, ...]:
+    """The hulls of an asset that likely span parts, in words."""
+    return tuple(line.told for line in spans.likely(asset, dict(facts.hulls)).values())
 
 
 def _describe_unknown_hulls(store: Store, asset: str, facts: AssetFacts) -> Iterator[str]:

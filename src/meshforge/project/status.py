@@ -29,7 +29,8 @@ class AssetStatus:
     where it cannot be read. after, after_labels, output_digest: hulls of the output, the label of each where that is
     known, and its files; corrections: edits by hand, a number.
     sign_off: whether it is signed off; signed_by: by whom; void: what changed since it was; probability, doubts: of its
-    edit, as of the last review where nothing changed since, else None.
+    edit, as of the last review where nothing changed since, else None. spans: hulls that likely hold more than one
+    part, in words, as `prepare --split-spanning` found them.
     """
 
     id: str
@@ -57,6 +58,7 @@ class AssetStatus:
     void: tuple[str, ...] = ()
     probability: float | None = None
     doubts: tuple[Doubt, ...] = ()
+    spans: tuple[str, ...] = ()
 
     @property
     def is_done(self) -> bool:
@@ -130,6 +132,7 @@ def _asset_json(asset: AssetStatus) -> dict[str, Any]:
         "hulls": asset.hulls,
         "sources": asset.sources,
         "prepared": list(asset.prepared),
+        "spans": list(asset.spans),
         "labelled": asset.labelled,
         "doubtful": list(asset.doubtful),
         "demonstrated": asset.demonstrated,

@@ -106,6 +106,11 @@ class Layout:
         return self.folder / STATE / "survey.json"
 
     @property
+    def spans(self) -> Path:
+        """Which hulls were found to span parts."""
+        return self.folder / STATE / "spans.json"
+
+    @property
     def sketches(self) -> Path:
         """How the hulls of assets are described, so that labels are propagated quickly the next time."""
         return self.folder / STATE / "sketches"

@@ -26,6 +26,7 @@ from meshforge.store.feedback import AnswersFile, Review, ReviewFile
 from meshforge.store.layout import Layout, read_json, write_json
 from meshforge.store.meshes import AssetFiles, read_labels_file
 from meshforge.store.sign_off import AssessmentFile, LaterFile, SignOffFile
+from meshforge.store.spans import SpansFile
 from meshforge.symbolic import Label, LabelFile, SymbolicMesh, format_labels, match_labels, transfer_labels
 from meshforge.synthesis import Demonstration, Step
 
@@ -327,6 +328,18 @@ class Store:
         """Keep how the family stands."""
         with self.lock():
             write_json(self.layout.assessment, found)
+
+    def spans(self) -> SpansFile:
+        """Which hulls likely span parts, as was found last; none where that is not kept, or damaged."""
+        try:
+            return read_json(self.layout.spans, SpansFile) or SpansFile()
+        except ProjectError:  # it can be found again
+            return SpansFile()
+
+    def write_spans(self, found: SpansFile) -> None:
+        """Keep which hulls likely span parts."""
+        with self.lock():
+            write_json(self.layout.spans, found)
 
     def reviews(self) -> dict[str, Review]:
         """What a person said about edited assets."""

@@ -74,7 +74,7 @@ def split_hull(
 
 @dataclass(frozen=True, eq=False, slots=True)
 class HullDivision:
-    """A hull that spans parts. chance: of that; parts: convex, together the hull; told: in words."""
+    """A hull that spans parts. chance: of that; parts: convex, within the hull; told: in words."""
 
     hull: str
     chance: float

@@ -1,0 +1,58 @@
+"""Stools of a seat and four legs, each a solid of their visual mesh; hulls of parts, or one that spans two."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+
+from meshforge.geometry import Box, Floats, Polytope, Pose, convex_hull
+
+PARTS = ("seat", "leg", "leg", "leg", "leg")
+
+
+def boxes(width: float, height: float) -> list[Polytope]:
+    """The parts: a seat, then the legs, which touch it from below."""
+    seat = _box((0, 0, height + 0.02), (width, width, 0.02))
+    at = width - 0.04
+    legs = [_box((x, y, height / 2), (0.03, 0.03, height / 2)) for x in (-at, at) for y in (-at, at)]
+    return [seat, *legs]
+
+
+def _box(middle: Sequence[float], half: Sequence[float]) -> Polytope:
+    return Box(Pose(np.eye(3), np.array(middle, dtype=float)), np.array(half, dtype=float)).tessellate()
+
+
+def coarse(parts: Sequence[Polytope]) -> list[Polytope]:
+    """Hulls of which the first spans the seat and the first leg, and the others are legs."""
+    both = convex_hull(np.concatenate([parts[0].vertices, parts[1].vertices]))
+    return [both, *parts[2:]]
+
+
+def write_stool(folder: Path, name: str, parts: Sequence[Polytope], hulls: Sequence[Polytope]) -> Path:
+    """A URDF of one link that shows the parts and collides by the hulls."""
+    folder.mkdir(parents=True, exist_ok=True)
+    rows = "".join(_collision(k, _write(folder, f"{name}_h{k}", [hull])) for k, hull in enumerate(hulls))
+    seen = f'<visual><geometry><mesh filename="{_write(folder, f"{name}_seen", parts)}"/></geometry></visual>'
+    path = folder / f"{name}.urdf"
+    path.write_text(f'<robot name="{name}"><link name="base">{seen}{rows}</link></robot>')
+    return path
+
+
+def _write(folder: Path, name: str, solids: Sequence[Polytope]) -> str:
+    lines, start = list[str](), 1
+    for solid in solids:
+        lines += [f"v {_format(point)}" for point in solid.vertices]
+        lines += [f"f {' '.join(str(k + start) for k in face)}" for face in solid.faces]
+        start += len(solid.vertices)
+    (folder / f"{name}.obj").write_text("\n".join(lines) + "\n")
+    return f"{name}.obj"
+
+
+def _format(point: Floats) -> str:
+    return " ".join(f"{x:.9g}" for x in point)
+
+
+def _collision(k: int, file: str) -> str:
+    return f'<collision name="h{k}"><geometry><mesh filename="{file}"/></geometry></collision>'

@@ -1,0 +1,130 @@
+from __future__ import annotations
+
+import shutil
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from meshforge.batch import IN_PROCESS
+from meshforge.common import ProjectError, UsageError
+from meshforge.geometry import volume_of_union
+from meshforge.project import PreparationResult, Project
+from tests.unit.project.stools import PARTS, boxes, coarse, write_stool
+
+
+@pytest.fixture(scope="module")
+def made(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("stools")
+    for name, width, height in (("a", 0.2, 0.4), ("b", 0.22, 0.45), ("c", 0.18, 0.38)):
+        parts = boxes(width, height)
+        write_stool(folder / "assets", name, parts, parts if name != "c" else coarse(parts))
+    project = Project.create(folder / "p", [folder / "assets/*.urdf"], vocabulary=("seat", "leg"))
+    for name in ("a.urdf", "b.urdf"):
+        names = [hull.name for hull in project.mesh(name).hulls]
+        project.set_labels(name, dict(zip(names, PARTS, strict=True)))
+    return folder
+
+
+@pytest.fixture
+def project(made: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Project:
+    monkeypatch.setenv("MESHFORGE_CACHE", str(made / "cache"))
+    shutil.copytree(made / "assets", tmp_path / "assets")
+    shutil.copytree(made / "p", tmp_path / "p")
+    return Project.open(tmp_path / "p")
+
+
+def split(project: Project, *assets: str, **more: object) -> list[PreparationResult]:
+    return list(project.split_spanning(assets or None, execution=IN_PROCESS, **more))  # type: ignore[arg-type]
+
+
+def files(project: Project) -> dict[str, bytes]:
+    kept = (path for path in project.folder.rglob("*") if path.is_file() and ".meshforge" not in path.parts)
+    return {str(path.relative_to(project.folder)): path.read_bytes() for path in kept}
+
+
+def test_a_hull_that_spans_parts_is_split_and_its_parts_are_labelled(project: Project) -> None:
+    before = project.mesh("c.urdf")
+    spanning = before.hulls[0]
+    results = split(project)
+    assert [result.problems for result in results] == [(), (), ()]
+    assert [len(result.made) for result in results] == [0, 0, 1], "hulls of one part stay"
+    assert results[2].made[0].what == spanning.name
+    mesh = project.mesh("c.urdf")
+    parts = [hull for hull in mesh.hulls if hull.name in results[2].hulls]
+    assert {hull.label for hull in parts} == {"seat", "leg"}
+    assert {hull.source for hull in parts} == {"propagated"}
+    own = boxes(0.18, 0.38)[:2]
+    assert volume_of_union([part.shape for part in parts]) == pytest.approx(sum(one.volume for one in own), rel=1e-3), (
+        "tight around seat and leg: what was between them is free"
+    )
+    assert volume_of_union([spanning.shape, *(part.shape for part in parts)]) == pytest.approx(spanning.volume)
+    seat = max((hull for hull in parts if hull.label == "seat"), key=lambda hull: hull.volume)
+    assert seat.aabb.max[2] == pytest.approx(spanning.aabb.max[2])
+
+
+def test_the_status_names_the_hull_until_it_is_split(project: Project) -> None:
+    (name,) = (span.hull for span in project.list_spans(execution=IN_PROCESS).spans_of("c.urdf") if span.chance > 0.5)
+    told = [asset.spans for asset in project.status().assets]
+    assert told[:2] == [(), ()]
+    assert told[2][0].startswith(f"{name} holds ")
+    assert "seat" in told[2][0] and "leg" in told[2][0] and told[2][0].endswith("%")
+    split(project)
+    assert [asset.spans for asset in project.status().assets] == [(), (), ()]
+
+
+def test_what_is_split_is_taken_back_to_the_last_byte(project: Project) -> None:
+    before = files(project)
+    split(project)
+    assert files(project) != before
+    project.unprepare("c.urdf")
+    assert files(project) == before
+
+
+def test_a_dry_run_writes_nothing_and_says_what_would_be_split(project: Project) -> None:
+    before = files(project)
+    results = split(project, dry_run=True)
+    assert files(project) == before and not project.layout.spans.exists()
+    assert [bool(result.notes) for result in results] == [False, False, True]
+    assert results[2].notes[0].startswith("would split ")
+    assert not any(result.made for result in results)
+
+
+def test_the_same_parts_whatever_the_number_of_workers_and_once_more_nothing(project: Project, tmp_path: Path) -> None:
+    shutil.copytree(tmp_path / "p", tmp_path / "q")
+    split(project)
+    other = Project.open(tmp_path / "q")
+    list(other.split_spanning())
+    assert files(project)["prepared/c.urdf/hulls.obj"] == files(other)["prepared/c.urdf/hulls.obj"]
+    assert [result.made for result in split(project)] == [(), (), ()], "parts are of one label each"
+
+
+def test_only_named_assets_are_split(project: Project) -> None:
+    assert [result.asset for result in split(project, "a.urdf")] == ["a.urdf"]
+    assert len(project.mesh("c.urdf").hulls) == 4
+
+
+def test_bad_input_is_named(project: Project, tmp_path: Path) -> None:
+    with pytest.raises(UsageError, match=r"--sure 1\.5: a probability is needed"):
+        split(project, sure=1.5)
+    with pytest.raises(ProjectError, match="nope"):
+        split(project, "nope")
+    bare = Project.create(tmp_path / "bare", [tmp_path / "assets/*.urdf"], vocabulary=("seat",))
+    with pytest.raises(ProjectError, match="no hull has a label"):
+        split(bare)
+
+
+def test_a_hull_that_stands_for_nothing_is_named_and_left(project: Project, tmp_path: Path) -> None:
+    parts = boxes(0.18, 0.38)
+    far = parts[1]
+    moved = type(far)(far.vertices + np.array([5.0, 0, 0]), far.faces)
+    write_stool(tmp_path / "assets", "c", parts, [*parts, moved])
+    (result,) = split(Project.open(project.folder), "c.urdf")
+    assert result.made == ()
+    assert any("stands for no surface: left as it is" in note for note in result.notes)
+
+
+def test_a_broken_asset_does_not_stop_the_others(project: Project, tmp_path: Path) -> None:
+    (tmp_path / "assets/a.urdf").write_text("<robot")
+    results = split(Project.open(project.folder))
+    assert results[0].problems and len(results[2].made) == 1
