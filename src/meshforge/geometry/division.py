@@ -19,9 +19,10 @@ _POINTS = 1500  # that stand for what lies in a shape
 _LEAST_POINTS = 4  # of each piece
 _LEAST = 0.01  # of the shape's volume: a smaller part is a sliver, and stays with its neighbour
 _PURE = 0.98  # of what lies in a part that is of one kind: it is not divided
-_GAIN = 0.004  # of what lies in the shape that a plane must set right
+_GAIN = 0.002  # of what lies in the shape that a plane must set right
+_NOTHING = 1e-9  # of what lies in a part: rounding
 _ALL = 0.85  # of a piece that a part has, from which it has all of it
-_PARTS = 12  # at most
+_PARTS = 16  # at most
 _SAME = 1e-3  # planes whose normals and offsets (of the diagonal) differ by less are one
 
 
@@ -163,7 +164,9 @@ def _rank_planes(own: _Contents, normals: Floats, offsets: Floats) -> tuple[Ints
     held = own.weights[:, None] * own.kinds
     below = lower @ held
     total = held.sum(axis=0)
-    gains = _purity(below) + _purity(total - below) - _purity(total[None])[0]
+    above = np.maximum(total - below, 0.0)
+    gains = _purity(below) + _purity(above) - _purity(total[None])[0]
+    gains[np.minimum(below.sum(axis=1), above.sum(axis=1)) <= _NOTHING * total.sum()] = 0.0
     return np.argsort(-gains.round(15), kind="stable"), gains
 
 
