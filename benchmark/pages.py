@@ -80,8 +80,8 @@ PAGES = (
     ),
     Page(
         "spanning",
-        "# Hulls that span parts\n\nWritten by `script/bench` from the JSON beside it. Every run gives the same, but for "
-        "times.\n",
+        "# Hulls that span parts\n\nWritten by `script/bench` from the JSON beside it. Every run gives the same, but "
+        "for times.\n",
         ("detection", "splits", "edits", "costs"),
         ("numpy", "scipy", "coacd", "manifold3d", "mujoco"),
     ),

@@ -8,6 +8,7 @@ import statistics
 import time
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
+from functools import partial
 from typing import Any
 
 from benchmark.assets import MERGED, Sample, samples
@@ -31,7 +32,7 @@ def measure(tell: Tell, quick: bool) -> Result:
     with _one_core():
         for sample in assets:
             tell(f"costs: {sample.name}")
-            pieces, spent, passed = _time(lambda sample=sample: make_pieces(sample, cached=False))
+            pieces, spent, passed = _time(partial(make_pieces, sample, cached=False))
             size = sum(part.solid.num_tri() for part in sample.asset.parts)
             rows.append((sample.setting, sample.asset.category, sample.asset.name, size, len(pieces), spent, passed))
     splits = tuple(_list_splits(families))

@@ -106,11 +106,25 @@ def split_families(tell: Tell, quick: bool, calibration: bool = False) -> list[S
 
 def split_some(categories: Sequence[str], tell: Tell, calibration: bool = False) -> list[SplitFamily]:
     """The families of some categories in both settings and by both kinds of labels."""
-    families = [(category, setting, calibration) for category in categories for setting in MERGED]
-    names = [(*one, sample.name) for one in families for sample in samples(one[0], calibration, one[1:2])]
-    run_units("spanning-pieces", count_pieces, names, tell)
-    units = [(*one, labelled) for one in families for labelled in LABELLED]
+    warm_cache(categories, tell, calibration)
+    units = [
+        (category, setting, calibration, labelled)
+        for category in categories
+        for setting in MERGED
+        for labelled in LABELLED
+    ]
     return [SplitFamily.of_json(row) for row in run_units("spanning", split_family, units, tell)]
+
+
+def warm_cache(categories: Sequence[str], tell: Tell, calibration: bool) -> None:
+    """Decompose all assets of some categories finely, asset by asset, so that families find them in the cache."""
+    units = [
+        (category, setting, calibration, sample.name)
+        for category in categories
+        for setting in MERGED
+        for sample in samples(category, calibration, (setting,))
+    ]
+    run_units("spanning-pieces", count_pieces, units, tell)
 
 
 def count_pieces(category: str, setting: str, calibration: bool, name: str) -> int:
@@ -144,7 +158,7 @@ def _split_asset(sample: Sample, posterior: SpanPosterior, place: int) -> Iterat
         parts = tuple(
             SplitPart(
                 part.shape.vertices.tolist(),
-                posterior.labels[int(np.argmax(part.shares))],
+                posterior.labels[part.kind],
                 volumes_in_parts(part.shape, asset.parts, asset.pose),
             )
             for part in divided

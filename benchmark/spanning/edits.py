@@ -38,9 +38,7 @@ def measure(tell: Tell, quick: bool) -> Result:
     )
 
 
-def _edits_of(
-    families: Sequence[SplitFamily], setting: str, labelled: str, category: str | None = None
-) -> list[Edit]:
+def _edits_of(families: Sequence[SplitFamily], setting: str, labelled: str, category: str | None = None) -> list[Edit]:
     return [
         edit
         for one in families

@@ -13,7 +13,7 @@ from benchmark.assets import Asset, Sample, samples
 from benchmark.assets.decomposition import shares, solids_of
 from benchmark.tasks.task import PURE
 from meshforge.geometry import Floats, Ints, Polytope, cache_folder, decompose_finely, divide
-from meshforge.label_model import SpanModel, SpanPosterior
+from meshforge.label_model import SpanModel, SpanPosterior, piece_mesh
 from meshforge.symbolic import Hull, Label, SymbolicMesh
 from script.samples.pieces import triangles
 
@@ -42,7 +42,9 @@ class SpanFamily:
     @cached_property
     def model(self) -> SpanModel:
         """The model of the family, which knows shapes and no label."""
-        return SpanModel([_without_labels(sample.mesh) for sample in self.samples], self.pieces)
+        meshes = [_without_labels(sample.mesh) for sample in self.samples]
+        rows = zip(meshes, self.pieces, strict=True)
+        return SpanModel(meshes, [piece_mesh({mesh.hulls[0].body: pieces}, mesh) for mesh, pieces in rows])
 
     @property
     def unknown(self) -> Iterator[tuple[int, Sample]]:

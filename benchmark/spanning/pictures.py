@@ -25,8 +25,8 @@ _CAPTION = (
 
 def draw_splits(folder: Path, found: Sequence[Mapping[str, Any]]) -> str:
     """Draw them beside the results of the page; Markdown that shows them, empty where nothing was split yet."""
-    (splits,) = [result for row in found if (result := Result.of_json(row)).part == "splits"] or [None]
-    chosen = choose_assets(splits.details) if splits else []
+    details = [detail for row in found if row["part"] == "splits" for detail in Result.of_json(row).details]
+    chosen = choose_assets(details)
     if not chosen:
         return ""
     images = []

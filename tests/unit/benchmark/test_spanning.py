@@ -17,7 +17,9 @@ from meshforge.geometry import Polytope, cut, volume_inside
 CUBE = [[x, y, z] for x in (0.0, 1.0) for y in (0.0, 1.0) for z in (0.0, 1.0)]
 
 
-def hull(chance: float, volumes: dict[str, float], *parts: tuple[str, dict[str, float]], spans: bool = True) -> SplitHull:
+def hull(
+    chance: float, volumes: dict[str, float], *parts: tuple[str, dict[str, float]], spans: bool = True
+) -> SplitHull:
     made = tuple(SplitPart(CUBE, label, inside) for label, inside in parts)
     return SplitHull("cup_01", 0, chance, spans, volumes, made, 0.0)
 
@@ -45,7 +47,8 @@ def test_a_hull_less_likely_than_is_asked_for_is_not_split() -> None:
 
 def test_precision_and_recall_count_hulls() -> None:
     found = Detection.of([SPLIT, MISSED, MISSED, hull(0.9, {"wall": 1.0}, spans=False)])
-    assert (found.precision, found.recall) == (pytest.approx(1 / 2), pytest.approx(1 / 3))
+    assert found.precision == pytest.approx(1 / 2)
+    assert found.recall == pytest.approx(1 / 3)
 
 
 @pytest.mark.parametrize("count", [8, 9, 25])
