@@ -20,9 +20,12 @@ from benchmark.pages import PAGES, Page, page_of, parts_of, text_of
 from benchmark.progress import Progress
 from benchmark.report import Result, as_text, write_lines
 from benchmark.signoff.plot import draw_curves
+from benchmark.spanning.pictures import draw_splits
 from meshforge.common import AssetError, UsageError, write_atomically
 
 RESULTS = Path(__file__).resolve().parent / "results"
+_PICTURES = {"signoff": draw_curves, "spanning": draw_splits}
+"""What draws the pictures of a page from its results, and gives the Markdown that shows them."""
 
 
 def main(arguments: list[str] | None = None) -> int:
@@ -103,8 +106,8 @@ def _write(out: Path, page: Page, result: Result, quick: bool) -> None:
     if page.name == "evaluation":
         write_page(out.parent if out == RESULTS else out, found, page.parts, result.part)
     else:
-        pictures = draw_curves(out, found) if page.name == "signoff" else ""
-        write_atomically(out / f"{page.name}.md", text_of(page, found, pictures))
+        draw = _PICTURES.get(page.name)
+        write_atomically(out / f"{page.name}.md", text_of(page, found, draw(out, found) if draw else ""))
 
 
 if __name__ == "__main__":

@@ -79,6 +79,13 @@ PAGES = (
         given=("labellers",),
     ),
     Page(
+        "spanning",
+        "# Hulls that span parts\n\nWritten by `script/bench` from the JSON beside it. Every run gives the same, but "
+        "for times.\n",
+        ("detection", "splits", "edits", "costs"),
+        ("numpy", "scipy", "coacd", "manifold3d", "mujoco"),
+    ),
+    Page(
         "batch",
         "# Very many assets\n\nWritten by `script/bench` from the JSON beside it.\n",
         (),

@@ -114,13 +114,13 @@ def _outline(hull: Polytope | Hull) -> bytes:
 
 def decompose_asset(asset: Asset, setting: str, cache: Path | None = None) -> Decomposition:
     """The collision mesh of an asset at one setting; cache: where CoACD's results are kept (default: nowhere)."""
-    hulls = [hull for solid in _solids(asset, setting) for hull in _hulls(solid, asset, setting, cache)]
+    hulls = [hull for solid in solids_of(asset, setting) for hull in _hulls(solid, asset, setting, cache)]
     order = sorted(range(len(hulls)), key=lambda k: tuple(hulls[k].centroid.round(4)))  # tells nothing of parts
     placed = [_round(hulls[k], asset) for k in order]
     return Decomposition(tuple(placed), tuple(shares(hull, asset.parts, asset.pose) for hull in placed))
 
 
-def _solids(asset: Asset, setting: str) -> list[Manifold]:
+def solids_of(asset: Asset, setting: str) -> list[Manifold]:
     """What CoACD is called on, one by one, upright: each connected solid of the union of all parts, or the whole."""
     whole = union([part.solid for part in asset.parts])
     if setting in SEPARATE:
@@ -156,18 +156,28 @@ def shares(hull: Polytope, parts: Sequence[Part], pose: Pose) -> dict[str, float
 
     A hull that is in no part at all (it fills a hollow) is given to the part whose surface is nearest.
     """
-    back = pose.inverse()
-    solid = Manifold.hull_points(hull.vertices @ back.rotation.T + back.translation)
-    inside: dict[str, float] = {}
-    for part in parts:
-        volume = max(float((solid ^ part.solid).volume()), 0.0) if _near(solid, part.solid) else 0.0
-        inside[part.label] = inside.get(part.label, 0.0) + volume
+    solid, inside = _upright_solid(hull, pose), volumes_in_parts(hull, parts, pose)
     total = sum(inside.values())
     if total <= _LEAST * float(solid.volume()):
         nearest = min(parts, key=lambda part: float(solid.min_gap(part.solid, 10.0)))
         return {nearest.label: 1.0}
     found = {label: round(volume / total, 4) for label, volume in inside.items() if volume > 0}
     return dict(sorted(found.items(), key=lambda row: -row[1]))
+
+
+def volumes_in_parts(hull: Polytope, parts: Sequence[Part], pose: Pose) -> dict[str, float]:
+    """The volume that a hull has in parts of each label [m^3], in the order of the parts."""
+    solid = _upright_solid(hull, pose)
+    inside: dict[str, float] = {}
+    for part in parts:
+        volume = max(float((solid ^ part.solid).volume()), 0.0) if _near(solid, part.solid) else 0.0
+        inside[part.label] = inside.get(part.label, 0.0) + volume
+    return inside
+
+
+def _upright_solid(hull: Polytope, pose: Pose) -> Manifold:
+    back = pose.inverse()
+    return Manifold.hull_points(hull.vertices @ back.rotation.T + back.translation)
 
 
 def _near(one: Manifold, other: Manifold) -> bool:

@@ -1,0 +1,1 @@
+"""Hulls that span parts: how many are found, what splitting them gives, and what it costs."""

@@ -1,0 +1,101 @@
+"""What finding and splitting hulls that span costs: fine decompositions on one core, inference, and splits."""
+
+from __future__ import annotations
+
+import os
+import resource
+import statistics
+import time
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from functools import partial
+from typing import Any
+
+from benchmark.assets import MERGED, Sample, samples
+from benchmark.report import Cell, Goal, Result, Table, Tell
+from benchmark.spanning.course import SplitFamily, split_families
+from benchmark.spanning.detection import categories_of
+from benchmark.spanning.family import BY_PIECES, choose_known, make_pieces
+
+_DECOMPOSE, _SPLIT = 3.0, 0.5  # seconds to reach
+_COLUMNS = ("set", "category", "asset", "triangles of its parts", "pieces", "s of the processor", "s")
+_SPLIT_COLUMNS = ("set", "hulls split", "median s", "slowest s", "a family's inference, median s", "slowest s")
+
+
+def measure(tell: Tell, quick: bool) -> Result:
+    """Decompose the labelled assets of each family finely, without a cache, one after the other on one core."""
+    families = split_families(tell, quick)
+    assets = [
+        sample for name in categories_of(families) for setting in MERGED for sample in _choose(name, setting, quick)
+    ]
+    rows = list[tuple[Cell, ...]]()
+    with _one_core():
+        for sample in assets:
+            tell(f"costs: {sample.name}")
+            pieces, spent, passed = _time(partial(make_pieces, sample, cached=False))
+            size = sum(part.solid.num_tri() for part in sample.asset.parts)
+            rows.append((sample.setting, sample.asset.category, sample.asset.name, size, len(pieces), spent, passed))
+    splits = tuple(_list_splits(families))
+    return Result(
+        "costs",
+        "Hulls that span parts: costs",
+        (
+            Table("Fine decomposition on one core, no cache", _COLUMNS, tuple(rows)),
+            Table("Splits and inference, on one core", _SPLIT_COLUMNS, splits),
+        ),
+        (
+            Goal("fine decomposition of an asset, median s", "at most", _DECOMPOSE, _median([row[-1] for row in rows])),
+            Goal("a split, median s", "at most", _SPLIT, max(float(row[2]) for row in splits)),
+        ),
+        (
+            "Decomposed are the assets of a family that a person labels, elsewhere all is read from a cache. *s*: from "
+            "start to end, with one core; *s of the processor*: of this process and of CoACD's. Splits and inference "
+            "are in seconds of the processor, while other families take the other cores.",
+        ),
+    )
+
+
+def _choose(category: str, setting: str, quick: bool) -> list[Sample]:
+    rows = samples(category, False, (setting,))
+    return [rows[place] for place in sorted(choose_known(len(rows)))[: 1 if quick else None]]
+
+
+def _list_splits(families: Sequence[SplitFamily]) -> Iterator[tuple[Cell, ...]]:
+    for setting in MERGED:
+        mine = [one for one in families if (one.setting, one.labelled) == (setting, BY_PIECES)]
+        times = [hull.seconds for one in mine for hull in one.hulls if hull.parts] or [0.0]
+        inference = [one.seconds for one in mine]
+        yield setting, len(times), _median(times), max(times), _median(inference), max(inference)
+
+
+def _median(values: Sequence[Any]) -> float:
+    return float(statistics.median(values))
+
+
+def _time(run: Callable[[], Any]) -> tuple[Any, float, float]:
+    """What a run gives, its seconds of the processor with those of the processes that it starts, and those of a
+    clock."""
+    started, spent = time.perf_counter(), _count_seconds()
+    found = run()
+    return found, _count_seconds() - spent, time.perf_counter() - started
+
+
+def _count_seconds() -> float:
+    return sum(
+        usage.ru_utime + usage.ru_stime
+        for usage in map(resource.getrusage, (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN))
+    )
+
+
+@contextmanager
+def _one_core() -> Iterator[None]:
+    """This process, and those that it starts, have one core alone; where the system cannot do that, all."""
+    if not hasattr(os, "sched_setaffinity"):
+        yield
+        return
+    before = os.sched_getaffinity(0)
+    os.sched_setaffinity(0, {min(before)})
+    try:
+        yield
+    finally:
+        os.sched_setaffinity(0, before)

@@ -1,0 +1,193 @@
+"""One family from the labels of three assets to the split hulls of all others: the unit of work of all figures."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Iterator, Sequence
+from dataclasses import asdict, dataclass
+from functools import cache
+from typing import Any
+
+import numpy as np
+
+from benchmark.assets import CATEGORIES, MERGED, Sample, samples
+from benchmark.assets.decomposition import volumes_in_parts
+from benchmark.evaluation.sessions import QUICK
+from benchmark.journal import run_units
+from benchmark.report import Tell
+from benchmark.spanning.family import (
+    LABELLED,
+    Parts,
+    SpanFamily,
+    divide_truly,
+    is_spanning,
+    make_pieces,
+    open_family,
+    split_hulls,
+)
+from benchmark.tasks import Task, tasks
+from meshforge.geometry import HullPart, convex_hull
+from meshforge.label_model import SpanPosterior
+
+SURE = (0.5, 0.9)
+"""Probabilities from which on a hull is split; the first one is that of all figures that name none."""
+
+
+@dataclass(frozen=True, slots=True)
+class SplitPart:
+    """A part of a hull that was split. vertices: (n, 3) [m]; label: the likeliest one; volumes: in true parts, by
+    label [m^3]."""
+
+    vertices: list[list[float]]
+    label: str
+    volumes: dict[str, float]
+
+
+@dataclass(frozen=True, slots=True)
+class SplitHull:
+    """A hull of an asset that nobody labelled. chance: the probability that it spans; volumes: in true parts, by label
+    [m^3]; parts: what it is split into where that is likely, else none; seconds: of the split."""
+
+    asset: str
+    number: int
+    chance: float
+    spans: bool
+    volumes: dict[str, float]
+    parts: tuple[SplitPart, ...]
+    seconds: float
+
+    def is_split(self, sure: float = SURE[0]) -> bool:
+        """Whether it is split where that is done from such a probability on."""
+        return self.chance >= sure and bool(self.parts)
+
+    def parts_at(self, sure: float = SURE[0]) -> list[dict[str, float]]:
+        """The volumes in true parts, by label [m^3], of each of its parts, or of itself where it is not split."""
+        return [part.volumes for part in self.parts] if self.is_split(sure) else [self.volumes]
+
+    @staticmethod
+    def of_json(data: dict[str, Any]) -> SplitHull:
+        return SplitHull(**{**data, "parts": tuple(SplitPart(**part) for part in data["parts"])})
+
+
+@dataclass(frozen=True, slots=True)
+class Edit:
+    """Why the reference program, with true labels, fails on a mesh with hulls that span: as it is, with its hulls
+    split, and with them split by true labels of the pieces; None: it does not."""
+
+    task: str
+    mesh: str
+    before: str | None
+    split: str | None
+    truly: str | None
+
+
+@dataclass(frozen=True, slots=True)
+class SplitFamily:
+    """What became of a family. labelled: of `LABELLED`; seconds: to infer all from what is known of it."""
+
+    category: str
+    setting: str
+    labelled: str
+    hulls: tuple[SplitHull, ...]
+    edits: tuple[Edit, ...]
+    seconds: float
+
+    @staticmethod
+    def of_json(data: dict[str, Any]) -> SplitFamily:
+        hulls = tuple(map(SplitHull.of_json, data["hulls"]))
+        return SplitFamily(**{**data, "hulls": hulls, "edits": tuple(Edit(**row) for row in data["edits"])})
+
+
+def split_families(tell: Tell, quick: bool, calibration: bool = False) -> list[SplitFamily]:
+    """All families in both settings and by both kinds of labels; quick: of one category."""
+    categories = [name for name in CATEGORIES if not quick or name == QUICK]
+    return split_some(categories, tell, calibration)
+
+
+def split_some(categories: Sequence[str], tell: Tell, calibration: bool = False) -> list[SplitFamily]:
+    """The families of some categories in both settings and by both kinds of labels."""
+    warm_cache(categories, tell, calibration)
+    units = [
+        (category, setting, calibration, labelled)
+        for category in categories
+        for setting in MERGED
+        for labelled in LABELLED
+    ]
+    return [SplitFamily.of_json(row) for row in run_units("spanning", split_family, units, tell)]
+
+
+def warm_cache(categories: Sequence[str], tell: Tell, calibration: bool) -> None:
+    """Decompose all assets of some categories finely, asset by asset, so that families find them in the cache."""
+    units = [
+        (category, setting, calibration, sample.name)
+        for category in categories
+        for setting in MERGED
+        for sample in samples(category, calibration, (setting,))
+    ]
+    run_units("spanning-pieces", count_pieces, units, tell)
+
+
+def count_pieces(category: str, setting: str, calibration: bool, name: str) -> int:
+    """How many fine pieces an asset has; they are in the cache from then on."""
+    (sample,) = (one for one in samples(category, calibration, (setting,)) if one.name == name)
+    return len(make_pieces(sample))
+
+
+def split_family(category: str, setting: str, calibration: bool, labelled: str) -> dict[str, Any]:
+    """What becomes of a family: a `SplitFamily` as JSON."""
+    family = open_family(category, setting, calibration)
+    started = time.process_time()
+    posterior = family.infer(labelled)
+    seconds = time.process_time() - started
+    hulls, edits = list[SplitHull](), list[Edit]()
+    for place, sample in family.unknown:
+        rows = list(_split_asset(sample, posterior, place))
+        hulls += rows
+        edits += _edit_asset(family, place, sample, rows)
+    return asdict(SplitFamily(category, setting, labelled, tuple(hulls), tuple(edits), seconds))
+
+
+def _split_asset(sample: Sample, posterior: SpanPosterior, place: int) -> Iterator[SplitHull]:
+    asset = sample.asset
+    chances = posterior.chances_of(place)
+    for number, (hull, share) in enumerate(zip(sample.decomposition.hulls, sample.shares, strict=True)):
+        started, divided = time.process_time(), tuple[HullPart, ...]()
+        if chances[number] >= SURE[0]:
+            divided = posterior.divide(place, number)
+        seconds = time.process_time() - started
+        parts = tuple(
+            SplitPart(
+                part.shape.vertices.tolist(),
+                posterior.labels[part.kind],
+                volumes_in_parts(part.shape, asset.parts, asset.pose),
+            )
+            for part in divided
+            if len(divided) > 1
+        )
+        volumes = volumes_in_parts(hull, asset.parts, asset.pose)
+        yield SplitHull(asset.name, number, float(chances[number]), is_spanning(share), volumes, parts, seconds)
+
+
+def parts_of(rows: Sequence[SplitHull], sure: float = SURE[0]) -> Parts:
+    """The parts of the hulls of an asset that are split."""
+    return {
+        row.number: tuple(convex_hull(np.array(part.vertices)) for part in row.parts)
+        for row in rows
+        if row.is_split(sure)
+    }
+
+
+def _edit_asset(family: SpanFamily, place: int, sample: Sample, rows: Sequence[SplitHull]) -> Iterator[Edit]:
+    concerned = [task for task in _tasks_of(sample.asset.category) if task.impure(sample)]
+    if not concerned:
+        return
+    split = split_hulls(sample, parts_of(rows))
+    truly = split_hulls(sample, divide_truly(sample, family.pieces[place]))
+    for task in concerned:
+        why = [task.failure(one, task.run(task.program, one.mesh)) for one in (sample, split, truly)]
+        yield Edit(task.name, sample.name, *why)
+
+
+@cache
+def _tasks_of(category: str) -> tuple[Task, ...]:
+    return tuple(task for task in tasks() if task.category == category)

@@ -1,0 +1,129 @@
+"""How many of the hulls that span parts are found, and how far the probabilities can be believed."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+from benchmark.assets import CATEGORIES, MERGED
+from benchmark.report import Cell, Goal, Result, Table, Tell
+from benchmark.signoff.calibration import calibrate
+from benchmark.spanning.course import SURE, SplitFamily, SplitHull, split_families
+from benchmark.spanning.family import BY_HULLS, BY_PIECES, KNOWN, LABELLED
+
+TO_REACH = {"union": (0.95, 0.95), "welded": (0.95, 0.85)}
+"""Precision and recall to reach."""
+ABOUT_LABELS = {
+    BY_PIECES: f"a person labelled the fine pieces of {KNOWN} assets, and those of their hulls that are of one part",
+    BY_HULLS: f"a person labelled the hulls of {KNOWN} assets alone, those that span by what they have most of",
+}
+"""What each kind of labels is."""
+_COLUMNS = ("set", "labels", "category", "hulls", "spanning", "found", "precision", "recall")
+_CALIBRATION = ("set", "labels", "calibration error", "Brier score", "of the share alone", "area under the ROC curve")
+
+
+@dataclass(frozen=True, slots=True)
+class Detection:
+    """Counts of hulls: all, those that span, those said to, and those rightly said to."""
+
+    hulls: int
+    spanning: int
+    found: int
+    right: int
+
+    @staticmethod
+    def of(rows: Sequence[SplitHull], sure: float = SURE[0]) -> Detection:
+        """The counts where hulls are said to span from a probability on."""
+        found = [row for row in rows if row.chance >= sure]
+        return Detection(len(rows), sum(row.spans for row in rows), len(found), sum(row.spans for row in found))
+
+    @property
+    def precision(self) -> float:
+        """The share of those said to span that do; 1 where none is."""
+        return self.right / self.found if self.found else 1.0
+
+    @property
+    def recall(self) -> float:
+        """The share of those that span that is found; 1 where none does."""
+        return self.right / self.spanning if self.spanning else 1.0
+
+
+def measure(tell: Tell, quick: bool) -> Result:
+    """Find the hulls that span in all families."""
+    families = split_families(tell, quick)
+    return Result(
+        "detection",
+        "Hulls that span parts: found",
+        (
+            Table(f"Found at a probability of at least {SURE[0]}", _COLUMNS, tuple(_list_counts(families))),
+            Table("What the probabilities are worth", _CALIBRATION, tuple(_list_calibrations(families))),
+        ),
+        tuple(_list_goals(families)),
+        NOTES,
+        tuple(_list_assets(families)),
+    )
+
+
+def hulls_of(
+    families: Sequence[SplitFamily], setting: str, labelled: str, category: str | None = None
+) -> list[SplitHull]:
+    """The hulls of a set, by default of all categories."""
+    return [
+        hull
+        for one in families
+        if (one.setting, one.labelled) == (setting, labelled) and category in (None, one.category)
+        for hull in one.hulls
+    ]
+
+
+def categories_of(families: Sequence[SplitFamily]) -> list[str]:
+    """The categories that there are families of, in order."""
+    there = {one.category for one in families}
+    return [name for name in CATEGORIES if name in there]
+
+
+def _list_counts(families: Sequence[SplitFamily]) -> Iterator[tuple[Cell, ...]]:
+    for setting in MERGED:
+        for labelled in LABELLED:
+            for category in (*categories_of(families), None):
+                found = Detection.of(hulls_of(families, setting, labelled, category))
+                counts = found.hulls, found.spanning, found.found
+                yield setting, labelled, category or "all", *counts, found.precision, found.recall
+
+
+def _list_calibrations(families: Sequence[SplitFamily]) -> Iterator[tuple[Cell, ...]]:
+    for setting in MERGED:
+        for labelled in LABELLED:
+            found = calibrate([(row.chance, row.spans) for row in hulls_of(families, setting, labelled)])
+            yield setting, labelled, found.error, found.brier, found.constant, found.order
+
+
+def _list_goals(families: Sequence[SplitFamily]) -> Iterator[Goal]:
+    for setting, (precision, recall) in TO_REACH.items():
+        found = Detection.of(hulls_of(families, setting, BY_PIECES))
+        yield Goal(f"{setting}: hulls that span found, precision", "at least", precision, found.precision)
+        yield Goal(f"{setting}: hulls that span found, recall", "at least", recall, found.recall)
+
+
+def _list_assets(families: Sequence[SplitFamily]) -> Iterator[dict[str, Cell]]:
+    for one in families:
+        for asset in dict.fromkeys(hull.asset for hull in one.hulls):
+            found = Detection.of([hull for hull in one.hulls if hull.asset == asset])
+            yield {
+                "set": one.setting,
+                "labels": one.labelled,
+                "asset": asset,
+                "hulls": found.hulls,
+                "spanning": found.spanning,
+                "found": found.found,
+                "right": found.right,
+            }
+
+
+NOTES = (
+    "*Union*: one call of CoACD on the union of an asset's parts; *welded*: likewise, its joints welded shut before. A "
+    "family is all 25 assets of a category in one set; counted are the hulls of those that nobody labelled. A hull "
+    "spans parts if no label has nine tenths of what of it is in parts. The surface is what CoACD was called on.",
+    *(f"Labels, *{name}*: {told}. All else is propagated." for name, told in ABOUT_LABELS.items()),
+    f"The {KNOWN} assets are one of each third of a family, drawn with a fixed seed. Goals are about *{BY_PIECES}*.",
+)

@@ -1,0 +1,80 @@
+"""Whether the reference program does on meshes with hulls that span parts, before and after these are split."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterator, Sequence
+from dataclasses import asdict
+
+from benchmark.assets import MERGED
+from benchmark.report import Cell, Goal, Result, Table, Tell
+from benchmark.spanning.course import Edit, SplitFamily, split_families
+from benchmark.spanning.detection import ABOUT_LABELS, categories_of
+from benchmark.spanning.family import BY_PIECES, LABELLED
+
+TO_REACH = {"union": 0.9, "welded": 0.8}
+"""Share of edits that meet the criterion."""
+_COLUMNS = ("set", "labels", "category", "edits", "meet the criterion before", "after", "after, true labels of pieces")
+_FAILURES = ("set", "labels", "task", "what fails after the split", "edits", "of these with true labels of pieces")
+
+
+def measure(tell: Tell, quick: bool) -> Result:
+    """Edit all meshes that have hulls which span parts that the task is about."""
+    families = split_families(tell, quick)
+    return Result(
+        "edits",
+        "Hulls that span parts: edits",
+        (
+            Table("Edits of the reference, labels by the surface", _COLUMNS, tuple(_list_shares(families))),
+            Table("What fails after the split", _FAILURES, tuple(_list_failures(families))),
+        ),
+        tuple(
+            Goal(f"{name}: edits that meet the criterion after the split", "at least", wanted, _share_after(found))
+            for name, wanted in TO_REACH.items()
+            if (found := _edits_of(families, name, BY_PIECES))
+        ),
+        _NOTES,
+        tuple({"set": one.setting, "labels": one.labelled, **asdict(row)} for one in families for row in one.edits),
+    )
+
+
+def _edits_of(families: Sequence[SplitFamily], setting: str, labelled: str, category: str | None = None) -> list[Edit]:
+    return [
+        edit
+        for one in families
+        if (one.setting, one.labelled) == (setting, labelled) and category in (None, one.category)
+        for edit in one.edits
+    ]
+
+
+def _share_after(rows: Sequence[Edit]) -> float:
+    return sum(row.split is None for row in rows) / len(rows)
+
+
+def _list_shares(families: Sequence[SplitFamily]) -> Iterator[tuple[Cell, ...]]:
+    for setting in MERGED:
+        for labelled in LABELLED:
+            for category in (*categories_of(families), None):
+                rows = _edits_of(families, setting, labelled, category)
+                if rows:
+                    before = sum(row.before is None for row in rows) / len(rows)
+                    truly = sum(row.truly is None for row in rows) / len(rows)
+                    yield setting, labelled, category or "all", len(rows), before, _share_after(rows), truly
+
+
+def _list_failures(families: Sequence[SplitFamily]) -> Iterator[tuple[Cell, ...]]:
+    for setting in MERGED:
+        rows = _edits_of(families, setting, BY_PIECES)
+        after = Counter((row.task, row.split.split(":")[0]) for row in rows if row.split)
+        truly = Counter((row.task, row.split.split(":")[0]) for row in rows if row.split and row.truly)
+        for (task, what), count in sorted(after.items()):
+            yield setting, BY_PIECES, task, what, count, truly[task, what]
+
+
+_NOTES = (
+    "Counted is each task with each mesh that nobody labelled and that has a hull which spans parts that the rules of "
+    "the task are about. Each hull, and each part of one that is split, has the label that has most of it in true "
+    "parts; so what is tried is the geometry of the split, and what was found to be split. *True labels of pieces*: "
+    "all hulls that span, and no other, are split by the true labels of the fine pieces.",
+    *(f"Labels, *{name}*: {told}." for name, told in ABOUT_LABELS.items()),
+)

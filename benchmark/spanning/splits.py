@@ -1,0 +1,182 @@
+"""What splitting the hulls that span gives: how pure their parts are, which pure hulls are split, how many hulls there
+are then."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+from benchmark.assets import MERGED, SEPARATE, samples
+from benchmark.report import Cell, Goal, Result, Table, Tell
+from benchmark.spanning.course import SURE, SplitFamily, SplitHull, split_families
+from benchmark.spanning.detection import ABOUT_LABELS, categories_of, hulls_of
+from benchmark.spanning.family import BY_PIECES, LABELLED
+
+TO_REACH = {"union": 0.97, "welded": 0.9}
+"""Purity to reach."""
+_MOST_SPLIT = 0.01
+_COLUMNS = (
+    "set",
+    "labels",
+    "category",
+    "spanning",
+    "purity before",
+    "after",
+    "after, mean of hulls",
+    "labels right",
+    "volume kept",
+    "pure hulls split",
+)
+_COUNT_COLUMNS = ("set", "category", "hulls", "after", "next finer", "its hulls", "ratio")
+
+
+@dataclass(frozen=True, slots=True)
+class Purity:
+    """Of some hulls, weighted by their volume in parts. before, after: the share in the label that a hull, or a part of
+    it, has most of; mean: that after as a mean over hulls; right: the share of what is in parts of split hulls that
+    has its own label; kept: of what of the hulls was in parts, what still is."""
+
+    before: float
+    after: float
+    mean: float
+    right: float
+    kept: float
+
+    @staticmethod
+    def of(rows: Sequence[SplitHull], sure: float = SURE[0]) -> Purity:
+        """The purity where hulls are split from a probability on; hulls that are not split count as they are."""
+        rows = [row for row in rows if sum(row.volumes.values()) > 0]
+        parts = [row.parts_at(sure) for row in rows]
+        before = [(max(row.volumes.values()), sum(row.volumes.values())) for row in rows]
+        after = [(sum(_most(one) for one in some), sum(sum(one.values()) for one in some)) for some in parts]
+        split = [part for row in rows if row.is_split(sure) for part in row.parts]
+        right = sum(part.volumes.get(part.label, 0.0) for part in split)
+        told = sum(sum(part.volumes.values()) for part in split)
+        return Purity(
+            _ratio(before),
+            _ratio(after),
+            sum(most / total for most, total in after if total) / len(after) if after else 1.0,
+            _ratio([(right, told)]),
+            _ratio([(b, a) for (_, b), (_, a) in zip(after, before, strict=True)]),
+        )
+
+
+def measure(tell: Tell, quick: bool) -> Result:
+    """Split the hulls that span in all families."""
+    families = split_families(tell, quick)
+    counts = tuple(_count_hulls(families))
+    return Result(
+        "splits",
+        "Hulls that span parts: split",
+        (
+            *(
+                Table(f"Split from a probability of {sure} on", _COLUMNS, tuple(_list_purities(families, sure)))
+                for sure in SURE
+            ),
+            Table("Hulls in all, all assets that nobody labelled", _COUNT_COLUMNS, counts),
+        ),
+        tuple(_list_goals(families, counts)),
+        _NOTES,
+        tuple(_list_assets(families)),
+    )
+
+
+def _most(volumes: dict[str, float]) -> float:
+    return max(volumes.values(), default=0.0)
+
+
+def _ratio(pairs: Sequence[tuple[float, float]]) -> float:
+    total = sum(whole for _, whole in pairs)
+    return sum(part for part, _ in pairs) / total if total else 1.0
+
+
+def purity_of(
+    families: Sequence[SplitFamily], setting: str, labelled: str, category: str | None = None, sure: float = SURE[0]
+) -> Purity:
+    """The purity of the spanning hulls of a set; of all categories the mean, since some are much larger than others."""
+    names = [category] if category else categories_of(families)
+    found = [
+        Purity.of([row for row in hulls_of(families, setting, labelled, name) if row.spans], sure) for name in names
+    ]
+
+    def mean(values: Iterator[float]) -> float:
+        return sum(values) / len(found)
+
+    return Purity(
+        mean(one.before for one in found),
+        mean(one.after for one in found),
+        mean(one.mean for one in found),
+        mean(one.right for one in found),
+        mean(one.kept for one in found),
+    )
+
+
+def share_of_pure_split(
+    families: Sequence[SplitFamily], setting: str, labelled: str, category: str | None = None, sure: float = SURE[0]
+) -> float:
+    """The share of the hulls that do not span which are split."""
+    pure = [row for row in hulls_of(families, setting, labelled, category) if not row.spans]
+    return sum(row.is_split(sure) for row in pure) / max(len(pure), 1)
+
+
+def _list_purities(families: Sequence[SplitFamily], sure: float) -> Iterator[tuple[Cell, ...]]:
+    for setting in MERGED:
+        for labelled in LABELLED:
+            for category in (*categories_of(families), None):
+                spanning = sum(row.spans for row in hulls_of(families, setting, labelled, category))
+                found = purity_of(families, setting, labelled, category, sure)
+                cells = found.before, found.after, found.mean, found.right, found.kept
+                split = share_of_pure_split(families, setting, labelled, category, sure)
+                yield setting, labelled, category or "all", spanning, *cells, split
+
+
+def _count_hulls(families: Sequence[SplitFamily]) -> Iterator[tuple[Cell, ...]]:
+    """By the labels of pieces."""
+    for setting in MERGED:
+        total = [0, 0, 0]
+        for category in categories_of(families):
+            rows = hulls_of(families, setting, BY_PIECES, category)
+            after = sum(len(row.parts_at()) for row in rows)
+            name, finer = next_finer(category, len(rows), {row.asset for row in rows})
+            total = [a + b for a, b in zip(total, (len(rows), after, finer), strict=True)]
+            yield setting, category, len(rows), after, name, finer, after / finer
+        yield setting, "all", *total[:2], "–", total[2], total[1] / max(total[2], 1)
+
+
+def next_finer(category: str, hulls: int, assets: set[str]) -> tuple[str, int]:
+    """The coarsest separate decomposition that has more hulls than there are, else the finest; and its hulls."""
+    for setting in SEPARATE:
+        count = sum(len(row.mesh.hulls) for row in samples(category, False, (setting,)) if row.asset.name in assets)
+        if count > hulls:
+            break
+    return setting, count
+
+
+def _list_goals(families: Sequence[SplitFamily], counts: Sequence[tuple[Cell, ...]]) -> Iterator[Goal]:
+    for setting, wanted in TO_REACH.items():
+        after = purity_of(families, setting, BY_PIECES).after
+        split = share_of_pure_split(families, setting, BY_PIECES)
+        ratio = next(float(row[-1]) for row in counts if row[:2] == (setting, "all"))
+        yield Goal(f"{setting}: purity of spanning hulls after the split", "at least", wanted, after)
+        yield Goal(f"{setting}: share of the pure hulls that is split", "at most", _MOST_SPLIT, split)
+        yield Goal(f"{setting}: hulls afterwards as a ratio to the next finer decomposition", "at most", 1.0, ratio)
+
+
+def _list_assets(families: Sequence[SplitFamily]) -> Iterator[dict[str, Cell]]:
+    """The assets that have spanning hulls, with the purity of these."""
+    for one in families:
+        for asset in dict.fromkeys(hull.asset for hull in one.hulls if hull.spans):
+            found = Purity.of([hull for hull in one.hulls if hull.asset == asset and hull.spans])
+            names = {"category": one.category, "set": one.setting, "labels": one.labelled, "asset": asset}
+            yield {**names, "before": round(found.before, 4), "after": round(found.after, 4)}
+
+
+_NOTES = (
+    "*Purity*: the share of what of the hulls is in parts that is in the label which its hull, or its part of a hull, "
+    "has most of, by volume; hulls that span and are not split count as they are. *All*: the mean of the categories, "
+    "since some have far larger assets. *Labels right*: of what is in parts of split hulls, the share that has got its "
+    "true label. *Volume kept*: of what of the hulls was in true parts, the share that still is after the split.",
+    "*Next finer*: of the three decompositions of the same assets solid by solid (coarse, medium, fine) the first that "
+    "has more hulls than the set, category by category.",
+    *(f"Labels, *{name}*: {told}." for name, told in ABOUT_LABELS.items()),
+)
