@@ -1,0 +1,70 @@
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+
+from meshforge.project import Project
+from tests.unit.cli.in_process import Run, runner
+from tests.unit.project.stools import PARTS, boxes, coarse, write_stool
+
+
+@pytest.fixture
+def run(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], tmp_path: Path) -> Run:
+    monkeypatch.chdir(tmp_path)
+    return runner(monkeypatch, capsys)
+
+
+@pytest.fixture(autouse=True)
+def _stools(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("MESHFORGE_CACHE", str(tmp_path / "cache"))
+    for name, width in (("a", 0.2), ("b", 0.22), ("c", 0.18)):
+        parts = boxes(width, 0.4)
+        write_stool(tmp_path / "assets", name, parts, parts if name != "c" else coarse(parts))
+    project = Project.create(tmp_path / "p", [tmp_path / "assets/*.urdf"], vocabulary=("seat", "leg"))
+    for name in ("a.urdf", "b.urdf"):
+        names = [hull.name for hull in project.mesh(name).hulls]
+        project.set_labels(name, dict(zip(names, PARTS, strict=True)))
+
+
+def test_dry_run_then_split_then_undo(run: Run) -> None:
+    told = run("prepare", "p", "--split-spanning", "--dry-run", "--workers", "1")
+    assert told.code == 0
+    assert "c.urdf: nothing new\n    note: would split base/h0 holds seat and leg, " in told.out
+    assert "a.urdf: nothing new\n" in told.out
+    told = run("prepare", "p", "--split-spanning", "--workers", "1")
+    assert told.code == 0
+    assert "c.urdf: 1 piece into 2 hulls\n    base/h0: base/h0 holds seat and leg, " in told.out
+    told = run("status", "p")
+    assert "base/h0 divided into 2 hulls" in told.out
+    told = run("prepare", "p", "c.urdf", "--undo")
+    assert told.code == 0 and "base/h0 divided into 2 hulls" in told.out
+    told = run("status", "p", "--json")
+    spans = {asset["asset"]: asset["spans"] for asset in json.loads(told.out)["assets"]}
+    assert spans["a.urdf"] == [] and spans["c.urdf"][0].startswith("base/h0 holds seat and leg, ")
+    assert "(meshforge prepare --split-spanning)" in run("status", "p").out
+
+
+def test_as_json(run: Run) -> None:
+    told = run("prepare", "p", "--split-spanning", "--workers", "1", "--json")
+    rows = [json.loads(line) for line in told.out.splitlines()]
+    assert [row["asset"] for row in rows] == ["a.urdf", "b.urdf", "c.urdf"]
+    assert rows[2]["hulls"] == ["base/h0#0", "base/h0#1"]
+
+
+@pytest.mark.parametrize(
+    ("words", "problem"),
+    [
+        (["--split-spanning", "--undo"], "say what to do"),
+        (["--decompose", "coacd", "--sure", "0.5"], "--sure"),
+        (["--decompose", "coacd", "--dry-run"], "--dry-run"),
+        (["--split-spanning", "--sure", "0"], "--sure 0: a probability is needed"),
+        (["--split-spanning", "--hollow"], "--hollow"),
+        (["nope.urdf", "--split-spanning"], "nope.urdf"),
+    ],
+)
+def test_bad_input(run: Run, words: list[str], problem: str) -> None:
+    told = run("prepare", "p", *words)
+    assert told.code == 2 or told.code == 1
+    assert problem in told.err and "Traceback" not in told.err
