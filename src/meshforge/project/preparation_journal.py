@@ -18,15 +18,16 @@ from meshforge.symbolic import Label, SymbolicMesh, parse_labels_text
 
 
 class StepSelections(files.JsonFile):
-    """What one preparation step changed. place: how many steps were before it; labels_before, labels_between,
-    labels_after: the text of the labels file, null for none, between while hulls of before and after are in it."""
+    """What one preparation step changed. place: how many steps were before it; labels_before, labels_after: the
+    text of the labels file, null for none; labels_between: its texts while labels of both are in it, of doing the step
+    and of undoing it."""
 
     place: int
     parts: dict[str, tuple[str, ...]]
     digests: dict[str, str]
     changes: tuple[selections.SelectionChange, ...] = ()
     labels_before: str | None
-    labels_between: str | None
+    labels_between: tuple[str | None, ...]
     labels_after: str | None
 
     @property
@@ -90,7 +91,7 @@ def describe_step(
         digests=dict(successors.digests),
         changes=changes,
         labels_before=before,
-        labels_between=between,
+        labels_between=(between,),
         labels_after=after,
     )
 
@@ -114,6 +115,15 @@ def finish_undo(store: Store, asset: str, place: int) -> bool:
     return True
 
 
+def note_labels_between(store: Store, asset: str, undone: Sequence[StepSelections], between: LabelsText) -> None:
+    """Note what the labels file says while steps are undone, the last one first, before it is written."""
+    last = undone[0]
+    if between.text in last.labels_between:
+        return
+    noted = last.model_copy(update={"labels_between": (*last.labels_between, between.text)})
+    write_journal(store, asset, [noted if step == last else step for step in read_journal(store, asset)])
+
+
 def restore_selections(store: Store, asset: str, undone: Sequence[StepSelections]) -> None:
     """Bring back what selections were before steps, the last one first."""
     for step in undone:
@@ -124,7 +134,7 @@ def restore_labels_text(now: LabelsText, undone: Sequence[StepSelections]) -> La
     """What a labels file said before steps, the last one first; None where it was changed since, or for no steps."""
     text = now.text
     for step in undone:
-        if text not in (step.labels_before, step.labels_between, step.labels_after):
+        if text not in (step.labels_before, *step.labels_between, step.labels_after):
             return None
         text = step.labels_before
     return LabelsText(text) if undone else None

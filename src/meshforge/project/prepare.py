@@ -154,10 +154,9 @@ def _hulls_before(source: Asset, folder: Path) -> dict[str, Shape]:
 def _exchange(store: Store, asset: str, after: batch.Preparation, labels: Mapping[str, Label]) -> list[str]:
     """Write a preparation, under the lock that the caller holds, and let labels and selections follow; notes on that.
 
-    What selections and labels were is written first. Labels of the new hulls are written before these, unless the
-    journal restores them; selections and the removal of old labels after them. Killed in between, labels of hulls that
-    are not there are left, which is harmless, and selections of such hulls, which the status names; an undo is finished
-    the next time. Raises ProjectError where a file of the project cannot be read; then nothing is written.
+    What selections and labels were is written first. Labels of the new hulls are written before these, selections and
+    the removal of old labels after them: killed in between, labels of hulls that are not there are left, which is
+    harmless, and selections of such hulls, which the status names; an undo is finished the next time. Raises ProjectError where a file of the project cannot be read; then nothing is written.
     """
     selections.check_selections(store, asset)
     folder = store.layout.preparation(asset)
@@ -188,7 +187,9 @@ def _exchange(store: Store, asset: str, after: batch.Preparation, labels: Mappin
         step = journal.describe_step(store, asset, common, successors, (were, between, final))
     if step:
         journal.write_journal(store, asset, [*steps, step])
-    if follow and not restored:
+    if restored:
+        journal.note_labels_between(store, asset, undone, between)
+    if follow:
         store.write_labels_files({asset: between.text})
     if after.steps:
         batch.write_preparation(folder, after)
