@@ -156,7 +156,9 @@ def _exchange(store: Store, asset: str, after: batch.Preparation, labels: Mappin
 
     What selections and labels were is written first. Labels of the new hulls are written before these, selections and
     the removal of old labels after them: killed in between, labels of hulls that are not there are left, which is
-    harmless, and selections of such hulls, which the status names; an undo is finished the next time. Raises ProjectError where a file of the project cannot be read; then nothing is written.
+    harmless, and selections of such hulls, which the status names; an undo is finished the next time.
+
+    Raises ProjectError where a file of the project cannot be read; then nothing is written.
     """
     selections.check_selections(store, asset)
     folder = store.layout.preparation(asset)

@@ -13,6 +13,7 @@ from meshforge.common import ProjectError
 from meshforge.formats import read
 from meshforge.language import Merge
 from meshforge.project import Project
+from meshforge.project.preparation_journal import read_journal
 from meshforge.project.prepare import exchange_preparation
 from meshforge.project.selections import Successors
 from meshforge.symbolic import Label
@@ -162,6 +163,9 @@ def test_a_killed_undo_is_finished_by_the_next_bit_for_bit(tmp_path: Path, every
     states = set()
     for _ in deaths(lambda: project.unprepare(FIRST, everything=everything), removals=True):
         states.add(frozenset(kept(project).items()))
+        left = [step.place for step in read_journal(project, FIRST)]
+        cut_short = any(place >= len(project.preparation(FIRST).steps) for place in left)
+        assert any("cut short" in flag for flag in project.status(workers=0).assets[0].flags) == cut_short
         if FIRST in project.layout.ids_with_preparation():
             assert project.unprepare(FIRST, everything=everything).undone
         assert kept(project) == (before if everything else middle)
