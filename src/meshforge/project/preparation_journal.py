@@ -96,35 +96,66 @@ def describe_step(
     )
 
 
+@dataclass(frozen=True, slots=True)
+class JournalChange:
+    """What an exchange of preparations does to the journal and to selections, under the lock that the caller holds.
+
+    kept: the steps that stay; undone: those that are undone, the last one first; step: the one that is done.
+    """
+
+    store: Store
+    asset: str
+    kept: tuple[StepSelections, ...]
+    undone: tuple[StepSelections, ...]
+    step: StepSelections | None = None
+
+    @staticmethod
+    def at(store: Store, asset: str, place: int) -> JournalChange:
+        """The change that undoes all steps from a place on. Raises ProjectError where the journal is damaged."""
+        steps = read_journal(store, asset)
+        undone = tuple(step for step in reversed(steps) if step.place >= place)
+        return JournalChange(store, asset, tuple(step for step in steps if step.place < place), undone)
+
+    def write_before(self, between: LabelsText | None) -> None:
+        """Note what is to be done, before anything is. between: what the labels file says meanwhile where undoing
+        restores it, None where it does not."""
+        undone = list(self.undone)
+        if between and undone and between.text not in undone[0].labels_between:
+            texts = (*undone[0].labels_between, between.text)
+            undone[0] = undone[0].model_copy(update={"labels_between": texts})
+        if self.step or undone != list(self.undone):
+            steps = [*self.kept, *reversed(undone), *([self.step] if self.step else [])]
+            write_journal(self.store, self.asset, steps)
+
+    def exchange_selections(self) -> None:
+        """Let selections name the hulls that there are now."""
+        _restore_selections(self.store, self.asset, self.undone)
+        selections.apply_changes(self.store, self.asset, self.step.changes if self.step else ())
+
+    def write_after(self) -> None:
+        """Note that all is done."""
+        write_journal(self.store, self.asset, [*self.kept, *([self.step] if self.step else [])])
+
+
 def finish_undo(store: Store, asset: str, place: int) -> bool:
     """Restore what selections and labels were before all steps from a place on, under the lock that the caller holds;
     whether there were such steps. Killed in between, it can be done again.
 
     Raises ProjectError where a file cannot be read; then nothing is written.
     """
-    journal = read_journal(store, asset)
-    undone = [step for step in reversed(journal) if step.place >= place]
-    if not undone:
+    change = JournalChange.at(store, asset, place)
+    if not change.undone:
         return False
     selections.check_selections(store, asset)
-    restored = restore_labels_text(read_labels_text(store, asset), undone)
-    restore_selections(store, asset, undone)
+    restored = restore_labels_text(read_labels_text(store, asset), change.undone)
+    change.exchange_selections()
     if restored:
         store.write_labels_files({asset: restored.text})
-    write_journal(store, asset, [step for step in journal if step.place < place])
+    change.write_after()
     return True
 
 
-def note_labels_between(store: Store, asset: str, undone: Sequence[StepSelections], between: LabelsText) -> None:
-    """Note what the labels file says while steps are undone, the last one first, before it is written."""
-    last = undone[0]
-    if between.text in last.labels_between:
-        return
-    noted = last.model_copy(update={"labels_between": (*last.labels_between, between.text)})
-    write_journal(store, asset, [noted if step == last else step for step in read_journal(store, asset)])
-
-
-def restore_selections(store: Store, asset: str, undone: Sequence[StepSelections]) -> None:
+def _restore_selections(store: Store, asset: str, undone: Sequence[StepSelections]) -> None:
     """Bring back what selections were before steps, the last one first."""
     for step in undone:
         selections.restore_selections(store, asset, step.changes, step.successors)

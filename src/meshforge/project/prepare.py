@@ -172,38 +172,33 @@ def _exchange(store: Store, asset: str, after: batch.Preparation, labels: Mappin
         return [*notes, *_remove_unread(store, asset, error)]
     common = sum(1 for _ in takewhile(lambda pair: pair[0] == pair[1], zip(before, after.steps, strict=False)))
     is_undo = common == len(after.steps)
-    steps = journal.read_journal(store, asset)
-    undone = [step for step in reversed(steps) if step.place >= common]
+    change = journal.JournalChange.at(store, asset, common)
     mesh, old = SymbolicMesh.of(batch.apply_preparation(source, after)), _hulls_before(source, folder)
     were = journal.read_labels_text(store, asset)
-    restored = journal.restore_labels_text(were, undone) if is_undo else None
-    known, doubts = journal.find_labels_before(store, asset, undone, mesh) if is_undo else ({}, [])
+    restored = journal.restore_labels_text(were, change.undone) if is_undo else None
+    known, doubts = journal.find_labels_before(store, asset, change.undone, mesh) if is_undo else ({}, [])
     known |= {name: replace(label, source="propagated") for name, label in labels.items()}
     follow = label_new_hulls(store, asset, old, mesh, known)
     between = journal.LabelsText(follow.format(keep_old=True)) if follow else were
     final = restored or (journal.LabelsText(follow.format(keep_old=False)) if follow else were)
-    step = None
     if not is_undo:
         digests = {name: digest(shape) for name, shape in old.items()}, hull_digests(mesh)
         successors = selections.Successors.between(after, *digests)
         step = journal.describe_step(store, asset, common, successors, (were, between, final))
-    if step:
-        journal.write_journal(store, asset, [*steps, step])
-    if restored:
-        journal.note_labels_between(store, asset, undone, between)
+        change = replace(change, step=step)
+    change.write_before(between if restored else None)
     if follow:
         store.write_labels_files({asset: between.text})
     if after.steps:
         batch.write_preparation(folder, after)
     else:
         batch.remove_preparation(folder)
-    journal.restore_selections(store, asset, undone)
-    selections.apply_changes(store, asset, step.changes if step else ())
+    change.exchange_selections()
     if follow or restored:
         store.write_labels_files({asset: final.text})
-    journal.write_journal(store, asset, [*(one for one in steps if one.place < common), *([step] if step else [])])
+    change.write_after()
     notes += [*(follow.notes if follow else ()), *doubts]
-    if step:
+    if change.step:
         notes += [f"look at it: {one}" for one in journal.describe_carried(store, asset, len(after.steps))]
     gone = sorted({name for _, name in find_unknown_hulls(store.steps(asset), mesh.index)})
     if gone:

@@ -202,6 +202,20 @@ def test_after_a_killed_split_or_undo_a_split_and_its_undo_leave_nothing(tmp_pat
         assert died > 5
 
 
+@needs_fork
+def test_a_killed_undo_does_not_overwrite_labels_that_a_person_changed_since(tmp_path: Path) -> None:
+    project = said_and_labelled(tmp_path)
+    project.cut(FIRST, "crumb", *PLANE)
+    project.set_labels(FIRST, {"crumb#0": "misc", "crumb#1": "misc"})
+    shutil.copytree(project.folder, tmp_path / "after")
+    for _ in deaths(lambda: project.unprepare(FIRST), removals=True):
+        if FIRST in project.layout.ids_with_preparation():
+            project.unprepare(FIRST)
+        assert project.mesh(FIRST).hull_of("crumb").label == "misc"
+        put_back(project, tmp_path / "after")
+    assert project.mesh(FIRST).hull_of("crumb").label == "misc"
+
+
 BROKEN = {"no json": b"{", "no text": b"\xff", "a list": b"[]", "no fields": b'{"answers": [{}], "steps": [{}]}'}
 
 
