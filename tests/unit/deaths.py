@@ -12,38 +12,43 @@ import pytest
 needs_fork = pytest.mark.skipif(not hasattr(os, "fork"), reason="this system cannot fork")
 
 
-def deaths(work: Callable[[], object]) -> Iterator[int]:
+def deaths(work: Callable[[], object], *, removals: bool = False) -> Iterator[int]:
     """Do the work again and again in a process that dies before its first rename, its second, and so on.
 
-    Gives the number of renames after each death; ends when the work came to its end.
+    removals: files and folders that are removed count as well. Gives the number of renames after each death; ends when
+    the work came to its end.
     """
     rename = 0
-    while not _survives(work, rename):
+    while not _survives(work, rename, ("replace", "unlink", "rmdir") if removals else ("replace",)):
         yield rename
         rename += 1
 
 
-def _survives(work: Callable[[], object], rename: int) -> bool:
+def _survives(work: Callable[[], object], rename: int, calls: tuple[str, ...]) -> bool:
     child = os.fork()
     if child == 0:
-        _work_and_die(work, rename)
+        _work_and_die(work, rename, calls)
     _, status = os.waitpid(child, 0)
     code = os.waitstatus_to_exitcode(status)
     assert code in (0, 9), f"the work failed with exit code {code}"
     return code == 0
 
 
-def _work_and_die(work: Callable[[], object], renames: int) -> None:
-    real, done = Path.replace, 0
+def _work_and_die(work: Callable[[], object], renames: int, calls: tuple[str, ...]) -> None:
+    done = 0
 
-    def replace(self: Path, target: Path) -> Path:
-        nonlocal done
-        if done == renames:
-            os._exit(9)  # nothing is flushed, no `finally` runs, as under SIGKILL
-        done += 1
-        return real(self, target)
+    def count(real: Callable[..., object]) -> Callable[..., object]:
+        def call(*args: object, **options: object) -> object:
+            nonlocal done
+            if done == renames:
+                os._exit(9)  # nothing is flushed, no `finally` runs, as under SIGKILL
+            done += 1
+            return real(*args, **options)
 
-    Path.replace = replace  # type: ignore[method-assign, assignment]
+        return call
+
+    for name in calls:
+        setattr(Path, name, count(getattr(Path, name)))
     try:
         work()
     except BaseException:

@@ -223,16 +223,10 @@ class NewHullLabels:
     gone: tuple[str, ...]
     notes: tuple[str, ...]
 
-    @property
-    def text(self) -> str | None:
-        """What the labels file says at the end; None for no file."""
-        mesh, words = self.mesh, self.store.vocabulary
-        return self.store.labels_text(self.asset, hull_digests(mesh), mesh.labels, words, self.gone)
-
-    def write(self, *, keep_old: bool) -> None:
-        """Write the labels; keep_old: those of hulls that go stay beside them."""
-        store, mesh, away = self.store, self.mesh, () if keep_old else self.gone
-        store.write_labels(self.asset, hull_digests(mesh), mesh.labels, store.vocabulary, away)
+    def format(self, *, keep_old: bool) -> str | None:
+        """What the labels file says, None for no file; keep_old: labels of hulls that go stay beside them."""
+        mesh, away = self.mesh, () if keep_old else self.gone
+        return self.store.labels_text(self.asset, hull_digests(mesh), mesh.labels, self.store.vocabulary, away)
 
 
 def label_new_hulls(

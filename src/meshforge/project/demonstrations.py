@@ -10,7 +10,7 @@ from pathlib import Path
 from meshforge import store as files
 from meshforge.common import MeshForgeError, ProjectError, UsageError, suggest_among, suggest_name
 from meshforge.labels import merge
-from meshforge.project.selections import confirm_selections
+from meshforge.project.preparation_journal import confirm_selections
 from meshforge.store import Store
 from meshforge.symbolic import Label, SymbolicMesh
 from meshforge.synthesis import Answer, Demonstration, LabelCorrection, Question, Step

@@ -13,8 +13,8 @@ from meshforge.language import Program
 from meshforge.project.advice import Adviser
 from meshforge.project.demonstrations import find_unknown_hulls
 from meshforge.project.learn import program_state_of, suggest_first_demonstration
+from meshforge.project.preparation_journal import describe_carried
 from meshforge.project.run import build_jobs, build_task, output_digest
-from meshforge.project.selections import describe_carried
 from meshforge.project.sign_offs import digest_lesson
 from meshforge.project.standings import Standings
 from meshforge.project.status import AssetStatus, Status
@@ -107,10 +107,14 @@ def _asset_status(
         output=stamp.status if stamp else "none",
         stale=_find_changes(stamp, job, facts, task),
         error=facts.error or unreadable or failed,
-        flags=(
-            *_describe_unknown_hulls(store, job.id, facts),
-            *_describe_carried(store, job.id),
-            *(stamp.flags if stamp else ()),
+        flags=tuple(
+            dict.fromkeys(
+                (
+                    *_describe_unknown_hulls(store, job.id, facts),
+                    *_describe_carried(store, job.id, facts),
+                    *(stamp.flags if stamp else ()),
+                )
+            )
         ),
         review=current_review.verdict if current_review else None,
         prepared=facts.prepared,
@@ -144,10 +148,10 @@ def _describe_unknown_hulls(store: Store, asset: str, facts: AssetFacts) -> Iter
         yield f"{name}, which is demonstrated for rule {rule}, {fate}: demonstrate it anew"
 
 
-def _describe_carried(store: Store, asset: str) -> tuple[str, ...]:
+def _describe_carried(store: Store, asset: str, facts: AssetFacts) -> tuple[str, ...]:
     """What was carried to parts of split hulls and that a person has to look at."""
     try:
-        return tuple(describe_carried(store, asset))
+        return () if facts.error else tuple(describe_carried(store, asset, len(facts.prepared)))
     except MeshForgeError as error:
         return (error.message,)
 

@@ -14,10 +14,13 @@ from meshforge.common import AssetError, MeshForgeError, ProjectError, describe_
 from meshforge.formats import DecomposeBy, read
 from meshforge.geometry import CoacdSettings, DecomposeSettings, Shape, cache_folder, digest
 from meshforge.labels import label_new_hulls
+from meshforge.project import preparation_journal as journal
 from meshforge.project import selections
 from meshforge.project.demonstrations import find_unknown_hulls
 from meshforge.store import Store, hull_digests
-from meshforge.symbolic import Asset, Label, SymbolicMesh, parse_labels_text
+from meshforge.symbolic import Asset, Label, SymbolicMesh
+
+_FINISHED = "what a process had left half done, since it was killed, was taken back"
 
 
 @dataclass(frozen=True, slots=True)
@@ -79,11 +82,14 @@ def split(
 def unprepare(store: Store, asset: str, *, everything: bool = False) -> PreparationResult:
     """Take back the last thing that was done to an asset before the program, or everything.
 
-    Everything also of an asset that is gone or cannot be read. Raises ProjectError where nothing was done.
+    Where a process was killed in doing or undoing something, the last thing is what it left half done. Everything also
+    of an asset that is gone or cannot be read. Raises ProjectError where nothing was done.
     """
     if asset not in store.layout.ids_with_preparation():
         store.path(asset)
     folder = store.layout.preparation(asset)
+    if _finish_undo(store, asset) and not (everything and batch.record_digest(folder)):
+        return PreparationResult(asset, undone=(_FINISHED,))
     seen = batch.record_digest(folder)
     if seen is None:
         raise ProjectError("nothing was done to it that could be taken back", where=asset)
@@ -92,6 +98,24 @@ def unprepare(store: Store, asset: str, *, everything: bool = False) -> Preparat
     notes = exchange_preparation(store, asset, before.with_only(before.steps[:left]), seen)
     undone = tuple(map(str, before.steps[left:])) or ("what was kept, which was damaged",)
     return PreparationResult(asset, undone=undone, notes=tuple(notes))
+
+
+def _finish_undo(store: Store, asset: str) -> bool:
+    """Take back what was half done to an asset when a process was killed; whether something was."""
+    folder = store.layout.preparation(asset)
+    with store.lock():
+        try:
+            before = batch.read_preparation(folder) or batch.Preparation()
+        except AssetError:  # only undoing everything helps
+            return False
+        if all(step.place < len(before.steps) for step in journal.read_journal(store, asset)):
+            return False
+        selections.check_selections(store, asset)
+        if before.steps:
+            batch.write_preparation(folder, before)
+        else:
+            batch.remove_preparation(folder)
+        return journal.finish_undo(store, asset, len(before.steps))
 
 
 def _read_or_empty(folder: Path) -> batch.Preparation:
@@ -132,97 +156,63 @@ def _exchange(store: Store, asset: str, after: batch.Preparation, labels: Mappin
 
     What selections and labels were is written first. Labels of the new hulls are written before these, selections and
     the removal of old labels after them: killed in between, labels of hulls that are not there are left, which is
-    harmless, and selections of such hulls, which the status names.
+    harmless, and selections of such hulls, which the status names; an undo is finished the next time.
+
+    Raises ProjectError where a file of the project cannot be read; then nothing is written.
     """
+    selections.check_selections(store, asset)
     folder = store.layout.preparation(asset)
+    before = _read_or_empty(folder).steps
+    notes = [_FINISHED] if journal.finish_undo(store, asset, len(before)) else []
     try:
         source = read(store.path(asset))
     except MeshForgeError as error:
         if after.steps:
             raise
-        batch.remove_preparation(folder)
-        selections.write_journal(store, asset, ())
-        return [f"its labels stay as they are: {error.problem}"] if store.layout.labels(asset).exists() else []
-    before = _read_or_empty(folder).steps
+        return [*notes, *_remove_unread(store, asset, error)]
     common = sum(1 for _ in takewhile(lambda pair: pair[0] == pair[1], zip(before, after.steps, strict=False)))
-    journal = selections.read_journal(store, asset).steps
-    undone = [step for step in reversed(journal) if step.place >= common]
-    kept = [step for step in journal if step.place < common]
+    is_undo = common == len(after.steps)
+    change = journal.JournalChange.at(store, asset, common)
     mesh, old = SymbolicMesh.of(batch.apply_preparation(source, after)), _hulls_before(source, folder)
-    label_bytes = store.label_bytes(asset).decode("utf-8") or None
-    known, notes = _find_labels_before(store, asset, undone, mesh) if common == len(after.steps) else ({}, [])
+    were = journal.read_labels_text(store, asset)
+    restored = journal.restore_labels_text(were, change.undone) if is_undo else None
+    known, doubts = journal.find_labels_before(store, asset, change.undone, mesh) if is_undo else ({}, [])
     known |= {name: replace(label, source="propagated") for name, label in labels.items()}
     follow = label_new_hulls(store, asset, old, mesh, known)
-    restored = _restore_label_text(label_bytes, undone)
-    final = (
-        restored if restored is not _CHANGED and common == len(after.steps) else follow.text if follow else label_bytes
-    )
-    if common < len(after.steps):
-        was = {name: digest(shape) for name, shape in old.items()}
-        successors = selections.Successors.between(after, was, hull_digests(mesh))
-        changes = selections.carry_selections(store, asset, successors) if successors.parts else ()
-        if changes or (successors.parts and final != label_bytes):
-            kept.append(
-                selections.StepSelections(
-                    place=common,
-                    parts=dict(successors.parts),
-                    digests=dict(successors.digests),
-                    changes=changes,
-                    labels_before=label_bytes,
-                    labels_after=final,
-                )
-            )
-            selections.write_journal(store, asset, [*journal, kept[-1]])
+    between = journal.LabelsText(follow.format(keep_old=True)) if follow else were
+    final = restored or (journal.LabelsText(follow.format(keep_old=False)) if follow else were)
+    if not is_undo:
+        digests = {name: digest(shape) for name, shape in old.items()}, hull_digests(mesh)
+        successors = selections.Successors.between(after, *digests)
+        step = journal.describe_step(store, asset, common, successors, (were, between, final))
+        change = replace(change, step=step)
+    change.write_before(between if restored else None)
     if follow:
-        follow.write(keep_old=True)
+        store.write_labels_files({asset: between.text})
     if after.steps:
         batch.write_preparation(folder, after)
     else:
         batch.remove_preparation(folder)
-    for step in undone:
-        selections.restore_selections(store, asset, step)
-    for step in kept:
-        if step not in journal:
-            selections.apply_changes(store, asset, step)
-            notes += [f"look at it: {one}" for one in selections.describe_carried(store, asset)]
-    if follow:
-        store.write_labels_files({asset: final})
-    selections.write_journal(store, asset, kept)
+    change.exchange_selections()
+    if follow or restored:
+        store.write_labels_files({asset: final.text})
+    change.write_after()
+    notes += [*(follow.notes if follow else ()), *doubts]
+    if change.step:
+        notes += [f"look at it: {one}" for one in journal.describe_carried(store, asset, len(after.steps))]
     gone = sorted({name for _, name in find_unknown_hulls(store.steps(asset), mesh.index)})
-    notes = [*(follow.notes if follow else ()), *notes]
     if gone:
         notes.append(f"the demonstration on it names {join_names(gone)}, which it has no more: demonstrate it anew")
     return notes
 
 
-_CHANGED = "changed since"
-
-
-def _restore_label_text(text: str | None, undone: Sequence[selections.StepSelections]) -> str | None:
-    """The text of a labels file before steps, the last one first; `_CHANGED` where it is another since."""
-    for step in undone:
-        if text != step.labels_after:
-            return _CHANGED
-        text = step.labels_before
-    return text if undone else _CHANGED
-
-
-def _find_labels_before(
-    store: Store, asset: str, undone: Sequence[selections.StepSelections], mesh: SymbolicMesh
-) -> tuple[dict[str, Label | None], list[str]]:
-    """The labels that hulls had before they were split, unless those of their parts were changed since; notes on
-    these."""
-    now: dict[str, Label | None] = dict(store.labels(asset).labels)
-    notes, found = list[str](), dict[str, Label | None]()
-    for step in undone:
-        were, became = (parse_labels_text(text).labels for text in (step.labels_before, step.labels_after))
-        for hull, parts in step.parts.items():
-            if all(now.get(part) == became.get(part) for part in parts):
-                now[hull] = found[hull] = were.get(hull)
-            else:
-                now[hull] = None
-                notes.append(f"{hull} gets its label from its parts, which were labelled since it was split")
-    return {name: label for name, label in found.items() if name in mesh.index}, notes
+def _remove_unread(store: Store, asset: str, error: MeshForgeError) -> list[str]:
+    """Remove what was done to an asset that cannot be read; a note where its labels stay."""
+    batch.remove_preparation(store.layout.preparation(asset))
+    labels = store.label_bytes(asset)
+    journal.finish_undo(store, asset, 0)
+    stay = labels and store.label_bytes(asset) == labels
+    return [f"its labels stay as they are: {error.problem}"] if stay else []
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,8 +1,4 @@
-"""What a person selected on hulls that a preparation splits: carried to their parts, and brought back by undoing it.
-
-Beside the preparation, `selections.json` keeps for each of its steps what demonstrations, answers and edits by hand
-said before and after it, and the labels. It is written first, so that a killed process loses nothing of that.
-"""
+"""What a person selected on hulls that a preparation splits: carried to their parts, and brought back by undoing it."""
 
 from __future__ import annotations
 
@@ -10,7 +6,7 @@ import json
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
 from meshforge import store as files
 from meshforge.batch import Preparation
@@ -20,7 +16,13 @@ from meshforge.store import Store
 Line = dict[str, Any]
 """One step, edit by hand, answer or repair, as its file has it."""
 
-_KINDS = {"demonstration": ("steps",), "corrections": ("steps",), "answers": ("answers", "confirmed", "rejected")}
+SelectionKind = Literal["demonstration", "corrections", "answers"]
+_BOM = "\ufeff"
+_KINDS: dict[SelectionKind, tuple[str, ...]] = {
+    "demonstration": ("steps",),
+    "corrections": ("steps",),
+    "answers": ("answers", "confirmed", "rejected"),
+}
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,63 +63,30 @@ class SelectionChange(files.JsonFile):
     """One file before and after a step. lines: of each line that changed what it was, and what it became; looked:
     whether a person has looked at it since."""
 
-    kind: str
+    kind: SelectionKind
     before: str
     after: str
     lines: tuple[tuple[Line, tuple[Line, ...]], ...]
     looked: bool = False
 
 
-class StepSelections(files.JsonFile):
-    """What one preparation step changed. place: how many steps were before it; labels_before, labels_after: the text
-    of the labels file, null for none."""
-
-    place: int
-    parts: dict[str, tuple[str, ...]]
-    digests: dict[str, str]
-    changes: tuple[SelectionChange, ...] = ()
-    labels_before: str | None = None
-    labels_after: str | None = None
-
-    @property
-    def successors(self) -> Successors:
-        return Successors(self.parts, self.digests)
-
-
-class SelectionsFile(files.JsonFile):
-    """prepared/ID/selections.json: the steps that changed something, in order."""
-
-    steps: tuple[StepSelections, ...] = ()
-
-
-def journal_path(store: Store, asset: str) -> Path:
-    """Where it is kept what preparation steps changed of selections and labels."""
-    return store.layout.preparation(asset) / "selections.json"
-
-
-def read_journal(store: Store, asset: str) -> SelectionsFile:
-    """What the steps of a preparation changed. Raises ProjectError where the file is damaged."""
-    return files.read_json(journal_path(store, asset), SelectionsFile) or SelectionsFile()
-
-
-def write_journal(store: Store, asset: str, steps: Sequence[StepSelections]) -> None:
-    """Write what steps changed; without any the file is removed, and its folder where that is empty then."""
-    path = journal_path(store, asset)
-    if steps:
-        files.write_json(path, SelectionsFile(steps=tuple(steps)))
-        return
-    path.unlink(missing_ok=True)
-    if path.parent.is_dir() and not any(path.parent.iterdir()):
-        path.parent.rmdir()
+def check_selections(store: Store, asset: str) -> None:
+    """Raises ProjectError, naming the file, where a demonstration, edits by hand or the answers cannot be read."""
+    store.steps(asset)
+    store.corrections(asset)
+    store.answers()
 
 
 def carry_selections(store: Store, asset: str, successors: Successors) -> tuple[SelectionChange, ...]:
-    """What selections become where hulls are split: those that name one name its parts. Nothing is written yet."""
+    """What selections become where hulls are split: those that name one name its parts. Nothing is written yet.
+
+    Raises ProjectError where a file cannot be read.
+    """
+    check_selections(store, asset)
     found = []
     for kind in _KINDS:
-        path = _path(store, asset, kind)
-        text = path.read_text(encoding="utf-8") if path.exists() else "{}"
-        data, lines = json.loads(text), list[tuple[Line, tuple[Line, ...]]]()
+        text = _read_text(_path(store, asset, kind)) or "{}"
+        data, lines = _load(text), list[tuple[Line, tuple[Line, ...]]]()
         for key in _KINDS[kind]:
             after = [(line, _carry_line(kind, asset, line, successors)) for line in data.get(key, ())]
             lines += [(line, now) for line, now in after if now != (line,)]
@@ -127,56 +96,47 @@ def carry_selections(store: Store, asset: str, successors: Successors) -> tuple[
     return tuple(found)
 
 
-def apply_changes(store: Store, asset: str, step: StepSelections) -> None:
-    """Write what selections become by a step."""
-    for change in step.changes:
+def apply_changes(store: Store, asset: str, changes: Iterable[SelectionChange]) -> None:
+    """Write what selections become."""
+    for change in changes:
         write_atomically(_path(store, asset, change.kind), change.after)
 
 
-def restore_selections(store: Store, asset: str, step: StepSelections) -> None:
-    """Bring back what selections were before a step. What a person changed since stays; where it names all parts of a
-    hull, it names the hull again."""
+def restore_selections(store: Store, asset: str, changes: Sequence[SelectionChange], successors: Successors) -> None:
+    """Bring back what selections were before hulls were split. What a person changed since stays; where it names all
+    parts of a hull, it names the hull again. What is brought back already stays as it is."""
     for kind in _KINDS:
         path = _path(store, asset, kind)
-        if not path.exists():
+        text = _read_text(path)
+        if text is None:
             continue
-        text = path.read_text(encoding="utf-8")
-        change = next((one for one in step.changes if one.kind == kind), None)
+        change = next((one for one in changes if one.kind == kind), None)
         if change and text in (change.after, change.before):
             now = change.before
         else:
-            now = _restore_lines(asset, kind, text, change.lines if change else (), step.successors)
+            now = _restore_lines(asset, kind, text, change.lines if change else (), successors)
         if now != text:
             write_atomically(path, now)
 
 
-def confirm_selections(store: Store, asset: str) -> None:
-    """Note that a person has looked at what was carried to the parts of split hulls of an asset."""
-    with store.lock():
-        steps = read_journal(store, asset).steps
-        if any(not change.looked for step in steps for change in step.changes):
-            seen = [
-                step.model_copy(update={"changes": tuple(c.model_copy(update={"looked": True}) for c in step.changes)})
-                for step in steps
-            ]
-            write_journal(store, asset, seen)
+def describe_change(
+    store: Store, asset: str, change: SelectionChange, parts: Mapping[str, tuple[str, ...]]
+) -> Iterator[str]:
+    """A sentence for each line that is as it was carried. parts: of each hull that was split, by name.
+
+    Raises ProjectError where a file cannot be read.
+    """
+    check_selections(store, asset)
+    data = _load(_read_text(_path(store, asset, change.kind)) or "{}")
+    there = [line for key in _KINDS[change.kind] for line in data.get(key, ())]
+    for line, now in change.lines:
+        if all(one in there for one in now):
+            for hull in (name for name in parts if name in _names_in(line)):
+                fate = f"was split into {join_names(parts[hull])}"
+                yield f"{hull}, {_describe_use(change.kind, line)}, {fate}: look whether all parts are meant"
 
 
-def describe_carried(store: Store, asset: str) -> Iterator[str]:
-    """A sentence for each selection that was carried to parts of a hull and that no person has looked at since."""
-    for step in read_journal(store, asset).steps:
-        for change in (one for one in step.changes if not one.looked):
-            path = _path(store, asset, change.kind)
-            data = json.loads(path.read_text(encoding="utf-8")) if path.exists() else {}
-            there = [line for key in _KINDS[change.kind] for line in data.get(key, ())]
-            for line, now in change.lines:
-                if all(one in there for one in now):
-                    for hull in (name for name in step.parts if name in _names_in(line)):
-                        fate = f"was split into {join_names(step.parts[hull])}"
-                        yield f"{hull}, {_describe_use(change.kind, line)}, {fate}: look whether all parts are meant"
-
-
-def _describe_use(kind: str, line: Line) -> str:
+def _describe_use(kind: SelectionKind, line: Line) -> str:
     if kind == "corrections":
         return "which is edited by hand"
     if kind == "demonstration":
@@ -184,7 +144,17 @@ def _describe_use(kind: str, line: Line) -> str:
     return f"which an answer for rule {line['rule']} is about" if "rule" in line else "whose label was repaired"
 
 
-def _path(store: Store, asset: str, kind: str) -> Path:
+def _read_text(path: Path) -> str | None:
+    """A file's text, line ends as they are; None where there is no such file."""
+    return path.read_bytes().decode("utf-8") if path.exists() else None
+
+
+def _load(text: str) -> Line:
+    found: Line = json.loads(text.removeprefix(_BOM))
+    return found
+
+
+def _path(store: Store, asset: str, kind: SelectionKind) -> Path:
     layout = store.layout
     one_asset = {"demonstration": layout.demonstration, "corrections": layout.corrections}
     return one_asset[kind](asset) if kind in one_asset else layout.answers
@@ -200,7 +170,7 @@ def _names_in(line: Line) -> set[str]:
     return {*(line.get("select") or ()), *refused, *line.get("hulls", ()), *own}
 
 
-def _carry_line(kind: str, asset: str, line: Line, successors: Successors) -> tuple[Line, ...]:
+def _carry_line(kind: SelectionKind, asset: str, line: Line, successors: Successors) -> tuple[Line, ...]:
     """A line with parts in the place of their hull; a repair is one of each part then."""
     if not _names_in(line) & successors.parts.keys() or (kind == "answers" and line["asset"] != asset):
         return (line,)
@@ -226,9 +196,9 @@ def _with_names(line: Line, change: Any) -> Line:
 
 
 def _restore_lines(
-    asset: str, kind: str, text: str, changed: Iterable[tuple[Line, tuple[Line, ...]]], successors: Successors
+    asset: str, kind: SelectionKind, text: str, changed: Iterable[tuple[Line, tuple[Line, ...]]], successors: Successors
 ) -> str:
-    data = json.loads(text)
+    data = _load(text)
     for key in _KINDS[kind]:
         lines = list(data.get(key, ()))
         for before, after in changed:
@@ -237,10 +207,10 @@ def _restore_lines(
                 lines = [one for one in lines if one not in after]
         lines = [_carry_line_back(kind, asset, line, successors) for line in lines]
         data |= {key: lines} if key in data else {}
-    return text if data == json.loads(text) else _format(data)
+    return text if data == _load(text) else _format(data)
 
 
-def _carry_line_back(kind: str, asset: str, line: Line, successors: Successors) -> Line:
+def _carry_line_back(kind: SelectionKind, asset: str, line: Line, successors: Successors) -> Line:
     if kind == "answers" and line.get("asset") != asset:
         return line
     if "hulls" in line:

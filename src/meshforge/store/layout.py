@@ -12,6 +12,7 @@ from pydantic import BaseModel, ConfigDict, ValidationError
 from meshforge.batch import RECORD_FILE, SETTINGS, STATE
 from meshforge.common import ProjectError, first_validation_error, write_atomically
 
+_JOURNAL = "selections.json"
 Model = TypeVar("Model", bound=BaseModel)
 
 
@@ -33,6 +34,10 @@ class Layout:
     def preparation(self, asset: str) -> Path:
         """The folder of what is done to an asset before the program."""
         return self.folder / "prepared" / asset
+
+    def preparation_journal(self, asset: str) -> Path:
+        """What preparation steps changed of selections and labels."""
+        return self.preparation(asset) / _JOURNAL
 
     @property
     def settings(self) -> Path:
@@ -126,9 +131,10 @@ class Layout:
         return tuple(sorted(path.relative_to(root).as_posix().removesuffix(".json") for path in root.rglob("*.json")))
 
     def ids_with_preparation(self) -> tuple[str, ...]:
-        """The ids of all assets that have a preparation, sorted."""
+        """The ids of all assets that have a preparation, or one whose removal was cut short, sorted."""
         root = self.folder / "prepared"
-        return tuple(sorted(path.parent.relative_to(root).as_posix() for path in root.rglob(RECORD_FILE)))
+        found = {path.parent for name in (RECORD_FILE, _JOURNAL) for path in root.rglob(name)}
+        return tuple(sorted(path.relative_to(root).as_posix() for path in found))
 
 
 class JsonFile(BaseModel):

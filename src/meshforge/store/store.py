@@ -149,7 +149,7 @@ class Store:
                     self.layout.labels(asset),
                     self.layout.demonstration(asset),
                     self.layout.corrections(asset),
-                    self.layout.preparation(asset) / "selections.json",
+                    self.layout.preparation_journal(asset),
                 ):
                     path.unlink(missing_ok=True)
                 remove_preparation(self.layout.preparation(asset))

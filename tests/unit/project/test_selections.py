@@ -3,12 +3,17 @@
 from __future__ import annotations
 
 import shutil
+from collections.abc import Callable
 from pathlib import Path
 
+import pytest
+
 from meshforge import batch
+from meshforge.common import ProjectError
 from meshforge.formats import read
 from meshforge.language import Merge
 from meshforge.project import Project
+from meshforge.project.preparation_journal import read_journal
 from meshforge.project.prepare import exchange_preparation
 from meshforge.project.selections import Successors
 from meshforge.symbolic import Label
@@ -132,6 +137,149 @@ def test_a_killed_split_or_undo_loses_nothing_and_flags_what_is_gone(tmp_path: P
                 k: v for k, v in before.items() if "labels" not in k
             }
     assert died > 3
+
+
+def put_back(project: Project, copy: Path) -> None:
+    shutil.rmtree(project.folder)
+    shutil.copytree(copy, project.folder)
+
+
+def said_and_labelled(folder: Path) -> Project:
+    """The same, with a label of a person on what is split, so that labels change as well."""
+    project = said(folder)
+    project.set_labels(FIRST, {"crumb": "top"})
+    return project
+
+
+@needs_fork
+@pytest.mark.parametrize("everything", [False, True])
+def test_a_killed_undo_is_finished_by_the_next_bit_for_bit(tmp_path: Path, everything: bool) -> None:
+    project = said_and_labelled(tmp_path)
+    before = kept(project)
+    project.cut(FIRST, "crumb", *PLANE)
+    middle = kept(project)
+    project.cut(FIRST, "crumb#0", project.mesh(FIRST).hull_of("crumb#0").aabb.center.tolist(), (1, 0, 0))
+    shutil.copytree(project.folder, tmp_path / "late")
+    states = set()
+    for _ in deaths(lambda: project.unprepare(FIRST, everything=everything), removals=True):
+        states.add(frozenset(kept(project).items()))
+        left = [step.place for step in read_journal(project, FIRST)]
+        cut_short = any(place >= len(project.preparation(FIRST).steps) for place in left)
+        assert any("cut short" in flag for flag in project.status(workers=0).assets[0].flags) == cut_short
+        if FIRST in project.layout.ids_with_preparation():
+            assert project.unprepare(FIRST, everything=everything).undone
+        assert kept(project) == (before if everything else middle)
+        put_back(project, tmp_path / "late")
+    assert len(states) > 5
+
+
+@needs_fork
+def test_after_a_killed_split_or_undo_a_split_and_its_undo_leave_nothing(tmp_path: Path) -> None:
+    project = said_and_labelled(tmp_path)
+    before = kept(project)
+    shutil.copytree(project.folder, tmp_path / "before")
+    project.cut(FIRST, "crumb", *PLANE)
+    after = kept(project)
+    shutil.copytree(project.folder, tmp_path / "after")
+    work: dict[str, Callable[[], object]] = {
+        "before": lambda: project.cut(FIRST, "crumb", *PLANE),
+        "after": lambda: project.unprepare(FIRST),
+    }
+    for start, change in work.items():
+        put_back(project, tmp_path / start)
+        died = 0
+        for _ in deaths(change, removals=True):
+            died += 1
+            if project.preparation(FIRST).steps:
+                project.unprepare(FIRST)
+                assert kept(project) == before
+            else:
+                project.cut(FIRST, "crumb", *PLANE)
+                assert kept(project) == after
+                project.unprepare(FIRST)
+                assert kept(project) == before
+            put_back(project, tmp_path / start)
+        assert died > 5
+
+
+@needs_fork
+def test_a_killed_undo_does_not_overwrite_labels_that_a_person_changed_since(tmp_path: Path) -> None:
+    project = said_and_labelled(tmp_path)
+    project.cut(FIRST, "crumb", *PLANE)
+    project.set_labels(FIRST, {"crumb#0": "misc", "crumb#1": "misc"})
+    shutil.copytree(project.folder, tmp_path / "after")
+    for _ in deaths(lambda: project.unprepare(FIRST), removals=True):
+        if FIRST in project.layout.ids_with_preparation():
+            project.unprepare(FIRST)
+        assert project.mesh(FIRST).hull_of("crumb").label == "misc"
+        put_back(project, tmp_path / "after")
+    assert project.mesh(FIRST).hull_of("crumb").label == "misc"
+
+
+BROKEN = {"no json": b"{", "no text": b"\xff", "a list": b"[]", "no fields": b'{"answers": [{}], "steps": [{}]}'}
+
+
+@pytest.mark.parametrize("content", BROKEN)
+@pytest.mark.parametrize("kind", ["answers", "demonstration", "corrections"])
+def test_a_broken_file_is_named_and_nothing_is_written(tmp_path: Path, kind: str, content: str) -> None:
+    project = said(tmp_path)
+    layout = project.layout
+    path = layout.answers if kind == "answers" else getattr(layout, kind)(FIRST)
+    good = path.read_bytes()
+    path.write_bytes(BROKEN[content])
+    before = kept(project)
+    with pytest.raises(ProjectError, match=path.name) as caught:
+        project.cut(FIRST, "crumb", *PLANE)
+    assert caught.value.where == str(path)
+    assert caught.value.remedy == "Correct the file by hand, or remove it."
+    assert kept(project) == before
+    path.write_bytes(good)
+    project.cut(FIRST, "crumb", *PLANE)
+    path.write_bytes(BROKEN[content])
+    before = kept(project)
+    for everything in (False, True):
+        with pytest.raises(ProjectError, match=path.name):
+            project.unprepare(FIRST, everything=everything)
+    assert kept(project) == before
+    assert messages_of_status(project).count(caught.value.message) == 1
+
+
+def messages_of_status(project: Project) -> list[str]:
+    """What a status says of files of the first asset; what it raises where it can say nothing else."""
+    try:
+        return list(project.status(workers=0).assets[0].flags)
+    except ProjectError as error:
+        return [error.message]
+
+
+def test_a_broken_journal_is_named(tmp_path: Path) -> None:
+    project = said(tmp_path)
+    project.cut(FIRST, "crumb", *PLANE)
+    path = project.layout.preparation_journal(FIRST)
+    path.write_text("{")
+    with pytest.raises(ProjectError, match=path.name):
+        project.unprepare(FIRST)
+    assert any("selections.json" in message for message in messages_of_status(project))
+
+
+def test_files_with_other_line_ends_come_back_bit_for_bit(tmp_path: Path) -> None:
+    project = said(tmp_path)
+    for path in (project.layout.answers, project.layout.demonstration(FIRST)):
+        path.write_bytes(b"\xef\xbb\xbf" + path.read_bytes().replace(b"\n", b"\r\n"))
+    before = kept(project)
+    project.cut(FIRST, "crumb", *PLANE)
+    assert project.steps(FIRST)[0].select == frozenset(PARTS)
+    project.unprepare(FIRST)
+    assert kept(project) == before
+
+
+def test_selections_and_labels_come_back_where_the_asset_cannot_be_read(tmp_path: Path) -> None:
+    project = said_and_labelled(tmp_path)
+    before = kept(project)
+    project.cut(FIRST, "crumb", *PLANE)
+    project.path(FIRST).write_bytes(b"f 1 2 3")
+    assert not project.unprepare(FIRST, everything=True).notes
+    assert kept(project) == before
 
 
 def test_a_hull_stands_for_its_parts_only_where_all_are_named() -> None:
