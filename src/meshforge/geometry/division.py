@@ -12,7 +12,7 @@ from meshforge.common import GeometryError
 from meshforge.geometry.arrays import Bools, Floats, Ints
 from meshforge.geometry.convex import FLATNESS, convex_hull, spans_volume
 from meshforge.geometry.shape import Polytope, Shape
-from meshforge.geometry.solids import cut, intersect
+from meshforge.geometry.solids import cut, intersect, volume_of_union
 from meshforge.geometry.surface import planes_of
 
 _POINTS = 1500  # that stand for what lies in a shape
@@ -22,6 +22,10 @@ _PURE = 0.98  # of what lies in a part that is of one kind: it is not divided
 _GAIN = 0.002  # of what lies in the shape that a plane must set right
 _NOTHING = 1e-9  # of what lies in a part: rounding
 _ALL = 0.85  # of a piece that a part has, from which it has all of it
+_SLIVER = 0.02  # of what lies in the shape: so little of a piece does not make a part
+_HOLLOW = 0.4  # of what lies in a part that it may hold of nothing beside
+_BETTER = 0.3  # of that which two parts must leave out
+_TRIES = 8  # places where solids are put in two groups, along each direction
 _PARTS = 16  # at most
 _SAME = 1e-3  # planes whose normals and offsets (of the diagonal) differ by less are one
 
@@ -90,28 +94,66 @@ def divide(shape: Shape, pieces: Sequence[Polytope], chances: Floats) -> tuple[H
         found[place : place + 1] = halves
     if len(found) == 1:
         return (HullPart(whole, _to_shares(held.volumes)),)
-    tight = _tighten([part for part, _ in found], [part for part, _ in commons], whole)
-    return tuple(HullPart(part, _to_shares(own.volumes)) for part, (_, own) in zip(tight, found, strict=True))
-
-
-def _tighten(parts: Sequence[Polytope], solids: Sequence[Polytope], whole: Polytope) -> list[Polytope]:
-    """The convex hull of what solids have in each part; a solid that a part has nearly all of is all of that part."""
-    inside = [[intersect(part, solid) for part in parts] for solid in solids]
-    corners: list[list[Floats]] = [[np.zeros((0, 3))] for _ in parts]
-    for solid, commons in zip(solids, inside, strict=True):
-        volumes = [common.volume if common else 0.0 for common in commons]
-        most = int(np.argmax(volumes))
-        if volumes[most] >= _ALL * sum(volumes):
-            corners[most].append(solid.vertices)
-        else:
-            for own, common in zip(corners, commons, strict=True):
-                own += [common.vertices] if common else []
-    points = [np.concatenate(rows) for rows in corners]
+    inside = _share_out([part for part, _ in found], [part for part, _ in commons])
     thickness = FLATNESS * whole.aabb.diagonal
-    return [
-        convex_hull(own, name="a part of a hull", thicken=thickness) if len(own) > 3 and spans_volume(own) else part
-        for part, own in zip(parts, points, strict=True)
-    ]
+    return tuple(
+        HullPart(tight, _to_shares(own.volumes))
+        for (part, own), solids in zip(found, inside, strict=True)
+        if solids
+        for tight in (enclose_closely(solids, thickness) or [part])
+    )
+
+
+def _share_out(parts: Sequence[Polytope], solids: Sequence[Polytope]) -> list[list[Polytope]]:
+    """What each part has of solids: all of one that it has nearly all of, and slivers that others have of one that it
+    has most of."""
+    sliver = _SLIVER * sum(solid.volume for solid in solids)
+    found: list[list[Polytope]] = [[] for _ in parts]
+    for solid in solids:
+        commons = [intersect(part, solid) for part in parts]
+        volumes = np.array([common.volume if common else 0.0 for common in commons])
+        most = int(np.argmax(volumes))
+        large = np.flatnonzero(volumes > sliver).tolist()
+        if volumes[most] >= _ALL * volumes.sum() or len(large) < 2:
+            found[most].append(solid)
+            continue
+        for place, common in enumerate(commons):
+            if common:
+                found[place if place in large else most].append(common)
+    return found
+
+
+def enclose_closely(solids: Sequence[Polytope], thickness: float) -> list[Polytope]:
+    """Few convex hulls around solids: where one would hold much of nothing, two that leave it out, and so on.
+
+    Solids are not cut. thickness: [m] of what is flat. Nothing where they span no volume.
+    """
+    points = np.concatenate([np.zeros((0, 3)), *(solid.vertices for solid in solids)])
+    if len(points) < 4 or not spans_volume(points):
+        return []
+    hull = convex_hull(points, name="a part of a hull", thicken=thickness)
+    filled = volume_of_union(solids)
+    if len(solids) < 2 or hull.volume - filled <= _HOLLOW * filled:
+        return [hull]
+    least, halves = min(_list_halves(solids, thickness), key=lambda row: row[0])
+    if hull.volume - least <= _BETTER * (hull.volume - filled):
+        return [hull]
+    return [tight for half in halves for tight in enclose_closely(half, thickness)]
+
+
+def _list_halves(
+    solids: Sequence[Polytope], thickness: float
+) -> Iterator[tuple[float, tuple[list[Polytope], list[Polytope]]]]:
+    """Solids in two groups, beside each other along some direction, and the volume of both convex hulls [m^3]."""
+    middles = np.array([solid.vertices.mean(axis=0) for solid in solids])
+    _, _, axes = np.linalg.svd(middles - middles.mean(axis=0), full_matrices=False)
+    for axis in [*np.eye(3), *axes]:
+        order = np.argsort((middles @ axis).round(12), kind="stable")
+        for end in sorted({*np.linspace(1, len(order) - 1, _TRIES).round().astype(int).tolist()}):
+            halves = [solids[k] for k in order[:end]], [solids[k] for k in order[end:]]
+            clouds = [np.concatenate([solid.vertices for solid in half]) for half in halves]
+            hulls = [convex_hull(cloud, name="a part of a hull", thicken=thickness) for cloud in clouds]
+            yield sum(hull.volume for hull in hulls), halves
 
 
 def _to_shares(volumes: Floats) -> Floats:

@@ -69,7 +69,10 @@ def test_an_asset_is_read_with_its_preparation_or_without_one(tmp_path: Path) ->
         ("{", "this is no JSON (line 1, column "),
         ("[" * 100_000, "this JSON is nested too deeply (line 1, column "),
         ("[]", "expected an object {...}, found []"),
-        ('{"steps": [{"do": "guess"}]}', "the field steps[0].do: expected 'decompose', 'cut' or 'split', found"),
+        (
+            '{"steps": [{"do": "guess"}]}',
+            "the field steps[0].do: expected 'decompose', 'cut', 'split' or 'divide', found",
+        ),
         ('{"steps": 3}', "the field steps: expected a list [...], found 3"),
         ('{"hulls": []}', "the field steps is missing"),
     ],
