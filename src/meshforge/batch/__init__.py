@@ -51,12 +51,12 @@ if TYPE_CHECKING:
         to_json_line,
     )
     from meshforge.batch.preparation.decompose import DecompositionResult, decompose_asset
-    from meshforge.batch.preparation.fine import find_surfaces
     from meshforge.batch.preparation.record import (
         Preparation,
         Replacement,
         apply_preparation,
         find_sources,
+        find_surfaces,
         replay_preparation,
     )
     from meshforge.batch.preparation.split import HullDivision, cut_hull, divide_hulls, split_hull

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated
@@ -87,7 +86,10 @@ def _advise(given: DecomposeArguments, settings: DecomposeSettings) -> None:
     picture = _picture_path(given.out, given.overwrite)
     title = f"{given.method.value} on {given.mesh.name}"
     with Console(stderr=True).status(title) as status:
-        show: Callable[[str], None] = lambda text: status.update(f"{title}: {text}")  # noqa: E731
+
+        def show(text: str) -> None:
+            status.update(f"{title}: {text}")
+
         advice = advise_decomposition(
             given.mesh, settings, hollow=given.hollow, timeout=given.timeout, cache=given.cache, progress=show
         )

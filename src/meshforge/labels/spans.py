@@ -6,6 +6,7 @@ import hashlib
 import json
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 
 import numpy as np
@@ -49,9 +50,13 @@ class SpanReport:
     lost: Mapping[str, str]
     bare: Mapping[str, tuple[str, ...]]
 
+    @cached_property
+    def _places(self) -> dict[str, int]:
+        return {asset: place for place, asset in enumerate(self.meshes)}
+
     def spans_of(self, asset: str) -> list[HullSpan]:
         """Each hull of an asset that stands for something, in order."""
-        place, mesh = list(self.meshes).index(asset), self.meshes[asset]
+        place, mesh = self._places[asset], self.meshes[asset]
         rows = zip(mesh.hulls, self.posterior.chances_of(place), self.posterior.shares_of(place), strict=True)
         bare = set(self.bare.get(asset, ()))
         return [
@@ -62,7 +67,7 @@ class SpanReport:
 
     def divide(self, asset: str, hull: str) -> list[tuple[HullPart, str, float]]:
         """The parts of a hull, each with its likeliest label and the share of that in what it stands for."""
-        parts = self.posterior.divide(list(self.meshes).index(asset), self.meshes[asset].index[hull])
+        parts = self.posterior.divide(self._places[asset], self.meshes[asset].index[hull])
         labels = self.posterior.labels
         return [(part, labels[part.kind], float(part.shares[part.kind])) for part in parts]
 

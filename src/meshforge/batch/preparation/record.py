@@ -4,7 +4,7 @@ were made; and replayed on an asset as it was read."""
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any, Literal
 
@@ -151,6 +151,24 @@ def merge_visuals(asset: Asset, body: str) -> Surface | None:
     """All that a body shows, None where that is nothing; what belongs to no body counts for one that is alone."""
     alone = len(asset.bodies) == 1
     own = [s for s in asset.visuals if len(s.faces) and (s.body == body or (s.body is None and alone))]
+    return _stack(own, body)
+
+
+def find_surfaces(asset: Asset) -> dict[str, Surface]:
+    """The surface that the hulls of each body stand for, of an asset as it was read; bodies without any are left out.
+
+    Non-convex collision pieces of a body count where it has any, since hulls are made of these; else what it shows.
+    """
+    found = dict[str, Surface]()
+    for body in asset.bodies:
+        pieces = [p.surface for p in asset.opaque if p.body == body.name and p.surface and len(p.surface.faces)]
+        if surface := _stack(pieces, body.name) or merge_visuals(asset, body.name):
+            found[body.name] = surface
+    return found
+
+
+def _stack(own: Sequence[Surface], body: str) -> Surface | None:
+    """Surfaces as one, None where there is none."""
     if not own:
         return None
     faces = [s.faces + start for s, start in zip(own, np.cumsum([0, *(len(s.vertices) for s in own)]), strict=False)]

@@ -5,6 +5,7 @@ from __future__ import annotations
 import time
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -106,7 +107,7 @@ class _PartRun:
 
     def _run(self, points: Floats, triangles: Ints, name: str, settings: engines.DecomposeSettings) -> list[Polytope]:
         def run(vertices: Floats, faces: Ints) -> list[Polytope]:
-            own = lambda text: self._note(name, text)  # noqa: E731
+            own = partial(self._note, name)
             return decompose(
                 vertices, faces, settings, close=self._close, cache=self._cache, note=own, control=self._limit(name)
             )

@@ -12,7 +12,7 @@ from meshforge.geometry import connectivity
 from meshforge.geometry.arrays import Bools, Floats, Ints, cross
 from meshforge.geometry.shape import Polytope
 from meshforge.geometry.solids import cut, section
-from meshforge.geometry.surface import neighbour_faces, planes_of
+from meshforge.geometry.surface import heights_above, neighbour_faces, sample_surface
 
 _LEVEL = np.cos(np.radians(1.0))  # neighbouring faces that turn by less lie in one patch
 _CONCAVE = np.sin(np.radians(20.0))  # edges that turn inward by more are creases
@@ -50,7 +50,10 @@ def find_creases(vertices: Floats, faces: Ints) -> Creases:
     normal = normal[proper] / (2 * areas[:, None])
     pairs = neighbour_faces(faces)
     diagonal = float(np.linalg.norm(np.ptp(vertices, axis=0)))
-    rows = [*_find_patches(corners, normal, areas, pairs), *_find_loops(vertices, faces, corners, normal, pairs)]
+    rows = [
+        *_find_patches(vertices, faces, normal, areas, pairs),
+        *_find_loops(vertices, faces, corners, normal, pairs),
+    ]
     return Creases(
         np.array([row[0] for row in rows]).reshape(-1, _SAMPLES, 3),
         np.array([row[1] for row in rows]),
@@ -63,7 +66,7 @@ def find_creases(vertices: Floats, faces: Ints) -> Creases:
 _Row = tuple[Floats, float, Floats, bool]
 
 
-def _find_patches(corners: Floats, normal: Floats, areas: Floats, pairs: Ints) -> list[_Row]:
+def _find_patches(vertices: Floats, faces: Ints, normal: Floats, areas: Floats, pairs: Ints) -> list[_Row]:
     level = pairs[np.einsum("ij,ij->i", normal[pairs[:, 0]], normal[pairs[:, 1]]) >= _LEVEL]
     root = connectivity.component_roots(level[:, 0], level[:, 1], len(areas))
     total = np.bincount(root, weights=areas, minlength=len(areas))
@@ -74,7 +77,8 @@ def _find_patches(corners: Floats, normal: Floats, areas: Floats, pairs: Ints) -
         across = (normal[own] * areas[own, None]).sum(axis=0)
         length = float(np.linalg.norm(across))
         if length > 0.99 * total[place]:
-            found.append((_sample_triangles(corners[own], areas[own]), float(total[place]), across / length, False))
+            points, _ = sample_surface(vertices, faces[own], _SAMPLES)
+            found.append((points, float(total[place]), across / length, False))
     return found
 
 
@@ -102,15 +106,6 @@ def _find_loops(vertices: Floats, faces: Ints, corners: Floats, normal: Floats, 
         if extents[2] <= _FLAT * extents[0]:
             found.append((points, float(total[place]), axes[2], True))
     return found
-
-
-def _sample_triangles(corners: Floats, areas: Floats) -> Floats:
-    """Points (_SAMPLES, 3) that lie evenly on triangles (k, 3, 3), the same every time."""
-    random = np.random.default_rng(0).random((2, _SAMPLES))
-    a, b, c = corners[_spread(areas)].transpose(1, 0, 2)
-    u, v = np.where(random.sum(axis=0) > 1, 1 - random, random)[:, :, None]
-    points: Floats = a + u * (b - a) + v * (c - a)
-    return points
 
 
 def _sample_edges(ends: Floats, lengths: Floats) -> Floats:
@@ -172,7 +167,5 @@ def _is_inside(points: Floats, piece: Polytope, margin: float) -> Bools:
     """Whether each of some points (n, 3) is in a piece, or at most `margin` [m] outside."""
     low, high = piece.aabb.min - margin, piece.aabb.max + margin
     found = np.asarray(((points >= low) & (points <= high)).all(axis=1))
-    planes = planes_of(piece.vertices, piece.faces)
-    near = points[found] - planes.middle
-    found[np.flatnonzero(found)] = (near @ planes.normals.T <= planes.offsets + margin).all(axis=1)
+    found[np.flatnonzero(found)] = heights_above(points[found], piece) <= margin
     return found
