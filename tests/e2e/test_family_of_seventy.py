@@ -48,7 +48,8 @@ def test_a_family_of_seventy_is_signed_off_and_exported_by_keys(
         expert.open_asset(SECOND)
         expert.show(SECOND)
         expert.answer_all(lambda hello: None)
-        signed = {row["asset"] for row in studio.settled()["assessment"]["assets"] if row["state"] == "signed"}
+        told = studio.until(lambda hello: hello["assessment"] is not None and not hello["assessing"])["assessment"]
+        signed = {row["asset"] for row in told["assets"] if row["state"] == "signed"}
         false = [asset for asset in signed if not expert.is_right(asset)]
         _apply(person)
         studio.cards(lambda cards: all(card["output"] == "edited" and not card["stale"] for card in cards.values()))
