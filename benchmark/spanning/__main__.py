@@ -42,13 +42,15 @@ def describe_family(family: SplitFamily) -> Iterator[str]:
     for row in family.hulls:
         if row.spans != (row.chance >= SURE[0]):
             yield f"    {'missed' if row.spans else 'falsely found'}: {_describe_hull(row)}"
-    before, split, truly = (
-        sum(getattr(row, what) is None for row in family.edits) for what in ("before", "split", "truly")
+    before, split, truly, rebuilt = (
+        sum(getattr(row, what) is None for row in family.edits) for what in ("before", "split", "truly", "rebuilt")
     )
-    yield f"    of {len(family.edits)} edits {before} do before, {split} after, {truly} with true labels of pieces"
+    told = f"{split} after the split, {truly} with true labels of pieces, {rebuilt} on rebuilt meshes"
+    yield f"    of {len(family.edits)} edits {before} do before, {told} ({sum(family.rebuilt.values())} hulls)"
     for edit in family.edits:
-        if edit.split:
-            yield f"    {edit.task} {edit.mesh}: {edit.split.splitlines()[0]}"
+        for what, why in (("split", edit.split), ("rebuilt", edit.rebuilt)):
+            if why:
+                yield f"    {edit.task} {edit.mesh} {what}: {why.splitlines()[0]}"
 
 
 def _describe_hull(row: SplitHull) -> str:

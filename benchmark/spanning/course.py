@@ -23,6 +23,7 @@ from benchmark.spanning.family import (
     is_spanning,
     make_pieces,
     open_family,
+    replace_hulls,
     split_hulls,
 )
 from benchmark.tasks import Task, tasks
@@ -72,24 +73,27 @@ class SplitHull:
 @dataclass(frozen=True, slots=True)
 class Edit:
     """Why the reference program, with true labels, fails on a mesh with hulls that span: as it is, with its hulls
-    split, and with them split by true labels of the pieces; None: it does not."""
+    split, with them split by true labels of the pieces, and with all hulls rebuilt part by part; None: it does not."""
 
     task: str
     mesh: str
     before: str | None
     split: str | None
     truly: str | None
+    rebuilt: str | None
 
 
 @dataclass(frozen=True, slots=True)
 class SplitFamily:
-    """What became of a family. labelled: of `LABELLED`; seconds: to infer all from what is known of it."""
+    """What became of a family. labelled: of `LABELLED`; rebuilt: how many hulls each asset has that is
+    rebuilt part by part since a hull of it likely spans; seconds: to infer all from what is known of it."""
 
     category: str
     setting: str
     labelled: str
     hulls: tuple[SplitHull, ...]
     edits: tuple[Edit, ...]
+    rebuilt: dict[str, int]
     seconds: float
 
     @staticmethod
@@ -139,12 +143,17 @@ def split_family(category: str, setting: str, calibration: bool, labelled: str) 
     started = time.process_time()
     posterior = family.infer(labelled)
     seconds = time.process_time() - started
-    hulls, edits = list[SplitHull](), list[Edit]()
+    hulls, edits, counts = list[SplitHull](), list[Edit](), dict[str, int]()
     for place, sample in family.unknown:
         rows = list(_split_asset(sample, posterior, place))
+        rebuilt = sample
+        if posterior.chances_of(place).max() >= SURE[0]:
+            made = posterior.rebuild(place, np.arange(len(sample.mesh.hulls)))
+            rebuilt = replace_hulls(sample, [part.shape for _, part in made])
+            counts[sample.asset.name] = len(made)
         hulls += rows
-        edits += _edit_asset(family, place, sample, rows)
-    return asdict(SplitFamily(category, setting, labelled, tuple(hulls), tuple(edits), seconds))
+        edits += _edit_asset(family, place, sample, rows, rebuilt)
+    return asdict(SplitFamily(category, setting, labelled, tuple(hulls), tuple(edits), counts, seconds))
 
 
 def _split_asset(sample: Sample, posterior: SpanPosterior, place: int) -> Iterator[SplitHull]:
@@ -177,14 +186,16 @@ def parts_of(rows: Sequence[SplitHull], sure: float = SURE[0]) -> Parts:
     }
 
 
-def _edit_asset(family: SpanFamily, place: int, sample: Sample, rows: Sequence[SplitHull]) -> Iterator[Edit]:
+def _edit_asset(
+    family: SpanFamily, place: int, sample: Sample, rows: Sequence[SplitHull], rebuilt: Sample
+) -> Iterator[Edit]:
     concerned = [task for task in _tasks_of(sample.asset.category) if task.impure(sample)]
     if not concerned:
         return
     split = split_hulls(sample, parts_of(rows))
     truly = split_hulls(sample, divide_truly(sample, family.pieces[place]))
     for task in concerned:
-        why = [task.failure(one, task.run(task.program, one.mesh)) for one in (sample, split, truly)]
+        why = [task.failure(one, task.run(task.program, one.mesh)) for one in (sample, split, truly, rebuilt)]
         yield Edit(task.name, sample.name, *why)
 
 

@@ -114,6 +114,16 @@ def split_hulls(sample: Sample, parts: Parts) -> Sample:
     return Sample(sample.name, sample.asset, sample.setting, SymbolicMesh(tuple(hulls)), tuple(rows))
 
 
+def replace_hulls(sample: Sample, shapes: Sequence[Polytope]) -> Sample:
+    """The mesh with other hulls in place of all of its own, with their true labels."""
+    rows = [shares(shape, sample.asset.parts, sample.asset.pose) for shape in shapes]
+    hulls = (
+        Hull(f"hull_{number}", sample.mesh.hulls[0].body, shape, Label(next(iter(row)), 1.0, "file"))
+        for number, (shape, row) in enumerate(zip(shapes, rows, strict=True))
+    )
+    return Sample(sample.name, sample.asset, sample.setting, SymbolicMesh(tuple(hulls)), tuple(rows))
+
+
 def divide_truly(sample: Sample, pieces: Sequence[Polytope]) -> Parts:
     """The parts of the spanning hulls of an asset, by the true labels of its pieces."""
     labels = label_truly(pieces, sample.asset)

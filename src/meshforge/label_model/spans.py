@@ -11,7 +11,7 @@ from importlib.resources import files
 
 import numpy as np
 
-from meshforge.geometry import Floats, HullPart, Ints, Polytope, divide, overlap_volume
+from meshforge.geometry import Floats, HullPart, Ints, Polytope, divide, merge_pieces, overlap_volume
 from meshforge.label_model.posterior import FamilyPosterior, model_family
 from meshforge.symbolic import Hull, Label, SymbolicMesh
 
@@ -152,6 +152,25 @@ class SpanPosterior:
         own = asset.pieces_of(hull)
         pieces = [asset.pieces.hulls[place].shape.tessellate() for place in own.tolist()]
         return divide(asset.mesh.hulls[hull].shape, pieces, self._chances_of(mesh)[own])
+
+    def rebuild(self, mesh: int, hulls: Ints) -> tuple[tuple[int, HullPart], ...]:
+        """New hulls for what some hulls (n,) stand for together: fine pieces of one label, joined where a convex hull
+        around them adds little; each with the old hull that has most of it. Pieces that no hull has half of are left out.
+        """
+        asset, chances = self.assets[mesh], self._chances_of(mesh)
+        pieces = [piece.shape.tessellate() for piece in asset.pieces.hulls]
+        volumes = np.array([piece.volume for piece in pieces])
+        common = asset.common[hulls]
+        own = np.flatnonzero(common.sum(axis=0) >= _WITHIN * volumes)
+        if not own.size:
+            return ()
+        groups = merge_pieces([pieces[place] for place in own.tolist()], chances[own].argmax(axis=1))
+        found = list[tuple[int, HullPart]]()
+        for group in groups:
+            members = own[list(group.members)]
+            shares = volumes[members] @ chances[members] / volumes[members].sum()
+            found.append((int(hulls[common[:, members].sum(axis=1).argmax()]), HullPart(group.shape, shares)))
+        return tuple(found)
 
     def _chances_of(self, mesh: int) -> Floats:
         return self.found.chances_of(mesh)

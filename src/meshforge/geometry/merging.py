@@ -1,0 +1,103 @@
+"""Convex pieces of one kind joined, where one convex hull around them adds little and takes nothing of other kinds."""
+
+from __future__ import annotations
+
+import heapq
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from meshforge.geometry.arrays import Aabb, Ints
+from meshforge.geometry.convex import FLATNESS, convex_hull
+from meshforge.geometry.shape import Polytope
+from meshforge.geometry.solids import overlap_volume, volume_of_union
+
+_WASTE = 0.15  # of a hull around pieces, which may be filled by none of them
+_TAKEN = 0.01  # of it, which may be of other kinds beyond what its halves have of these
+_NEAR = 2e-3  # of the diagonal of all: pieces farther apart do not touch
+
+
+@dataclass(frozen=True, eq=False)
+class PieceGroup:
+    """Pieces that are one hull. members: their places, in order."""
+
+    shape: Polytope
+    members: tuple[int, ...]
+    kind: int
+    pieces: tuple[Polytope, ...]
+
+    @cached_property
+    def volume(self) -> float:
+        """What the pieces fill [m^3], what they share counted more than once."""
+        return float(sum(piece.volume for piece in self.pieces))
+
+
+def merge_pieces(pieces: Sequence[Polytope], kinds: Ints) -> tuple[PieceGroup, ...]:
+    """Join pieces that touch, are of one kind (n,), and whose convex hull adds at most 15%, the least first.
+
+    Each piece is in one group. A group of one is the piece as it is. In the order of the first member.
+    """
+    merger = _Merger(pieces, kinds)
+    merger.run()
+    return tuple(sorted(merger.groups.values(), key=lambda group: group.members))
+
+
+class _Merger:
+    def __init__(self, pieces: Sequence[Polytope], kinds: Ints) -> None:
+        self._pieces = list(pieces)
+        self._kinds = np.asarray(kinds, dtype=np.int64)
+        rows = zip(pieces, self._kinds.tolist(), strict=True)
+        self.groups = {k: PieceGroup(piece, (k,), kind, (piece,)) for k, (piece, kind) in enumerate(rows)}
+        diagonal = Aabb.union(piece.aabb for piece in pieces).diagonal if pieces else 0.0
+        self._near = _NEAR * diagonal
+        self._thickness = FLATNESS * diagonal
+        self._queue: list[tuple[float, int, int, PieceGroup]] = []
+        self._taken = dict[int, float]()
+
+    def run(self) -> None:
+        for place in list(self.groups):
+            self._propose(place, [other for other in self.groups if other < place])
+        while self._queue:
+            _, one, other, group = heapq.heappop(self._queue)
+            if one not in self.groups or other not in self.groups:
+                continue
+            del self.groups[one], self.groups[other]
+            place = len(self._taken)
+            self.groups[place] = group
+            self._propose(place, [k for k in self.groups if k != place])
+
+    def _propose(self, place: int, others: Sequence[int]) -> None:
+        own = self.groups[place]
+        self._taken[place] = self._overlap_others(own.shape, own.kind)
+        for other in others:
+            group = self.groups[other]
+            if group.kind == own.kind and _is_near(own.shape, group.shape, self._near):
+                found = self._join(other, place)
+                if found is not None:
+                    heapq.heappush(self._queue, (found[0], other, place, found[1]))
+
+    def _join(self, one: int, other: int) -> tuple[float, PieceGroup] | None:
+        """The share of the hull around two groups that nothing fills, and the hull; None where they stay apart."""
+        a, b = self.groups[one], self.groups[other]
+        points = np.concatenate([a.shape.vertices, b.shape.vertices])
+        shape = convex_hull(points, name="pieces of a part", thicken=self._thickness)
+        if shape.volume - a.volume - b.volume > _WASTE * shape.volume:
+            return None
+        pieces = (*a.pieces, *b.pieces)
+        waste = 1 - volume_of_union(pieces) / shape.volume
+        had = self._taken[one] + self._taken[other]
+        if waste > _WASTE or self._overlap_others(shape, a.kind) - had > _TAKEN * shape.volume:
+            return None
+        return round(waste, 9), PieceGroup(shape, tuple(sorted(a.members + b.members)), a.kind, pieces)
+
+    def _overlap_others(self, shape: Polytope, kind: int) -> float:
+        """What a shape has of pieces of other kinds [m^3]."""
+        others = (self._pieces[k] for k in np.flatnonzero(self._kinds != kind).tolist())
+        return sum(overlap_volume(shape, piece) for piece in others)
+
+
+def _is_near(a: Polytope, b: Polytope, reach: float) -> bool:
+    low, high = np.maximum(a.aabb.min, b.aabb.min), np.minimum(a.aabb.max, b.aabb.max)
+    return bool((low - high <= reach).all())
