@@ -17,6 +17,7 @@ from meshforge.geometry.decomposition.engines import CoacdSettings
 from meshforge.geometry.decomposition.run import decompose
 from meshforge.geometry.decomposition.triangles import clean_triangles, is_sheet, sheet_hulls
 from meshforge.geometry.shape import Polytope, volume_and_centroid
+from meshforge.geometry.solids import list_hulls_within
 
 FINE = CoacdSettings(threshold=0.05, resolution=500, mcts_iterations=20, mcts_nodes=10, mcts_max_depth=2)
 """CoACD's settings for fine pieces: those of its authors, but for a shorter search, for time."""
@@ -44,10 +45,12 @@ def decompose_finely(
     least = max(_SMALL * mesh.diagonal, sorted(sizes, reverse=True)[_MOST - 1] if len(sizes) >= _MOST else 0.0)
     pieces: list[Polytope] = []
     for solid, size in zip(solids, sizes, strict=True):
-        pieces += _decompose_solid(mesh.vertices, solid, size >= least, cache, note)
+        found = _decompose_solid(mesh.vertices, solid, size >= least, cache, note)
+        parts = [part for piece in found for part in cut_at_creases(piece, creases)]
+        pieces += list_hulls_within(parts, mesh.vertices, solid) if len(parts) > 1 else parts
     if not pieces:
         raise GeometryError("the surface has no piece that spans an area")
-    return tuple(part for piece in pieces for part in cut_at_creases(piece, creases))
+    return tuple(pieces)
 
 
 def _find_solids(vertices: Floats, faces: Ints) -> list[Ints]:
