@@ -16,7 +16,8 @@ from benchmark.evaluation.sessions import QUICK
 from benchmark.journal import run_units
 from benchmark.report import Tell
 from benchmark.spanning.family import (
-    LABELLED,
+    NO_SURFACE,
+    WAYS,
     Parts,
     SpanFamily,
     divide_truly,
@@ -83,7 +84,7 @@ class Edit:
 
 @dataclass(frozen=True, slots=True)
 class SplitFamily:
-    """What became of a family. labelled: of `LABELLED`; seconds: to infer all from what is known of it."""
+    """What became of a family. labelled: of `WAYS`; seconds: to infer all from what is known of it."""
 
     category: str
     setting: str
@@ -99,19 +100,19 @@ class SplitFamily:
 
 
 def split_families(tell: Tell, quick: bool, calibration: bool = False) -> list[SplitFamily]:
-    """All families in both settings and by both kinds of labels; quick: of one category."""
+    """All families in both settings and in all ways to know labels; quick: of one category."""
     categories = [name for name in CATEGORIES if not quick or name == QUICK]
     return split_some(categories, tell, calibration)
 
 
 def split_some(categories: Sequence[str], tell: Tell, calibration: bool = False) -> list[SplitFamily]:
-    """The families of some categories in both settings and by both kinds of labels."""
+    """The families of some categories in both settings and in all ways to know labels."""
     warm_cache(categories, tell, calibration)
     units = [
         (category, setting, calibration, labelled)
         for category in categories
         for setting in MERGED
-        for labelled in LABELLED
+        for labelled in WAYS
     ]
     return [SplitFamily.of_json(row) for row in run_units("spanning", split_family, units, tell)]
 
@@ -143,7 +144,7 @@ def split_family(category: str, setting: str, calibration: bool, labelled: str) 
     for place, sample in family.unknown:
         rows = list(_split_asset(sample, posterior, place))
         hulls += rows
-        edits += _edit_asset(family, place, sample, rows)
+        edits += _edit_asset(family, place, sample, rows) if labelled != NO_SURFACE else ()
     return asdict(SplitFamily(category, setting, labelled, tuple(hulls), tuple(edits), seconds))
 
 
