@@ -109,10 +109,7 @@ def split_some(categories: Sequence[str], tell: Tell, calibration: bool = False)
     """The families of some categories in both settings and in all ways to know labels."""
     warm_cache(categories, tell, calibration)
     units = [
-        (category, setting, calibration, labelled)
-        for category in categories
-        for setting in MERGED
-        for labelled in WAYS
+        (category, setting, calibration, labelled) for category in categories for setting in MERGED for labelled in WAYS
     ]
     return [SplitFamily.of_json(row) for row in run_units("spanning", split_family, units, tell)]
 

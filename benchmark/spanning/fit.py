@@ -38,10 +38,10 @@ def _fit_ways(ways: Sequence[str], tell: Tell) -> list[float]:
     rows = {unit: np.array(some, float) for unit, some in zip(units, found, strict=True)}
     pairs = list[tuple[float, bool]]()
     for left in CATEGORIES:
-        weights = fit_weights([some for unit, some in rows.items() if unit[0] != left])
+        others = fit_weights([some for unit, some in rows.items() if unit[0] != left])
         for unit, some in rows.items():
             pairs += (
-                zip(_predict(weights, some).tolist(), map(bool, some[:, -1]), strict=True) if unit[0] == left else ()
+                zip(_predict(others, some).tolist(), map(bool, some[:, -1]), strict=True) if unit[0] == left else ()
             )
     weights = [round(float(weight), 3) for weight in fit_weights(list(rows.values()))]
     tell(f"{' and '.join(ways)}: of a category left out {calibrate(pairs)}; weights {weights}")

@@ -14,7 +14,13 @@ from meshforge.geometry import Floats, Ints, Polytope, cut, planes_of
 from meshforge.label_model.describe import find_up, rotation_to_z
 from meshforge.label_model.posterior import FamilyModel, FamilyPosterior, model_family
 from meshforge.label_model.spans import AssetPieces, SpanPosterior, span_weights
-from meshforge.label_model.surroundings import SURROUNDINGS_WIDTH, describe_surroundings, whole_of
+from meshforge.label_model.surroundings import (
+    NEAR_COLUMNS,
+    PICTURE_COLUMNS,
+    SURROUNDINGS_WIDTH,
+    describe_surroundings,
+    whole_of,
+)
 from meshforge.label_model.table import ColumnScale, Observations, metric_weights
 from meshforge.label_model.ties import pick_evenly
 from meshforge.symbolic import Hull, Label, SymbolicMesh
@@ -22,6 +28,7 @@ from meshforge.symbolic import Hull, Label, SymbolicMesh
 CELLS = 32
 """Cells that a hull is cut into, where it is not too thin."""
 _LEAST = 0.15  # of a cell's width that must lie on each side of a plane which cuts it
+_NEAR_WORTH, _PICTURE_WORTH = 3.0, 0.5  # of what is close to a cell, and of the picture of the whole, beside hulls
 _NEAREST = 40  # cells of labelled hulls that are looked at
 _MOST = 4000  # of these that are compared, evenly chosen of more
 _SOFT = 2.0  # distances in which likeness ends, at the farthest of those that are looked at
@@ -126,8 +133,8 @@ class CellModel:
         self.assets = [AssetCells.of(mesh) for mesh in meshes]
         self._family: FamilyModel = model_family(meshes)
         rows = [asset.describe() for asset in self.assets]
-        scale = ColumnScale.of(np.concatenate([np.zeros((0, SURROUNDINGS_WIDTH)), *rows]))
-        self._rows = [scale(own) * metric_weights()[:SURROUNDINGS_WIDTH] for own in rows]
+        scale, weights = ColumnScale.of(np.concatenate([np.zeros((0, SURROUNDINGS_WIDTH)), *rows])), _weigh_columns()
+        self._rows = [scale(own) * weights for own in rows]
 
     def infer(self, labels: Sequence[Label | None], weights: Floats | None = None) -> CellPosterior:
         """What labels of the hulls of all meshes in order say, None for an unlabelled one. weights: of the evidence,
@@ -156,6 +163,14 @@ class CellModel:
             weights = _liken(apart) @ says + _UNKNOWN
             found.append(weights / weights.sum(axis=1, keepdims=True))
         return found
+
+
+def _weigh_columns() -> Floats:
+    """The weight of each column of what is around cells (columns,): that of hulls, but what is close counts more."""
+    weights = metric_weights()[:SURROUNDINGS_WIDTH].copy()
+    weights[NEAR_COLUMNS] *= _NEAR_WORTH
+    weights[PICTURE_COLUMNS] *= _PICTURE_WORTH
+    return weights
 
 
 def _liken(apart: Floats) -> Floats:
