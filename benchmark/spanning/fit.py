@@ -1,4 +1,5 @@
-"""Fits the weights of the probability that a hull spans parts, with a surface and without, on the calibration assets alone."""
+"""Fits the weights of the probability that a hull spans parts, by a surface and without, on the calibration assets
+alone."""
 
 from __future__ import annotations
 

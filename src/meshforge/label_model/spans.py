@@ -28,7 +28,7 @@ _WITHIN = 0.5  # of a piece's volume that the hull must have
 @cache
 def span_weights(key: str = "weights") -> Floats:
     """The weights of the evidence: (3,) of one, of the logit of the share of other labels, and of its distance from the
-    limit; key: "weights" of hulls that stand for a surface, "cells" of others, as `CellPosterior` has their evidence."""
+    limit; key: "weights" of hulls that stand for a surface, "cells" of others, by the evidence of `CellPosterior`."""
     read = json.loads(files("meshforge.label_model").joinpath(WEIGHTS_FILE).read_text("utf-8"))
     found = np.array(read[key], dtype=float)
     found.flags.writeable = False
