@@ -132,6 +132,6 @@ NOTES = (
     "family is all 25 assets of a category in one set; counted are the hulls of those that nobody labelled. A hull "
     "spans parts if no label has nine tenths of what of it is in parts. The surface is what CoACD was called on.",
     *(f"Labels, *{name}*: {told}. All else is propagated." for name, told in ABOUT_LABELS.items()),
-    f"The {KNOWN} assets are one of each third of a family, drawn with a fixed seed. Goals are about *{BY_PIECES}*, and "
-    f"those that say so about *{NO_SURFACE}*.",
+    f"The {KNOWN} assets are one of each third of a family, drawn with a fixed seed. Goals are about *{BY_PIECES}*, "
+    f"and those that say so about *{NO_SURFACE}*.",
 )

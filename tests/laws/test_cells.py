@@ -46,9 +46,15 @@ def pairs() -> list[SymbolicMesh]:
     return found
 
 
-@pytest.mark.slow
-def test_parts_of_a_hull_lie_within_it_and_have_the_labels_of_look_alikes(pairs: list[SymbolicMesh]) -> None:
-    found = CellModel(pairs).infer([*(Label(name) for _ in range(3) for name in ("plate", "rod")), None])
+@pytest.fixture(scope="module")
+def model(pairs: list[SymbolicMesh]) -> CellModel:
+    return CellModel([*pairs, SymbolicMesh(())])
+
+
+def test_parts_of_a_hull_lie_within_it_and_have_the_labels_of_look_alikes(
+    pairs: list[SymbolicMesh], model: CellModel
+) -> None:
+    found = model.infer([*(Label(name) for _ in range(3) for name in ("plate", "rod")), None])
     assert found.chances_of(3)[0] > found.chances_of(0).max()
     parts = found.divide(3, 0)
     hull = pairs[3].hulls[0]
@@ -65,12 +71,12 @@ def test_the_same_labels_say_the_same_bit_for_bit(pairs: list[SymbolicMesh]) -> 
     assert all((a == b).all() for a, b in zip(one.chances, other.chances, strict=True))
 
 
-def test_where_nothing_is_labelled_no_hull_spans(pairs: list[SymbolicMesh]) -> None:
-    found = CellModel(pairs).infer([None] * 7)
+def test_where_nothing_is_labelled_no_hull_spans(model: CellModel) -> None:
+    found = model.infer([None] * 7)
     assert found.labels == () and not found.shares_of(3).size
     assert (found.chances_of(3) < 0.5).all()
 
 
-def test_an_asset_without_hulls_has_no_chances(pairs: list[SymbolicMesh]) -> None:
-    found = CellModel([*pairs, SymbolicMesh(())]).infer([Label("plate"), *[None] * 6])
+def test_an_asset_without_hulls_has_no_chances(model: CellModel) -> None:
+    found = model.infer([Label("plate"), *[None] * 6])
     assert found.chances_of(4).shape == (0,) and found.shares_of(4).shape == (0, 1)
