@@ -1,5 +1,5 @@
 """Hulls that stand for no surface: each is cut into cells, whose labels are those of look-alike cells of labelled
-hulls. A hull likely spans parts where its cells do not look alike, and where it is unlike the family's hulls."""
+hulls. A hull likely spans parts where its cells do not look alike, where it is large and where it touches many."""
 
 from __future__ import annotations
 
@@ -12,7 +12,6 @@ import numpy as np
 from meshforge.common import GeometryError
 from meshforge.geometry import Floats, Ints, Polytope, cut, planes_of
 from meshforge.label_model.describe import find_up, rotation_to_z
-from meshforge.label_model.posterior import FamilyModel, FamilyPosterior, model_family
 from meshforge.label_model.spans import AssetPieces, SpanPosterior, span_weights
 from meshforge.label_model.surroundings import (
     NEAR_COLUMNS,
@@ -33,7 +32,6 @@ _NEAREST = 40  # cells of labelled hulls that are looked at
 _MOST = 4000  # of these that are compared, evenly chosen of more
 _SOFT = 2.0  # distances in which likeness ends, at the farthest of those that are looked at
 _UNKNOWN = 0.02  # weight of each label beside what look-alikes say
-_SURE = 1e-4  # a probability is at least this, for its logarithm
 
 
 def cut_into_cells(shape: Polytope, others: Sequence[Polytope], count: int = CELLS) -> list[Polytope]:
@@ -131,7 +129,6 @@ class CellModel:
 
     def __init__(self, meshes: Sequence[SymbolicMesh]) -> None:
         self.assets = [AssetCells.of(mesh) for mesh in meshes]
-        self._family: FamilyModel = model_family(meshes)
         rows = [asset.describe() for asset in self.assets]
         scale, weights = ColumnScale.of(np.concatenate([np.zeros((0, SURROUNDINGS_WIDTH)), *rows])), _weigh_columns()
         self._rows = [scale(own) * weights for own in rows]
@@ -139,11 +136,9 @@ class CellModel:
     def infer(self, labels: Sequence[Label | None], weights: Floats | None = None) -> CellPosterior:
         """What labels of the hulls of all meshes in order say, None for an unlabelled one. weights: of the evidence,
         None for those that ship."""
-        found = self._family.infer(labels)
-        chances = self._infer_cells(found.seen)
-        return CellPosterior(
-            self.assets, found.seen.labels, chances, span_weights("cells") if weights is None else weights, found
-        )
+        seen = Observations.of(labels)
+        weights = span_weights("cells") if weights is None else weights
+        return CellPosterior(self.assets, seen.labels, self._infer_cells(seen), weights)
 
     def _infer_cells(self, seen: Observations) -> list[Floats]:
         """The probability of each label for the cells (cells, labels) of each mesh: what the nearest cells of labelled
@@ -186,27 +181,13 @@ def _liken(apart: Floats) -> Floats:
 
 @dataclass(frozen=True, eq=False)
 class CellPosterior(SpanPosterior):
-    """The same of hulls that stand for no surface. found: the posterior of the labels of hulls."""
-
-    found: FamilyPosterior
+    """The same of hulls that stand for no surface."""
 
     def collect_evidence(self, mesh: int) -> Floats:
-        """What the probability is made from (hulls, 7): one, what cells say (2), how likely the hull's own label is and
-        how undecided it is, its size among the asset's, and how many hulls it touches."""
-        asset, own = self.assets[mesh], np.clip(self.found.chances_of(mesh), _SURE, 1.0)
-        by_cells = super().collect_evidence(mesh)
-        if not own.size:
-            return np.column_stack([by_cells, np.zeros((len(by_cells), 4))])
-        own /= own.sum(axis=1, keepdims=True)
-        most = np.minimum(own.max(axis=1), 1 - _SURE)
-        volumes = np.maximum([hull.volume for hull in asset.mesh.hulls], np.finfo(float).tiny)
-        touching = np.bincount(np.array(sorted(asset.mesh.contacts), np.int64).ravel(), minlength=len(own))
-        return np.column_stack(
-            [
-                by_cells,
-                np.log(most / (1 - most)),
-                -(own * np.log(own)).sum(axis=1),
-                np.log(volumes / volumes.mean()),
-                touching,
-            ]
-        )
+        """What the probability is made from (hulls, 5): one, what cells say (2), the logarithm of the hull's volume by the
+        mean of the asset's, and how many hulls it touches."""
+        own = self.assets[mesh].mesh
+        volumes = np.maximum([hull.volume for hull in own.hulls], np.finfo(float).tiny)
+        touching = np.bincount(np.array(sorted(own.contacts), np.int64).ravel(), minlength=len(own.hulls))
+        size = np.log(volumes / volumes.mean()) if len(volumes) else volumes
+        return np.column_stack([super().collect_evidence(mesh), size, touching])
