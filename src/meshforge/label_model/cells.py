@@ -184,8 +184,8 @@ class CellPosterior(SpanPosterior):
     """The same of hulls that stand for no surface."""
 
     def collect_evidence(self, mesh: int) -> Floats:
-        """What the probability is made from (hulls, 5): one, what cells say (2), the logarithm of its volume by the mean
-        of the asset's hulls, and how many hulls it touches."""
+        """What the probability is made from (hulls, 5): one, what cells say (2), the logarithm of its volume by the
+        mean of the hulls of the asset, and how many hulls it touches."""
         own = self.assets[mesh].mesh
         volumes = np.maximum([hull.volume for hull in own.hulls], np.finfo(float).tiny)
         touching = np.bincount(np.array(sorted(own.contacts), np.int64).ravel(), minlength=len(own.hulls))
