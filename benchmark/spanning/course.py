@@ -16,7 +16,8 @@ from benchmark.evaluation.sessions import QUICK
 from benchmark.journal import run_units
 from benchmark.report import Tell
 from benchmark.spanning.family import (
-    LABELLED,
+    NO_SURFACE,
+    WAYS,
     Parts,
     SpanFamily,
     divide_truly,
@@ -85,8 +86,8 @@ class Edit:
 
 @dataclass(frozen=True, slots=True)
 class SplitFamily:
-    """What became of a family. labelled: of `LABELLED`; rebuilt: how many hulls each asset has that is
-    rebuilt part by part since a hull of it likely spans; seconds: to infer all from what is known of it."""
+    """What became of a family. labelled: of `WAYS`; rebuilt: how many hulls each asset has that is rebuilt part by part
+    since a hull of it likely spans; seconds: to infer all from what is known of it."""
 
     category: str
     setting: str
@@ -103,19 +104,16 @@ class SplitFamily:
 
 
 def split_families(tell: Tell, quick: bool, calibration: bool = False) -> list[SplitFamily]:
-    """All families in both settings and by both kinds of labels; quick: of one category."""
+    """All families in both settings and in all ways to know labels; quick: of one category."""
     categories = [name for name in CATEGORIES if not quick or name == QUICK]
     return split_some(categories, tell, calibration)
 
 
 def split_some(categories: Sequence[str], tell: Tell, calibration: bool = False) -> list[SplitFamily]:
-    """The families of some categories in both settings and by both kinds of labels."""
+    """The families of some categories in both settings and in all ways to know labels."""
     warm_cache(categories, tell, calibration)
     units = [
-        (category, setting, calibration, labelled)
-        for category in categories
-        for setting in MERGED
-        for labelled in LABELLED
+        (category, setting, calibration, labelled) for category in categories for setting in MERGED for labelled in WAYS
     ]
     return [SplitFamily.of_json(row) for row in run_units("spanning", split_family, units, tell)]
 
@@ -147,12 +145,12 @@ def split_family(category: str, setting: str, calibration: bool, labelled: str) 
     for place, sample in family.unknown:
         rows = list(_split_asset(sample, posterior, place))
         rebuilt = sample
-        if posterior.chances_of(place).max() >= SURE[0]:
+        if labelled != NO_SURFACE and posterior.chances_of(place).max() >= SURE[0]:
             made = posterior.rebuild(place, np.arange(len(sample.mesh.hulls)))
             rebuilt = replace_hulls(sample, [part.shape for _, part in made])
             counts[sample.asset.name] = len(made)
         hulls += rows
-        edits += _edit_asset(family, place, sample, rows, rebuilt)
+        edits += _edit_asset(family, place, sample, rows, rebuilt) if labelled != NO_SURFACE else ()
     return asdict(SplitFamily(category, setting, labelled, tuple(hulls), tuple(edits), counts, seconds))
 
 

@@ -13,7 +13,7 @@ from benchmark.assets import Asset, Sample, samples
 from benchmark.assets.decomposition import shares, solids_of
 from benchmark.tasks.task import PURE
 from meshforge.geometry import Floats, Ints, Polytope, cache_folder, decompose_finely, divide
-from meshforge.label_model import SpanModel, SpanPosterior, piece_mesh
+from meshforge.label_model import CellModel, SpanModel, SpanPosterior, piece_mesh
 from meshforge.symbolic import Hull, Label, SymbolicMesh
 from script.samples.pieces import triangles
 
@@ -22,6 +22,9 @@ KNOWN = 3
 BY_PIECES, BY_HULLS = "pieces", "hulls"
 """What a person labelled of these: the fine pieces and the pure hulls, or the hulls alone."""
 LABELLED = (BY_PIECES, BY_HULLS)
+NO_SURFACE = "hulls, no surface"
+"""The hulls alone were labelled, and nobody knows the surface."""
+WAYS = (*LABELLED, NO_SURFACE)
 _SEED = 28
 Parts = Mapping[int, Sequence[Polytope]]
 """The parts of the hulls that are split, by the number of the hull."""
@@ -46,23 +49,28 @@ class SpanFamily:
         rows = zip(meshes, self.pieces, strict=True)
         return SpanModel(meshes, [piece_mesh({mesh.hulls[0].body: pieces}, mesh) for mesh, pieces in rows])
 
+    @cached_property
+    def cells(self) -> CellModel:
+        """The same of hulls that stand for no surface."""
+        return CellModel([_without_labels(sample.mesh) for sample in self.samples])
+
     @property
     def unknown(self) -> Iterator[tuple[int, Sample]]:
         """The assets that nobody labelled, with their numbers."""
         return ((place, sample) for place, sample in enumerate(self.samples) if place not in self.known)
 
     def infer(self, labelled: str) -> SpanPosterior:
-        """What follows for all assets from what a person labelled of the known ones, of `LABELLED`."""
+        """What follows for all assets from what a person labelled of the known ones, of `WAYS`."""
         labels: list[Label | None] = []
         of_pieces: list[Label | None] = []
         for place, (sample, pieces) in enumerate(zip(self.samples, self.pieces, strict=True)):
             known = place in self.known
             for hull, row in zip(sample.mesh.hulls, sample.shares, strict=True):
-                told = known and (labelled == BY_HULLS or not is_spanning(row))
+                told = known and (labelled != BY_PIECES or not is_spanning(row))
                 labels.append(Label(hull.label) if told and hull.label else None)
             told_pieces = known and labelled == BY_PIECES
             of_pieces += map(Label, label_truly(pieces, sample.asset)) if told_pieces else [None] * len(pieces)
-        return self.model.infer(labels, of_pieces)
+        return self.cells.infer(labels) if labelled == NO_SURFACE else self.model.infer(labels, of_pieces)
 
 
 def open_family(category: str, setting: str, calibration: bool = False) -> SpanFamily:

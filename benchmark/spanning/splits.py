@@ -10,11 +10,13 @@ from benchmark.assets import MERGED, SEPARATE, samples
 from benchmark.report import Cell, Goal, Result, Table, Tell
 from benchmark.spanning.course import SURE, SplitFamily, SplitHull, split_families
 from benchmark.spanning.detection import ABOUT_LABELS, categories_of, hulls_of
-from benchmark.spanning.family import BY_PIECES, LABELLED
+from benchmark.spanning.family import BY_PIECES, NO_SURFACE, WAYS
 
 TO_REACH = {"union": 0.97, "welded": 0.9}
-"""Purity to reach."""
-_MOST_SPLIT = 0.01
+"""Purity to reach, by the surface."""
+TO_REACH_WITHOUT = 0.85
+"""The same of hulls that stand for no surface."""
+_MOST_SPLIT, _MOST_SPLIT_WITHOUT = 0.01, 0.02
 _COLUMNS = (
     "set",
     "labels",
@@ -121,7 +123,7 @@ def share_of_pure_split(
 
 def _list_purities(families: Sequence[SplitFamily], sure: float) -> Iterator[tuple[Cell, ...]]:
     for setting in MERGED:
-        for labelled in LABELLED:
+        for labelled in WAYS:
             for category in (*categories_of(families), None):
                 spanning = sum(row.spans for row in hulls_of(families, setting, labelled, category))
                 found = purity_of(families, setting, labelled, category, sure)
@@ -160,6 +162,12 @@ def _list_goals(families: Sequence[SplitFamily], counts: Sequence[tuple[Cell, ..
         yield Goal(f"{setting}: purity of spanning hulls after the split", "at least", wanted, after)
         yield Goal(f"{setting}: share of the pure hulls that is split", "at most", _MOST_SPLIT, split)
         yield Goal(f"{setting}: hulls afterwards as a ratio to the next finer decomposition", "at most", 1.0, ratio)
+    for setting in MERGED:
+        after = purity_of(families, setting, NO_SURFACE).after
+        split = share_of_pure_split(families, setting, NO_SURFACE, sure=SURE[1])
+        name = f"{setting}, no surface"
+        yield Goal(f"{name}: purity of spanning hulls after the split", "at least", TO_REACH_WITHOUT, after)
+        yield Goal(f"{name}: share of the pure hulls split from {SURE[1]} on", "at most", _MOST_SPLIT_WITHOUT, split)
 
 
 def _list_assets(families: Sequence[SplitFamily]) -> Iterator[dict[str, Cell]]:

@@ -12,7 +12,7 @@ from importlib.resources import files
 import numpy as np
 
 from meshforge.geometry import Floats, HullPart, Ints, Polytope, divide, merge_pieces, overlap_volume
-from meshforge.label_model.posterior import FamilyPosterior, model_family
+from meshforge.label_model.posterior import model_family
 from meshforge.symbolic import Hull, Label, SymbolicMesh
 
 WEIGHTS_FILE = "spans.json"
@@ -26,10 +26,11 @@ _WITHIN = 0.5  # of a piece's volume that the hull must have
 
 
 @cache
-def span_weights() -> Floats:
-    """The weights (3,) of one, of the logit of the share of other labels, and of its distance from the limit."""
+def span_weights(key: str = "weights") -> Floats:
+    """The weights of the evidence: (3,) of one, of the logit of the share of other labels, and of its distance from the
+    limit; key: "weights" of hulls that stand for a surface, "cells" of others, by the evidence of `CellPosterior`."""
     read = json.loads(files("meshforge.label_model").joinpath(WEIGHTS_FILE).read_text("utf-8"))
-    found = np.array(read["weights"], dtype=float)
+    found = np.array(read[key], dtype=float)
     found.flags.writeable = False
     return found
 
@@ -102,26 +103,27 @@ class SpanModel:
         if piece_labels is not None:
             said = [known or label for known, label in zip(piece_labels, said, strict=True)]
         found = self._family.infer(said)
-        return SpanPosterior(self.assets, found, span_weights() if weights is None else weights)
+        chances = [found.chances_of(mesh) for mesh in range(len(self.assets))]
+        return SpanPosterior(self.assets, found.seen.labels, chances, span_weights() if weights is None else weights)
 
 
 @dataclass(frozen=True, eq=False)
 class SpanPosterior:
-    """What is known of the parts that hulls hold. found: the posterior of the labels of all pieces."""
+    """What is known of the parts that hulls hold.
+
+    labels: that anything says, in the order of the columns of shares; chances: of each asset the probability of each
+    label for its pieces (pieces, labels); weights: of the evidence.
+    """
 
     assets: Sequence[AssetPieces]
-    found: FamilyPosterior
+    labels: tuple[str, ...]
+    chances: Sequence[Floats]
     weights: Floats
-
-    @property
-    def labels(self) -> tuple[str, ...]:
-        """The labels that anything says, in the order of the columns of shares."""
-        return self.found.seen.labels
 
     def shares_of(self, mesh: int) -> Floats:
         """The expected share of each label in each hull (hulls, labels); zeros for one that stands for nothing."""
         common = self.assets[mesh].common
-        return _scale(common @ self._chances_of(mesh), common.sum(axis=1))
+        return _scale(common @ self.chances[mesh], common.sum(axis=1))
 
     def chances_of(self, mesh: int) -> Floats:
         """The probability that each hull (hulls,) holds more than one label; 0 where it stands for nothing."""
@@ -131,7 +133,7 @@ class SpanPosterior:
 
     def collect_evidence(self, mesh: int) -> Floats:
         """What the probability is made from (hulls, 3), as `span_weights` has it."""
-        common, chances = self.assets[mesh].common, self._chances_of(mesh)
+        common, chances = self.assets[mesh].common, self.chances[mesh]
         if not chances.size:
             return np.tile(np.array([1.0, -5.0, -5.0]), (len(common), 1))
         held = common.sum(axis=1)
@@ -151,13 +153,13 @@ class SpanPosterior:
         asset = self.assets[mesh]
         own = asset.pieces_of(hull)
         pieces = [asset.pieces.hulls[place].shape.tessellate() for place in own.tolist()]
-        return divide(asset.mesh.hulls[hull].shape, pieces, self._chances_of(mesh)[own])
+        return divide(asset.mesh.hulls[hull].shape, pieces, self.chances[mesh][own])
 
     def rebuild(self, mesh: int, hulls: Ints) -> tuple[tuple[int, HullPart], ...]:
         """New hulls for what some hulls (n,) stand for together: fine pieces of one label, joined where a convex hull
         around them adds little; each with the old hull that has most of it. Pieces that no hull has half of are left out.
         """
-        asset, chances = self.assets[mesh], self._chances_of(mesh)
+        asset, chances = self.assets[mesh], self.chances[mesh]
         pieces = [piece.shape.tessellate() for piece in asset.pieces.hulls]
         volumes = np.array([piece.volume for piece in pieces])
         common = asset.common[hulls]
@@ -171,9 +173,6 @@ class SpanPosterior:
             shares = volumes[members] @ chances[members] / volumes[members].sum()
             found.append((int(hulls[common[:, members].sum(axis=1).argmax()]), HullPart(group.shape, shares)))
         return tuple(found)
-
-    def _chances_of(self, mesh: int) -> Floats:
-        return self.found.chances_of(mesh)
 
 
 def _scale(rows: Floats, totals: Floats) -> Floats:

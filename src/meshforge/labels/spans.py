@@ -1,10 +1,11 @@
-"""Which hulls of a project span parts, by the surface that they stand for and the labels that are known."""
+"""Which hulls of a project span parts, by the surface that they stand for, or by look-alikes where there is none, and
+the labels that are known."""
 
 from __future__ import annotations
 
 import hashlib
 import json
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -15,7 +16,7 @@ from meshforge import batch
 from meshforge.common import MeshForgeError, ProjectError, describe_error
 from meshforge.formats import read
 from meshforge.geometry import FINE, Floats, HullPart, Polytope, cache_folder, decompose_finely
-from meshforge.label_model import SpanModel, SpanPosterior, evidence_of, piece_mesh
+from meshforge.label_model import CellModel, SpanModel, SpanPosterior, evidence_of, piece_mesh
 from meshforge.labels.descriptor_cache import read_arrays, write_arrays
 from meshforge.labels.family_comparison import Stage
 from meshforge.store import Store
@@ -42,13 +43,28 @@ class HullSpan:
 @dataclass(frozen=True, eq=False)
 class SpanReport:
     """What was found. meshes: the assets that were looked at, as they are prepared; lost: why others were not;
-    bare: hulls, by asset, that stand for no surface, and of which nothing can be said.
+
+    by_surface, by_cells: what is known of hulls that stand for a surface, and of others; None where no hull is such;
+    unseen: the bodies, by asset, that have no surface.
     """
 
     meshes: Mapping[str, SymbolicMesh]
-    posterior: SpanPosterior
+    by_surface: SpanPosterior | None
+    by_cells: SpanPosterior | None
+    unseen: Mapping[str, frozenset[str]]
     lost: Mapping[str, str]
-    bare: Mapping[str, tuple[str, ...]]
+
+    @cached_property
+    def bare(self) -> Mapping[str, tuple[str, ...]]:
+        """Hulls, by asset, that stand for nothing of their body's surface, and of which nothing can be said."""
+        found = dict[str, tuple[str, ...]]()
+        for place, (asset, mesh) in enumerate(self.meshes.items()):
+            held = self.by_surface.assets[place].common.sum(axis=1) if self.by_surface else np.zeros(len(mesh.hulls))
+            rows = zip(mesh.hulls, held.tolist(), strict=True)
+            names = tuple(hull.name for hull, own in rows if not own > 0 and hull.body not in self.unseen[asset])
+            if names:
+                found[asset] = names
+        return found
 
     @cached_property
     def _places(self) -> dict[str, int]:
@@ -56,24 +72,33 @@ class SpanReport:
 
     def spans_of(self, asset: str) -> list[HullSpan]:
         """Each hull of an asset that stands for something, in order."""
-        place, mesh = self._places[asset], self.meshes[asset]
-        rows = zip(mesh.hulls, self.posterior.chances_of(place), self.posterior.shares_of(place), strict=True)
-        bare = set(self.bare.get(asset, ()))
-        return [
-            HullSpan(asset, hull.name, float(chance), self._name_shares(shares))
-            for hull, chance, shares in rows
-            if hull.name not in bare
-        ]
+        found = dict[str, HullSpan]()
+        for posterior, unseen in ((self.by_surface, False), (self.by_cells, True)):
+            if posterior:
+                found.update((span.hull, span) for span in self._list_spans(asset, posterior, unseen))
+        return [found[hull.name] for hull in self.meshes[asset].hulls if hull.name in found]
 
     def divide(self, asset: str, hull: str) -> list[tuple[HullPart, str, float]]:
         """The parts of a hull, each with its likeliest label and the share of that in what it stands for."""
-        parts = self.posterior.divide(self._places[asset], self.meshes[asset].index[hull])
-        labels = self.posterior.labels
-        return [(part, labels[part.kind], float(part.shares[part.kind])) for part in parts]
+        place = self.meshes[asset].index[hull]
+        posterior = self.by_cells if self.meshes[asset].hulls[place].body in self.unseen[asset] else self.by_surface
+        assert posterior, f"{hull} of {asset} stands for nothing"
+        parts = posterior.divide(self._places[asset], place)
+        return [(part, posterior.labels[part.kind], float(part.shares[part.kind])) for part in parts]
 
-    def _name_shares(self, shares: Floats) -> dict[str, float]:
-        rows = sorted(zip(self.posterior.labels, shares.tolist(), strict=True), key=lambda row: (-row[1], row[0]))
-        return {label: share for label, share in rows if share > 0}
+    def _list_spans(self, asset: str, posterior: SpanPosterior, unseen: bool) -> Iterator[HullSpan]:
+        """Those of hulls whose body has a surface, or has none."""
+        place, mesh = self._places[asset], self.meshes[asset]
+        bare = set(self.bare.get(asset, ()))
+        rows = zip(mesh.hulls, posterior.chances_of(place).tolist(), posterior.shares_of(place), strict=True)
+        for hull, chance, shares in rows:
+            if hull.name not in bare and (hull.body in self.unseen[asset]) == unseen:
+                yield HullSpan(asset, hull.name, chance, _name_shares(posterior.labels, shares))
+
+
+def _name_shares(labels: Sequence[str], shares: Floats) -> dict[str, float]:
+    rows = sorted(zip(labels, shares.tolist(), strict=True), key=lambda row: (-row[1], row[0]))
+    return {label: share for label, share in rows if share > 0}
 
 
 @dataclass(frozen=True, slots=True)
@@ -87,7 +112,7 @@ class _Work:
 def find_spans(store: Store, execution: batch.ExecutionOptions, stage: Stage) -> SpanReport:
     """Which hulls span parts, of all assets that can be read.
 
-    Raises ProjectError where no hull has a label: nothing says what parts there are.
+    Raises ProjectError where no hull has a label: nothing says what parts there are; and where no asset can be read.
     """
     meshes = dict(store.meshes_by_id())
     labels = {asset: [evidence_of(hull.annotation) for hull in mesh.hulls] for asset, mesh in meshes.items()}
@@ -98,6 +123,7 @@ def find_spans(store: Store, execution: batch.ExecutionOptions, stage: Stage) ->
         )
     work = [_Work(store.path(asset), store.layout.sketches / "fine" / f"{asset}.npz") for asset in meshes]
     pieces, lost = dict[str, SymbolicMesh](), dict[str, str]()
+    unseen = dict[str, frozenset[str]]()
     with stage(len(work), "decomposing finely") as advance:
         options = batch.ExecutionOptions(execution.workers, execution.timeout, progress=advance, stop=execution.stop)
         for asset, found in zip(meshes, batch.run_isolated(_find_pieces, work, options), strict=True):
@@ -105,23 +131,21 @@ def find_spans(store: Store, execution: batch.ExecutionOptions, stage: Stage) ->
                 lost[asset] = found if isinstance(found, str) else found.why
             else:
                 pieces[asset] = piece_mesh(found, meshes[asset])
+                unseen[asset] = frozenset(hull.body for hull in meshes[asset].hulls) - found.keys()
     known = {asset: meshes[asset] for asset in pieces}
-    if not any(own.hulls for own in pieces.values()):
-        remedy = next(iter(lost.values()), "Give the assets visual meshes, or split hulls with: meshforge split")
-        raise ProjectError("no asset has a surface that its hulls stand for", where=str(store.folder), remedy=remedy)
-    posterior = SpanModel(list(known.values()), list(pieces.values())).infer(
-        [label for asset in known for label in labels[asset]]
-    )
-    bare = dict[str, tuple[str, ...]]()
-    for own, (asset, mesh) in zip(posterior.assets, known.items(), strict=True):
-        if names := _list_bare(mesh, own.common):
-            bare[asset] = names
-    return SpanReport(known, posterior, lost, bare)
-
-
-def _list_bare(mesh: SymbolicMesh, common: Floats) -> tuple[str, ...]:
-    """The hulls of which no piece is a part."""
-    return tuple(hull.name for hull, held in zip(mesh.hulls, common.sum(axis=1), strict=True) if not held > 0)
+    said = [label for asset in known for label in labels[asset]]
+    if not known:
+        remedy = next(iter(lost.values()), "Give the project assets that can be read: meshforge add.")
+        raise ProjectError("no asset can be read", where=str(store.folder), remedy=remedy)
+    some = list(known.values())
+    by_surface = by_cells = None
+    if any(own.hulls for own in pieces.values()):
+        by_surface = SpanModel(some, list(pieces.values())).infer(said)
+    if any(hull.body in unseen[asset] for asset, mesh in known.items() for hull in mesh.hulls):
+        with stage(1, "comparing hulls that stand for no surface") as advance:
+            by_cells = CellModel(some).infer(said)
+            advance()
+    return SpanReport(known, by_surface, by_cells, unseen, lost)
 
 
 def _find_pieces(work: _Work) -> dict[str, list[Polytope]] | str:
@@ -131,13 +155,13 @@ def _find_pieces(work: _Work) -> dict[str, list[Polytope]] | str:
         key = _digest(surfaces)
         known = read_arrays(work.kept, key, "bodies", "sizes", "vertices", "faces")
         if known is not None:
-            return _unpack(*known)
+            return {body: [] for body in surfaces} | _unpack(*known)
         found = dict[str, list[Polytope]]()
         for body, surface in surfaces.items():
             try:
                 found[body] = list(decompose_finely(surface.vertices, surface.faces, cache=cache_folder()))
-            except MeshForgeError:  # flat, or without an area: nothing stands for it
-                continue
+            except MeshForgeError:  # flat, or without an area: its hulls stand for nothing
+                found[body] = []
         write_arrays(work.kept, key, _pack(found))
         return found
     except Exception as error:  # one asset never stops the others

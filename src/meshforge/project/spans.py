@@ -33,7 +33,7 @@ def split_spanning(
 
     assets: which may be split, all when None; all of the project are compared. dry_run: nothing is written, and `notes`
     say what would be done. What `unprepare` takes back brings the hulls, their labels and selections back.
-    Raises UsageError for a probability that is none, ProjectError where no hull has a label or no asset a surface.
+    Raises UsageError for a probability that is none, ProjectError where no hull has a label or no asset can be read.
     """
     if not 0 < sure <= 1:
         raise UsageError(f"--sure {sure:g}: a probability is needed, above 0 and at most 1")

@@ -30,11 +30,13 @@ def coarse(parts: Sequence[Polytope]) -> list[Polytope]:
     return [both, *parts[2:]]
 
 
-def write_stool(folder: Path, name: str, parts: Sequence[Polytope], hulls: Sequence[Polytope]) -> Path:
-    """A URDF of one link that shows the parts and collides by the hulls."""
+def write_stool(folder: Path, name: str, parts: Sequence[Polytope] | None, hulls: Sequence[Polytope]) -> Path:
+    """A URDF of one link that shows the parts, or nothing, and collides by the hulls."""
     folder.mkdir(parents=True, exist_ok=True)
     rows = "".join(_collision(k, _write(folder, f"{name}_h{k}", [hull])) for k, hull in enumerate(hulls))
-    seen = f'<visual><geometry><mesh filename="{_write(folder, f"{name}_seen", parts)}"/></geometry></visual>'
+    seen = ""
+    if parts:
+        seen = f'<visual><geometry><mesh filename="{_write(folder, f"{name}_seen", parts)}"/></geometry></visual>'
     path = folder / f"{name}.urdf"
     path.write_text(f'<robot name="{name}"><link name="base">{seen}{rows}</link></robot>')
     return path

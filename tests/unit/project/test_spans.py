@@ -8,7 +8,7 @@ import pytest
 
 from meshforge.batch import IN_PROCESS
 from meshforge.common import ProjectError, UsageError
-from meshforge.geometry import volume_of_union
+from meshforge.geometry import overlap_volume, volume_of_union
 from meshforge.project import PreparationResult, Project
 from tests.unit.project.stools import PARTS, boxes, coarse, write_stool
 
@@ -122,6 +122,49 @@ def test_a_hull_that_stands_for_nothing_is_named_and_left(project: Project, tmp_
     (result,) = split(Project.open(project.folder), "c.urdf")
     assert result.made == ()
     assert any("stands for no surface: left as it is" in note for note in result.notes)
+
+
+@pytest.mark.slow
+def test_a_hull_that_spans_parts_is_split_where_no_asset_has_a_surface(tmp_path: Path) -> None:
+    stools = (("a", 0.2, 0.4), ("b", 0.22, 0.45), ("c", 0.18, 0.38))
+    for name, width, height in stools:
+        parts = boxes(width, height)
+        write_stool(tmp_path / "assets", name, None, parts if name != "c" else coarse(parts))
+    project = Project.create(tmp_path / "p", [tmp_path / "assets/*.urdf"], vocabulary=("seat", "leg"))
+    with pytest.raises(ProjectError, match="no hull has a label"):
+        split(project)
+    for name in ("a.urdf", "b.urdf"):
+        project.set_labels(name, dict(zip([hull.name for hull in project.mesh(name).hulls], PARTS, strict=True)))
+    before, spanning = files(project), project.mesh("c.urdf").hulls[0]
+    results = split(project, sure=0.5)
+    assert [len(result.made) for result in results] == [0, 0, 1], "hulls of one part stay"
+    assert results[2].made[0].what == spanning.name and not results[2].notes
+    made = [hull for hull in project.mesh("c.urdf").hulls if hull.name in results[2].hulls]
+    assert {hull.label for hull in made} == {"seat", "leg"} and {hull.source for hull in made} == {"propagated"}
+    union = volume_of_union([spanning.shape, *(hull.shape for hull in made)])
+    assert union == pytest.approx(spanning.volume), "parts lie within the hull"
+    for solid, label in zip(boxes(0.18, 0.38), ("seat", "leg"), strict=False):
+        held = sum(overlap_volume(solid, hull.shape) for hull in made if hull.label == label)
+        assert held > 0.6 * solid.volume, f"most of the {label} has its label"
+    assert [asset.spans for asset in project.status().assets] == [(), (), ()]
+    project.unprepare("c.urdf")
+    assert files(project) == before
+    assert project.status().assets[2].spans[0].startswith(f"{spanning.name} holds ")
+
+
+@pytest.mark.slow
+def test_one_body_without_a_surface_is_judged_by_look_alikes(project: Project, tmp_path: Path) -> None:
+    write_stool(tmp_path / "assets", "c", None, coarse(boxes(0.18, 0.38)))
+    (result,) = split(Project.open(project.folder), "c.urdf", sure=0.5)
+    assert len(result.made) == 1
+    assert {hull.label for hull in project.mesh("c.urdf").hulls if hull.name in result.hulls} == {"seat", "leg"}
+
+
+def test_a_hull_of_a_body_whose_surface_is_flat_is_named_and_left(project: Project, tmp_path: Path) -> None:
+    path = write_stool(tmp_path / "assets", "c", boxes(0.18, 0.38), coarse(boxes(0.18, 0.38)))
+    (path.parent / "c_seen.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+    (result,) = split(Project.open(project.folder), "c.urdf", sure=0.5)
+    assert result.made == () and len([note for note in result.notes if "stands for no surface" in note]) == 4
 
 
 def test_a_broken_asset_does_not_stop_the_others(project: Project, tmp_path: Path) -> None:
