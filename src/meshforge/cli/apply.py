@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from contextlib import ExitStack
+from dataclasses import dataclass, field, replace
 from functools import partial
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from time import perf_counter
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
@@ -15,6 +17,7 @@ from meshforge import batch
 from meshforge.batch import apply as run_program
 from meshforge.checks import CheckOptions
 from meshforge.cli import options
+from meshforge.cli.apply_new import hold_new, prepare_given, prepare_later, remark_new
 from meshforge.cli.console import progress
 from meshforge.cli.report import NOTHING_WRITTEN, describe_failure, write_report_page
 from meshforge.cli.terminal import print_json, remark
@@ -22,7 +25,7 @@ from meshforge.common import UsageError, pluralize
 from meshforge.language import Program, Template
 
 if TYPE_CHECKING:
-    from meshforge.project import Project
+    from meshforge.project import NewAssetOptions, NewAssetResult, Project
     from meshforge.signoff import Assessment
 
 
@@ -31,9 +34,15 @@ class ApplyArguments:
     """What is typed after `meshforge apply`."""
 
     program: Annotated[Path, typer.Argument(help="A program file (*.mf) or a project folder.")]
-    assets: Annotated[list[str] | None, typer.Argument(help="Files, folders or globs; not with a project.")] = None
+    assets: Annotated[
+        list[str] | None,
+        typer.Argument(
+            help="Files, folders or globs; with a project they are prepared as it says, by default its own."
+        ),
+    ] = None
     out: Annotated[
-        Path | None, typer.Option("-o", "--out", help="Folder for the edited assets; a project has its own, edited/.")
+        Path | None,
+        typer.Option("-o", "--out", help="Folder for the edited assets; for its own a project has one, edited/."),
     ] = None
     labels: options.LabelsPath = None
     execution: options.ExecutionArguments = options.EXECUTION
@@ -63,6 +72,9 @@ class ApplyArguments:
             max=1.0,
         ),
     ] = None
+    no_split: Annotated[
+        bool, typer.Option("--no-split", help="Leave hulls of new assets that span parts as they are; name them.")
+    ] = False
     json: options.Json = False
 
 
@@ -70,6 +82,8 @@ class ApplyArguments:
 def apply(given: ApplyArguments) -> None:
     """Run a program on assets; each goes back into its own format below --out, labels beside it.
 
+    Assets that are given beside a project, and those that came to it later, are prepared first as the project's were:
+    pieces decomposed, hulls that span parts split, labels taken by likeness. What was guessed is said of each.
     Results that stand out of the family are named at the end; with --json all lines come then.
     A run that was stopped or killed goes on where it was: the same command again. Exit code 1 when some assets failed
     or were held: they are named, and the others are done.
@@ -79,13 +93,22 @@ def apply(given: ApplyArguments) -> None:
         raise UsageError("--check says nothing without --report", remedy="Give it too, or: meshforge check OUT")
     if given.report and given.dry_run:
         raise UsageError(options.NOTHING_TO_SHOW, remedy="Leave out --report.")
-    work = _work_of_project(given) if given.program.is_dir() else _work_of_program(given)
+    with ExitStack() as stack:
+        work = _work_of_project(given, stack) if given.program.is_dir() else _work_of_program(given)
+        raise typer.Exit(_run(given, work, measures))
+
+
+def _run(given: ApplyArguments, work: _ApplyWork, measures: CheckOptions | None) -> int:
+    """Run the program and print what became of each asset; the exit code."""
     if len(work.jobs) > 1:
         remark(str(batch.plan_run(work.jobs, work.out)))
     summary, started, done = batch.RunSummary(), perf_counter(), list[batch.AssetOutcome]()
     run_options = batch.ApplyOptions(
         given.mass, given.link, given.dry_run, resume=not given.again, names=given.names, collision=given.collision
     )
+    for failed in work.failed:
+        summary.add(failed)
+        done.append(failed) if given.json else typer.echo(_describe_outcome(failed))
     try:
         with progress(len(work.jobs), "editing") as advance:
             execution = replace(given.execution.to_options(), progress=advance)
@@ -105,6 +128,7 @@ def apply(given: ApplyArguments) -> None:
         for asset, why in work.finish(alarms).items():
             remark(f"{asset} is no longer signed off: {why}")
     _print_lines(done, alarms, work.describe_standings() if done else {})
+    remark_new(work.new)
     summary.held = work.held
     for held in work.held:
         print_json(held.to_json(), compact=True) if given.json else typer.echo(f"{'held':10} {held.asset}: {held.why}")
@@ -116,7 +140,7 @@ def apply(given: ApplyArguments) -> None:
         remark(text)
     if given.report:
         _write_report(given.report, work, summary, perf_counter() - started, measures)
-    raise typer.Exit(int(summary.counts["failed"] > 0 or bool(work.held)))
+    return int(summary.counts["failed"] > 0 or bool(work.held))
 
 
 def _print_lines(
@@ -140,7 +164,8 @@ def _sign_nothing_off(alarms: Alarms) -> Mapping[str, str]:
 class _ApplyWork:
     """What is to be run on what. readers: of assets before the run, by id; held: those that are held back;
     finish: called with all alarms when all is written, says what is no longer signed off, and why, by asset; project:
-    None with a bare program."""
+    None where its own assets are not meant; new: what was done to new assets before, by id; failed: those of them that
+    could not be prepared."""
 
     program: Program
     jobs: Sequence[batch.AssetJob]
@@ -150,28 +175,63 @@ class _ApplyWork:
     held: Sequence[batch.Held] = ()
     finish: Callable[[Alarms], Mapping[str, str]] = _sign_nothing_off
     project: Project | None = None
+    new: Mapping[str, NewAssetResult] = field(default_factory=dict)
+    failed: Sequence[batch.Failed] = ()
 
     def describe_standings(self) -> dict[str, dict[str, Any]]:
         """How sure each edit of a project is, as far as its last review holds, by asset."""
         rows = self.project.status().assets if self.project else ()
-        return {one.id: one.confidence_to_json() for one in rows}
+        standings = {one.id: one.confidence_to_json() for one in rows}
+        return standings | {asset: {**standings.get(asset, {}), **one.to_json()} for asset, one in self.new.items()}
 
 
-def _work_of_project(given: ApplyArguments) -> _ApplyWork:
-    if given.assets or given.labels:
-        raise UsageError(
-            "a project has its own assets and labels",
-            remedy=f"For other assets: meshforge apply {given.program / 'program.mf'} ASSETS... --out DIR",
-        )
-    from meshforge.project import Project  # lazy: 170 modules that a program file does not need
+def _work_of_project(given: ApplyArguments, stack: ExitStack) -> _ApplyWork:
+    """What is run on assets of a project or others given beside it; stack: keeps a folder for as long as that takes."""
+    from meshforge.project import NewAssetOptions, Project  # lazy: 170 modules that a program file does not need
 
+    if given.labels and not given.assets:
+        raise UsageError("a project has its own labels", remedy="Leave out --labels.")
     project = Project.open(given.program)
+    new_options = NewAssetOptions(split=not given.no_split, execution=given.execution.to_options())
+    if given.assets:
+        return _work_of_others(given, project, new_options, stack)
     out = given.out or project.layout.edited
+    folder = Path(stack.enter_context(TemporaryDirectory())) if given.dry_run else None
+    program, jobs, templates = project.work()
+    new = prepare_later(project, jobs, folder, new_options)
     held = _hold_back(project, out, given.sure) if given.sure is not None else ()
     names = {one.asset for one in held}
-    program, jobs, templates = project.work(frozenset(project.assets()) - names if names else None)
     finish = project.renew_sign_offs if out.absolute() == project.layout.edited else _sign_nothing_off
-    return _ApplyWork(program, jobs, out, templates, project.readers, held, finish, project)
+    rest = [job for job in new.jobs if job.id not in names]
+    return _ApplyWork(program, rest, out, templates, project.readers, held, finish, project, new.results, new.failed)
+
+
+def _work_of_others(
+    given: ApplyArguments, project: Project, new_options: NewAssetOptions, stack: ExitStack
+) -> _ApplyWork:
+    """What is run on assets that are given beside a project."""
+    if given.out is None:
+        raise UsageError("--out DIR is missing", remedy="meshforge apply PROJECT ASSETS... --out DIR")
+    out = given.out
+    if out.absolute() == project.layout.edited:
+        raise UsageError("this folder is for the project's own assets", where=str(out), remedy="Choose another --out.")
+    program, _, templates = project.work(())
+    folder = Path(stack.enter_context(TemporaryDirectory())) if given.dry_run else out / batch.STATE
+    new_options = replace(new_options, guess=bool(program.labels_asked))
+    new = prepare_given(project, given.assets or (), given.labels, folder, new_options)
+    held = hold_new(new.results, given.sure, out) if given.sure is not None else ()
+    names = {one.asset for one in held}
+    by_id = {job.id: job for job in new.jobs}
+    return _ApplyWork(
+        program,
+        [job for job in new.jobs if job.id not in names],
+        out,
+        templates,
+        lambda assets: [partial(batch.read_job, by_id[asset]) for asset in assets],
+        held,
+        new=new.results,
+        failed=new.failed,
+    )
 
 
 def _hold_back(project: Project, out: Path, bar: float) -> tuple[batch.Held, ...]:
@@ -204,6 +264,8 @@ def _hold(name: str, assessment: Assessment, out: Path) -> batch.Held:
 def _work_of_program(given: ApplyArguments) -> _ApplyWork:
     if given.sure is not None:
         raise UsageError("--sure needs a project: a program alone does not say how sure its results are")
+    if given.no_split:
+        raise UsageError("--no-split needs a project: a program alone splits no hulls")
     if not given.assets or given.out is None:
         lacking = "assets" if not given.assets else "--out DIR"
         raise UsageError(f"{lacking} is missing", remedy="meshforge apply PROGRAM ASSETS... --out DIR")

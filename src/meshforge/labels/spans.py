@@ -90,12 +90,23 @@ def find_spans(store: Store, execution: batch.ExecutionOptions, stage: Stage) ->
     Raises ProjectError where no hull has a label: nothing says what parts there are.
     """
     meshes = dict(store.meshes_by_id())
-    labels = {asset: [evidence_of(hull.annotation) for hull in mesh.hulls] for asset, mesh in meshes.items()}
-    if not any(label for own in labels.values() for label in own):
+    if not any(evidence_of(hull.annotation) for mesh in meshes.values() for hull in mesh.hulls):
         remedy = "Label the hulls of one or two assets first: meshforge label, or the studio."
         raise ProjectError(
             "no hull has a label, so nothing says what parts there are", where=str(store.folder), remedy=remedy
         )
+    pieces, lost = find_pieces(store, meshes, execution, stage)
+    known = {asset: meshes[asset] for asset in pieces}
+    if not any(own.hulls for own in pieces.values()):
+        remedy = next(iter(lost.values()), "Give the assets visual meshes, or split hulls with: meshforge split")
+        raise ProjectError("no asset has a surface that its hulls stand for", where=str(store.folder), remedy=remedy)
+    return infer_spans(known, pieces, lost)
+
+
+def find_pieces(
+    store: Store, meshes: Mapping[str, SymbolicMesh], execution: batch.ExecutionOptions, stage: Stage
+) -> tuple[dict[str, SymbolicMesh], dict[str, str]]:
+    """The fine pieces of the surfaces of assets, by id, and why some have none."""
     work = [_Work(store.path(asset), store.layout.sketches / "fine" / f"{asset}.npz") for asset in meshes]
     pieces, lost = dict[str, SymbolicMesh](), dict[str, str]()
     with stage(len(work), "decomposing finely") as advance:
@@ -105,12 +116,16 @@ def find_spans(store: Store, execution: batch.ExecutionOptions, stage: Stage) ->
                 lost[asset] = found if isinstance(found, str) else found.why
             else:
                 pieces[asset] = piece_mesh(found, meshes[asset])
-    known = {asset: meshes[asset] for asset in pieces}
-    if not any(own.hulls for own in pieces.values()):
-        remedy = next(iter(lost.values()), "Give the assets visual meshes, or split hulls with: meshforge split")
-        raise ProjectError("no asset has a surface that its hulls stand for", where=str(store.folder), remedy=remedy)
+    return pieces, lost
+
+
+def infer_spans(
+    known: Mapping[str, SymbolicMesh], pieces: Mapping[str, SymbolicMesh], lost: Mapping[str, str]
+) -> SpanReport:
+    """What labels say about hulls that span parts. known, pieces: assets with their labels, and the fine pieces of
+    their surfaces, by the same names; lost: why others are not among them."""
     posterior = SpanModel(list(known.values()), list(pieces.values())).infer(
-        [label for asset in known for label in labels[asset]]
+        [evidence_of(hull.annotation) for mesh in known.values() for hull in mesh.hulls]
     )
     bare = dict[str, tuple[str, ...]]()
     for own, (asset, mesh) in zip(posterior.assets, known.items(), strict=True):
@@ -132,16 +147,22 @@ def _find_pieces(work: _Work) -> dict[str, list[Polytope]] | str:
         known = read_arrays(work.kept, key, "bodies", "sizes", "vertices", "faces")
         if known is not None:
             return _unpack(*known)
-        found = dict[str, list[Polytope]]()
-        for body, surface in surfaces.items():
-            try:
-                found[body] = list(decompose_finely(surface.vertices, surface.faces, cache=cache_folder()))
-            except MeshForgeError:  # flat, or without an area: nothing stands for it
-                continue
+        found = decompose_surfaces(surfaces)
         write_arrays(work.kept, key, _pack(found))
         return found
     except Exception as error:  # one asset never stops the others
         return describe_error(error, str(work.path))
+
+
+def decompose_surfaces(surfaces: Mapping[str, Surface]) -> dict[str, list[Polytope]]:
+    """The fine pieces of surfaces by body, as `batch.find_surfaces` gives these."""
+    found = dict[str, list[Polytope]]()
+    for body, surface in surfaces.items():
+        try:
+            found[body] = list(decompose_finely(surface.vertices, surface.faces, cache=cache_folder()))
+        except MeshForgeError:  # flat, or without an area: nothing stands for it
+            continue
+    return found
 
 
 def _digest(surfaces: Mapping[str, Surface]) -> str:

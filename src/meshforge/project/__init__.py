@@ -15,6 +15,21 @@ if TYPE_CHECKING:
         select_assets,
         suggest_first_demonstration,
     )
+    from meshforge.project.new_assets import (
+        NewAsset,
+        NewAssetOptions,
+        NewAssetResult,
+        describe_new,
+        prepare_aside,
+        prepare_in_project,
+    )
+    from meshforge.project.preparation_plan import (
+        PreparationPlan,
+        extend_plan,
+        find_new_assets,
+        forget_plan,
+        read_preparation_plan,
+    )
     from meshforge.project.prepare import PreparationResult
     from meshforge.project.project import Project
     from meshforge.project.review import ProjectReview
@@ -32,6 +47,10 @@ __all__ = [
     "AssessmentBasis",
     "AssetStatus",
     "FamilyMeshes",
+    "NewAsset",
+    "NewAssetOptions",
+    "NewAssetResult",
+    "PreparationPlan",
     "PreparationResult",
     "ProgramState",
     "Project",
@@ -39,7 +58,11 @@ __all__ = [
     "Status",
     "add_standings",
     "build_run_report",
+    "describe_new",
     "digest_lesson",
+    "extend_plan",
+    "find_new_assets",
+    "forget_plan",
     "format_review",
     "format_share",
     "format_standing",
@@ -48,6 +71,9 @@ __all__ = [
     "make_correction",
     "measure_results",
     "output_digest",
+    "prepare_aside",
+    "prepare_in_project",
+    "read_preparation_plan",
     "run_with_corrections",
     "sees_whole_family",
     "select_assets",

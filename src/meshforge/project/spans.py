@@ -4,18 +4,21 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import AbstractContextManager, nullcontext
+from dataclasses import dataclass
 
 from meshforge import batch
 from meshforge.common import MeshForgeError, UsageError, pluralize
 from meshforge.formats import read
 from meshforge.labels import HullSpan, SpanReport, find_spans, ignore_stage
+from meshforge.project.preparation_plan import keep_split
 from meshforge.project.prepare import PreparationResult, exchange_preparation
 from meshforge.store import SpanLine, SpansFile, Store, hull_digests
-from meshforge.symbolic import Label
+from meshforge.symbolic import Asset, Label
 
 SURE_TO_SPAN = 0.9
 """The probability from which a hull is split unless another is asked for."""
-_LIKELY = 0.5  # from which a hull is named
+LIKELY = 0.5
+"""The probability from which a hull is named."""
 _DIGITS = 3
 
 
@@ -44,6 +47,7 @@ def split_spanning(
     report = find_spans(store, execution, stage)
     if not dry_run:
         _keep_likely(store, report)
+        keep_split(store, ids, sure)
     for asset in ids:
         if asset in report.lost:
             yield PreparationResult(asset, problems=(report.lost[asset],))
@@ -63,49 +67,61 @@ def _split_one(
     store: Store, asset: str, report: SpanReport, sure: float, seen: str | None, dry_run: bool
 ) -> PreparationResult:
     """What becomes of one asset."""
-    divisions, labels = list[batch.HullDivision](), list[list[Label]]()
+    plan = plan_divisions(report, asset, sure)
     notes = [f"{name} stands for no surface: left as it is" for name in report.bare.get(asset, ())]
+    notes += [f"{span}: left as it is, below {sure:.0%}" for span in plan.unsure]
+    notes += [f"{span}: no plane divides it; split it by hand: meshforge split" for span in plan.whole]
+    divisions = plan.divisions
+    if not divisions or dry_run:
+        return PreparationResult(asset, notes=(*(f"would split {one.told}" for one in divisions), *notes))
+    return _write(store, asset, plan, seen, notes)
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class DivisionPlan:
+    """Which hulls of an asset are to be divided. divisions: these, with the labels of the parts of each; unsure: hulls
+    that likely span parts, but not surely enough; whole: those that no plane divides."""
+
+    sure: float
+    divisions: tuple[batch.HullDivision, ...]
+    labels: tuple[tuple[Label, ...], ...]
+    unsure: tuple[HullSpan, ...]
+    whole: tuple[HullSpan, ...]
+
+    def divide(self, source: Asset, before: batch.Preparation) -> tuple[batch.Preparation, dict[str, Label]]:
+        """A preparation with the step that divides them, and the label of each part by its name."""
+        chances = {one.hull: round(one.chance, _DIGITS) for one in self.divisions}
+        after = batch.divide_hulls(source, before, self.divisions, {"sure": self.sure, "chances": chances})
+        rows = zip(after.steps[-1].replaced, self.labels, strict=True)
+        return after, {name: one for entry, own in rows for name, one in zip(entry.made, own, strict=True)}
+
+
+def plan_divisions(report: SpanReport, asset: str, sure: float) -> DivisionPlan:
+    """How the hulls of an asset that span parts with a probability of at least `sure` are divided."""
+    divisions, labels = list[batch.HullDivision](), list[tuple[Label, ...]]()
+    unsure, whole = list[HullSpan](), list[HullSpan]()
     for span in report.spans_of(asset):
         if span.chance < sure:
-            notes += [f"{span}: left as it is, below {sure:.0%}"] if span.chance >= _LIKELY else []
+            unsure += [span] if span.chance >= LIKELY else []
             continue
         parts = report.divide(asset, span.hull)
         if len(parts) < 2:
-            notes.append(f"{span}: no plane divides it; split it by hand: meshforge split")
+            whole.append(span)
             continue
         made = ", ".join(f"{label} ({share:.0%})" for _, label, share in parts)
         told = f"{span}: into {pluralize(len(parts), 'part')}, {made}"
         shapes = tuple(part.shape for part, _, _ in parts)
         divisions.append(batch.HullDivision(span.hull, span.chance, shapes, told))
-        labels.append([Label(label, round(share, _DIGITS), "propagated") for _, label, share in parts])
-    if not divisions or dry_run:
-        return PreparationResult(asset, notes=(*(f"would split {one.told}" for one in divisions), *notes))
-    return _write(store, asset, divisions, labels, sure, seen, notes)
+        labels.append(tuple(Label(label, round(share, _DIGITS), "propagated") for _, label, share in parts))
+    return DivisionPlan(sure, tuple(divisions), tuple(labels), tuple(unsure), tuple(whole))
 
 
-def _write(
-    store: Store,
-    asset: str,
-    divisions: list[batch.HullDivision],
-    labels: list[list[Label]],
-    sure: float,
-    seen: str | None,
-    notes: list[str],
-) -> PreparationResult:
-    folder = store.layout.preparation(asset)
-    before = batch.read_preparation(folder) or batch.Preparation()
-    chances = {one.hull: round(one.chance, _DIGITS) for one in divisions}
-    source = read(store.path(asset))
-    after = batch.divide_hulls(source, before, divisions, {"sure": sure, "chances": chances})
-    entries = after.steps[-1].replaced
-    known = {
-        name: label
-        for entry, own in zip(entries, labels, strict=True)
-        for name, label in zip(entry.made, own, strict=True)
-        if label.name in store.vocabulary
-    }
+def _write(store: Store, asset: str, plan: DivisionPlan, seen: str | None, notes: list[str]) -> PreparationResult:
+    before = batch.read_preparation(store.layout.preparation(asset)) or batch.Preparation()
+    after, labels = plan.divide(read(store.path(asset)), before)
+    known = {name: label for name, label in labels.items() if label.name in store.vocabulary}
     notes = [*exchange_preparation(store, asset, after, seen, known), *notes]
-    return PreparationResult(asset, entries, tuple(notes))
+    return PreparationResult(asset, after.steps[-1].replaced, tuple(notes))
 
 
 def _keep_likely(store: Store, report: SpanReport) -> None:
@@ -113,7 +129,7 @@ def _keep_likely(store: Store, report: SpanReport) -> None:
     found = dict[str, dict[str, SpanLine]]()
     for asset, mesh in report.meshes.items():
         digests = hull_digests(mesh)
-        likely = [span for span in report.spans_of(asset) if span.chance >= _LIKELY]
+        likely = [span for span in report.spans_of(asset) if span.chance >= LIKELY]
         if likely:
             found[asset] = {span.hull: _to_line(span, digests[span.hull]) for span in likely}
     store.write_spans(SpansFile(assets=found))

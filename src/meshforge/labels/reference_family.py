@@ -1,0 +1,90 @@
+"""The labelled assets of a project, against which assets are looked at that are not of it, or new in it: one at a time,
+so that what is found of one does not depend on the others, nor on how many there are."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping, Sequence
+from dataclasses import dataclass
+
+from meshforge import batch
+from meshforge.label_model import evidence_of, model_family, piece_mesh
+from meshforge.label_model.describe import describe_mesh
+from meshforge.labels.family_comparison import Stage
+from meshforge.labels.spans import SpanReport, decompose_surfaces, find_pieces, infer_spans
+from meshforge.store import Store
+from meshforge.symbolic import HUMAN_SOURCES, Asset, Label, LabelFile, SymbolicMesh
+
+MOST_COMPARED = 32
+"""Labelled assets that a new one is compared with: those with labels of people first, evenly chosen of more."""
+NEW = ""
+"""The name of a new asset in the report of `ReferenceFamily.find_spans`; ids of a project are never empty."""
+
+
+@dataclass(frozen=True, eq=False)
+class ReferenceFamily:
+    """Assets of which hulls are labelled. meshes: as they are prepared, by id; pieces: the fine pieces of the surface
+    of each that has one, by id; words: the project's vocabulary."""
+
+    meshes: Mapping[str, SymbolicMesh]
+    pieces: Mapping[str, SymbolicMesh]
+    words: Collection[str]
+
+    def find_spans(self, source: Asset, mesh: SymbolicMesh) -> SpanReport | None:
+        """Which hulls of an asset span parts, as a report on the asset `NEW` alone; None where no surface is there.
+
+        source: the asset as it was read; mesh: it as it is prepared, with its labels.
+        """
+        own = piece_mesh(decompose_surfaces(batch.find_surfaces(source)), mesh)
+        known = {asset: self.meshes[asset] for asset in self.pieces}
+        if not own.hulls or not any(pieces.hulls for pieces in self.pieces.values()):
+            return None
+        return infer_spans({NEW: mesh, **known}, {NEW: own, **self.pieces}, {})
+
+    def infer_labels(self, mesh: SymbolicMesh) -> dict[str, Label]:
+        """The likeliest label of each hull of an asset that has none, by its name, with its probability."""
+        meshes = [mesh, *self.meshes.values()]
+        found = model_family(meshes).infer([self._speak(hull.annotation) for own in meshes for hull in own.hulls])
+        rows = zip(mesh.hulls, found.labels(0), strict=True)
+        return {hull.name: label for hull, label in rows if label and not hull.annotation}
+
+    def _speak(self, label: Label | None) -> Label | None:
+        known = evidence_of(label)
+        return known if known and known.name in self.words else None
+
+
+def read_reference_family(
+    store: Store, execution: batch.ExecutionOptions, stage: Stage, *, without: Collection[str] = (), spans: bool = True
+) -> ReferenceFamily | None:
+    """The labelled assets of a project; None where no hull has a label that was not inferred.
+
+    without: assets that do not count; spans: whether their surfaces are needed. Raises AssetError where a labels file
+    cannot be read.
+    """
+    chosen = choose_labelled({asset: store.labels(asset) for asset in store.assets() if asset not in set(without)})
+    meshes = {
+        asset: mesh
+        for asset, mesh in store.meshes_by_id(chosen)
+        if any(evidence_of(hull.annotation) for hull in mesh.hulls)
+    }
+    if not meshes:
+        return None
+    pieces = find_pieces(store, meshes, execution, stage)[0] if spans else {}
+    for mesh in (*meshes.values(), *pieces.values()):
+        describe_mesh(mesh)  # so that worker processes that are forked have it
+    return ReferenceFamily(meshes, pieces, frozenset(store.vocabulary))
+
+
+def choose_labelled(files: Mapping[str, LabelFile], most: int = MOST_COMPARED) -> list[str]:
+    """The assets that new ones are compared with, in the order of the project."""
+    said = {
+        asset: [label for own in file.labels.values() if (label := evidence_of(own))] for asset, file in files.items()
+    }
+    by_people = [asset for asset, labels in said.items() if any(one.source in HUMAN_SOURCES for one in labels)]
+    others = [asset for asset, labels in said.items() if labels and asset not in set(by_people)]
+    chosen = {*_pick_evenly(by_people, most)}
+    chosen |= {*_pick_evenly(others, most - len(chosen))}
+    return [asset for asset in files if asset in chosen]
+
+
+def _pick_evenly(items: Sequence[str], most: int) -> list[str]:
+    return [items[place * len(items) // most] for place in range(most)] if len(items) > most else list(items)

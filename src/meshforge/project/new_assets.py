@@ -1,0 +1,313 @@
+"""Assets that are not of a project, or came to it later, prepared as it says: decomposed as its own, hulls that span
+parts split where that is sure enough, and hulls without a label given the likeliest one.
+
+Each is compared with the project's labelled assets alone, in a worker process: what becomes of it does not depend on
+the other new ones, nor on the number of workers, and no process holds more than these and one new asset.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import AbstractContextManager
+from dataclasses import dataclass, field, replace
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+from meshforge import batch
+from meshforge.common import MeshForgeError, describe_error, join_names, pluralize
+from meshforge.formats import read
+from meshforge.geometry import cache_folder
+from meshforge.labels import NEW, HullSpan, ReferenceFamily, ignore_stage, read_reference_family
+from meshforge.project.preparation_plan import PreparationPlan
+from meshforge.project.prepare import exchange_preparation
+from meshforge.project.spans import plan_divisions
+from meshforge.store import Store
+from meshforge.symbolic import Asset, Label, LabelFile, SymbolicMesh, read_labels, transfer_labels, write_labels
+
+_DIGITS = 3
+
+
+@dataclass(frozen=True, slots=True)
+class NewAsset:
+    """One asset that is to be prepared. labels: its labels file, None where it has none; preparation: the folder of
+    what is done to it already, None for nothing."""
+
+    id: str
+    path: Path
+    plan: PreparationPlan
+    labels: Path | None = None
+    preparation: Path | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class HullSplit:
+    """A hull that was split. chance: that it spans parts; told: in words; parts: the label of each by its name."""
+
+    hull: str
+    chance: float
+    told: str
+    parts: Mapping[str, Label]
+
+    def __str__(self) -> str:
+        """`base holds wall and handle, 94%: split in 2, wall (99%) and handle (97%)`."""
+        made = " and ".join(f"{label.name} ({label.confidence:.0%})" for label in self.parts.values())
+        return f"{self.told}: split in {len(self.parts)}, {made}"
+
+
+@dataclass(frozen=True, slots=True)
+class NewAssetResult:
+    """What became of a new asset before the program.
+
+    splits: hulls that were split; spanning: those that likely span parts and were not; guesses: labels that the family
+    gave to hulls that had none; notes: all else; problem: why it could not be prepared.
+    """
+
+    asset: str
+    splits: tuple[HullSplit, ...] = ()
+    spanning: tuple[HullSpan, ...] = ()
+    guesses: Mapping[str, Label] = field(default_factory=dict)
+    notes: tuple[str, ...] = ()
+    problem: str | None = None
+
+    @property
+    def doubts(self) -> tuple[tuple[float, str], ...]:
+        """All that was guessed, each with its probability and in words, the least sure first."""
+        splits = [(one.chance, str(one)) for one in self.splits]
+        parts = [(label.confidence, f"{name}, a part, is called {label.name}") for name, label in self._parts.items()]
+        guesses = [
+            (one.confidence, f"{name} is called {one.name} by its likeness") for name, one in self.guesses.items()
+        ]
+        left = [(1 - span.chance, f"{span}: not split") for span in self.spanning]
+        return tuple(sorted([*splits, *parts, *guesses, *left], key=lambda row: row[0]))
+
+    @property
+    def _parts(self) -> dict[str, Label]:
+        return {name: label for split in self.splits for name, label in split.parts.items()}
+
+    @property
+    def probability(self) -> float:
+        """That all of it is right, at most: that of the least sure guess, 1 where nothing was guessed."""
+        return self.doubts[0][0] if self.doubts else 1.0
+
+    def describe(self) -> tuple[str, ...]:
+        """A sentence on each split, each hull that was left, and on the labels."""
+        rows = [*map(str, self.splits), *(f"{span}: not split" for span in self.spanning)]
+        if self.guesses:
+            name, least = min(self.guesses.items(), key=lambda row: row[1].confidence)
+            rows.append(
+                f"{pluralize(len(self.guesses), 'label')} by likeness to the family; "
+                f"least sure: {name} is {least.name}, {least.confidence:.0%}"
+            )
+        return (*rows, *self.notes)
+
+    def to_json(self) -> dict[str, Any]:
+        """What the line of `apply --json` says of it."""
+        return {
+            "split": [
+                {
+                    "hull": one.hull,
+                    "chance": round(one.chance, _DIGITS),
+                    "into": [
+                        {"hull": name, "label": label.name, "confidence": label.confidence}
+                        for name, label in one.parts.items()
+                    ],
+                }
+                for one in self.splits
+            ],
+            "spanning": [
+                {"hull": one.hull, "chance": round(one.chance, _DIGITS), "holds": list(one.shares)}
+                for one in self.spanning
+            ],
+            "guessed": {name: {"label": one.name, "confidence": one.confidence} for name, one in self.guesses.items()},
+            "sure_at_most": round(self.probability, _DIGITS),
+        }
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class _WorkerOutcome:
+    """What a worker made of an asset. seen: the digest of the preparation that was there; parts: labels of parts."""
+
+    preparation: batch.Preparation
+    seen: str | None
+    mesh: SymbolicMesh
+    vocabulary: tuple[str, ...]
+    result: NewAssetResult
+
+    @property
+    def parts(self) -> dict[str, Label]:
+        return {name: label for split in self.result.splits for name, label in split.parts.items()}
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class _Task:
+    """family: None where nothing is labelled; split: whether hulls are split; guess: whether hulls without a label get
+    one; contact: the threshold, None for the language's own."""
+
+    family: ReferenceFamily | None
+    split: bool
+    guess: bool
+    contact: float | None
+
+
+@dataclass(frozen=True, slots=True)
+class NewAssetOptions:
+    """split: whether hulls that span parts are split, or only named; guess: whether hulls without a label get the
+    likeliest one."""
+
+    split: bool = True
+    guess: bool = True
+    execution: batch.ExecutionOptions = batch.EXECUTION_DEFAULTS
+    stage: Callable[[int, str], AbstractContextManager[Callable[[], None]]] = ignore_stage
+
+
+NEW_ASSET_DEFAULTS = NewAssetOptions()
+
+
+def prepare_in_project(
+    store: Store, assets: Sequence[NewAsset], options: NewAssetOptions = NEW_ASSET_DEFAULTS
+) -> Iterator[NewAssetResult]:
+    """Prepare assets of a project; what is done is kept in the project, and undone, as by `meshforge prepare`."""
+    for work, found in _prepare_all(store, assets, options):
+        if isinstance(found, str):
+            yield NewAssetResult(work.id, problem=found)
+            continue
+        try:
+            yield replace(found.result, notes=(*_keep_in_project(store, work.id, found), *found.result.notes))
+        except MeshForgeError as error:
+            yield NewAssetResult(work.id, problem=error.message)
+
+
+def _keep_in_project(store: Store, asset: str, found: _WorkerOutcome) -> list[str]:
+    """Write what was done step by step, since each is undone by itself; notes on that."""
+    notes, seen, after = list[str](), found.seen, found.preparation
+    before = len(batch.read_steps(store.layout.preparation(asset)))
+    labels = {name: label for name, label in found.parts.items() if label.name in store.vocabulary}
+    for count in range(before + 1, len(after.steps) + 1):
+        is_last = count == len(after.steps)
+        part = after if is_last else after.with_only(after.steps[:count])
+        notes += exchange_preparation(store, asset, part, seen, labels if is_last else None)
+        seen = batch.record_digest(store.layout.preparation(asset))
+    return notes
+
+
+def prepare_aside(
+    store: Store, assets: Sequence[NewAsset], folder: Path, options: NewAssetOptions = NEW_ASSET_DEFAULTS
+) -> Iterator[tuple[NewAsset, NewAssetResult]]:
+    """Prepare assets with what is done kept in a folder, and neither in the project nor beside them: each as it is to
+    be read now, with its labels and its preparation there."""
+    for work, found in _prepare_all(store, assets, options):
+        if isinstance(found, str):
+            yield work, NewAssetResult(work.id, problem=found)
+            continue
+        own, labels = folder / "prepared" / work.id, folder / "labels" / f"{work.id}.json"
+        if found.preparation.steps:
+            batch.write_preparation(own, found.preparation)
+        else:
+            batch.remove_preparation(own)
+        if found.mesh.labels:
+            write_labels(labels, found.mesh, found.vocabulary)
+        else:
+            labels.unlink(missing_ok=True)
+        kept = replace(
+            work,
+            labels=labels if found.mesh.labels else None,
+            preparation=own if found.preparation.steps else None,
+        )
+        yield kept, found.result
+
+
+def _prepare_all(
+    store: Store, assets: Sequence[NewAsset], options: NewAssetOptions
+) -> Iterator[tuple[NewAsset, _WorkerOutcome | str]]:
+    """Each asset as a worker prepared it, or why none could."""
+    if not assets:
+        return
+    spans = any(one.plan.sure is not None for one in assets)
+    own = {path: asset for asset, path in store.found.ids.items()}
+    without = {own[one.path] for one in assets if one.path in own}
+    family = None
+    if spans or options.guess:
+        family = read_reference_family(store, options.execution, options.stage, without=without, spans=spans)
+    task = _Task(family, options.split, options.guess, store.settings.thresholds.contact)
+    with options.stage(len(assets), "preparing") as advance:
+        execution = replace(options.execution, progress=advance)
+        for work, found in zip(assets, batch.execute(partial(_prepare, task), assets, execution), strict=True):
+            yield work, found.why if isinstance(found, batch.WorkerFailure) else found
+
+
+def _prepare(task: _Task, work: NewAsset) -> _WorkerOutcome | str:
+    """What a worker makes of an asset, or why it failed."""
+    try:
+        seen = batch.record_digest(work.preparation) if work.preparation else None
+        before = (batch.read_preparation(work.preparation) if work.preparation else None) or batch.Preparation()
+        source = read(work.path)
+        after, notes = _decompose(source, before, work.plan)
+        labels = read_labels(work.labels) if work.labels and work.labels.exists() else LabelFile()
+        mesh = _build_mesh(source, after, labels, task.contact)
+        splits, spanning = tuple[HullSplit, ...](), tuple[HullSpan, ...]()
+        if work.plan.sure is not None and task.family and mesh.hulls:
+            after, splits, spanning = _split(task, source, after, mesh, work.plan.sure)
+            if splits:
+                parts = {name: label for split in splits for name, label in split.parts.items()}
+                mesh = _build_mesh(source, after, labels, task.contact).with_labels(parts)
+        guesses = task.family.infer_labels(mesh) if task.guess and task.family and mesh.hulls else {}
+        result = NewAssetResult(work.id, splits, spanning, guesses, notes)
+        words = tuple(labels.vocabulary or (task.family.words if task.family else ()))
+        return _WorkerOutcome(after, seen, mesh.with_labels(guesses), words, result)
+    except Exception as error:  # one asset never stops the others
+        return describe_error(error, str(work.path))
+
+
+def _build_mesh(
+    source: Asset, preparation: batch.Preparation, labels: LabelFile, contact: float | None
+) -> SymbolicMesh:
+    mesh = transfer_labels(labels, SymbolicMesh.of(batch.apply_preparation(source, preparation))).mesh
+    return mesh if contact is None else replace(mesh, epsilon=contact)
+
+
+def _decompose(
+    source: Asset, before: batch.Preparation, plan: PreparationPlan
+) -> tuple[batch.Preparation, tuple[str, ...]]:
+    """The preparation with the decompositions of the plan, and notes on these."""
+    notes = list[str]()
+    for one in plan.decompose:
+        done = batch.decompose_asset(
+            source, before, one.settings, only=one.only, hollow=one.hollow, by=one.by, cache=cache_folder()
+        )
+        before = done.preparation
+        notes += [f"{entry.what} decomposed by {one.settings.engine}: {entry.told}" for entry in done.made]
+        notes += [f"{lost.what} could not be decomposed: {lost.why}" for lost in done.failed]
+    return before, tuple(notes)
+
+
+def _split(
+    task: _Task, source: Asset, before: batch.Preparation, mesh: SymbolicMesh, sure: float
+) -> tuple[batch.Preparation, tuple[HullSplit, ...], tuple[HullSpan, ...]]:
+    """The preparation with the hulls split that surely span parts, these, and those that likely do and are left."""
+    assert task.family
+    report = task.family.find_spans(source, mesh)
+    if report is None:
+        return before, (), ()
+    plan = plan_divisions(report, NEW, sure)
+    spans = {span.hull: span for span in report.spans_of(NEW)}
+    divided = [spans[one.hull] for one in plan.divisions]
+    left = [*plan.unsure, *plan.whole]
+    if not task.split or not divided:
+        left += divided
+        return before, (), tuple(span for span in spans.values() if span in left)
+    after, labels = plan.divide(source, before)
+    splits = tuple(
+        HullSplit(span.hull, span.chance, str(span), {name: labels[name] for name in entry.made})
+        for span, entry in zip(divided, after.steps[-1].replaced, strict=True)
+    )
+    return after, splits, tuple(span for span in spans.values() if span in left)
+
+
+def describe_new(results: Sequence[NewAssetResult]) -> str | None:
+    """How many hulls of new assets were split, and how many likely span parts and were not; None where none."""
+    splits, left = sum(len(one.splits) for one in results), sum(len(one.spanning) for one in results)
+    split = [one.asset for one in results if one.splits]
+    parts = [f"{pluralize(splits, 'hull')} of new assets split ({join_names(split)})"] if splits else []
+    parts += [f"{pluralize(left, 'hull')} likely span parts and were not split"] if left else []
+    return "; ".join(parts) or None
