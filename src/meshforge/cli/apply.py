@@ -17,7 +17,7 @@ from meshforge import batch
 from meshforge.batch import apply as run_program
 from meshforge.checks import CheckOptions
 from meshforge.cli import options
-from meshforge.cli.apply_new import hold_new, prepare_given, prepare_later, remark_new
+from meshforge.cli.apply_new import hold, hold_new, prepare_given, prepare_later, remark_new
 from meshforge.cli.console import progress
 from meshforge.cli.report import NOTHING_WRITTEN, describe_failure, write_report_page
 from meshforge.cli.terminal import print_json, remark
@@ -25,8 +25,11 @@ from meshforge.common import UsageError, pluralize
 from meshforge.language import Program, Template
 
 if TYPE_CHECKING:
-    from meshforge.project import NewAssetOptions, NewAssetResult, Project
-    from meshforge.signoff import Assessment
+    from meshforge.project import NewAssetOptions, NewAssetResult, Project, ProjectReview
+    from meshforge.signoff import AssetConfidence
+
+
+_ASIDE = "a person set it aside"
 
 
 @dataclass(frozen=True, slots=True)
@@ -165,7 +168,7 @@ class _ApplyWork:
     """What is to be run on what. readers: of assets before the run, by id; held: those that are held back;
     finish: called with all alarms when all is written, says what is no longer signed off, and why, by asset; project:
     None where its own assets are not meant; new: what was done to new assets before, by id; failed: those of them that
-    could not be prepared."""
+    could not be prepared; confidences: how sure the edits of assets are that are not the project's, as far as asked."""
 
     program: Program
     jobs: Sequence[batch.AssetJob]
@@ -177,11 +180,16 @@ class _ApplyWork:
     project: Project | None = None
     new: Mapping[str, NewAssetResult] = field(default_factory=dict)
     failed: Sequence[batch.Failed] = ()
+    confidences: Mapping[str, AssetConfidence] = field(default_factory=dict)
 
     def describe_standings(self) -> dict[str, dict[str, Any]]:
         """How sure each edit of a project is, as far as its last review holds, by asset."""
         rows = self.project.status().assets if self.project else ()
         standings = {one.id: one.confidence_to_json() for one in rows}
+        standings |= {
+            asset: {"probability": round(one.probability, 4), "doubts": [doubt.to_json() for doubt in one.doubts]}
+            for asset, one in self.confidences.items()
+        }
         return standings | {asset: {**standings.get(asset, {}), **one.to_json()} for asset, one in self.new.items()}
 
 
@@ -198,6 +206,7 @@ def _work_of_project(given: ApplyArguments, stack: ExitStack) -> _ApplyWork:
     out = given.out or project.layout.edited
     folder = Path(stack.enter_context(TemporaryDirectory())) if given.dry_run else None
     program, jobs, templates = project.work()
+    new_options = replace(new_options, guess=bool(program.labels_asked))
     new = prepare_later(project, jobs, folder, new_options)
     held = _hold_back(project, out, given.sure) if given.sure is not None else ()
     names = {one.asset for one in held}
@@ -210,16 +219,23 @@ def _work_of_others(
     given: ApplyArguments, project: Project, new_options: NewAssetOptions, stack: ExitStack
 ) -> _ApplyWork:
     """What is run on assets that are given beside a project."""
+    from meshforge.project import assess_new_assets  # lazy: as above
+
     if given.out is None:
         raise UsageError("--out DIR is missing", remedy="meshforge apply PROJECT ASSETS... --out DIR")
     out = given.out
     if out.absolute() == project.layout.edited:
         raise UsageError("this folder is for the project's own assets", where=str(out), remedy="Choose another --out.")
+    review = _review(project, given.sure) if given.sure is not None else None
     program, _, templates = project.work(())
     folder = Path(stack.enter_context(TemporaryDirectory())) if given.dry_run else out / batch.STATE
     new_options = replace(new_options, guess=bool(program.labels_asked))
     new = prepare_given(project, given.assets or (), given.labels, folder, new_options)
-    held = hold_new(new.results, given.sure, out) if given.sure is not None else ()
+    found: dict[str, AssetConfidence] = {}
+    held: tuple[batch.Held, ...] = ()
+    if review and given.sure is not None:
+        found = assess_new_assets(project, review, new.jobs, new.results, new_options.execution)
+        held = hold_new(found, given.sure, out)
     names = {one.asset for one in held}
     by_id = {job.id: job for job in new.jobs}
     return _ApplyWork(
@@ -231,34 +247,25 @@ def _work_of_others(
         held,
         new=new.results,
         failed=new.failed,
+        confidences=found,
     )
 
 
-def _hold_back(project: Project, out: Path, bar: float) -> tuple[batch.Held, ...]:
-    """The assets of a project whose edits are less sure than a bar, the least sure first."""
+def _review(project: Project, bar: float) -> ProjectReview:
+    """How a family stands now."""
     program = project.program()
     found = project.review(bar)
     if program != project.program():
         remark("The program was learned again from what was said since.")
-    assessment = found.assessment
-    names = [*assessment.held, *sorted(assessment.aside)]
-    return tuple(_hold(name, assessment, out) for name in names)
+    return found
 
 
-def _hold(name: str, assessment: Assessment, out: Path) -> batch.Held:
-    from meshforge.project import format_share  # lazy: 170 modules that a program file does not need
-
-    one = assessment.assets.get(name)
-    written = batch.read_stamp(out, name)
-    kept = str(out / written.out) if written and written.out else None
-    why = "a person set it aside"
-    if one and name not in assessment.aside:
-        doubt = one.doubts[0].text if one.doubts else "no single doubt stands out"
-        why = f"{format_share(one.probability)} sure; {doubt}"
-    if kept:
-        why += "; the output of an earlier run stays as it is"
-    doubts = tuple(doubt.to_json() for doubt in one.doubts) if one else ()
-    return batch.Held(name, one.probability if one else 0.0, doubts, why, kept)
+def _hold_back(project: Project, out: Path, bar: float) -> tuple[batch.Held, ...]:
+    """The assets of a project whose edits are less sure than a bar, the least sure first."""
+    assessment = _review(project, bar).assessment
+    held = (hold(name, assessment.assets.get(name), out) for name in assessment.held)
+    aside = (hold(name, assessment.assets.get(name), out, _ASIDE) for name in sorted(assessment.aside))
+    return (*held, *aside)
 
 
 def _work_of_program(given: ApplyArguments) -> _ApplyWork:

@@ -11,13 +11,12 @@ from typing import TYPE_CHECKING
 from meshforge import batch
 from meshforge.cli.console import progress
 from meshforge.cli.terminal import remark
-from meshforge.signoff import Doubt
 
 if TYPE_CHECKING:
     from meshforge.project import NewAssetOptions, NewAssetResult, Project
+    from meshforge.signoff import AssetConfidence
 
 _PREPARED = 600.0  # seconds for an asset at least, as `meshforge prepare` gives it
-_MOST_DOUBTS = 3
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -80,7 +79,7 @@ def prepare_later(
         for job in jobs
         if job.id in plans
     ]
-    options = replace(_with_stage(options), guess=False)
+    options = _with_stage(options)
     results: dict[str, NewAssetResult] = {}
     if folder is not None:
         for work, result in prepare_aside(project, new, folder, options):
@@ -113,21 +112,26 @@ def _sort_out(jobs: Mapping[str, batch.AssetJob], results: Mapping[str, NewAsset
     return NewAssets([job for job in jobs.values() if job.id not in failed], fine, tuple(failed.values()))
 
 
-def hold_new(results: Mapping[str, NewAssetResult], bar: float, out: Path) -> tuple[batch.Held, ...]:
-    """The new assets in which something was guessed that is less sure than a bar, the least sure first."""
-    unsure = sorted((one for one in results.values() if one.probability < bar), key=lambda one: one.probability)
-    return tuple(_hold(one, out) for one in unsure)
+def hold_new(confidences: Mapping[str, AssetConfidence], bar: float, out: Path) -> tuple[batch.Held, ...]:
+    """The new assets whose edits are less sure than a bar, the least sure first."""
+    unsure = sorted((one for one in confidences.values() if one.probability < bar), key=lambda one: one.probability)
+    return tuple(hold(one.asset, one, out) for one in unsure)
 
 
-def _hold(result: NewAssetResult, out: Path) -> batch.Held:
-    from meshforge.project import format_share  # lazy: 170 modules
+def hold(asset: str, found: AssetConfidence | None, out: Path, why: str | None = None) -> batch.Held:
+    """An asset that is held back, since its edit is not sure enough; why: another reason."""
+    from meshforge.project import format_share  # lazy: 170 modules that a program file does not need
 
-    written = batch.read_stamp(out, result.asset)
+    written = batch.read_stamp(out, asset)
     kept = str(out / written.out) if written and written.out else None
-    doubts = [Doubt("label", text, share=1 - chance) for chance, text in result.doubts[:_MOST_DOUBTS]]
-    why = f"{format_share(result.probability)} sure at most; {doubts[0].text}"
-    why += "; the output of an earlier run stays as it is" if kept else ""
-    return batch.Held(result.asset, result.probability, tuple(one.to_json() for one in doubts), why, kept)
+    if found and not why:
+        doubt = found.doubts[0].text if found.doubts else "no single doubt stands out"
+        why = f"{format_share(found.probability)} sure; {doubt}"
+    why = why or ""
+    if kept:
+        why += "; the output of an earlier run stays as it is"
+    doubts = tuple(doubt.to_json() for doubt in found.doubts) if found else ()
+    return batch.Held(asset, found.probability if found else 0.0, doubts, why, kept)
 
 
 def remark_new(results: Mapping[str, NewAssetResult]) -> None:

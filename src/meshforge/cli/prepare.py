@@ -15,7 +15,7 @@ from meshforge.cli.console import progress
 from meshforge.cli.terminal import print_json
 from meshforge.common import UsageError, describe_error, pluralize
 from meshforge.geometry import DecomposeSettings
-from meshforge.project import SURE_TO_SPAN, PreparationResult, Project
+from meshforge.project import SURE_TO_SPAN, PreparationResult, Project, forget_plan
 
 
 @dataclass(frozen=True, slots=True)
@@ -74,6 +74,8 @@ def prepare(given: PrepareArguments) -> None:
         only_with_method = ("option", "only", "again", "hollow", "by", "workers", "timeout")
         options.refuse_options(given.context, only_with_method, "--decompose METHOD")
         results = _undo_preparation(project, _select_assets(project, given.assets), everything=given.remove)
+        if given.remove and not given.assets:
+            forget_plan(project)
         raise typer.Exit(print_results(results, given.json))
     settings = options.parse_engine_settings(given.method, given.option)
     assets = [options.asset_id(asset, project) for asset in given.assets or ()]

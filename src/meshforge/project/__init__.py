@@ -23,6 +23,7 @@ if TYPE_CHECKING:
         prepare_aside,
         prepare_in_project,
     )
+    from meshforge.project.new_confidence import assess_new_assets
     from meshforge.project.preparation_plan import (
         PreparationPlan,
         extend_plan,
@@ -57,6 +58,7 @@ __all__ = [
     "ProjectReview",
     "Status",
     "add_standings",
+    "assess_new_assets",
     "build_run_report",
     "describe_new",
     "digest_lesson",

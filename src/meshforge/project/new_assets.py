@@ -19,10 +19,12 @@ from meshforge.common import MeshForgeError, describe_error, join_names, plurali
 from meshforge.formats import read
 from meshforge.geometry import cache_folder
 from meshforge.labels import NEW, HullSpan, ReferenceFamily, ignore_stage, read_reference_family
+from meshforge.labels.merge import LabelWriter, can_fill_gap
 from meshforge.project.preparation_plan import PreparationPlan
 from meshforge.project.prepare import exchange_preparation
 from meshforge.project.spans import plan_divisions
-from meshforge.store import Store
+from meshforge.signoff import Doubt
+from meshforge.store import Store, hull_digests
 from meshforge.symbolic import Asset, Label, LabelFile, SymbolicMesh, read_labels, transfer_labels, write_labels
 
 _DIGITS = 3
@@ -71,24 +73,26 @@ class NewAssetResult:
     problem: str | None = None
 
     @property
-    def doubts(self) -> tuple[tuple[float, str], ...]:
-        """All that was guessed, each with its probability and in words, the least sure first."""
-        splits = [(one.chance, str(one)) for one in self.splits]
-        parts = [(label.confidence, f"{name}, a part, is called {label.name}") for name, label in self._parts.items()]
-        guesses = [
-            (one.confidence, f"{name} is called {one.name} by its likeness") for name, one in self.guesses.items()
+    def doubts(self) -> tuple[Doubt, ...]:
+        """All that was guessed, with the probability that it is wrong, the least sure first."""
+        parts = {name: label for split in self.splits for name, label in split.parts.items()}
+        words = [
+            (f"{name} is called {one.name} as a part that was split off", one, name) for name, one in parts.items()
         ]
-        left = [(1 - span.chance, f"{span}: not split") for span in self.spanning]
-        return tuple(sorted([*splits, *parts, *guesses, *left], key=lambda row: row[0]))
+        words += [(f"{name} is called {one.name} by its likeness", one, name) for name, one in self.guesses.items()]
+        labels = [Doubt("label", text, (name,), share=1 - one.confidence) for text, one, name in words]
+        return tuple(sorted([*self.split_doubts, *labels], key=lambda one: -one.share))
 
     @property
-    def _parts(self) -> dict[str, Label]:
-        return {name: label for split in self.splits for name, label in split.parts.items()}
+    def split_doubts(self) -> tuple[Doubt, ...]:
+        """Those about which hulls span parts: whether one that was split does not, or one that was left does."""
+        splits = [Doubt("label", str(one), (one.hull,), share=1 - one.chance) for one in self.splits]
+        return (*splits, *(Doubt("label", f"{one}: not split", (one.hull,), share=one.chance) for one in self.spanning))
 
     @property
     def probability(self) -> float:
         """That all of it is right, at most: that of the least sure guess, 1 where nothing was guessed."""
-        return self.doubts[0][0] if self.doubts else 1.0
+        return 1 - max((one.share for one in self.doubts), default=0.0)
 
     def describe(self) -> tuple[str, ...]:
         """A sentence on each split, each hull that was left, and on the labels."""
@@ -188,6 +192,8 @@ def _keep_in_project(store: Store, asset: str, found: _WorkerOutcome) -> list[st
         part = after if is_last else after.with_only(after.steps[:count])
         notes += exchange_preparation(store, asset, part, seen, labels if is_last else None)
         seen = batch.record_digest(store.layout.preparation(asset))
+    if found.result.guesses:
+        LabelWriter(store).write(asset, hull_digests(found.mesh), found.result.guesses, can_fill_gap)
     return notes
 
 

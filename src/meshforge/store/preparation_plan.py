@@ -3,7 +3,9 @@ parts are split. Assets that come later are new."""
 
 from __future__ import annotations
 
-from meshforge.store.layout import JsonFile
+from collections.abc import Collection
+
+from meshforge.store.layout import JsonFile, Layout, read_json, write_json
 
 
 class PreparationPlanFile(JsonFile):
@@ -15,3 +17,14 @@ class PreparationPlanFile(JsonFile):
     decomposed: tuple[str, ...] | None = None
     split: tuple[str, ...] | None = None
     sure: float | None = None
+
+
+def forget_assets(layout: Layout, assets: Collection[str]) -> None:
+    """Let assets be new when they come back, under the lock that the caller holds."""
+    kept = read_json(layout.preparation_plan, PreparationPlanFile)
+    if kept is None:
+        return
+    lists = {"decomposed": kept.decomposed, "split": kept.split}
+    left = {name: tuple(one for one in ids if one not in assets) for name, ids in lists.items() if ids is not None}
+    if (after := kept.model_copy(update=left)) != kept:
+        write_json(layout.preparation_plan, after)
