@@ -3,10 +3,10 @@ given beside it."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from meshforge import batch
 from meshforge.cli.console import progress
@@ -21,17 +21,35 @@ _PREPARED = 600.0  # seconds for an asset at least, as `meshforge prepare` gives
 
 @dataclass(frozen=True, eq=False, slots=True)
 class NewAssets:
-    """What became of new assets before the program. jobs: of those that could be prepared; failed: the others."""
+    """What became of new assets before the program, by id. changes: fields of the jobs of those that could be prepared;
+    failed: the others, which no program is run on."""
 
-    jobs: Sequence[batch.AssetJob]
     results: Mapping[str, NewAssetResult]
+    changes: Mapping[str, Mapping[str, Any]]
     failed: Sequence[batch.Failed]
+
+    @staticmethod
+    def of(results: Mapping[str, NewAssetResult], changes: Mapping[str, Mapping[str, Any]]) -> NewAssets:
+        """Those that could be prepared, and those that could not."""
+        failed = [
+            batch.Failed(asset, f"it could not be prepared: {result.problem}", 0.0)
+            for asset, result in results.items()
+            if result.problem
+        ]
+        fine = {asset: result for asset, result in results.items() if not result.problem}
+        own = {asset: {**changes.get(asset, {}), "notes": result.describe()} for asset, result in fine.items()}
+        return NewAssets(fine, own, failed)
+
+    def update(self, jobs: Iterable[batch.AssetJob]) -> list[batch.AssetJob]:
+        """The jobs as they are to be done now."""
+        failed = {one.asset for one in self.failed}
+        return [replace(job, **self.changes.get(job.id, {})) for job in jobs if job.id not in failed]
 
 
 def prepare_given(
     project: Project, assets: Sequence[str], labels: Path | None, folder: Path, options: NewAssetOptions
-) -> NewAssets:
-    """Prepare assets that are given beside a project, with what is done kept in a folder.
+) -> tuple[list[batch.AssetJob], NewAssets]:
+    """Prepare assets that are given beside a project, with what is done kept in a folder; the job of each.
 
     One that is the project's own is taken as the project has it.
     """
@@ -42,56 +60,42 @@ def prepare_given(
         remark(plan.unclear)
     known = {path: asset for asset, path in project.found.ids.items()}
     given = batch.make_jobs(batch.expand(assets), labels)
-    _, own, _ = project.work({known[job.path] for job in given if job.path in known})
-    ours = {job.path: job for job in own}
-    jobs = {job.id: replace(ours[job.path], id=job.id, base=job.base) if job.path in ours else job for job in given}
+    ours = {job.path: job for job in project.jobs({known[job.path] for job in given if job.path in known})}
+    jobs = [replace(ours[job.path], id=job.id, base=job.base) if job.path in ours else job for job in given]
     new = [NewAsset(job.id, job.path, plan, job.labels) for job in given if job.path not in ours]
     results: dict[str, NewAssetResult] = {}
+    changes: dict[str, dict[str, Any]] = {}
     for work, result in prepare_aside(project, new, folder, _with_stage(options)):
         results[work.id] = result
-        jobs[work.id] = replace(
-            jobs[work.id], labels=work.labels, preparation=work.preparation, notes=result.describe()
-        )
-    return _sort_out(jobs, results)
+        changes[work.id] = {"labels": work.labels, "preparation": work.preparation}
+    found = NewAssets.of(results, changes)
+    return found.update(jobs), found
 
 
-def prepare_later(
-    project: Project, jobs: Sequence[batch.AssetJob], folder: Path | None, options: NewAssetOptions
-) -> NewAssets:
-    """Prepare the assets of some jobs that came to a project after the others were prepared.
+def prepare_later(project: Project, folder: Path | None, options: NewAssetOptions) -> NewAssets:
+    """Prepare the assets that came to a project after the others were prepared.
 
     folder: where what is done is kept; None for in the project.
     """
-    from meshforge.project import (  # lazy: 170 modules
-        NewAsset,
-        extend_plan,
-        find_new_assets,
-        prepare_aside,
-        prepare_in_project,
-    )
+    from meshforge import project as use_cases  # lazy: 170 modules that a program file does not need
 
-    plans, unclear = find_new_assets(project)
+    plans, unclear = use_cases.find_new_assets(project)
     if unclear:
         remark(unclear)
-    by_id, layout = {job.id: job for job in jobs}, project.layout
+    layout, program = project.layout, project.program()
     new = [
-        NewAsset(job.id, job.path, plans[job.id], job.labels, layout.preparation(job.id))
-        for job in jobs
-        if job.id in plans
+        use_cases.NewAsset(asset, project.path(asset), plan, layout.labels(asset), layout.preparation(asset))
+        for asset, plan in plans.items()
     ]
-    options = _with_stage(options)
-    results: dict[str, NewAssetResult] = {}
-    if folder is not None:
-        for work, result in prepare_aside(project, new, folder, options):
-            by_id[work.id] = replace(by_id[work.id], labels=work.labels, preparation=work.preparation)
-            results[work.id] = result
-    else:
-        results = {result.asset: result for result in prepare_in_project(project, new, options)}
+    options = replace(_with_stage(options), guess=program is None or bool(program.labels_asked))
+    if folder is None:
+        results = {result.asset: result for result in use_cases.prepare_in_project(project, new, options)}
         done = [asset for asset, result in results.items() if not result.problem]
-        extend_plan(project, done, decomposed=unclear is None, split=options.split)
-        by_id |= {job.id: job for job in project.work(done)[1]} if done else {}
-    noted = {asset: replace(by_id[asset], notes=result.describe()) for asset, result in results.items()}
-    return _sort_out(by_id | noted, results)
+        use_cases.extend_plan(project, done, decomposed=unclear is None, split=options.split)
+        return NewAssets.of(results, {})
+    aside = list(use_cases.prepare_aside(project, new, folder, options))
+    changes = {work.id: {"labels": work.labels, "preparation": work.preparation} for work, _ in aside}
+    return NewAssets.of({work.id: result for work, result in aside}, changes)
 
 
 def _with_stage(options: NewAssetOptions) -> NewAssetOptions:
@@ -99,17 +103,6 @@ def _with_stage(options: NewAssetOptions) -> NewAssetOptions:
     if execution.timeout is not None:
         execution = replace(execution, timeout=max(execution.timeout, _PREPARED))
     return replace(options, execution=execution, stage=progress)
-
-
-def _sort_out(jobs: Mapping[str, batch.AssetJob], results: Mapping[str, NewAssetResult]) -> NewAssets:
-    """The assets that could be prepared, and the others, which no program is run on."""
-    failed = {
-        asset: batch.Failed(asset, f"it could not be prepared: {result.problem}", 0.0)
-        for asset, result in results.items()
-        if result.problem
-    }
-    fine = {asset: result for asset, result in results.items() if asset not in failed}
-    return NewAssets([job for job in jobs.values() if job.id not in failed], fine, tuple(failed.values()))
 
 
 def hold_new(confidences: Mapping[str, AssetConfidence], bar: float, out: Path) -> tuple[batch.Held, ...]:

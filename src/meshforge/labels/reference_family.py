@@ -27,7 +27,7 @@ class ReferenceFamily:
 
     meshes: Mapping[str, SymbolicMesh]
     pieces: Mapping[str, SymbolicMesh]
-    words: Collection[str]
+    words: tuple[str, ...]
 
     def find_spans(self, source: Asset, mesh: SymbolicMesh) -> SpanReport | None:
         """Which hulls of an asset span parts, as a report on the asset `NEW` alone; None where no surface is there.
@@ -71,7 +71,7 @@ def read_reference_family(
     pieces = find_pieces(store, meshes, execution, stage)[0] if spans else {}
     for mesh in (*meshes.values(), *pieces.values()):
         describe_mesh(mesh)  # so that worker processes that are forked have it
-    return ReferenceFamily(meshes, pieces, frozenset(store.vocabulary))
+    return ReferenceFamily(meshes, pieces, store.vocabulary)
 
 
 def choose_labelled(files: Mapping[str, LabelFile], most: int = MOST_COMPARED) -> list[str]:

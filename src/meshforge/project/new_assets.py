@@ -7,27 +7,24 @@ the other new ones, nor on the number of workers, and no process holds more than
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import AbstractContextManager
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
-from typing import Any
 
 from meshforge import batch
-from meshforge.common import MeshForgeError, describe_error, join_names, pluralize
+from meshforge.common import MeshForgeError, describe_error
 from meshforge.formats import read
 from meshforge.geometry import cache_folder
 from meshforge.labels import NEW, HullSpan, ReferenceFamily, ignore_stage, read_reference_family
 from meshforge.labels.merge import LabelWriter, can_fill_gap
+from meshforge.project.new_asset_result import HullSplit, NewAssetResult
 from meshforge.project.preparation_plan import PreparationPlan
 from meshforge.project.prepare import exchange_preparation
 from meshforge.project.spans import plan_divisions
-from meshforge.signoff import Doubt
 from meshforge.store import Store, hull_digests
 from meshforge.symbolic import Asset, Label, LabelFile, SymbolicMesh, read_labels, transfer_labels, write_labels
-
-_DIGITS = 3
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,92 +37,6 @@ class NewAsset:
     plan: PreparationPlan
     labels: Path | None = None
     preparation: Path | None = None
-
-
-@dataclass(frozen=True, slots=True)
-class HullSplit:
-    """A hull that was split. chance: that it spans parts; told: in words; parts: the label of each by its name."""
-
-    hull: str
-    chance: float
-    told: str
-    parts: Mapping[str, Label]
-
-    def __str__(self) -> str:
-        """`base holds wall and handle, 94%: split in 2, wall (99%) and handle (97%)`."""
-        made = " and ".join(f"{label.name} ({label.confidence:.0%})" for label in self.parts.values())
-        return f"{self.told}: split in {len(self.parts)}, {made}"
-
-
-@dataclass(frozen=True, slots=True)
-class NewAssetResult:
-    """What became of a new asset before the program.
-
-    splits: hulls that were split; spanning: those that likely span parts and were not; guesses: labels that the family
-    gave to hulls that had none; notes: all else; problem: why it could not be prepared.
-    """
-
-    asset: str
-    splits: tuple[HullSplit, ...] = ()
-    spanning: tuple[HullSpan, ...] = ()
-    guesses: Mapping[str, Label] = field(default_factory=dict)
-    notes: tuple[str, ...] = ()
-    problem: str | None = None
-
-    @property
-    def doubts(self) -> tuple[Doubt, ...]:
-        """All that was guessed, with the probability that it is wrong, the least sure first."""
-        parts = {name: label for split in self.splits for name, label in split.parts.items()}
-        words = [
-            (f"{name} is called {one.name} as a part that was split off", one, name) for name, one in parts.items()
-        ]
-        words += [(f"{name} is called {one.name} by its likeness", one, name) for name, one in self.guesses.items()]
-        labels = [Doubt("label", text, (name,), share=1 - one.confidence) for text, one, name in words]
-        return tuple(sorted([*self.split_doubts, *labels], key=lambda one: -one.share))
-
-    @property
-    def split_doubts(self) -> tuple[Doubt, ...]:
-        """Those about which hulls span parts: whether one that was split does not, or one that was left does."""
-        splits = [Doubt("label", str(one), (one.hull,), share=1 - one.chance) for one in self.splits]
-        return (*splits, *(Doubt("label", f"{one}: not split", (one.hull,), share=one.chance) for one in self.spanning))
-
-    @property
-    def probability(self) -> float:
-        """That all of it is right, at most: that of the least sure guess, 1 where nothing was guessed."""
-        return 1 - max((one.share for one in self.doubts), default=0.0)
-
-    def describe(self) -> tuple[str, ...]:
-        """A sentence on each split, each hull that was left, and on the labels."""
-        rows = [*map(str, self.splits), *(f"{span}: not split" for span in self.spanning)]
-        if self.guesses:
-            name, least = min(self.guesses.items(), key=lambda row: row[1].confidence)
-            rows.append(
-                f"{pluralize(len(self.guesses), 'label')} by likeness to the family; "
-                f"least sure: {name} is {least.name}, {least.confidence:.0%}"
-            )
-        return (*rows, *self.notes)
-
-    def to_json(self) -> dict[str, Any]:
-        """What the line of `apply --json` says of it."""
-        return {
-            "split": [
-                {
-                    "hull": one.hull,
-                    "chance": round(one.chance, _DIGITS),
-                    "into": [
-                        {"hull": name, "label": label.name, "confidence": label.confidence}
-                        for name, label in one.parts.items()
-                    ],
-                }
-                for one in self.splits
-            ],
-            "spanning": [
-                {"hull": one.hull, "chance": round(one.chance, _DIGITS), "holds": list(one.shares)}
-                for one in self.spanning
-            ],
-            "guessed": {name: {"label": one.name, "confidence": one.confidence} for name, one in self.guesses.items()},
-            "sure_at_most": round(self.probability, _DIGITS),
-        }
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -259,7 +170,7 @@ def _prepare(task: _Task, work: NewAsset) -> _WorkerOutcome | str:
                 mesh = _build_mesh(source, after, labels, task.contact).with_labels(parts)
         guesses = task.family.infer_labels(mesh) if task.guess and task.family and mesh.hulls else {}
         result = NewAssetResult(work.id, splits, spanning, guesses, notes)
-        words = tuple(labels.vocabulary or (task.family.words if task.family else ()))
+        words = labels.vocabulary or (task.family.words if task.family else ())
         return _WorkerOutcome(after, seen, mesh.with_labels(guesses), words, result)
     except Exception as error:  # one asset never stops the others
         return describe_error(error, str(work.path))
@@ -308,12 +219,3 @@ def _split(
         for span, entry in zip(divided, after.steps[-1].replaced, strict=True)
     )
     return after, splits, tuple(span for span in spans.values() if span in left)
-
-
-def describe_new(results: Sequence[NewAssetResult]) -> str | None:
-    """How many hulls of new assets were split, and how many likely span parts and were not; None where none."""
-    splits, left = sum(len(one.splits) for one in results), sum(len(one.spanning) for one in results)
-    split = [one.asset for one in results if one.splits]
-    parts = [f"{pluralize(splits, 'hull')} of new assets split ({join_names(split)})"] if splits else []
-    parts += [f"{pluralize(left, 'hull')} likely span parts and were not split"] if left else []
-    return "; ".join(parts) or None

@@ -11,7 +11,7 @@ from meshforge.common import describe_error
 from meshforge.label_model import model_family
 from meshforge.labels import NEW
 from meshforge.labels.reference_family import MOST_COMPARED, choose_labelled
-from meshforge.project.new_assets import NewAssetResult
+from meshforge.project.new_asset_result import NewAssetResult
 from meshforge.project.review import ProjectReview
 from meshforge.project.run import pick_evenly
 from meshforge.signoff import AssetConfidence, Doubt, ReviewState, assess_asset

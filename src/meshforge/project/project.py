@@ -72,6 +72,7 @@ class Project(LabelStore):
     synthesize = learn.learn_program
     mesh_before_rule = run.mesh_before_rule
     work = run.build_work
+    jobs = run.build_jobs
 
     def apply(
         self,
