@@ -106,5 +106,5 @@ def describe_new(results: Sequence[NewAssetResult]) -> str | None:
     splits, left = sum(len(one.splits) for one in results), sum(len(one.spanning) for one in results)
     split = [one.asset for one in results if one.splits]
     parts = [f"{pluralize(splits, 'hull')} of new assets split ({join_names(split)})"] if splits else []
-    parts += [f"{pluralize(left, 'hull')} likely span parts and were not split"] if left else []
+    parts += [f"{pluralize(left, 'hull')} likely {'spans' if left == 1 else 'span'} parts, not split"] if left else []
     return "; ".join(parts) or None

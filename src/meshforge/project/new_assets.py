@@ -14,7 +14,7 @@ from functools import partial
 from pathlib import Path
 
 from meshforge import batch
-from meshforge.common import MeshForgeError, describe_error
+from meshforge.common import MeshForgeError, describe_error, join_names
 from meshforge.formats import read
 from meshforge.geometry import cache_folder
 from meshforge.labels import NEW, HullSpan, ReferenceFamily, ignore_stage, read_reference_family
@@ -25,6 +25,9 @@ from meshforge.project.prepare import exchange_preparation
 from meshforge.project.spans import plan_divisions
 from meshforge.store import Store, hull_digests
 from meshforge.symbolic import Asset, Label, LabelFile, SymbolicMesh, read_labels, transfer_labels, write_labels
+
+_NO_LABELS = "no hull of the project has a label, so nothing says which hulls span parts"
+_NO_SURFACE = "it shows no surface, so nothing says which hulls span parts"
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,7 +44,7 @@ class NewAsset:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class _WorkerOutcome:
-    """What a worker made of an asset. seen: the digest of the preparation that was there; parts: labels of parts."""
+    """What a worker made of an asset. seen: the digest of the preparation that was there."""
 
     preparation: batch.Preparation
     seen: str | None
@@ -162,16 +165,15 @@ def _prepare(task: _Task, work: NewAsset) -> _WorkerOutcome | str:
         after, notes = _decompose(source, before, work.plan)
         labels = read_labels(work.labels) if work.labels and work.labels.exists() else LabelFile()
         mesh = _build_mesh(source, after, labels, task.contact)
-        splits, spanning = tuple[HullSplit, ...](), tuple[HullSpan, ...]()
-        if work.plan.sure is not None and task.family and mesh.hulls:
-            after, splits, spanning = _split(task, source, after, mesh, work.plan.sure)
-            if splits:
-                parts = {name: label for split in splits for name, label in split.parts.items()}
-                mesh = _build_mesh(source, after, labels, task.contact).with_labels(parts)
+        found = _SplitOutcome(after)
+        if work.plan.sure is not None and mesh.hulls:
+            found = _split(task, source, after, mesh, work.plan.sure)
+            if found.splits:
+                mesh = _build_mesh(source, found.preparation, labels, task.contact).with_labels(found.parts)
         guesses = task.family.infer_labels(mesh) if task.guess and task.family and mesh.hulls else {}
-        result = NewAssetResult(work.id, splits, spanning, guesses, notes)
+        result = NewAssetResult(work.id, found.splits, found.spanning, guesses, (*found.notes, *notes))
         words = labels.vocabulary or (task.family.words if task.family else ())
-        return _WorkerOutcome(after, seen, mesh.with_labels(guesses), words, result)
+        return _WorkerOutcome(found.preparation, seen, mesh.with_labels(guesses), words, result)
     except Exception as error:  # one asset never stops the others
         return describe_error(error, str(work.path))
 
@@ -198,24 +200,39 @@ def _decompose(
     return before, tuple(notes)
 
 
-def _split(
-    task: _Task, source: Asset, before: batch.Preparation, mesh: SymbolicMesh, sure: float
-) -> tuple[batch.Preparation, tuple[HullSplit, ...], tuple[HullSpan, ...]]:
-    """The preparation with the hulls split that surely span parts, these, and those that likely do and are left."""
-    assert task.family
+@dataclass(frozen=True, eq=False, slots=True)
+class _SplitOutcome:
+    """A preparation with the hulls split that surely span parts; spanning: those that likely do and are left."""
+
+    preparation: batch.Preparation
+    splits: tuple[HullSplit, ...] = ()
+    spanning: tuple[HullSpan, ...] = ()
+    notes: tuple[str, ...] = ()
+
+    @property
+    def parts(self) -> dict[str, Label]:
+        return {name: label for split in self.splits for name, label in split.parts.items()}
+
+
+def _split(task: _Task, source: Asset, before: batch.Preparation, mesh: SymbolicMesh, sure: float) -> _SplitOutcome:
+    """Look for hulls that span parts, and split those that surely do where that is asked for."""
+    if task.family is None:
+        return _SplitOutcome(before, notes=(_NO_LABELS,))
     report = task.family.find_spans(source, mesh)
     if report is None:
-        return before, (), ()
+        return _SplitOutcome(before, notes=(_NO_SURFACE,))
+    bare = report.bare.get(NEW, ())
+    notes = (f"no surface says whether {join_names(bare)} span parts",) if bare else ()
     plan = plan_divisions(report, NEW, sure)
     spans = {span.hull: span for span in report.spans_of(NEW)}
-    divided = [spans[one.hull] for one in plan.divisions]
-    left = [*plan.unsure, *plan.whole]
-    if not task.split or not divided:
-        left += divided
-        return before, (), tuple(span for span in spans.values() if span in left)
+    divided = [spans[one.hull] for one in plan.divisions] if task.split else []
+    likely = {span.hull for span in (*plan.unsure, *plan.whole)} | {one.hull for one in plan.divisions}
+    left = tuple(span for name, span in spans.items() if name in likely and span not in divided)
+    if not divided:
+        return _SplitOutcome(before, (), left, notes)
     after, labels = plan.divide(source, before)
     splits = tuple(
         HullSplit(span.hull, span.chance, str(span), {name: labels[name] for name in entry.made})
         for span, entry in zip(divided, after.steps[-1].replaced, strict=True)
     )
-    return after, splits, tuple(span for span in spans.values() if span in left)
+    return _SplitOutcome(after, splits, left, notes)

@@ -78,7 +78,8 @@ def test_what_is_split_is_taken_back_to_the_last_byte(project: Project) -> None:
     split(project)
     assert files(project) != before
     project.unprepare("c.urdf")
-    assert files(project) == before
+    plan = {"preparation.json": project.layout.preparation_plan.read_bytes()}
+    assert files(project) == before | plan, "what is to be done to new assets stays"
 
 
 def test_a_dry_run_writes_nothing_and_says_what_would_be_split(project: Project) -> None:
