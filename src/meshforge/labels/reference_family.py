@@ -3,12 +3,14 @@ so that what is found of one does not depend on the others, nor on how many ther
 
 from __future__ import annotations
 
+import json
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 from meshforge import batch
-from meshforge.label_model import evidence_of, model_family, piece_mesh
-from meshforge.label_model.describe import describe_mesh
+from meshforge.label_model import AssetPieces, evidence_of, model_family, piece_mesh
+from meshforge.label_model.describe import describe_mesh, digest_mesh
 from meshforge.labels.family_comparison import Stage
 from meshforge.labels.spans import SpanReport, decompose_surfaces, find_pieces, infer_spans
 from meshforge.store import Store
@@ -22,12 +24,19 @@ NEW = ""
 
 @dataclass(frozen=True, eq=False)
 class ReferenceFamily:
-    """Assets of which hulls are labelled. meshes: as they are prepared, by id; pieces: the fine pieces of the surface
-    of each that has one, by id; words: the project's vocabulary."""
+    """Assets of which hulls are labelled. meshes: as they are prepared, by id; pieces: with the fine pieces of their
+    surfaces, by id; words: the project's vocabulary."""
 
     meshes: Mapping[str, SymbolicMesh]
-    pieces: Mapping[str, SymbolicMesh]
+    pieces: Mapping[str, AssetPieces]
     words: tuple[str, ...]
+
+    @cached_property
+    def digest(self) -> str:
+        """Equal for families that say the same about a new asset."""
+        rows = [[digest_mesh(one).hex(), str(one.labels)] for one in self.meshes.values()]
+        fine = [digest_mesh(one.pieces).hex() for one in self.pieces.values()]
+        return batch.text_digest(json.dumps([rows, fine, self.words]))
 
     def find_spans(self, source: Asset, mesh: SymbolicMesh) -> SpanReport | None:
         """Which hulls of an asset span parts, as a report on the asset `NEW` alone; None where no surface is there.
@@ -35,10 +44,11 @@ class ReferenceFamily:
         source: the asset as it was read; mesh: it as it is prepared, with its labels.
         """
         own = piece_mesh(decompose_surfaces(batch.find_surfaces(source)), mesh)
-        known = {asset: self.meshes[asset] for asset in self.pieces}
-        if not own.hulls or not any(pieces.hulls for pieces in self.pieces.values()):
+        known = {asset: one.mesh for asset, one in self.pieces.items()}
+        pieces = {asset: one.pieces for asset, one in self.pieces.items()}
+        if not own.hulls or not any(one.hulls for one in pieces.values()):
             return None
-        return infer_spans({NEW: mesh, **known}, {NEW: own, **self.pieces}, {})
+        return infer_spans({NEW: mesh, **known}, {NEW: own, **pieces}, {}, self.pieces)
 
     def infer_labels(self, mesh: SymbolicMesh) -> dict[str, Label]:
         """The likeliest label of each hull of an asset that has none, by its name, with its probability."""
@@ -68,9 +78,12 @@ def read_reference_family(
     }
     if not meshes:
         return None
-    pieces = find_pieces(store, meshes, execution, stage)[0] if spans else {}
-    for mesh in (*meshes.values(), *pieces.values()):
-        describe_mesh(mesh)  # so that worker processes that are forked have it
+    found = find_pieces(store, meshes, execution, stage)[0] if spans else {}
+    pieces = {asset: AssetPieces(meshes[asset], own) for asset, own in found.items()}
+    for one in pieces.values():
+        assert one.common is not None  # measured here, so that no worker does it again; likewise below
+    for mesh in (*meshes.values(), *found.values()):
+        describe_mesh(mesh)
     return ReferenceFamily(meshes, pieces, store.vocabulary)
 
 

@@ -8,6 +8,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
+from types import MappingProxyType
 
 import numpy as np
 
@@ -15,7 +16,7 @@ from meshforge import batch
 from meshforge.common import MeshForgeError, ProjectError, describe_error
 from meshforge.formats import read
 from meshforge.geometry import FINE, Floats, HullPart, Polytope, cache_folder, decompose_finely
-from meshforge.label_model import SpanModel, SpanPosterior, evidence_of, piece_mesh
+from meshforge.label_model import AssetPieces, SpanModel, SpanPosterior, evidence_of, piece_mesh
 from meshforge.labels.descriptor_cache import read_arrays, write_arrays
 from meshforge.labels.family_comparison import Stage
 from meshforge.store import Store
@@ -120,13 +121,17 @@ def find_pieces(
 
 
 def infer_spans(
-    known: Mapping[str, SymbolicMesh], pieces: Mapping[str, SymbolicMesh], lost: Mapping[str, str]
+    known: Mapping[str, SymbolicMesh],
+    pieces: Mapping[str, SymbolicMesh],
+    lost: Mapping[str, str],
+    measured: Mapping[str, AssetPieces] = MappingProxyType({}),
 ) -> SpanReport:
     """What labels say about hulls that span parts. known, pieces: assets with their labels, and the fine pieces of
-    their surfaces, by the same names; lost: why others are not among them."""
-    posterior = SpanModel(list(known.values()), list(pieces.values())).infer(
-        [evidence_of(hull.annotation) for mesh in known.values() for hull in mesh.hulls]
-    )
+    their surfaces, by the same names; lost: why others are not among them; measured: the same of some assets, whose
+    volumes are not measured again."""
+    model = SpanModel(list(known.values()), list(pieces.values()))
+    model.assets = [measured.get(asset, own) for asset, own in zip(known, model.assets, strict=True)]
+    posterior = model.infer([evidence_of(hull.annotation) for mesh in known.values() for hull in mesh.hulls])
     bare = dict[str, tuple[str, ...]]()
     for own, (asset, mesh) in zip(posterior.assets, known.items(), strict=True):
         if names := _list_bare(mesh, own.common):

@@ -25,9 +25,13 @@ class HullSplit:
     parts: Mapping[str, Label]
 
     def __str__(self) -> str:
-        """`base holds wall and handle, 94%: split in 2, wall (99%) and handle (97%)`."""
-        made = " and ".join(f"{label.name} ({label.confidence:.0%})" for label in self.parts.values())
-        return f"{self.told}: split in {len(self.parts)}, {made}"
+        """`base holds wall and handle, 94%: split in 3, wall (99%) and 2 handle (97%)`; of a label the least sure."""
+        names = dict.fromkeys(label.name for label in self.parts.values())
+        return f"{self.told}: split in {len(self.parts)}, {' and '.join(map(self._describe_label, names))}"
+
+    def _describe_label(self, name: str) -> str:
+        sure = [label.confidence for label in self.parts.values() if label.name == name]
+        return f"{f'{len(sure)} ' if len(sure) > 1 else ''}{name} ({min(sure):.0%})"
 
 
 @dataclass(frozen=True, slots=True)

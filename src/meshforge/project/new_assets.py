@@ -19,6 +19,7 @@ from meshforge.formats import read
 from meshforge.geometry import cache_folder
 from meshforge.labels import NEW, HullSpan, ReferenceFamily, ignore_stage, read_reference_family
 from meshforge.labels.merge import LabelWriter, can_fill_gap
+from meshforge.project.new_asset_memory import NewAssetFolder, digest_basis
 from meshforge.project.new_asset_result import HullSplit, NewAssetResult
 from meshforge.project.preparation_plan import PreparationPlan
 from meshforge.project.prepare import exchange_preparation
@@ -44,8 +45,10 @@ class NewAsset:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class _WorkerOutcome:
-    """What a worker made of an asset. seen: the digest of the preparation that was there."""
+    """What a worker made of an asset. files: the digest of each of its files; seen: that of the preparation that was
+    there."""
 
+    files: dict[str, str]
     preparation: batch.Preparation
     seen: str | None
     mesh: SymbolicMesh
@@ -86,7 +89,10 @@ def prepare_in_project(
     store: Store, assets: Sequence[NewAsset], options: NewAssetOptions = NEW_ASSET_DEFAULTS
 ) -> Iterator[NewAssetResult]:
     """Prepare assets of a project; what is done is kept in the project, and undone, as by `meshforge prepare`."""
-    for work, found in _prepare_all(store, assets, options):
+    if not assets:
+        return
+    found_all = _prepare_all(_make_task(store, assets, options), assets, options)
+    for work, found in zip(assets, found_all, strict=True):
         if isinstance(found, str):
             yield NewAssetResult(work.id, problem=found)
             continue
@@ -115,45 +121,60 @@ def prepare_aside(
     store: Store, assets: Sequence[NewAsset], folder: Path, options: NewAssetOptions = NEW_ASSET_DEFAULTS
 ) -> Iterator[tuple[NewAsset, NewAssetResult]]:
     """Prepare assets with what is done kept in a folder, and neither in the project nor beside them: each as it is to
-    be read now, with its labels and its preparation there."""
-    for work, found in _prepare_all(store, assets, options):
-        if isinstance(found, str):
-            yield work, NewAssetResult(work.id, problem=found)
-            continue
-        own, labels = folder / "prepared" / work.id, folder / "labels" / f"{work.id}.json"
-        if found.preparation.steps:
-            batch.write_preparation(own, found.preparation)
-        else:
-            batch.remove_preparation(own)
-        if found.mesh.labels:
-            write_labels(labels, found.mesh, found.vocabulary)
-        else:
-            labels.unlink(missing_ok=True)
-        kept = replace(
-            work,
-            labels=labels if found.mesh.labels else None,
-            preparation=own if found.preparation.steps else None,
-        )
-        yield kept, found.result
-
-
-def _prepare_all(
-    store: Store, assets: Sequence[NewAsset], options: NewAssetOptions
-) -> Iterator[tuple[NewAsset, _WorkerOutcome | str]]:
-    """Each asset as a worker prepared it, or why none could."""
+    be read now, with its labels and its preparation there. What an earlier call made of the same is taken as it is."""
     if not assets:
         return
+    task = _make_task(store, assets, options)
+    shared = [task.family.digest if task.family else None, task.split, task.guess, task.contact]
+    homes = {one.id: NewAssetFolder(folder, one.id, one.path) for one in assets}
+    basis = {one.id: digest_basis(one.plan, one.labels, one.preparation, shared) for one in assets}
+    known = {one.id: result for one in assets if (result := homes[one.id].read(basis[one.id]))}
+    fresh = _prepare_all(task, [one for one in assets if one.id not in known], options)
+    for work in assets:
+        home, result = homes[work.id], known.get(work.id)
+        if result is None:
+            found = next(fresh)
+            if isinstance(found, str):
+                yield work, NewAssetResult(work.id, problem=found)
+                continue
+            result = _keep_aside(home, basis[work.id], found)
+        labels = home.labels if home.labels.exists() else None
+        preparation = home.preparation if batch.record_digest(home.preparation) else None
+        yield replace(work, labels=labels, preparation=preparation), result
+
+
+def _keep_aside(home: NewAssetFolder, basis: str, found: _WorkerOutcome) -> NewAssetResult:
+    """Write what was done to an asset, and last what became of it."""
+    home.forget()
+    if found.preparation.steps:
+        batch.write_preparation(home.preparation, found.preparation)
+    else:
+        batch.remove_preparation(home.preparation)
+    if found.mesh.labels:
+        write_labels(home.labels, found.mesh, found.vocabulary)
+    else:
+        home.labels.unlink(missing_ok=True)
+    home.write(basis, found.files, found.result)
+    return found.result
+
+
+def _make_task(store: Store, assets: Sequence[NewAsset], options: NewAssetOptions) -> _Task:
+    """What is the same for all assets; the project's labelled ones are read, but for those that are new themselves."""
     spans = any(one.plan.sure is not None for one in assets)
     own = {path: asset for asset, path in store.found.ids.items()}
     without = {own[one.path] for one in assets if one.path in own}
     family = None
     if spans or options.guess:
         family = read_reference_family(store, options.execution, options.stage, without=without, spans=spans)
-    task = _Task(family, options.split, options.guess, store.settings.thresholds.contact)
+    return _Task(family, options.split, options.guess, store.settings.thresholds.contact)
+
+
+def _prepare_all(task: _Task, assets: Sequence[NewAsset], options: NewAssetOptions) -> Iterator[_WorkerOutcome | str]:
+    """Each asset as a worker prepared it, or why none could."""
     with options.stage(len(assets), "preparing") as advance:
         execution = replace(options.execution, progress=advance)
-        for work, found in zip(assets, batch.execute(partial(_prepare, task), assets, execution), strict=True):
-            yield work, found.why if isinstance(found, batch.WorkerFailure) else found
+        for found in batch.execute(partial(_prepare, task), assets, execution):
+            yield found.why if isinstance(found, batch.WorkerFailure) else found
 
 
 def _prepare(task: _Task, work: NewAsset) -> _WorkerOutcome | str:
@@ -173,7 +194,8 @@ def _prepare(task: _Task, work: NewAsset) -> _WorkerOutcome | str:
         guesses = task.family.infer_labels(mesh) if task.guess and task.family and mesh.hulls else {}
         result = NewAssetResult(work.id, found.splits, found.spanning, guesses, (*found.notes, *notes))
         words = labels.vocabulary or (task.family.words if task.family else ())
-        return _WorkerOutcome(found.preparation, seen, mesh.with_labels(guesses), words, result)
+        files = batch.asset_digests(work.path, source.files, work.path.parent)
+        return _WorkerOutcome(files, found.preparation, seen, mesh.with_labels(guesses), words, result)
     except Exception as error:  # one asset never stops the others
         return describe_error(error, str(work.path))
 
