@@ -8,10 +8,12 @@ from dataclasses import dataclass
 
 from meshforge import batch
 from meshforge.common import MeshForgeError, UsageError, pluralize
+from meshforge.engines import find_engine
 from meshforge.formats import read
 from meshforge.labels import HullSpan, SpanReport, find_spans, ignore_stage
 from meshforge.project.preparation_plan import keep_split
 from meshforge.project.prepare import PreparationResult, exchange_preparation
+from meshforge.project.split_limits import describe_limits
 from meshforge.store import SpanLine, SpansFile, Store, hull_digests
 from meshforge.symbolic import Asset, Label
 
@@ -28,6 +30,7 @@ def split_spanning(
     *,
     sure: float = SURE_TO_SPAN,
     dry_run: bool = False,
+    engine: str | None = None,
     execution: batch.ExecutionOptions = batch.EXECUTION_DEFAULTS,
     stage: Callable[[int, str], AbstractContextManager[Callable[[], None]]] = ignore_stage,
     write_block: Callable[[str], AbstractContextManager[object]] = nullcontext,
@@ -35,11 +38,15 @@ def split_spanning(
     """Split the hulls that span parts with a probability of at least `sure`, one step an asset, and label their parts.
 
     assets: which may be split, all when None; all of the project are compared. dry_run: nothing is written, and `notes`
-    say what would be done. What `unprepare` takes back brings the hulls, their labels and selections back.
-    Raises UsageError for a probability that is none, ProjectError where no hull has a label or no asset a surface.
+    say what would be done, and which limits of an engine, by default of those that read the file, the hulls would
+    exceed then. What `unprepare` takes back brings the hulls, their labels and selections back.
+    Raises UsageError for a probability that is none and for an unknown engine, ProjectError where no hull has a label
+    or no asset a surface.
     """
     if not 0 < sure <= 1:
         raise UsageError(f"--sure {sure:g}: a probability is needed, above 0 and at most 1")
+    if engine is not None:
+        find_engine(engine)
     ids = store.assets() if assets is None else tuple(dict.fromkeys(assets))
     for asset in ids:
         store.path(asset)
@@ -57,24 +64,37 @@ def split_spanning(
             continue
         try:
             with nullcontext() if dry_run else write_block(asset):
-                result = _split_one(store, asset, report, sure, seen[asset], dry_run)
+                result = _split_one(
+                    store, asset, report, plan_divisions(report, asset, sure), seen[asset], dry_run, engine
+                )
         except MeshForgeError as error:
             result = PreparationResult(asset, problems=(error.message,))
         yield result
 
 
 def _split_one(
-    store: Store, asset: str, report: SpanReport, sure: float, seen: str | None, dry_run: bool
+    store: Store,
+    asset: str,
+    report: SpanReport,
+    plan: DivisionPlan,
+    seen: str | None,
+    dry_run: bool,
+    engine: str | None,
 ) -> PreparationResult:
     """What becomes of one asset."""
-    plan = plan_divisions(report, asset, sure)
     notes = [f"{name} stands for no surface: left as it is" for name in report.bare.get(asset, ())]
-    notes += [f"{span}: left as it is, below {sure:.0%}" for span in plan.unsure]
+    notes += [f"{span}: left as it is, below {plan.sure:.0%}" for span in plan.unsure]
     notes += [f"{span}: no plane divides it; split it by hand: meshforge split" for span in plan.whole]
-    divisions = plan.divisions
-    if not divisions or dry_run:
-        return PreparationResult(asset, notes=(*(f"would split {one.told}" for one in divisions), *notes))
-    return _write(store, asset, plan, seen, notes)
+    if not plan.divisions:
+        return PreparationResult(asset, notes=tuple(notes))
+    source, before = read(store.path(asset)), store.preparation(asset)
+    after, labels = plan.divide(source, before)
+    notes += describe_limits(source, before, after, engine)
+    if dry_run:
+        return PreparationResult(asset, notes=(*(f"would split {one.told}" for one in plan.divisions), *notes))
+    known = {name: label for name, label in labels.items() if label.name in store.vocabulary}
+    notes = [*exchange_preparation(store, asset, after, seen, known), *notes]
+    return PreparationResult(asset, after.steps[-1].replaced, tuple(notes))
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -114,14 +134,6 @@ def plan_divisions(report: SpanReport, asset: str, sure: float) -> DivisionPlan:
         divisions.append(batch.HullDivision(span.hull, span.chance, shapes, told))
         labels.append(tuple(Label(label, round(share, _DIGITS), "propagated") for _, label, share in parts))
     return DivisionPlan(sure, tuple(divisions), tuple(labels), tuple(unsure), tuple(whole))
-
-
-def _write(store: Store, asset: str, plan: DivisionPlan, seen: str | None, notes: list[str]) -> PreparationResult:
-    before = batch.read_preparation(store.layout.preparation(asset)) or batch.Preparation()
-    after, labels = plan.divide(read(store.path(asset)), before)
-    known = {name: label for name, label in labels.items() if label.name in store.vocabulary}
-    notes = [*exchange_preparation(store, asset, after, seen, known), *notes]
-    return PreparationResult(asset, after.steps[-1].replaced, tuple(notes))
 
 
 def _keep_likely(store: Store, report: SpanReport) -> None:
