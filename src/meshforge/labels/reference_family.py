@@ -7,12 +7,13 @@ import json
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from pathlib import Path
 
 from meshforge import batch
 from meshforge.label_model import AssetPieces, evidence_of, model_family, piece_mesh
 from meshforge.label_model.describe import describe_mesh, digest_mesh
 from meshforge.labels.family_comparison import Stage
-from meshforge.labels.spans import SpanReport, decompose_surfaces, find_pieces, infer_spans
+from meshforge.labels.spans import SpanReport, decompose_surfaces, find_pieces, infer_spans, read_pieces
 from meshforge.store import Store
 from meshforge.symbolic import HUMAN_SOURCES, Asset, Label, LabelFile, SymbolicMesh
 
@@ -38,17 +39,25 @@ class ReferenceFamily:
         fine = [digest_mesh(one.pieces).hex() for one in self.pieces.values()]
         return batch.text_digest(json.dumps([rows, fine, self.words]))
 
-    def find_spans(self, source: Asset, mesh: SymbolicMesh) -> SpanReport | None:
+    def find_spans(self, source: Asset, mesh: SymbolicMesh, kept: Path | None = None) -> SpanReport | None:
         """Which hulls of an asset span parts, as a report on the asset `NEW` alone; None where no surface is there.
 
-        source: the asset as it was read; mesh: it as it is prepared, with its labels.
+        source: the asset as it was read; mesh: it as it is prepared, with its labels; kept: the file of its fine pieces.
         """
-        own = piece_mesh(decompose_surfaces(batch.find_surfaces(source)), mesh)
+        surfaces = batch.find_surfaces(source)
+        own = piece_mesh(read_pieces(surfaces, kept) if kept else decompose_surfaces(surfaces), mesh)
         known = {asset: one.mesh for asset, one in self.pieces.items()}
         pieces = {asset: one.pieces for asset, one in self.pieces.items()}
         if not own.hulls or not any(one.hulls for one in pieces.values()):
             return None
         return infer_spans({NEW: mesh, **known}, {NEW: own, **pieces}, {}, self.pieces)
+
+    def without(self, asset: str) -> ReferenceFamily:
+        """The family without one of its assets, to which that is to be compared."""
+        if asset not in self.meshes:
+            return self
+        meshes = {name: mesh for name, mesh in self.meshes.items() if name != asset}
+        return ReferenceFamily(meshes, {n: one for n, one in self.pieces.items() if n != asset}, self.words)
 
     def infer_labels(self, mesh: SymbolicMesh) -> dict[str, Label]:
         """The likeliest label of each hull of an asset that has none, by its name, with its probability."""

@@ -108,7 +108,7 @@ def find_pieces(
     store: Store, meshes: Mapping[str, SymbolicMesh], execution: batch.ExecutionOptions, stage: Stage
 ) -> tuple[dict[str, SymbolicMesh], dict[str, str]]:
     """The fine pieces of the surfaces of assets, by id, and why some have none."""
-    work = [_Work(store.path(asset), store.layout.sketches / "fine" / f"{asset}.npz") for asset in meshes]
+    work = [_Work(store.path(asset), pieces_file(store, asset)) for asset in meshes]
     pieces, lost = dict[str, SymbolicMesh](), dict[str, str]()
     with stage(len(work), "decomposing finely") as advance:
         options = batch.ExecutionOptions(execution.workers, execution.timeout, progress=advance, stop=execution.stop)
@@ -147,16 +147,25 @@ def _list_bare(mesh: SymbolicMesh, common: Floats) -> tuple[str, ...]:
 def _find_pieces(work: _Work) -> dict[str, list[Polytope]] | str:
     """The fine pieces of an asset by body, kept where they were found already; or why there are none."""
     try:
-        surfaces = batch.find_surfaces(read(work.path))
-        key = _digest(surfaces)
-        known = read_arrays(work.kept, key, "bodies", "sizes", "vertices", "faces")
-        if known is not None:
-            return _unpack(*known)
-        found = decompose_surfaces(surfaces)
-        write_arrays(work.kept, key, _pack(found))
-        return found
+        return read_pieces(batch.find_surfaces(read(work.path)), work.kept)
     except Exception as error:  # one asset never stops the others
         return describe_error(error, str(work.path))
+
+
+def pieces_file(store: Store, asset: str) -> Path:
+    """Where the fine pieces of an asset are kept."""
+    return store.layout.sketches / "fine" / f"{asset}.npz"
+
+
+def read_pieces(surfaces: Mapping[str, Surface], kept: Path) -> dict[str, list[Polytope]]:
+    """The fine pieces of surfaces by body, from a file where they were kept, else kept there."""
+    key = _digest(surfaces)
+    known = read_arrays(kept, key, "bodies", "sizes", "vertices", "faces")
+    if known is not None:
+        return _unpack(*known)
+    found = decompose_surfaces(surfaces)
+    write_arrays(kept, key, _pack(found))
+    return found
 
 
 def decompose_surfaces(surfaces: Mapping[str, Surface]) -> dict[str, list[Polytope]]:

@@ -23,7 +23,7 @@ from meshforge.project.new_asset_memory import NewAssetFolder, digest_basis
 from meshforge.project.new_asset_result import HullSplit, NewAssetResult
 from meshforge.project.preparation_plan import PreparationPlan
 from meshforge.project.prepare import exchange_preparation
-from meshforge.project.spans import plan_divisions
+from meshforge.project.span_search import plan_divisions
 from meshforge.store import Store, hull_digests
 from meshforge.symbolic import Asset, Label, LabelFile, SymbolicMesh, read_labels, transfer_labels, write_labels
 
