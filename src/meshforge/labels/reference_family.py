@@ -42,7 +42,7 @@ class ReferenceFamily:
     def find_spans(self, source: Asset, mesh: SymbolicMesh, kept: Path | None = None) -> SpanReport | None:
         """Which hulls of an asset span parts, as a report on the asset `NEW` alone; None where no surface is there.
 
-        source: the asset as it was read; mesh: it as it is prepared, with its labels; kept: the file of its fine pieces.
+        source: the asset as it was read; mesh: it as it is prepared, with its labels; kept: the file of its pieces.
         """
         surfaces = batch.find_surfaces(source)
         own = piece_mesh(read_pieces(surfaces, kept) if kept else decompose_surfaces(surfaces), mesh)

@@ -15,9 +15,8 @@ if TYPE_CHECKING:
         select_assets,
         suggest_first_demonstration,
     )
-    from meshforge.project.new_asset_result import NewAssetResult, describe_new
+    from meshforge.project.new_asset_result import NewAssetResult, assess_new_assets, describe_new
     from meshforge.project.new_assets import NewAsset, NewAssetOptions, prepare_aside, prepare_in_project
-    from meshforge.project.new_confidence import assess_new_assets
     from meshforge.project.preparation_plan import extend_plan, find_new_assets, forget_plan, read_preparation_plan
     from meshforge.project.prepare import PreparationResult
     from meshforge.project.project import Project

@@ -1,18 +1,27 @@
-"""What became of a new asset before the program: hulls that were split, those that were left though they likely span
-parts, and labels by likeness; in words, as JSON, and as doubts."""
+"""What became of a new asset before the program (hulls that were split, those that were left though they likely span
+parts, labels by likeness) in words, as JSON and as doubts; and how probable its edit is, as a review sees it."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
+from functools import partial
 from typing import Any
 
-from meshforge.common import join_names, pluralize
-from meshforge.labels import HullSpan
-from meshforge.signoff import Doubt
-from meshforge.symbolic import Label
+from meshforge import batch
+from meshforge.common import describe_error, join_names, pluralize
+from meshforge.label_model import model_family
+from meshforge.labels import NEW, HullSpan
+from meshforge.labels.reference_family import MOST_COMPARED, choose_labelled
+from meshforge.project.review import ProjectReview
+from meshforge.project.run import pick_evenly
+from meshforge.signoff import AssetConfidence, Doubt, ReviewState, assess_asset
+from meshforge.store import Store
+from meshforge.symbolic import Label, LabelFile
+from meshforge.synthesis import LearningOutcome
 
 _DIGITS = 3
+_MOST_DOUBTS = 3
 
 
 @dataclass(frozen=True, slots=True)
@@ -112,3 +121,64 @@ def describe_new(results: Sequence[NewAssetResult]) -> str | None:
     parts = [f"{pluralize(splits, 'hull')} of new assets split ({join_names(split)})"] if splits else []
     parts += [f"{pluralize(left, 'hull')} likely {'spans' if left == 1 else 'span'} parts, not split"] if left else []
     return "; ".join(parts) or None
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class _Task:
+    """state: of the assets that a new one is compared with; contact: the threshold, None for the language's own."""
+
+    state: ReviewState
+    outcome: LearningOutcome | None
+    contact: float | None
+
+
+def assess_new_assets(
+    store: Store,
+    review: ProjectReview,
+    jobs: Sequence[batch.AssetJob],
+    results: Mapping[str, NewAssetResult],
+    execution: batch.ExecutionOptions,
+) -> dict[str, AssetConfidence]:
+    """How probable the edits of assets are that were prepared beside a project, each by itself, by id.
+
+    results: what was guessed of them: an edit is at most as sure as that a hull which was split spans parts, and that
+    one which was left does not. What their labels mean for the edit, the review of the project says.
+    """
+    task = _Task(_choose_state(review.state), review.outcome, store.settings.thresholds.contact)
+    new = [job for job in jobs if job.id in results]
+    found = dict[str, AssetConfidence]()
+    for job, one in zip(new, batch.execute(partial(_assess, task), new, execution), strict=True):
+        if isinstance(one, batch.WorkerFailure):
+            one = _describe_failure(one.why)
+        found[job.id] = _add_splits(job.id, one, results[job.id])
+    return found
+
+
+def _choose_state(state: ReviewState) -> ReviewState:
+    """The state of few assets: all that were demonstrated or corrected, of labelled and accepted ones some, evenly."""
+    files = {asset: LabelFile(labels=mesh.labels) for asset, mesh in state.meshes.items()}
+    accepted = pick_evenly(list(state.accepted), MOST_COMPARED)
+    some = {*state.demos, *state.mended, *accepted, *choose_labelled(files)}
+    meshes = {asset: mesh for asset, mesh in state.meshes.items() if asset in some}
+    return replace(state, meshes=meshes, accepted={asset: state.accepted[asset] for asset in accepted})
+
+
+def _assess(task: _Task, job: batch.AssetJob) -> AssetConfidence:
+    try:
+        mesh = batch.read_job(job)
+        mesh = mesh if task.contact is None else replace(mesh, epsilon=task.contact)
+        state = replace(task.state, meshes={**task.state.meshes, NEW: mesh})
+        return assess_asset(state, task.outcome, model_family(list(state.meshes.values())), NEW)
+    except Exception as error:  # one asset never stops the others
+        return _describe_failure(describe_error(error, str(job.path)))
+
+
+def _describe_failure(why: str) -> AssetConfidence:
+    return AssetConfidence(NEW, 0.0, (Doubt("alarm", f"it could not be looked at: {why}", share=1.0),))
+
+
+def _add_splits(asset: str, found: AssetConfidence, result: NewAssetResult) -> AssetConfidence:
+    own = result.split_doubts
+    probability = min(found.probability, 1 - max((one.share for one in own), default=0.0))
+    doubts = sorted([*found.doubts, *own], key=lambda one: -one.share)[:_MOST_DOUBTS]
+    return AssetConfidence(asset, probability, tuple(doubts))

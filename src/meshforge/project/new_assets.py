@@ -7,8 +7,7 @@ the other new ones, nor on the number of workers, and no process holds more than
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
-from contextlib import AbstractContextManager
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
@@ -18,17 +17,17 @@ from meshforge.common import MeshForgeError, describe_error, join_names
 from meshforge.formats import read
 from meshforge.geometry import cache_folder
 from meshforge.labels import NEW, HullSpan, ReferenceFamily, ignore_stage, read_reference_family
+from meshforge.labels.family_comparison import Stage
 from meshforge.labels.merge import LabelWriter, can_fill_gap
 from meshforge.project.new_asset_memory import NewAssetFolder, digest_basis
 from meshforge.project.new_asset_result import HullSplit, NewAssetResult
 from meshforge.project.preparation_plan import PreparationPlan
 from meshforge.project.prepare import exchange_preparation
-from meshforge.project.span_search import plan_divisions
+from meshforge.project.span_search import NO_SURFACE, plan_divisions
 from meshforge.store import Store, hull_digests
 from meshforge.symbolic import Asset, Label, LabelFile, SymbolicMesh, read_labels, transfer_labels, write_labels
 
 _NO_LABELS = "no hull of the project has a label, so nothing says which hulls span parts"
-_NO_SURFACE = "it shows no surface, so nothing says which hulls span parts"
 
 
 @dataclass(frozen=True, slots=True)
@@ -79,7 +78,7 @@ class NewAssetOptions:
     split: bool = True
     guess: bool = True
     execution: batch.ExecutionOptions = batch.EXECUTION_DEFAULTS
-    stage: Callable[[int, str], AbstractContextManager[Callable[[], None]]] = ignore_stage
+    stage: Stage = ignore_stage
 
 
 NEW_ASSET_DEFAULTS = NewAssetOptions()
@@ -242,7 +241,7 @@ def _split(task: _Task, source: Asset, before: batch.Preparation, mesh: Symbolic
         return _SplitOutcome(before, notes=(_NO_LABELS,))
     report = task.family.find_spans(source, mesh)
     if report is None:
-        return _SplitOutcome(before, notes=(_NO_SURFACE,))
+        return _SplitOutcome(before, notes=(NO_SURFACE,))
     bare = report.bare.get(NEW, ())
     notes = (f"no surface says whether {join_names(bare)} span parts",) if bare else ()
     plan = plan_divisions(report, NEW, sure)

@@ -3,8 +3,7 @@ asset by itself in a worker process, so that no process holds all of them."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
-from contextlib import AbstractContextManager
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
@@ -13,6 +12,7 @@ from meshforge import batch
 from meshforge.common import ProjectError, describe_error, pluralize
 from meshforge.formats import read
 from meshforge.labels import NEW, HullSpan, ReferenceFamily, SpanReport, find_spans, read_reference_family
+from meshforge.labels.family_comparison import Stage
 from meshforge.labels.spans import pieces_file
 from meshforge.store import SpanLine, Store, hull_digests
 from meshforge.store.meshes import AssetFiles
@@ -23,7 +23,7 @@ LIKELY = 0.5
 MOST_TOGETHER = 300
 """Assets of a project that are compared all with all; of more, each with the labelled ones alone."""
 _DIGITS = 3
-_NO_SURFACE = "it shows no surface, so nothing says which hulls span parts"
+NO_SURFACE = "it shows no surface, so nothing says which hulls span parts"
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -67,12 +67,8 @@ def plan_divisions(report: SpanReport, asset: str, sure: float) -> DivisionPlan:
 
 def list_likely(report: SpanReport, asset: str) -> dict[str, SpanLine]:
     """The hulls of an asset that likely span parts, by name."""
-    digests = hull_digests(report.meshes[asset])
-    likely = (span for span in report.spans_of(asset) if span.chance >= LIKELY)
-    return {
-        span.hull: SpanLine(geometry=digests[span.hull], chance=round(span.chance, _DIGITS), told=str(span))
-        for span in likely
-    }
+    digests, likely = hull_digests(report.meshes[asset]), (s for s in report.spans_of(asset) if s.chance >= LIKELY)
+    return {s.hull: SpanLine(geometry=digests[s.hull], chance=round(s.chance, _DIGITS), told=str(s)) for s in likely}
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -91,10 +87,9 @@ def search_spans(
     assets: Sequence[str],
     sure: float,
     execution: batch.ExecutionOptions,
-    stage: Callable[[int, str], AbstractContextManager[Callable[[], None]]],
+    stage: Stage,
 ) -> Iterator[tuple[str, AssetSpans | str]]:
-    """What was found of each of some assets, or why it could not be looked at. Raises ProjectError where no hull has a
-    label or no asset a surface."""
+    """What was found of each asset, or why it could not be looked at. Raises ProjectError where no hull has a label."""
     if len(store.assets()) <= MOST_TOGETHER:
         yield from _search_together(store, assets, sure, execution, stage)
         return
@@ -116,7 +111,7 @@ def _search_together(
     assets: Iterable[str],
     sure: float,
     execution: batch.ExecutionOptions,
-    stage: Callable[[int, str], AbstractContextManager[Callable[[], None]]],
+    stage: Stage,
 ) -> Iterator[tuple[str, AssetSpans | str]]:
     seen = {asset: batch.record_digest(store.layout.preparation(asset)) for asset in assets}
     report = find_spans(store, execution, stage)
@@ -148,7 +143,7 @@ def _search_one(family: ReferenceFamily, sure: float, work: _Work) -> AssetSpans
         own = family.without(work.asset)
         report = own.find_spans(read(work.files.path), work.files.read_mesh(), work.pieces)
         if report is None:
-            return AssetSpans(DivisionPlan(sure), (_NO_SURFACE,), {}, seen)
+            return AssetSpans(DivisionPlan(sure), (NO_SURFACE,), {}, seen)
         return _describe(report, NEW, sure, seen)
     except Exception as error:  # one asset never stops the others
         return describe_error(error, str(work.files.path))

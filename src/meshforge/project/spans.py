@@ -9,7 +9,8 @@ from meshforge import batch
 from meshforge.common import MeshForgeError, UsageError
 from meshforge.engines import find_engine
 from meshforge.formats import read
-from meshforge.labels import SpanReport, find_spans, ignore_stage
+from meshforge.labels import SpanReport, find_spans
+from meshforge.labels.family_comparison import Stage, ignore_stage
 from meshforge.project.preparation_plan import keep_split
 from meshforge.project.prepare import PreparationResult, exchange_preparation
 from meshforge.project.span_search import AssetSpans, list_likely, search_spans
@@ -28,7 +29,7 @@ def split_spanning(
     dry_run: bool = False,
     engine: str | None = None,
     execution: batch.ExecutionOptions = batch.EXECUTION_DEFAULTS,
-    stage: Callable[[int, str], AbstractContextManager[Callable[[], None]]] = ignore_stage,
+    stage: Stage = ignore_stage,
     write_block: Callable[[str], AbstractContextManager[object]] = nullcontext,
 ) -> Iterator[PreparationResult]:
     """Split the hulls that span parts with a probability of at least `sure`, one step an asset, and label their parts.
@@ -85,7 +86,7 @@ def list_spans(
     store: Store,
     *,
     execution: batch.ExecutionOptions = batch.EXECUTION_DEFAULTS,
-    stage: Callable[[int, str], AbstractContextManager[Callable[[], None]]] = ignore_stage,
+    stage: Stage = ignore_stage,
 ) -> SpanReport:
     """Which hulls span parts, found anew and kept for the status. Raises ProjectError as `split_spanning` does."""
     report = find_spans(store, execution, stage)
