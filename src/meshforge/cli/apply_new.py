@@ -77,23 +77,16 @@ def prepare_later(project: Project, folder: Path | None, options: NewAssetOption
 
     folder: where what is done is kept; None for in the project.
     """
-    from meshforge import project as use_cases  # lazy: 170 modules that a program file does not need
+    from meshforge.project import list_new, prepare_aside  # lazy: 170 modules that a program file does not need
 
-    plans, unclear = use_cases.find_new_assets(project)
+    new, unclear = list_new(project)
     if unclear:
         remark(unclear)
-    layout, program = project.layout, project.program()
-    new = [
-        use_cases.NewAsset(asset, project.path(asset), plan, layout.labels(asset), layout.preparation(asset))
-        for asset, plan in plans.items()
-    ]
+    program = project.program()
     options = replace(_with_stage(options), guess=program is None or bool(program.labels_asked))
     if folder is None:
-        results = {result.asset: result for result in use_cases.prepare_in_project(project, new, options)}
-        done = [asset for asset, result in results.items() if not result.problem]
-        use_cases.extend_plan(project, done, decomposed=unclear is None, split=options.split)
-        return NewAssets.of(results, {})
-    aside = list(use_cases.prepare_aside(project, new, folder, options))
+        return NewAssets.of({result.asset: result for result in project.prepare_new(options)}, {})
+    aside = list(prepare_aside(project, new, folder, options))
     changes = {work.id: {"labels": work.labels, "preparation": work.preparation} for work, _ in aside}
     return NewAssets.of({work.id: result for work, result in aside}, changes)
 

@@ -16,8 +16,8 @@ if TYPE_CHECKING:
         suggest_first_demonstration,
     )
     from meshforge.project.new_asset_result import NewAssetResult, assess_new_assets, describe_new
-    from meshforge.project.new_assets import NewAsset, NewAssetOptions, prepare_aside, prepare_in_project
-    from meshforge.project.preparation_plan import extend_plan, find_new_assets, forget_plan, read_preparation_plan
+    from meshforge.project.new_assets import NewAsset, NewAssetOptions, list_new, prepare_aside
+    from meshforge.project.preparation_plan import forget_plan, read_preparation_plan
     from meshforge.project.prepare import PreparationResult
     from meshforge.project.project import Project
     from meshforge.project.review import ProjectReview
@@ -48,19 +48,17 @@ __all__ = [
     "build_run_report",
     "describe_new",
     "digest_lesson",
-    "extend_plan",
-    "find_new_assets",
     "forget_plan",
     "format_review",
     "format_share",
     "format_standing",
     "format_status",
     "keep_assessment",
+    "list_new",
     "make_correction",
     "measure_results",
     "output_digest",
     "prepare_aside",
-    "prepare_in_project",
     "read_preparation_plan",
     "run_with_corrections",
     "sees_whole_family",

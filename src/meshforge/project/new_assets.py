@@ -21,7 +21,7 @@ from meshforge.labels.family_comparison import Stage
 from meshforge.labels.merge import LabelWriter, can_fill_gap
 from meshforge.project.new_asset_memory import NewAssetFolder, digest_basis
 from meshforge.project.new_asset_result import HullSplit, NewAssetResult
-from meshforge.project.preparation_plan import PreparationPlan
+from meshforge.project.preparation_plan import PreparationPlan, extend_plan, find_new_assets
 from meshforge.project.prepare import exchange_preparation
 from meshforge.project.span_search import NO_SURFACE, plan_divisions
 from meshforge.store import Store, hull_digests
@@ -99,6 +99,26 @@ def prepare_in_project(
             yield replace(found.result, notes=(*_keep_in_project(store, work.id, found), *found.result.notes))
         except MeshForgeError as error:
             yield NewAssetResult(work.id, problem=error.message)
+
+
+def list_new(store: Store) -> tuple[list[NewAsset], str | None]:
+    """The assets that came to a project after the others were prepared; and why they are not decomposed, where it is
+    unclear how."""
+    plans, unclear = find_new_assets(store)
+    own, layout = plans.items(), store.layout
+    return [
+        NewAsset(one, store.path(one), plan, layout.labels(one), layout.preparation(one)) for one, plan in own
+    ], unclear
+
+
+def prepare_new(store: Store, options: NewAssetOptions = NEW_ASSET_DEFAULTS) -> Iterator[NewAssetResult]:
+    """Prepare the assets that came to a project after the others were prepared, as these were; `prepare --undo` takes
+    it back, and it is not done again then. Raises ProjectError where what the project keeps of that is damaged."""
+    new, unclear = list_new(store)
+    for result in prepare_in_project(store, new, options):
+        if not result.problem:
+            extend_plan(store, [result.asset], decomposed=unclear is None, split=options.split)
+        yield result
 
 
 def _keep_in_project(store: Store, asset: str, found: _WorkerOutcome) -> list[str]:

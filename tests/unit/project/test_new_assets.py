@@ -15,10 +15,8 @@ from meshforge.project import (
     NewAssetOptions,
     NewAssetResult,
     Project,
-    find_new_assets,
     new_assets,
     prepare_aside,
-    prepare_in_project,
     read_preparation_plan,
 )
 from meshforge.symbolic import Label, LabelFile, read_labels
@@ -180,16 +178,14 @@ def test_what_comes_later_to_a_project_is_kept_in_it_and_undone(folder: Path) ->
     for path in (folder / "new").glob("c*"):
         shutil.copy(path, folder / "assets")
     project = Project.open(folder / "p")
-    plans, _ = find_new_assets(project)
-    assert list(plans) == ["c.urdf"]
-    layout = project.layout
-    new = [NewAsset("c.urdf", project.path("c.urdf"), plans["c.urdf"], layout.labels("c.urdf"))]
-    (found,) = prepare_in_project(project, new, NewAssetOptions(execution=IN_PROCESS))
+    (found,) = project.prepare_new(NewAssetOptions(execution=IN_PROCESS))
+    assert found.asset == "c.urdf"
     assert len(found.splits) == 1
     mesh = project.mesh("c.urdf")
     assert sorted(hull.label or "" for hull in mesh.hulls) == sorted(PARTS)
     assert {hull.source for hull in mesh.hulls} == {"propagated"}
     project.unprepare("c.urdf")
+    assert list(project.prepare_new()) == [], "what was taken back is not done again"
     assert [hull.name for hull in project.mesh("c.urdf").hulls] == ["base/h0", "base/h1", "base/h2", "base/h3"]
 
 

@@ -8,7 +8,8 @@ import pytest
 from meshforge.batch import IN_PROCESS
 from meshforge.common import ProjectError
 from meshforge.geometry import VhacdSettings
-from meshforge.project import Project, extend_plan, find_new_assets, forget_plan, read_preparation_plan
+from meshforge.project import Project, forget_plan, read_preparation_plan
+from meshforge.project.preparation_plan import extend_plan, find_new_assets
 from tests.unit.project.stools import boxes, write_stool
 
 QUICK = VhacdSettings(resolution=1000)
