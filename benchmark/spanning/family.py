@@ -13,7 +13,7 @@ from benchmark.assets import Asset, Sample, samples
 from benchmark.assets.decomposition import shares, solids_of
 from benchmark.tasks.task import PURE
 from meshforge.geometry import Floats, Ints, Polytope, cache_folder, decompose_finely, divide
-from meshforge.label_model import CellModel, SpanModel, SpanPosterior, piece_mesh
+from meshforge.label_model import AssetCells, CellModel, SpanModel, SpanPosterior, piece_mesh
 from meshforge.symbolic import Hull, Label, SymbolicMesh
 from script.samples.pieces import triangles
 
@@ -52,7 +52,7 @@ class SpanFamily:
     @cached_property
     def cells(self) -> CellModel:
         """The same of hulls that stand for no surface."""
-        return CellModel([_without_labels(sample.mesh) for sample in self.samples])
+        return CellModel([AssetCells(_without_labels(sample.mesh)) for sample in self.samples])
 
     @property
     def unknown(self) -> Iterator[tuple[int, Sample]]:

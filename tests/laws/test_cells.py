@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from meshforge.geometry import Box, Polytope, Pose, convex_hull, volume_of_union
-from meshforge.label_model import CellModel, cut_into_cells
+from meshforge.label_model import AssetCells, CellModel, cut_into_cells
 from meshforge.symbolic import Hull, Label, SymbolicMesh
 
 sizes = st.floats(0.05, 0.5).map(lambda x: round(x, 3))
@@ -48,7 +48,7 @@ def pairs() -> list[SymbolicMesh]:
 
 @pytest.fixture(scope="module")
 def model(pairs: list[SymbolicMesh]) -> CellModel:
-    return CellModel([*pairs, SymbolicMesh(())])
+    return CellModel([AssetCells(mesh) for mesh in (*pairs, SymbolicMesh(()))])
 
 
 def test_parts_of_a_hull_lie_within_it_and_have_the_labels_of_look_alikes(
@@ -67,7 +67,7 @@ def test_parts_of_a_hull_lie_within_it_and_have_the_labels_of_look_alikes(
 @pytest.mark.slow
 def test_the_same_labels_say_the_same_bit_for_bit(pairs: list[SymbolicMesh]) -> None:
     labels = [*(Label(name) for _ in range(3) for name in ("plate", "rod")), None]
-    one, other = (CellModel(pairs).infer(labels) for _ in range(2))
+    one, other = (CellModel([AssetCells(mesh) for mesh in pairs]).infer(labels) for _ in range(2))
     assert all((a == b).all() for a, b in zip(one.chances, other.chances, strict=True))
 
 

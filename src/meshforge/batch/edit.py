@@ -159,7 +159,7 @@ def _run_program(
         before=len(source.hulls),
         after=len(mesh.hulls),
         seconds=time.perf_counter() - started,
-        notes=(*asset.notes, *_opaque_notes(asset), *_label_notes(followed), *draft.notes),
+        notes=(*job.notes, *asset.notes, *_opaque_notes(asset), *_label_notes(followed), *draft.notes),
         flags=flags,
         measures=measure_edit(source, mesh),
         labels=tuple(sorted({hull.label for hull in source.hulls if hull.label})),

@@ -23,7 +23,8 @@ class AssetJob:
     """One asset of a batch.
 
     id: its path below `base`, which the output mirrors; labels: its labels file, None for no labels;
-    corrections: edits by hand, replayed after the program; preparation: the folder of what is done to it before.
+    corrections: edits by hand, replayed after the program; preparation: the folder of what is done to it before;
+    notes: what its outcome says of that.
     """
 
     id: str
@@ -32,6 +33,7 @@ class AssetJob:
     labels: Path | None = None
     corrections: tuple[Correction, ...] = ()
     preparation: Path | None = None
+    notes: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
-from functools import partial
+from collections.abc import Iterable, Mapping
+from contextlib import ExitStack
+from dataclasses import replace
 from pathlib import Path
 from time import perf_counter
-from typing import TYPE_CHECKING, Annotated, Any, Literal
+from typing import Any
 
 import typer
 
@@ -15,61 +15,20 @@ from meshforge import batch
 from meshforge.batch import apply as run_program
 from meshforge.checks import CheckOptions
 from meshforge.cli import options
+from meshforge.cli.apply_new import remark_new
+from meshforge.cli.apply_work import Alarms, ApplyArguments, ApplyWork
 from meshforge.cli.console import progress
 from meshforge.cli.report import NOTHING_WRITTEN, describe_failure, write_report_page
 from meshforge.cli.terminal import print_json, remark
 from meshforge.common import UsageError, pluralize
-from meshforge.language import Program, Template
-
-if TYPE_CHECKING:
-    from meshforge.project import Project
-    from meshforge.signoff import Assessment
-
-
-@dataclass(frozen=True, slots=True)
-class ApplyArguments:
-    """What is typed after `meshforge apply`."""
-
-    program: Annotated[Path, typer.Argument(help="A program file (*.mf) or a project folder.")]
-    assets: Annotated[list[str] | None, typer.Argument(help="Files, folders or globs; not with a project.")] = None
-    out: Annotated[
-        Path | None, typer.Option("-o", "--out", help="Folder for the edited assets; a project has its own, edited/.")
-    ] = None
-    labels: options.LabelsPath = None
-    execution: options.ExecutionArguments = options.EXECUTION
-    mass: Annotated[
-        Literal["keep", "recompute"], typer.Option("--mass", help="Masses that a format derives from geometry.")
-    ] = "keep"
-    names: options.MarkNames = None
-    collision: options.CollisionPlace = "beside"
-    link: Annotated[bool, typer.Option("--link", help="Hard-link files that are only copied.")] = False
-    dry_run: options.DryRun = False
-    again: Annotated[bool, typer.Option("--again", help="Do again what an earlier run has done.")] = False
-    report: options.ReportPath = None
-    check: Annotated[
-        list[str] | None,
-        typer.Option(
-            "--check",
-            help="fit, clearance, physics, an engine or a check of a plug-in: checks for the report, of what it shows. "
-            "May be repeated.",
-        ),
-    ] = None
-    sure: Annotated[
-        float | None,
-        typer.Option(
-            "--sure",
-            help="Write only results that are so sure, or were looked at.",
-            min=0.5,
-            max=1.0,
-        ),
-    ] = None
-    json: options.Json = False
 
 
 @options.takes(ApplyArguments)
 def apply(given: ApplyArguments) -> None:
     """Run a program on assets; each goes back into its own format below --out, labels beside it.
 
+    Assets that are given beside a project, and those that came to it later, are prepared first as the project's were:
+    pieces decomposed, hulls that span parts split, labels taken by likeness. What was guessed is said of each.
     Results that stand out of the family are named at the end; with --json all lines come then.
     A run that was stopped or killed goes on where it was: the same command again. Exit code 1 when some assets failed
     or were held: they are named, and the others are done.
@@ -79,13 +38,22 @@ def apply(given: ApplyArguments) -> None:
         raise UsageError("--check says nothing without --report", remedy="Give it too, or: meshforge check OUT")
     if given.report and given.dry_run:
         raise UsageError(options.NOTHING_TO_SHOW, remedy="Leave out --report.")
-    work = _work_of_project(given) if given.program.is_dir() else _work_of_program(given)
+    with ExitStack() as stack:
+        work = ApplyWork.of(given, stack)
+        raise typer.Exit(_run(given, work, measures))
+
+
+def _run(given: ApplyArguments, work: ApplyWork, measures: CheckOptions | None) -> int:
+    """Run the program and print what became of each asset; the exit code."""
     if len(work.jobs) > 1:
         remark(str(batch.plan_run(work.jobs, work.out)))
     summary, started, done = batch.RunSummary(), perf_counter(), list[batch.AssetOutcome]()
     run_options = batch.ApplyOptions(
         given.mass, given.link, given.dry_run, resume=not given.again, names=given.names, collision=given.collision
     )
+    for failed in work.failed:
+        summary.add(failed)
+        done.append(failed) if given.json else typer.echo(_describe_outcome(failed))
     try:
         with progress(len(work.jobs), "editing") as advance:
             execution = replace(given.execution.to_options(), progress=advance)
@@ -105,6 +73,7 @@ def apply(given: ApplyArguments) -> None:
         for asset, why in work.finish(alarms).items():
             remark(f"{asset} is no longer signed off: {why}")
     _print_lines(done, alarms, work.describe_standings() if done else {})
+    remark_new(work.new)
     summary.held = work.held
     for held in work.held:
         print_json(held.to_json(), compact=True) if given.json else typer.echo(f"{'held':10} {held.asset}: {held.why}")
@@ -116,7 +85,7 @@ def apply(given: ApplyArguments) -> None:
         remark(text)
     if given.report:
         _write_report(given.report, work, summary, perf_counter() - started, measures)
-    raise typer.Exit(int(summary.counts["failed"] > 0 or bool(work.held)))
+    return int(summary.counts["failed"] > 0 or bool(work.held))
 
 
 def _print_lines(
@@ -126,94 +95,6 @@ def _print_lines(
     for outcome in done:
         line = batch.to_json_line(outcome, alarms.get(outcome.asset, ()))
         print_json({**line, **standings.get(outcome.asset, {})}, compact=True)
-
-
-Alarms = Mapping[str, Sequence[str]]
-"""Sentences about results that stand out, by asset."""
-
-
-def _sign_nothing_off(alarms: Alarms) -> Mapping[str, str]:
-    return {}
-
-
-@dataclass(frozen=True, slots=True)
-class _ApplyWork:
-    """What is to be run on what. readers: of assets before the run, by id; held: those that are held back;
-    finish: called with all alarms when all is written, says what is no longer signed off, and why, by asset; project:
-    None with a bare program."""
-
-    program: Program
-    jobs: Sequence[batch.AssetJob]
-    out: Path
-    templates: Mapping[str, Template]
-    readers: Callable[[Iterable[str]], Sequence[batch.MeshReader]]
-    held: Sequence[batch.Held] = ()
-    finish: Callable[[Alarms], Mapping[str, str]] = _sign_nothing_off
-    project: Project | None = None
-
-    def describe_standings(self) -> dict[str, dict[str, Any]]:
-        """How sure each edit of a project is, as far as its last review holds, by asset."""
-        rows = self.project.status().assets if self.project else ()
-        return {one.id: one.confidence_to_json() for one in rows}
-
-
-def _work_of_project(given: ApplyArguments) -> _ApplyWork:
-    if given.assets or given.labels:
-        raise UsageError(
-            "a project has its own assets and labels",
-            remedy=f"For other assets: meshforge apply {given.program / 'program.mf'} ASSETS... --out DIR",
-        )
-    from meshforge.project import Project  # lazy: 170 modules that a program file does not need
-
-    project = Project.open(given.program)
-    out = given.out or project.layout.edited
-    held = _hold_back(project, out, given.sure) if given.sure is not None else ()
-    names = {one.asset for one in held}
-    program, jobs, templates = project.work(frozenset(project.assets()) - names if names else None)
-    finish = project.renew_sign_offs if out.absolute() == project.layout.edited else _sign_nothing_off
-    return _ApplyWork(program, jobs, out, templates, project.readers, held, finish, project)
-
-
-def _hold_back(project: Project, out: Path, bar: float) -> tuple[batch.Held, ...]:
-    """The assets of a project whose edits are less sure than a bar, the least sure first."""
-    program = project.program()
-    found = project.review(bar)
-    if program != project.program():
-        remark("The program was learned again from what was said since.")
-    assessment = found.assessment
-    names = [*assessment.held, *sorted(assessment.aside)]
-    return tuple(_hold(name, assessment, out) for name in names)
-
-
-def _hold(name: str, assessment: Assessment, out: Path) -> batch.Held:
-    from meshforge.project import format_share  # lazy: 170 modules that a program file does not need
-
-    one = assessment.assets.get(name)
-    written = batch.read_stamp(out, name)
-    kept = str(out / written.out) if written and written.out else None
-    why = "a person set it aside"
-    if one and name not in assessment.aside:
-        doubt = one.doubts[0].text if one.doubts else "no single doubt stands out"
-        why = f"{format_share(one.probability)} sure; {doubt}"
-    if kept:
-        why += "; the output of an earlier run stays as it is"
-    doubts = tuple(doubt.to_json() for doubt in one.doubts) if one else ()
-    return batch.Held(name, one.probability if one else 0.0, doubts, why, kept)
-
-
-def _work_of_program(given: ApplyArguments) -> _ApplyWork:
-    if given.sure is not None:
-        raise UsageError("--sure needs a project: a program alone does not say how sure its results are")
-    if not given.assets or given.out is None:
-        lacking = "assets" if not given.assets else "--out DIR"
-        raise UsageError(f"{lacking} is missing", remedy="meshforge apply PROGRAM ASSETS... --out DIR")
-    program = Program.read(given.program)
-    templates = batch.load_templates(program, batch.template_folders(given.program))
-    jobs = batch.make_jobs(batch.expand(given.assets), given.labels)
-    by_id = {job.id: job for job in jobs}
-    return _ApplyWork(
-        program, jobs, given.out, templates, lambda assets: [partial(batch.read_job, by_id[asset]) for asset in assets]
-    )
 
 
 def _describe_outcome(outcome: batch.AssetOutcome) -> str:
@@ -226,7 +107,7 @@ def _describe_outcome(outcome: batch.AssetOutcome) -> str:
 
 
 def _write_report(
-    path: Path, work: _ApplyWork, summary: batch.RunSummary, seconds: float, measures: CheckOptions | None
+    path: Path, work: ApplyWork, summary: batch.RunSummary, seconds: float, measures: CheckOptions | None
 ) -> None:
     """Draw what a run made; of a project with how sure each result is."""
     if work.project:

@@ -6,7 +6,7 @@ from contextlib import nullcontext
 from dataclasses import dataclass, replace
 from pathlib import Path
 from time import perf_counter
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any
 
 import typer
 
@@ -18,7 +18,6 @@ from meshforge.cli.report import CheckReport, describe_changes
 from meshforge.cli.terminal import print_json, remark
 from meshforge.common import UsageError, pluralize
 
-EngineName = Literal["mujoco", "physx-cpu", "physx-gpu", "unreal", "unity", "bullet", "godot"]
 _FEW = 5  # assets whose results one sees at a glance
 
 
@@ -28,7 +27,7 @@ class CheckArguments:
 
     assets: options.AssetFiles
     engine: Annotated[
-        EngineName | None,
+        options.EngineName | None,
         typer.Option(
             "--engine",
             help="Also check the limits of this engine, and ask it itself: MuJoCo, or Bullet if pybullet is installed.",

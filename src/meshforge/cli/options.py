@@ -30,6 +30,7 @@ LabelsPath = Annotated[
     typer.Option("--labels", help="Labels file; for several assets a folder that mirrors theirs.", show_default=False),
 ]
 Workers = Annotated[int | None, typer.Option("--workers", min=1, help="Processes; default one a core.")]
+EngineName = Literal["mujoco", "physx-cpu", "physx-gpu", "unreal", "unity", "bullet", "godot"]
 DryRun = Annotated[bool, typer.Option("--dry-run", help="Say what would be done, write nothing.")]
 ReportPath = Annotated[
     Path | None, typer.Option("--report", help="An HTML page with pictures of each asset, failures first.")

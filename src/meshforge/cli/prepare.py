@@ -15,7 +15,7 @@ from meshforge.cli.console import progress
 from meshforge.cli.terminal import print_json
 from meshforge.common import UsageError, describe_error, pluralize
 from meshforge.geometry import DecomposeSettings
-from meshforge.project import SURE_TO_SPAN, PreparationResult, Project
+from meshforge.project import SURE_TO_SPAN, PreparationResult, Project, forget_plan
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,6 +46,10 @@ class PrepareArguments:
         typer.Option("--sure", metavar="P", help="Split hulls that span parts with at least this probability [0.9]."),
     ] = None
     dry_run: Annotated[bool, typer.Option("--dry-run", help="Say which hulls would be split; write nothing.")] = False
+    engine: Annotated[
+        options.EngineName | None,
+        typer.Option("--engine", help="Say which limits of this engine a split breaks [those that read the file]."),
+    ] = None
     undo: Annotated[bool, typer.Option("--undo", help="Take back the last thing that was done to each.")] = False
     remove: Annotated[bool, typer.Option("--remove", help="Take back all that was done to each.")] = False
     workers: options.Workers = None
@@ -64,7 +68,7 @@ def prepare(given: PrepareArguments) -> None:
     if (given.method is not None) + given.split_spanning + given.undo + given.remove != 1:
         raise UsageError("say what to do: --decompose METHOD, --split-spanning, --undo or --remove")
     if not given.split_spanning:
-        options.refuse_options(given.context, ("sure", "dry_run"), "--split-spanning")
+        options.refuse_options(given.context, ("sure", "dry_run", "engine"), "--split-spanning")
     if given.undo and not given.assets:
         raise UsageError("--undo of which asset?", remedy="Name it; --remove takes back everything, of all assets too.")
     project = Project.open(given.project)
@@ -74,6 +78,8 @@ def prepare(given: PrepareArguments) -> None:
         only_with_method = ("option", "only", "again", "hollow", "by", "workers", "timeout")
         options.refuse_options(given.context, only_with_method, "--decompose METHOD")
         results = _undo_preparation(project, _select_assets(project, given.assets), everything=given.remove)
+        if given.remove and not given.assets:
+            forget_plan(project)
         raise typer.Exit(print_results(results, given.json))
     settings = options.parse_engine_settings(given.method, given.option)
     assets = [options.asset_id(asset, project) for asset in given.assets or ()]
@@ -100,6 +106,7 @@ def _split_spanning(project: Project, given: PrepareArguments) -> int:
         [options.asset_id(asset, project) for asset in given.assets] if given.assets else None,
         sure=SURE_TO_SPAN if given.sure is None else given.sure,
         dry_run=given.dry_run,
+        engine=given.engine,
         execution=ExecutionOptions(workers=given.workers, timeout=given.timeout),
         stage=progress,
     )

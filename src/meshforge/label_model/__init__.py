@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from meshforge.common.exports import export_lazily
 
 if TYPE_CHECKING:
-    from meshforge.label_model.cells import CellModel, CellPosterior, cut_into_cells
+    from meshforge.label_model.cells import AssetCells, CellModel, CellPosterior, cut_into_cells
     from meshforge.label_model.consensus import EVIDENCE, consensus_weights
     from meshforge.label_model.describe import MeshDescriber, ShapeDescriptor, remember_descriptor
     from meshforge.label_model.odds import LabelBeliefs, LabelOdds, is_human
@@ -21,6 +21,7 @@ else:
 
 __all__ = [
     "EVIDENCE",
+    "AssetCells",
     "AssetPieces",
     "CellModel",
     "CellPosterior",

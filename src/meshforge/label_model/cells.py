@@ -88,15 +88,12 @@ def _choose_plane(cell: Polytope, normals: Floats, offsets: Floats) -> tuple[Flo
     return cell.centroid, np.linalg.eigh(spread.T @ spread)[1][:, -1]
 
 
-@dataclass(frozen=True, eq=False)
 class AssetCells(AssetPieces):
     """The hulls of an asset, and their cells as its pieces. owner: (cells,) the hull of each."""
 
     owner: Ints
 
-    @staticmethod
-    def of(mesh: SymbolicMesh) -> AssetCells:
-        """Those of a mesh."""
+    def __init__(self, mesh: SymbolicMesh) -> None:
         shapes = [hull.shape.tessellate() for hull in mesh.hulls]
         cells = list[Hull]()
         owner = list[int]()
@@ -104,8 +101,8 @@ class AssetCells(AssetPieces):
             own = cut_into_cells(shape, [*shapes[:place], *shapes[place + 1 :]])
             cells += (Hull(f"{hull.name}/{k}", hull.body, cell) for k, cell in enumerate(own))
             owner += [place] * len(own)
-        pieces = SymbolicMesh(tuple(cells), mesh.asset, mesh.epsilon, mesh.scale)
-        return AssetCells(mesh, pieces, np.array(owner, dtype=np.int64))
+        super().__init__(mesh, SymbolicMesh(tuple(cells), mesh.asset, mesh.epsilon, mesh.scale))
+        object.__setattr__(self, "owner", np.array(owner, dtype=np.int64))
 
     @cached_property
     def common(self) -> Floats:
@@ -113,7 +110,8 @@ class AssetCells(AssetPieces):
         found[self.owner, np.arange(len(self.owner))] = [cell.volume for cell in self.pieces.hulls]
         return found
 
-    def describe(self) -> Floats:
+    @cached_property
+    def surroundings(self) -> Floats:
         """What is around each cell (cells, columns), as `describe_surroundings` has it of hulls."""
         if not self.mesh.hulls:
             return np.zeros((0, SURROUNDINGS_WIDTH))
@@ -127,9 +125,9 @@ class AssetCells(AssetPieces):
 class CellModel:
     """Assets of one kind, each with the cells of its hulls."""
 
-    def __init__(self, meshes: Sequence[SymbolicMesh]) -> None:
-        self.assets = [AssetCells.of(mesh) for mesh in meshes]
-        rows = [asset.describe() for asset in self.assets]
+    def __init__(self, assets: Sequence[AssetCells]) -> None:
+        self.assets = assets
+        rows = [asset.surroundings for asset in assets]
         scale, weights = ColumnScale.of(np.concatenate([np.zeros((0, SURROUNDINGS_WIDTH)), *rows])), _weigh_columns()
         self._rows = [scale(own) * weights for own in rows]
 

@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from meshforge.labels.label_store import LabelStore
     from meshforge.labels.merge import LabelOutcome, label_new_hulls
     from meshforge.labels.offers import LabelOffers, OfferCache
+    from meshforge.labels.reference_family import NEW, ReferenceFamily, read_reference_family
     from meshforge.labels.spans import HullSpan, SpanReport, find_spans
     from meshforge.labels.summary import Proposal, Proposals, SourceTally, Tally
     from meshforge.labels.vlm.endpoint import endpoint_of
@@ -29,6 +30,7 @@ else:
 
 __all__ = [
     "LABELERS",
+    "NEW",
     "AssetLabeler",
     "ConsensusResult",
     "HullSpan",
@@ -43,6 +45,7 @@ __all__ = [
     "PropagationResult",
     "Proposal",
     "Proposals",
+    "ReferenceFamily",
     "SourceRestoration",
     "SourceTally",
     "SpanReport",
@@ -58,4 +61,5 @@ __all__ = [
     "label_command",
     "label_file_beside",
     "label_new_hulls",
+    "read_reference_family",
 ]

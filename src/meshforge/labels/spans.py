@@ -5,10 +5,11 @@ from __future__ import annotations
 
 import hashlib
 import json
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
+from types import MappingProxyType
 
 import numpy as np
 
@@ -16,9 +17,18 @@ from meshforge import batch
 from meshforge.common import MeshForgeError, ProjectError, describe_error
 from meshforge.formats import read
 from meshforge.geometry import FINE, Floats, HullPart, Polytope, cache_folder, decompose_finely
-from meshforge.label_model import CellModel, SpanModel, SpanPosterior, evidence_of, piece_mesh
+from meshforge.label_model import (
+    AssetCells,
+    AssetPieces,
+    CellModel,
+    SpanModel,
+    SpanPosterior,
+    evidence_of,
+    piece_mesh,
+)
 from meshforge.labels.descriptor_cache import read_arrays, write_arrays
 from meshforge.labels.family_comparison import Stage
+from meshforge.labels.hull_arrays import HULL_ARRAYS, pack_hulls, unpack_hulls
 from meshforge.store import Store
 from meshforge.symbolic import Surface, SymbolicMesh
 
@@ -101,6 +111,20 @@ def _name_shares(labels: Sequence[str], shares: Floats) -> dict[str, float]:
     return {label: share for label, share in rows if share > 0}
 
 
+@dataclass(frozen=True, eq=False, slots=True)
+class FinePieces:
+    """The fine pieces of the surfaces of an asset, as a mesh that lies as its own does; unseen: the bodies with hulls
+    that have no surface."""
+
+    mesh: SymbolicMesh
+    unseen: frozenset[str] = frozenset()
+
+    @staticmethod
+    def of(found: Mapping[str, Sequence[Polytope]], mesh: SymbolicMesh) -> FinePieces:
+        """Those found by body, of all bodies that have a surface."""
+        return FinePieces(piece_mesh(found, mesh), frozenset(hull.body for hull in mesh.hulls) - found.keys())
+
+
 @dataclass(frozen=True, slots=True)
 class _Work:
     """One asset whose surface is decomposed finely; kept: the file where the pieces are kept."""
@@ -115,57 +139,92 @@ def find_spans(store: Store, execution: batch.ExecutionOptions, stage: Stage) ->
     Raises ProjectError where no hull has a label: nothing says what parts there are; and where no asset can be read.
     """
     meshes = dict(store.meshes_by_id())
-    labels = {asset: [evidence_of(hull.annotation) for hull in mesh.hulls] for asset, mesh in meshes.items()}
-    if not any(label for own in labels.values() for label in own):
+    if not any(evidence_of(hull.annotation) for mesh in meshes.values() for hull in mesh.hulls):
         remedy = "Label the hulls of one or two assets first: meshforge label, or the studio."
         raise ProjectError(
             "no hull has a label, so nothing says what parts there are", where=str(store.folder), remedy=remedy
         )
-    work = [_Work(store.path(asset), store.layout.sketches / "fine" / f"{asset}.npz") for asset in meshes]
-    pieces, lost = dict[str, SymbolicMesh](), dict[str, str]()
-    unseen = dict[str, frozenset[str]]()
+    pieces, lost = find_pieces(store, meshes, execution, stage)
+    if not pieces:
+        remedy = next(iter(lost.values()), "Give the project assets that can be read: meshforge add.")
+        raise ProjectError("no asset can be read", where=str(store.folder), remedy=remedy)
+    return infer_spans({asset: meshes[asset] for asset in pieces}, pieces, lost)
+
+
+def find_pieces(
+    store: Store, meshes: Mapping[str, SymbolicMesh], execution: batch.ExecutionOptions, stage: Stage
+) -> tuple[dict[str, FinePieces], dict[str, str]]:
+    """The fine pieces of the surfaces of assets, by id, and why those of others are not known."""
+    work = [_Work(store.path(asset), pieces_file(store, asset)) for asset in meshes]
+    pieces, lost = dict[str, FinePieces](), dict[str, str]()
     with stage(len(work), "decomposing finely") as advance:
         options = batch.ExecutionOptions(execution.workers, execution.timeout, progress=advance, stop=execution.stop)
         for asset, found in zip(meshes, batch.run_isolated(_find_pieces, work, options), strict=True):
             if isinstance(found, batch.WorkerFailure | str):
                 lost[asset] = found if isinstance(found, str) else found.why
             else:
-                pieces[asset] = piece_mesh(found, meshes[asset])
-                unseen[asset] = frozenset(hull.body for hull in meshes[asset].hulls) - found.keys()
-    known = {asset: meshes[asset] for asset in pieces}
-    said = [label for asset in known for label in labels[asset]]
-    if not known:
-        remedy = next(iter(lost.values()), "Give the project assets that can be read: meshforge add.")
-        raise ProjectError("no asset can be read", where=str(store.folder), remedy=remedy)
-    some = list(known.values())
-    by_surface = by_cells = None
-    if any(own.hulls for own in pieces.values()):
-        by_surface = SpanModel(some, list(pieces.values())).infer(said)
-    if any(hull.body in unseen[asset] for asset, mesh in known.items() for hull in mesh.hulls):
-        with stage(1, "comparing hulls that stand for no surface") as advance:
-            by_cells = CellModel(some).infer(said)
-            advance()
+                pieces[asset] = FinePieces.of(found, meshes[asset])
+    return pieces, lost
+
+
+def infer_spans(
+    known: Mapping[str, SymbolicMesh],
+    pieces: Mapping[str, FinePieces],
+    lost: Mapping[str, str],
+    measured: Mapping[str, AssetPieces] = MappingProxyType({}),
+    cells: Mapping[str, AssetCells] = MappingProxyType({}),
+) -> SpanReport:
+    """What labels say about hulls that span parts.
+
+    known, pieces: assets with their labels, and the fine pieces of their surfaces, by the same names; lost: why others
+    are not among them; measured, cells: what is known of the pieces and cells of some, which is not measured again.
+    """
+    said = [evidence_of(hull.annotation) for mesh in known.values() for hull in mesh.hulls]
+    by_surface: SpanPosterior | None = None
+    by_cells: SpanPosterior | None = None
+    if any(own.mesh.hulls for own in pieces.values()):
+        model = SpanModel(list(known.values()), [pieces[asset].mesh for asset in known])
+        model.assets = [measured.get(asset, own) for asset, own in zip(known, model.assets, strict=True)]
+        by_surface = model.infer(said)
+    if any(own.unseen for own in pieces.values()):
+        by_cells = CellModel([cells.get(asset) or AssetCells(mesh) for asset, mesh in known.items()]).infer(said)
+    unseen = {asset: own.unseen for asset, own in pieces.items()}
     return SpanReport(known, by_surface, by_cells, unseen, lost)
 
 
 def _find_pieces(work: _Work) -> dict[str, list[Polytope]] | str:
     """The fine pieces of an asset by body, kept where they were found already; or why there are none."""
     try:
-        surfaces = batch.find_surfaces(read(work.path))
-        key = _digest(surfaces)
-        known = read_arrays(work.kept, key, "bodies", "sizes", "vertices", "faces")
-        if known is not None:
-            return {body: [] for body in surfaces} | _unpack(*known)
-        found = dict[str, list[Polytope]]()
-        for body, surface in surfaces.items():
-            try:
-                found[body] = list(decompose_finely(surface.vertices, surface.faces, cache=cache_folder()))
-            except MeshForgeError:  # flat, or without an area: its hulls stand for nothing
-                found[body] = []
-        write_arrays(work.kept, key, _pack(found))
-        return found
+        return read_pieces(batch.find_surfaces(read(work.path)), work.kept)
     except Exception as error:  # one asset never stops the others
         return describe_error(error, str(work.path))
+
+
+def pieces_file(store: Store, asset: str) -> Path:
+    """Where the fine pieces of an asset are kept."""
+    return store.layout.sketches / "fine" / f"{asset}.npz"
+
+
+def read_pieces(surfaces: Mapping[str, Surface], kept: Path) -> dict[str, list[Polytope]]:
+    """The fine pieces of surfaces by body, from a file where they were kept, else kept there."""
+    key = _digest(surfaces)
+    known = read_arrays(kept, key, *HULL_ARRAYS)
+    if known is not None:
+        return {body: [] for body in surfaces} | unpack_hulls(*known)
+    found = decompose_surfaces(surfaces)
+    write_arrays(kept, key, pack_hulls(found))
+    return found
+
+
+def decompose_surfaces(surfaces: Mapping[str, Surface]) -> dict[str, list[Polytope]]:
+    """The fine pieces of surfaces by body, as `batch.find_surfaces` gives these."""
+    found = dict[str, list[Polytope]]()
+    for body, surface in surfaces.items():
+        try:
+            found[body] = list(decompose_finely(surface.vertices, surface.faces, cache=cache_folder()))
+        except MeshForgeError:  # flat, or without an area: its hulls stand for nothing
+            found[body] = []
+    return found
 
 
 def _digest(surfaces: Mapping[str, Surface]) -> str:
@@ -176,25 +235,3 @@ def _digest(surfaces: Mapping[str, Surface]) -> str:
         state.update(np.ascontiguousarray(surface.vertices).tobytes())
         state.update(np.ascontiguousarray(surface.faces).tobytes())
     return state.hexdigest()
-
-
-def _pack(pieces: Mapping[str, Sequence[Polytope]]) -> dict[str, np.ndarray[tuple[int, ...], np.dtype[np.generic]]]:
-    rows = [(body, piece) for body, own in pieces.items() for piece in own]
-    return {
-        "bodies": np.array([body for body, _ in rows], dtype=np.str_),
-        "sizes": np.array([(len(p.vertices), len(p.faces)) for _, p in rows], dtype=np.int64).reshape(-1, 2),
-        "vertices": np.concatenate([np.zeros((0, 3)), *(piece.vertices for _, piece in rows)]),
-        "faces": np.concatenate([np.zeros((0, 3), np.int64), *(piece.faces for _, piece in rows)]),
-    }
-
-
-def _unpack(
-    bodies: Iterable[str], sizes: Floats, vertices: Floats, faces: np.ndarray[tuple[int, ...], np.dtype[np.int64]]
-) -> dict[str, list[Polytope]]:
-    found = dict[str, list[Polytope]]()
-    points = triangles = 0
-    for body, (count, sides) in zip(bodies, np.asarray(sizes, dtype=np.int64).tolist(), strict=True):
-        piece = Polytope(vertices[points : points + count], faces[triangles : triangles + sides])
-        found.setdefault(str(body), []).append(piece)
-        points, triangles = points + count, triangles + sides
-    return found

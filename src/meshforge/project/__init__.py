@@ -15,6 +15,9 @@ if TYPE_CHECKING:
         select_assets,
         suggest_first_demonstration,
     )
+    from meshforge.project.new_asset_result import NewAssetResult, assess_new_assets, describe_new
+    from meshforge.project.new_assets import NewAsset, NewAssetOptions, list_new, prepare_aside
+    from meshforge.project.preparation_plan import forget_plan, read_preparation_plan
     from meshforge.project.prepare import PreparationResult
     from meshforge.project.project import Project
     from meshforge.project.review import ProjectReview
@@ -32,22 +35,31 @@ __all__ = [
     "AssessmentBasis",
     "AssetStatus",
     "FamilyMeshes",
+    "NewAsset",
+    "NewAssetOptions",
+    "NewAssetResult",
     "PreparationResult",
     "ProgramState",
     "Project",
     "ProjectReview",
     "Status",
     "add_standings",
+    "assess_new_assets",
     "build_run_report",
+    "describe_new",
     "digest_lesson",
+    "forget_plan",
     "format_review",
     "format_share",
     "format_standing",
     "format_status",
     "keep_assessment",
+    "list_new",
     "make_correction",
     "measure_results",
     "output_digest",
+    "prepare_aside",
+    "read_preparation_plan",
     "run_with_corrections",
     "sees_whole_family",
     "select_assets",

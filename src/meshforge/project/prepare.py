@@ -17,6 +17,7 @@ from meshforge.labels import label_new_hulls
 from meshforge.project import preparation_journal as journal
 from meshforge.project import selections
 from meshforge.project.demonstrations import find_unknown_hulls
+from meshforge.project.preparation_plan import keep_decomposed
 from meshforge.store import Store, hull_digests
 from meshforge.symbolic import Asset, Label, SymbolicMesh
 
@@ -248,6 +249,7 @@ def decompose(
     ids = store.assets() if assets is None else tuple(dict.fromkeys(assets))
     engine, options = settings or CoacdSettings(), {"only": tuple(only), "again": again, "hollow": hollow, "by": by}
     work = [_DecomposeWork(store.path(asset), store.layout.preparation(asset), engine, options) for asset in ids]
+    keep_decomposed(store, ids)
     results = batch.run_isolated(_decompose_one, work, execution)
     for asset, result in zip(ids, results, strict=True):
         if isinstance(result, batch.WorkerFailure | str):

@@ -9,7 +9,7 @@ from pathlib import Path
 from meshforge import batch
 from meshforge.labels import LabelStore
 from meshforge.language import Orient
-from meshforge.project import demonstrations, learn, overview, prepare, rename, run, sign_offs, spans
+from meshforge.project import demonstrations, learn, new_assets, overview, prepare, rename, run, sign_offs, spans
 from meshforge.project.review import build_review_state, reply_to, review_project
 from meshforge.store import add_assets, create_folder, find_assets
 
@@ -57,6 +57,7 @@ class Project(LabelStore):
     unprepare = prepare.unprepare
     split_spanning = spans.split_spanning
     list_spans = spans.list_spans
+    prepare_new = new_assets.prepare_new
 
     # Demonstrations
 
@@ -72,6 +73,7 @@ class Project(LabelStore):
     synthesize = learn.learn_program
     mesh_before_rule = run.mesh_before_rule
     work = run.build_work
+    jobs = run.build_jobs
 
     def apply(
         self,

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
         ReviewState,
     )
     from meshforge.signoff.reply import apply_reply, list_answers
-    from meshforge.signoff.review import review_family
+    from meshforge.signoff.review import assess_asset, review_family
 else:
     __getattr__ = export_lazily(__name__)
 
@@ -39,6 +39,7 @@ __all__ = [
     "ReviewReply",
     "ReviewState",
     "apply_reply",
+    "assess_asset",
     "describe_odd_results",
     "find_alarms",
     "list_answers",

@@ -75,6 +75,17 @@ def review_family(
     return Assessment(assets, bar, looked_at, state.aside, _choose(_questions(trial, found, outcome.suggested), state))
 
 
+def assess_asset(
+    state: ReviewState, outcome: LearningOutcome | None, family: FamilyModel, asset: str
+) -> AssetConfidence:
+    """How probable the edit of one asset of a family is; the arguments are those of `review_family`."""
+    if not isinstance(outcome, Found | Ambiguous):
+        return AssetConfidence(asset, 0.0, (_doubt_of(outcome),))
+    posterior = family.infer([hull.annotation for mesh in state.meshes.values() for hull in mesh.hulls])
+    trial = FamilyTrial.of(state, outcome.program, outcome.readings, posterior, _NO_ALARMS)
+    return trial.confidence_of(trial.places[asset])
+
+
 def _doubt_of(outcome: LearningOutcome | None) -> Doubt:
     if outcome is None:
         return Doubt("reading", "nothing is demonstrated yet", share=1.0)

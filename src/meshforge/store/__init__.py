@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     )
     from meshforge.store.layout import JsonFile, json_text, read_json, write_json
     from meshforge.store.meshes import AssetFacts, AssetFiles, geometry_digest, hull_digests, iterate_survey, survey
+    from meshforge.store.preparation_plan import PreparationPlanFile
     from meshforge.store.program import (
         CorrectionsFile,
         DemonstrationFile,
@@ -61,6 +62,7 @@ __all__ = [
     "DemonstrationFile",
     "JsonFile",
     "LabelBefore",
+    "PreparationPlanFile",
     "ProgramRecord",
     "RepairLine",
     "Review",

@@ -40,6 +40,11 @@ class Layout:
         return self.preparation(asset) / _JOURNAL
 
     @property
+    def preparation_plan(self) -> Path:
+        """How new assets are prepared, and which are new."""
+        return self.folder / "preparation.json"
+
+    @property
     def settings(self) -> Path:
         """What the project is about, as its owner writes it."""
         return self.folder / SETTINGS

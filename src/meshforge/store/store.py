@@ -25,6 +25,7 @@ from meshforge.store import settings as settings_file
 from meshforge.store.feedback import AnswersFile, Review, ReviewFile
 from meshforge.store.layout import Layout, read_json, write_json
 from meshforge.store.meshes import AssetFiles, read_labels_file
+from meshforge.store.preparation_plan import forget_assets
 from meshforge.store.sign_off import AssessmentFile, LaterFile, SignOffFile
 from meshforge.store.spans import SpansFile
 from meshforge.symbolic import Label, LabelFile, SymbolicMesh, format_labels, match_labels, transfer_labels
@@ -154,6 +155,7 @@ class Store:
                     path.unlink(missing_ok=True)
                 remove_preparation(self.layout.preparation(asset))
             self.write_reviews(dict.fromkeys(assets))
+            forget_assets(self.layout, assets)
 
     # Labels
 

@@ -9,7 +9,7 @@ import pytest
 from meshforge.batch import IN_PROCESS
 from meshforge.common import ProjectError, UsageError
 from meshforge.geometry import overlap_volume, volume_of_union
-from meshforge.project import PreparationResult, Project
+from meshforge.project import PreparationResult, Project, span_search
 from tests.unit.project.stools import PARTS, boxes, coarse, write_stool
 
 
@@ -78,7 +78,8 @@ def test_what_is_split_is_taken_back_to_the_last_byte(project: Project) -> None:
     split(project)
     assert files(project) != before
     project.unprepare("c.urdf")
-    assert files(project) == before
+    plan = {"preparation.json": project.layout.preparation_plan.read_bytes()}
+    assert files(project) == before | plan, "what is to be done to new assets stays"
 
 
 def test_a_dry_run_writes_nothing_and_says_what_would_be_split(project: Project) -> None:
@@ -171,3 +172,21 @@ def test_a_broken_asset_does_not_stop_the_others(project: Project, tmp_path: Pat
     (tmp_path / "assets/a.urdf").write_text("<robot")
     results = split(Project.open(project.folder))
     assert results[0].problems and len(results[2].made) == 1
+
+
+def test_in_a_large_family_each_asset_is_looked_at_by_itself(project: Project, monkeypatch: pytest.MonkeyPatch) -> None:
+    together = [result.notes for result in split(project, dry_run=True)]
+    monkeypatch.setattr(span_search, "MOST_TOGETHER", 0)
+    monkeypatch.setattr(span_search, "find_spans", None)
+    alone = split(project, dry_run=True)
+    assert [bool(result.notes) for result in alone] == [bool(notes) for notes in together] == [False, False, True]
+    assert alone[2].notes[0].startswith("would split base/h0 holds seat and leg, ")
+    results = split(project)
+    assert [len(result.made) for result in results] == [0, 0, 1]
+    assert {project.mesh("c.urdf").hull_of(name).label for name in results[2].hulls} == {"seat", "leg"}
+    assert project.spans().assets["c.urdf"]["base/h0"].told.startswith("base/h0 holds seat and leg, ")
+    for asset in ("a.urdf", "b.urdf"):
+        names = [hull.name for hull in project.mesh(asset).hulls]
+        project.set_labels(asset, dict.fromkeys(names))
+    with pytest.raises(ProjectError, match="no hull has a label"):
+        split(project)

@@ -80,7 +80,7 @@ def decompose_asset(
         hulls += own
         taken |= entry.made.keys()
     if made:
-        used = {**settings_to_json(settings, hollow), "by": by}
+        used = {**settings_to_json(settings, hollow), "by": by, **({"only": list(only)} if only else {})}
         step = record.PreparationStep("decompose", used, software_versions(settings), tuple(made))
         kept = kept.with_step(step, hulls)
     return DecompositionResult(kept, tuple(made), tuple(failed), fit.lost, missed)

@@ -62,6 +62,16 @@ def read_preparation(folder: Path) -> Preparation | None:
     return found.with_only(steps)
 
 
+def read_steps(folder: Path) -> tuple[PreparationStep, ...]:
+    """What was done, without the hulls; nothing where nothing was. Raises AssetError where the record is damaged."""
+    try:
+        return _read_steps(folder / RECORD_FILE)
+    except (FileNotFoundError, NotADirectoryError):
+        return ()
+    except OSError as error:
+        raise _file_error(folder / RECORD_FILE, error) from error
+
+
 def record_digest(folder: Path) -> str | None:
     """The digest of what was done, hulls included, None where nothing was; an empty text where it cannot be read."""
     try:

@@ -12,12 +12,13 @@ from typing import TYPE_CHECKING, Generic, Literal, TypeVar
 from meshforge.batch.execution import execute
 from meshforge.batch.jobs import AssetJob
 from meshforge.batch.outcome import MOST_SHOWN, RunSummary
+from meshforge.batch.preparation.storage import read_prepared
 from meshforge.batch.workers import EXECUTION_DEFAULTS, ExecutionOptions, WorkerFailure
 from meshforge.checks import Examination, Finding, draw_examination
 from meshforge.formats import load
 from meshforge.language import RuleTrace
 from meshforge.rendering import ColorBy, compare, draw_difference, encode_webp, render
-from meshforge.symbolic import SymbolicMesh
+from meshforge.symbolic import SymbolicMesh, read_labels, transfer_labels
 
 if TYPE_CHECKING:
     from PIL.Image import Image
@@ -200,8 +201,11 @@ def read_again(
 
 
 def read_job(job: AssetJob) -> SymbolicMesh:
-    """An asset with its labels, as it lies in its file. Raises as `load`."""
-    return load(job.path, labels=job.labels)
+    """An asset with its labels, after what is done to it before the program. Raises as `load` and `read_prepared`."""
+    if job.preparation is None:
+        return load(job.path, labels=job.labels)
+    mesh = SymbolicMesh.of(read_prepared(job.path, job.preparation))
+    return transfer_labels(read_labels(job.labels), mesh).mesh if job.labels else mesh
 
 
 def _try_read(reader: MeshReader) -> SymbolicMesh | None:

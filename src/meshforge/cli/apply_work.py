@@ -1,0 +1,209 @@
+"""What is typed after `meshforge apply`, and what is to be run on what by that."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from contextlib import ExitStack
+from dataclasses import dataclass, field, replace
+from functools import partial
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import TYPE_CHECKING, Annotated, Any, Literal
+
+import typer
+
+from meshforge import batch
+from meshforge.cli import options
+from meshforge.cli.apply_new import hold, hold_new, prepare_given, prepare_later
+from meshforge.cli.terminal import remark
+from meshforge.common import UsageError
+from meshforge.language import Program, Template
+
+if TYPE_CHECKING:
+    from meshforge.project import NewAssetOptions, NewAssetResult, Project, ProjectReview
+    from meshforge.signoff import AssetConfidence
+
+_ASIDE = "a person set it aside"
+
+
+@dataclass(frozen=True, slots=True)
+class ApplyArguments:
+    """What is typed after `meshforge apply`."""
+
+    program: Annotated[Path, typer.Argument(help="A program file (*.mf) or a project folder.")]
+    assets: Annotated[
+        list[str] | None,
+        typer.Argument(
+            help="Files, folders or globs; with a project they are prepared as it says, by default its own."
+        ),
+    ] = None
+    out: Annotated[
+        Path | None,
+        typer.Option("-o", "--out", help="Folder for the edited assets; for its own a project has one, edited/."),
+    ] = None
+    labels: options.LabelsPath = None
+    execution: options.ExecutionArguments = options.EXECUTION
+    mass: Annotated[
+        Literal["keep", "recompute"], typer.Option("--mass", help="Masses that a format derives from geometry.")
+    ] = "keep"
+    names: options.MarkNames = None
+    collision: options.CollisionPlace = "beside"
+    link: Annotated[bool, typer.Option("--link", help="Hard-link files that are only copied.")] = False
+    dry_run: options.DryRun = False
+    again: Annotated[bool, typer.Option("--again", help="Do again what an earlier run has done.")] = False
+    report: options.ReportPath = None
+    check: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--check",
+            help="fit, clearance, physics, an engine or a check of a plug-in: checks for the report, of what it shows. "
+            "May be repeated.",
+        ),
+    ] = None
+    sure: Annotated[
+        float | None,
+        typer.Option(
+            "--sure",
+            help="Write only results that are so sure, or were looked at.",
+            min=0.5,
+            max=1.0,
+        ),
+    ] = None
+    no_split: Annotated[
+        bool, typer.Option("--no-split", help="Leave hulls of new assets that span parts as they are; name them.")
+    ] = False
+    json: options.Json = False
+
+
+Alarms = Mapping[str, Sequence[str]]
+"""Sentences about results that stand out, by asset."""
+
+
+def _sign_nothing_off(alarms: Alarms) -> Mapping[str, str]:
+    return {}
+
+
+@dataclass(frozen=True, slots=True)
+class ApplyWork:
+    """What is to be run on what. readers: of assets before the run, by id; held: those that are held back;
+    finish: called with all alarms when all is written, says what is no longer signed off, and why, by asset; project:
+    None where its own assets are not meant; new: what was done to new assets before, by id; failed: those of them that
+    could not be prepared; confidences: how sure the edits of assets are that are not the project's, as far as asked."""
+
+    program: Program
+    jobs: Sequence[batch.AssetJob]
+    out: Path
+    templates: Mapping[str, Template]
+    readers: Callable[[Iterable[str]], Sequence[batch.MeshReader]]
+    held: Sequence[batch.Held] = ()
+    finish: Callable[[Alarms], Mapping[str, str]] = _sign_nothing_off
+    project: Project | None = None
+    new: Mapping[str, NewAssetResult] = field(default_factory=dict)
+    failed: Sequence[batch.Failed] = ()
+    confidences: Mapping[str, AssetConfidence] = field(default_factory=dict)
+
+    @staticmethod
+    def of(given: ApplyArguments, stack: ExitStack) -> ApplyWork:
+        """What was asked for; stack: keeps a folder for as long as the run takes."""
+        return _work_of_project(given, stack) if given.program.is_dir() else _work_of_program(given)
+
+    def describe_standings(self) -> dict[str, dict[str, Any]]:
+        """How sure each edit of a project is, as far as its last review holds, by asset."""
+        rows = self.project.status().assets if self.project else ()
+        standings = {one.id: one.confidence_to_json() for one in rows}
+        standings |= {
+            asset: {"probability": round(one.probability, 4), "doubts": [doubt.to_json() for doubt in one.doubts]}
+            for asset, one in self.confidences.items()
+        }
+        return standings | {asset: {**standings.get(asset, {}), **one.to_json()} for asset, one in self.new.items()}
+
+
+def _work_of_project(given: ApplyArguments, stack: ExitStack) -> ApplyWork:
+    """What is run on assets of a project or others given beside it; stack: keeps a folder for as long as that takes."""
+    from meshforge.project import NewAssetOptions, Project  # lazy: 170 modules that a program file does not need
+
+    if given.labels and not given.assets:
+        raise UsageError("a project has its own labels", remedy="Leave out --labels.")
+    project = Project.open(given.program)
+    new_options = NewAssetOptions(split=not given.no_split, execution=given.execution.to_options())
+    if given.assets:
+        return _work_of_others(given, project, new_options, stack)
+    out = given.out or project.layout.edited
+    folder = Path(stack.enter_context(TemporaryDirectory())) if given.dry_run else None
+    new = prepare_later(project, folder, new_options)
+    held = _hold_back(project, out, given.sure) if given.sure is not None else ()
+    program, jobs, templates = project.work()
+    names = {one.asset for one in held}
+    rest = [job for job in new.update(jobs) if job.id not in names]
+    finish = project.renew_sign_offs if out.absolute() == project.layout.edited else _sign_nothing_off
+    return ApplyWork(program, rest, out, templates, project.readers, held, finish, project, new.results, new.failed)
+
+
+def _work_of_others(
+    given: ApplyArguments, project: Project, new_options: NewAssetOptions, stack: ExitStack
+) -> ApplyWork:
+    """What is run on assets that are given beside a project."""
+    from meshforge.project import assess_new_assets  # lazy: as above
+
+    if given.out is None:
+        raise UsageError("--out DIR is missing", remedy="meshforge apply PROJECT ASSETS... --out DIR")
+    out = given.out
+    if out.absolute() == project.layout.edited:
+        raise UsageError("this folder is for the project's own assets", where=str(out), remedy="Choose another --out.")
+    review = _review(project, given.sure) if given.sure is not None else None
+    program, _, templates = project.work(())
+    folder = Path(stack.enter_context(TemporaryDirectory())) if given.dry_run else out / batch.STATE
+    new_options = replace(new_options, guess=bool(program.labels_asked))
+    jobs, new = prepare_given(project, given.assets or (), given.labels, folder, new_options)
+    found: dict[str, AssetConfidence] = {}
+    held: tuple[batch.Held, ...] = ()
+    if review and given.sure is not None:
+        found = assess_new_assets(project, review, jobs, new.results, new_options.execution)
+        held = hold_new(found, given.sure, out)
+    names = {one.asset for one in held}
+    by_id = {job.id: job for job in jobs}
+    return ApplyWork(
+        program,
+        [job for job in jobs if job.id not in names],
+        out,
+        templates,
+        lambda assets: [partial(batch.read_job, by_id[asset]) for asset in assets],
+        held,
+        new=new.results,
+        failed=new.failed,
+        confidences=found,
+    )
+
+
+def _review(project: Project, bar: float) -> ProjectReview:
+    """How a family stands now."""
+    program = project.program()
+    found = project.review(bar)
+    if program != project.program():
+        remark("The program was learned again from what was said since.")
+    return found
+
+
+def _hold_back(project: Project, out: Path, bar: float) -> tuple[batch.Held, ...]:
+    """The assets of a project whose edits are less sure than a bar, the least sure first."""
+    assessment = _review(project, bar).assessment
+    held = (hold(name, assessment.assets.get(name), out) for name in assessment.held)
+    aside = (hold(name, assessment.assets.get(name), out, _ASIDE) for name in sorted(assessment.aside))
+    return (*held, *aside)
+
+
+def _work_of_program(given: ApplyArguments) -> ApplyWork:
+    if given.sure is not None:
+        raise UsageError("--sure needs a project: a program alone does not say how sure its results are")
+    if given.no_split:
+        raise UsageError("--no-split needs a project: a program alone splits no hulls")
+    if not given.assets or given.out is None:
+        lacking = "assets" if not given.assets else "--out DIR"
+        raise UsageError(f"{lacking} is missing", remedy="meshforge apply PROGRAM ASSETS... --out DIR")
+    program = Program.read(given.program)
+    templates = batch.load_templates(program, batch.template_folders(given.program))
+    jobs = batch.make_jobs(batch.expand(given.assets), given.labels)
+    by_id = {job.id: job for job in jobs}
+    return ApplyWork(
+        program, jobs, given.out, templates, lambda assets: [partial(batch.read_job, by_id[asset]) for asset in assets]
+    )

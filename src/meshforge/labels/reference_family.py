@@ -1,0 +1,116 @@
+"""The labelled assets of a project, against which assets are looked at that are not of it, or new in it: one at a time,
+so that what is found of one does not depend on the others, nor on how many there are."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Collection, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+
+from meshforge import batch
+from meshforge.label_model import AssetCells, AssetPieces, evidence_of, model_family
+from meshforge.label_model.describe import describe_mesh, digest_mesh
+from meshforge.labels.family_comparison import Stage
+from meshforge.labels.spans import FinePieces, SpanReport, decompose_surfaces, find_pieces, infer_spans, read_pieces
+from meshforge.store import Store
+from meshforge.symbolic import HUMAN_SOURCES, Asset, Label, LabelFile, SymbolicMesh
+
+MOST_COMPARED = 32
+"""Labelled assets that a new one is compared with: those with labels of people first, evenly chosen of more."""
+NEW = ""
+"""The name of a new asset in the report of `ReferenceFamily.find_spans`; ids of a project are never empty."""
+
+
+@dataclass(frozen=True, eq=False)
+class ReferenceFamily:
+    """Assets of which hulls are labelled. meshes: as they are prepared, by id; pieces: with the fine pieces of their
+    surfaces, by id; words: the project's vocabulary."""
+
+    meshes: Mapping[str, SymbolicMesh]
+    pieces: Mapping[str, AssetPieces]
+    words: tuple[str, ...]
+
+    @cached_property
+    def digest(self) -> str:
+        """Equal for families that say the same about a new asset."""
+        rows = [[digest_mesh(one).hex(), str(one.labels)] for one in self.meshes.values()]
+        fine = [digest_mesh(one.pieces).hex() for one in self.pieces.values()]
+        return batch.text_digest(json.dumps([rows, fine, self.words]))
+
+    @cached_property
+    def cells(self) -> dict[str, AssetCells]:
+        """The cells of the hulls of its assets, for new hulls that stand for no surface."""
+        return {asset: AssetCells(mesh) for asset, mesh in self.meshes.items()}
+
+    def find_spans(self, source: Asset, mesh: SymbolicMesh, kept: Path | None = None) -> SpanReport:
+        """Which hulls of an asset span parts, as a report on the asset `NEW` alone.
+
+        source: the asset as it was read; mesh: it as it is prepared, with its labels; kept: the file of its pieces.
+        """
+        surfaces = batch.find_surfaces(source)
+        own = FinePieces.of(read_pieces(surfaces, kept) if kept else decompose_surfaces(surfaces), mesh)
+        known = {asset: one.mesh for asset, one in self.pieces.items()}
+        pieces = {asset: FinePieces(one.pieces) for asset, one in self.pieces.items()}
+        cells = self.cells if own.unseen else {}
+        return infer_spans({NEW: mesh, **known}, {NEW: own, **pieces}, {}, self.pieces, cells)
+
+    def without(self, asset: str) -> ReferenceFamily:
+        """The family without one of its assets, to which that is to be compared."""
+        if asset not in self.meshes:
+            return self
+        meshes = {name: mesh for name, mesh in self.meshes.items() if name != asset}
+        return ReferenceFamily(meshes, {n: one for n, one in self.pieces.items() if n != asset}, self.words)
+
+    def infer_labels(self, mesh: SymbolicMesh) -> dict[str, Label]:
+        """The likeliest label of each hull of an asset that has none, by its name, with its probability."""
+        meshes = [mesh, *self.meshes.values()]
+        found = model_family(meshes).infer([self._speak(hull.annotation) for own in meshes for hull in own.hulls])
+        rows = zip(mesh.hulls, found.labels(0), strict=True)
+        return {hull.name: label for hull, label in rows if label and not hull.annotation}
+
+    def _speak(self, label: Label | None) -> Label | None:
+        known = evidence_of(label)
+        return known if known and known.name in self.words else None
+
+
+def read_reference_family(
+    store: Store, execution: batch.ExecutionOptions, stage: Stage, *, without: Collection[str] = (), spans: bool = True
+) -> ReferenceFamily | None:
+    """The labelled assets of a project; None where no hull has a label that was not inferred.
+
+    without: assets that do not count; spans: whether their surfaces are needed. Raises AssetError where a labels file
+    cannot be read.
+    """
+    chosen = choose_labelled({asset: store.labels(asset) for asset in store.assets() if asset not in set(without)})
+    meshes = {
+        asset: mesh
+        for asset, mesh in store.meshes_by_id(chosen)
+        if any(evidence_of(hull.annotation) for hull in mesh.hulls)
+    }
+    if not meshes:
+        return None
+    found = find_pieces(store, meshes, execution, stage)[0] if spans else {}
+    pieces = {asset: AssetPieces(meshes[asset], own.mesh) for asset, own in found.items()}
+    for one in pieces.values():
+        assert one.common is not None  # measured here, so that no worker does it again; likewise below
+    for mesh in (*meshes.values(), *(own.mesh for own in found.values())):
+        describe_mesh(mesh)
+    return ReferenceFamily(meshes, pieces, store.vocabulary)
+
+
+def choose_labelled(files: Mapping[str, LabelFile], most: int = MOST_COMPARED) -> list[str]:
+    """The assets that new ones are compared with, in the order of the project."""
+    said = {
+        asset: [label for own in file.labels.values() if (label := evidence_of(own))] for asset, file in files.items()
+    }
+    by_people = [asset for asset, labels in said.items() if any(one.source in HUMAN_SOURCES for one in labels)]
+    others = [asset for asset, labels in said.items() if labels and asset not in set(by_people)]
+    chosen = {*_pick_evenly(by_people, most)}
+    chosen |= {*_pick_evenly(others, most - len(chosen))}
+    return [asset for asset in files if asset in chosen]
+
+
+def _pick_evenly(items: Sequence[str], most: int) -> list[str]:
+    return [items[place * len(items) // most] for place in range(most)] if len(items) > most else list(items)

@@ -1,0 +1,277 @@
+"""Assets that are not of a project, or came to it later, prepared as it says: decomposed as its own, hulls that span
+parts split where that is sure enough, and hulls without a label given the likeliest one.
+
+Each is compared with the project's labelled assets alone, in a worker process: what becomes of it does not depend on
+the other new ones, nor on the number of workers, and no process holds more than these and one new asset.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from functools import partial
+from pathlib import Path
+
+from meshforge import batch
+from meshforge.common import MeshForgeError, describe_error, join_names
+from meshforge.formats import read
+from meshforge.geometry import cache_folder
+from meshforge.labels import NEW, HullSpan, ReferenceFamily, ignore_stage, read_reference_family
+from meshforge.labels.family_comparison import Stage
+from meshforge.labels.merge import LabelWriter, can_fill_gap
+from meshforge.project.new_asset_memory import NewAssetFolder, digest_basis
+from meshforge.project.new_asset_result import HullSplit, NewAssetResult
+from meshforge.project.preparation_plan import PreparationPlan, extend_plan, find_new_assets
+from meshforge.project.prepare import exchange_preparation
+from meshforge.project.span_search import plan_divisions
+from meshforge.store import Store, hull_digests
+from meshforge.symbolic import Asset, Label, LabelFile, SymbolicMesh, read_labels, transfer_labels, write_labels
+
+_NO_LABELS = "no hull of the project has a label, so nothing says which hulls span parts"
+
+
+@dataclass(frozen=True, slots=True)
+class NewAsset:
+    """One asset that is to be prepared. labels: its labels file, None where it has none; preparation: the folder of
+    what is done to it already, None for nothing."""
+
+    id: str
+    path: Path
+    plan: PreparationPlan
+    labels: Path | None = None
+    preparation: Path | None = None
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class _WorkerOutcome:
+    """What a worker made of an asset. files: the digest of each of its files; seen: that of the preparation that was
+    there."""
+
+    files: dict[str, str]
+    preparation: batch.Preparation
+    seen: str | None
+    mesh: SymbolicMesh
+    vocabulary: tuple[str, ...]
+    result: NewAssetResult
+
+    @property
+    def parts(self) -> dict[str, Label]:
+        return {name: label for split in self.result.splits for name, label in split.parts.items()}
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class _Task:
+    """family: None where nothing is labelled; split: whether hulls are split; guess: whether hulls without a label get
+    one; contact: the threshold, None for the language's own."""
+
+    family: ReferenceFamily | None
+    split: bool
+    guess: bool
+    contact: float | None
+
+
+@dataclass(frozen=True, slots=True)
+class NewAssetOptions:
+    """split: whether hulls that span parts are split, or only named; guess: whether hulls without a label get the
+    likeliest one."""
+
+    split: bool = True
+    guess: bool = True
+    execution: batch.ExecutionOptions = batch.EXECUTION_DEFAULTS
+    stage: Stage = ignore_stage
+
+
+NEW_ASSET_DEFAULTS = NewAssetOptions()
+
+
+def prepare_in_project(
+    store: Store, assets: Sequence[NewAsset], options: NewAssetOptions = NEW_ASSET_DEFAULTS
+) -> Iterator[NewAssetResult]:
+    """Prepare assets of a project; what is done is kept in the project, and undone, as by `meshforge prepare`."""
+    if not assets:
+        return
+    found_all = _prepare_all(_make_task(store, assets, options), assets, options)
+    for work, found in zip(assets, found_all, strict=True):
+        if isinstance(found, str):
+            yield NewAssetResult(work.id, problem=found)
+            continue
+        try:
+            yield replace(found.result, notes=(*_keep_in_project(store, work.id, found), *found.result.notes))
+        except MeshForgeError as error:
+            yield NewAssetResult(work.id, problem=error.message)
+
+
+def list_new(store: Store) -> tuple[list[NewAsset], str | None]:
+    """The assets that came to a project after the others were prepared; and why they are not decomposed, where it is
+    unclear how."""
+    plans, unclear = find_new_assets(store)
+    own, layout = plans.items(), store.layout
+    return [
+        NewAsset(one, store.path(one), plan, layout.labels(one), layout.preparation(one)) for one, plan in own
+    ], unclear
+
+
+def prepare_new(store: Store, options: NewAssetOptions = NEW_ASSET_DEFAULTS) -> Iterator[NewAssetResult]:
+    """Prepare the assets that came to a project after the others were prepared, as these were; `prepare --undo` takes
+    it back, and it is not done again then. Raises ProjectError where what the project keeps of that is damaged."""
+    new, unclear = list_new(store)
+    for result in prepare_in_project(store, new, options):
+        if not result.problem:
+            extend_plan(store, [result.asset], decomposed=unclear is None, split=options.split)
+        yield result
+
+
+def _keep_in_project(store: Store, asset: str, found: _WorkerOutcome) -> list[str]:
+    """Write what was done step by step, since each is undone by itself; notes on that."""
+    notes, seen, after = list[str](), found.seen, found.preparation
+    before = len(batch.read_steps(store.layout.preparation(asset)))
+    labels = {name: label for name, label in found.parts.items() if label.name in store.vocabulary}
+    for count in range(before + 1, len(after.steps) + 1):
+        is_last = count == len(after.steps)
+        part = after if is_last else after.with_only(after.steps[:count])
+        notes += exchange_preparation(store, asset, part, seen, labels if is_last else None)
+        seen = batch.record_digest(store.layout.preparation(asset))
+    if found.result.guesses:
+        LabelWriter(store).write(asset, hull_digests(found.mesh), found.result.guesses, can_fill_gap)
+    return notes
+
+
+def prepare_aside(
+    store: Store, assets: Sequence[NewAsset], folder: Path, options: NewAssetOptions = NEW_ASSET_DEFAULTS
+) -> Iterator[tuple[NewAsset, NewAssetResult]]:
+    """Prepare assets with what is done kept in a folder, and neither in the project nor beside them: each as it is to
+    be read now, with its labels and its preparation there. What an earlier call made of the same is taken as it is."""
+    if not assets:
+        return
+    task = _make_task(store, assets, options)
+    shared = [task.family.digest if task.family else None, task.split, task.guess, task.contact]
+    homes = {one.id: NewAssetFolder(folder, one.id, one.path) for one in assets}
+    basis = {one.id: digest_basis(one.plan, one.labels, one.preparation, shared) for one in assets}
+    known = {one.id: result for one in assets if (result := homes[one.id].read(basis[one.id]))}
+    fresh = _prepare_all(task, [one for one in assets if one.id not in known], options)
+    for work in assets:
+        home, result = homes[work.id], known.get(work.id)
+        if result is None:
+            found = next(fresh)
+            if isinstance(found, str):
+                yield work, NewAssetResult(work.id, problem=found)
+                continue
+            result = _keep_aside(home, basis[work.id], found)
+        labels = home.labels if home.labels.exists() else None
+        preparation = home.preparation if batch.record_digest(home.preparation) else None
+        yield replace(work, labels=labels, preparation=preparation), result
+
+
+def _keep_aside(home: NewAssetFolder, basis: str, found: _WorkerOutcome) -> NewAssetResult:
+    """Write what was done to an asset, and last what became of it."""
+    home.forget()
+    if found.preparation.steps:
+        batch.write_preparation(home.preparation, found.preparation)
+    else:
+        batch.remove_preparation(home.preparation)
+    if found.mesh.labels:
+        write_labels(home.labels, found.mesh, found.vocabulary)
+    else:
+        home.labels.unlink(missing_ok=True)
+    home.write(basis, found.files, found.result)
+    return found.result
+
+
+def _make_task(store: Store, assets: Sequence[NewAsset], options: NewAssetOptions) -> _Task:
+    """What is the same for all assets; the project's labelled ones are read, but for those that are new themselves."""
+    spans = any(one.plan.sure is not None for one in assets)
+    own = {path: asset for asset, path in store.found.ids.items()}
+    without = {own[one.path] for one in assets if one.path in own}
+    family = None
+    if spans or options.guess:
+        family = read_reference_family(store, options.execution, options.stage, without=without, spans=spans)
+    return _Task(family, options.split, options.guess, store.settings.thresholds.contact)
+
+
+def _prepare_all(task: _Task, assets: Sequence[NewAsset], options: NewAssetOptions) -> Iterator[_WorkerOutcome | str]:
+    """Each asset as a worker prepared it, or why none could."""
+    with options.stage(len(assets), "preparing") as advance:
+        execution = replace(options.execution, progress=advance)
+        for found in batch.execute(partial(_prepare, task), assets, execution):
+            yield found.why if isinstance(found, batch.WorkerFailure) else found
+
+
+def _prepare(task: _Task, work: NewAsset) -> _WorkerOutcome | str:
+    """What a worker makes of an asset, or why it failed."""
+    try:
+        seen = batch.record_digest(work.preparation) if work.preparation else None
+        before = (batch.read_preparation(work.preparation) if work.preparation else None) or batch.Preparation()
+        source = read(work.path)
+        after, notes = _decompose(source, before, work.plan)
+        labels = read_labels(work.labels) if work.labels and work.labels.exists() else LabelFile()
+        mesh = _build_mesh(source, after, labels, task.contact)
+        found = _SplitOutcome(after)
+        if work.plan.sure is not None and mesh.hulls:
+            found = _split(task, source, after, mesh, work.plan.sure)
+            if found.splits:
+                mesh = _build_mesh(source, found.preparation, labels, task.contact).with_labels(found.parts)
+        guesses = task.family.infer_labels(mesh) if task.guess and task.family and mesh.hulls else {}
+        result = NewAssetResult(work.id, found.splits, found.spanning, guesses, (*found.notes, *notes))
+        words = labels.vocabulary or (task.family.words if task.family else ())
+        files = batch.asset_digests(work.path, source.files, work.path.parent)
+        return _WorkerOutcome(files, found.preparation, seen, mesh.with_labels(guesses), words, result)
+    except Exception as error:  # one asset never stops the others
+        return describe_error(error, str(work.path))
+
+
+def _build_mesh(
+    source: Asset, preparation: batch.Preparation, labels: LabelFile, contact: float | None
+) -> SymbolicMesh:
+    mesh = transfer_labels(labels, SymbolicMesh.of(batch.apply_preparation(source, preparation))).mesh
+    return mesh if contact is None else replace(mesh, epsilon=contact)
+
+
+def _decompose(
+    source: Asset, before: batch.Preparation, plan: PreparationPlan
+) -> tuple[batch.Preparation, tuple[str, ...]]:
+    """The preparation with the decompositions of the plan, and notes on these."""
+    notes = list[str]()
+    for one in plan.decompose:
+        done = batch.decompose_asset(
+            source, before, one.settings, only=one.only, hollow=one.hollow, by=one.by, cache=cache_folder()
+        )
+        before = done.preparation
+        notes += [f"{entry.what} decomposed by {one.settings.engine}: {entry.told}" for entry in done.made]
+        notes += [f"{lost.what} could not be decomposed: {lost.why}" for lost in done.failed]
+    return before, tuple(notes)
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class _SplitOutcome:
+    """A preparation with the hulls split that surely span parts; spanning: those that likely do and are left."""
+
+    preparation: batch.Preparation
+    splits: tuple[HullSplit, ...] = ()
+    spanning: tuple[HullSpan, ...] = ()
+    notes: tuple[str, ...] = ()
+
+    @property
+    def parts(self) -> dict[str, Label]:
+        return {name: label for split in self.splits for name, label in split.parts.items()}
+
+
+def _split(task: _Task, source: Asset, before: batch.Preparation, mesh: SymbolicMesh, sure: float) -> _SplitOutcome:
+    """Look for hulls that span parts, and split those that surely do where that is asked for."""
+    if task.family is None:
+        return _SplitOutcome(before, notes=(_NO_LABELS,))
+    report = task.family.find_spans(source, mesh)
+    bare = report.bare.get(NEW, ())
+    notes = (f"no surface says whether {join_names(bare)} span parts",) if bare else ()
+    plan = plan_divisions(report, NEW, sure)
+    spans = {span.hull: span for span in report.spans_of(NEW)}
+    divided = [spans[one.hull] for one in plan.divisions] if task.split else []
+    likely = {span.hull for span in (*plan.unsure, *plan.whole)} | {one.hull for one in plan.divisions}
+    left = tuple(span for name, span in spans.items() if name in likely and span not in divided)
+    if not divided:
+        return _SplitOutcome(before, (), left, notes)
+    after, labels = plan.divide(source, before)
+    splits = tuple(
+        HullSplit(span.hull, span.chance, str(span), {name: labels[name] for name in entry.made})
+        for span, entry in zip(divided, after.steps[-1].replaced, strict=True)
+    )
+    return _SplitOutcome(after, splits, left, notes)

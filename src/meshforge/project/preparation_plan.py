@@ -1,0 +1,156 @@
+"""What a project says about preparing new assets, and which of its own are new.
+
+How pieces are decomposed is read from the preparations of its assets, so that nothing can get out of step with them;
+that hulls which span parts are split, and from when an asset is new, is kept when all assets are prepared.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Collection, Mapping
+from dataclasses import dataclass, fields
+from typing import Any, get_args
+
+from meshforge import batch
+from meshforge.common import MeshForgeError, join_names
+from meshforge.formats import DecomposeBy
+from meshforge.geometry import CoacdSettings, DecomposeSettings
+from meshforge.store import PreparationPlanFile, Store, read_json, write_json
+
+_EXAMPLES = 2  # assets that are named where they were decomposed otherwise
+
+
+@dataclass(frozen=True, slots=True)
+class DecompositionPlan:
+    """One decomposition: its settings, and the further arguments of `batch.decompose_asset`."""
+
+    settings: DecomposeSettings
+    only: tuple[str, ...]
+    hollow: bool
+    by: DecomposeBy
+
+
+@dataclass(frozen=True, slots=True)
+class PreparationPlan:
+    """How new assets of a family are prepared.
+
+    decompose: in this order, as all assets were that have been decomposed; sure: the probability from which hulls that
+    span parts are split, None where they are not looked for; unclear: a sentence where assets were decomposed in
+    several ways, so that new ones are not.
+    """
+
+    decompose: tuple[DecompositionPlan, ...] = ()
+    sure: float | None = None
+    unclear: str | None = None
+
+
+def read_preparation_plan(store: Store) -> PreparationPlan:
+    """What a project says about new assets. Raises ProjectError where its file is damaged."""
+    kept = _read(store)
+    ways = dict[str, list[str]]()
+    for asset in store.layout.ids_with_preparation():
+        if asset not in store.found.ids:
+            continue
+        try:
+            steps = batch.read_steps(store.layout.preparation(asset))
+        except MeshForgeError:  # the run says so of that asset
+            continue
+        done = [json.dumps(step.settings, sort_keys=True) for step in steps if step.do == "decompose"]
+        if done:  # what was continued was done once
+            ways.setdefault("\n".join(dict.fromkeys(done)), []).append(asset)
+    if len(ways) > 1:
+        some = "; ".join(f"{_describe_way(way)}: {join_names(assets, _EXAMPLES)}" for way, assets in ways.items())
+        problem = f"the assets were decomposed in {len(ways)} ways, so new ones are not decomposed ({some})"
+        return PreparationPlan(sure=kept.sure, unclear=problem)
+    lines = next(iter(ways), "").splitlines()
+    plans = [_parse_plan(json.loads(line)) for line in lines]
+    if None in plans:
+        problem = "the assets were decomposed by another version, with other options, so new ones are not decomposed"
+        return PreparationPlan(sure=kept.sure, unclear=problem)
+    return PreparationPlan(tuple(plan for plan in plans if plan), kept.sure)
+
+
+def _describe_way(way: str) -> str:
+    """`coacd threshold=0.1 only=knob`: what differs from the defaults."""
+    texts = []
+    for line in way.splitlines():
+        settings = json.loads(line)
+        plan = _parse_plan(settings)
+        usual = type(plan.settings)().as_dict() | {"hollow": False, "by": "whole"} if plan else {}
+        odd = {k: v for k, v in settings.items() if k != "method" and (k not in usual or usual[k] != v)}
+        shown = (f"{k}={','.join(v) if isinstance(v, list) else v}" for k, v in odd.items())
+        texts.append(" ".join([settings.get("method", "?"), *shown]))
+    return " then ".join(texts)
+
+
+def _parse_plan(settings: Mapping[str, Any]) -> DecompositionPlan | None:
+    """A decomposition by the settings that a step keeps; None where this version does not know them."""
+    kind = next((one for one in get_args(DecomposeSettings) if one.engine == settings.get("method")), CoacdSettings)
+    known = {field.name for field in fields(kind)}
+    values = {name: value for name, value in settings.items() if name in known}
+    rest = {name: value for name, value in settings.items() if name not in known}
+    if rest.pop("method", None) != kind.engine or rest.keys() - {"hollow", "by", "only"}:
+        return None
+    try:
+        own = kind(**values)
+    except (MeshForgeError, TypeError):
+        return None
+    by: DecomposeBy = "parts" if rest.get("by") == "parts" else "whole"
+    return DecompositionPlan(own, tuple(rest.get("only", ())), bool(rest.get("hollow")), by)
+
+
+def keep_decomposed(store: Store, assets: Collection[str]) -> None:
+    """Keep that pieces of these assets were decomposed, where they are all of the project."""
+    if set(store.assets()) <= set(assets):
+        _change(store, {"decomposed": store.assets()})
+
+
+def keep_split(store: Store, assets: Collection[str], sure: float) -> None:
+    """Keep that hulls of these assets were split from a probability on, where they are all of the project."""
+    if set(store.assets()) <= set(assets):
+        _change(store, {"split": store.assets(), "sure": sure})
+
+
+def extend_plan(store: Store, assets: Collection[str], *, decomposed: bool, split: bool) -> None:
+    """Keep that assets which came later were prepared as the others; decomposed, split: whether their pieces were
+    decomposed, and whether their hulls were looked at."""
+    kept = _read(store)
+    lists = {"decomposed": kept.decomposed if decomposed else None, "split": kept.split if split else None}
+    values = {name: tuple(dict.fromkeys([*ids, *assets])) for name, ids in lists.items() if ids is not None}
+    _change(store, values)
+
+
+def forget_plan(store: Store) -> None:
+    """Let new assets be as they are: nothing of all that was prepared is kept."""
+    with store.lock():
+        store.layout.preparation_plan.unlink(missing_ok=True)
+
+
+def _change(store: Store, values: Mapping[str, Any]) -> None:
+    with store.lock():
+        kept = _read(store)
+        after = kept.model_copy(update=dict(values))
+        if after != kept:
+            write_json(store.layout.preparation_plan, after)
+
+
+def find_new_assets(store: Store) -> tuple[dict[str, PreparationPlan], str | None]:
+    """The assets that came after the others were prepared, with what is to be done to each; and why they are not
+    decomposed, where that is unclear. Raises ProjectError where the project's file is damaged."""
+    kept = _read(store)
+    every = frozenset(store.assets())
+    whole = every - set(every if kept.decomposed is None else kept.decomposed)
+    split = every - set(every if kept.split is None else kept.split)
+    if not whole and not split:
+        return {}, None
+    plan = read_preparation_plan(store)
+    found = {
+        asset: PreparationPlan(plan.decompose if asset in whole else (), plan.sure if asset in split else None)
+        for asset in store.assets()
+        if asset in whole or asset in split
+    }
+    return {asset: own for asset, own in found.items() if own != PreparationPlan()}, plan.unclear if whole else None
+
+
+def _read(store: Store) -> PreparationPlanFile:
+    return read_json(store.layout.preparation_plan, PreparationPlanFile) or PreparationPlanFile()

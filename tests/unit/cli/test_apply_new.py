@@ -1,0 +1,152 @@
+"""`meshforge apply PROJECT ASSETS`, and assets that came to a project later: prepared first, as the project says."""
+
+from __future__ import annotations
+
+import json
+import shutil
+from pathlib import Path
+
+import pytest
+
+from meshforge.batch import IN_PROCESS
+from meshforge.formats import load
+from meshforge.project import Project
+from tests.unit.batch.families import tree
+from tests.unit.cli.in_process import Run, runner
+from tests.unit.project.stools import PARTS, boxes, coarse, write_stool
+
+PROGRAM = "labels seat, leg\n\nIs(leg) => Each(Replace(box))\n"
+
+
+@pytest.fixture(scope="module")
+def made(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("stools")
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("MESHFORGE_CACHE", str(folder / "cache"))
+        parts, wide = boxes(0.2, 0.4), boxes(0.18, 0.4)
+        write_stool(folder / "assets", "a", parts, parts)
+        write_stool(folder / "new", "c", wide, coarse(wide))
+        project = Project.create(folder / "p", [folder / "assets"], vocabulary=("seat", "leg"))
+        names = [hull.name for hull in project.mesh("a.urdf").hulls]
+        project.set_labels("a.urdf", dict(zip(names, PARTS, strict=True)))
+        list(project.split_spanning(execution=IN_PROCESS))
+        (folder / "p/program.mf").write_text(PROGRAM)
+    return folder
+
+
+@pytest.fixture
+def run(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], tmp_path: Path, made: Path) -> Run:
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("MESHFORGE_CACHE", str(made / "cache"))
+    for name in ("assets", "new", "p"):
+        shutil.copytree(made / name, tmp_path / name)
+    return runner(monkeypatch, capsys)
+
+
+def add_to_project() -> None:
+    for path in Path("new").glob("c*"):
+        shutil.copy(path, "assets")
+
+
+def test_what_was_split_is_told_and_the_program_sees_the_parts(run: Run) -> None:
+    before = tree(Path("new"))
+    told = run("apply", "p", "new", "--out", "out", "--workers", "1")
+    assert told.code == 0
+    assert "edited     c.urdf: 5 -> 5 hulls\n    note: base/h0 holds seat and leg, " in told.out
+    assert "%: split in 2, " in told.out and "by likeness to the family; least sure: " in told.out
+    assert "1 hull of new assets split (c.urdf)" in told.err
+    assert tree(Path("new")) == before
+    assert sorted(hull.label or "" for hull in load("out/c.urdf").hulls) == sorted(PARTS)
+    again = run("apply", "p", "new", "--out", "out", "--workers", "1")
+    assert "skipped    c.urdf" in again.out and "split in 2" in again.out
+
+
+def test_as_json(run: Run) -> None:
+    line = json.loads(run("apply", "p", "new", "--out", "out", "--workers", "1", "--json").out)
+    (split,) = line["split"]
+    assert split["hull"] == "base/h0" and 0.9 <= split["chance"] < 1
+    assert {part["label"] for part in split["into"]} == {"seat", "leg"}
+    assert [part["hull"] for part in split["into"]] == ["base/h0#0", "base/h0#1"]
+    assert line["spanning"] == [] and set(line["guessed"]) == {"base/h1", "base/h2", "base/h3"}
+    assert line["sure_at_most"] <= split["chance"]
+
+
+def test_no_split_leaves_hulls_and_names_them(run: Run) -> None:
+    told = run("apply", "p", "new", "--out", "out", "--workers", "1", "--no-split")
+    assert told.code == 0 and "edited     c.urdf: 4 -> 4 hulls" in told.out
+    assert "base/h0 holds seat and leg, " in told.out and "%: not split" in told.out
+    assert "1 hull likely spans parts, not split" in told.err
+
+
+@pytest.mark.slow
+def test_a_dry_run_writes_nothing(run: Run) -> None:
+    add_to_project()
+    before = tree(Path("p"))
+    told = run("apply", "p", "--dry-run", "--workers", "1")
+    assert told.code == 0 and "split in 2" in told.out and tree(Path("p")) == before
+    told = run("apply", "p", "new", "--out", "out", "--dry-run", "--workers", "1")
+    assert told.code == 0 and "split in 2" in told.out and not Path("out").exists()
+
+
+@pytest.mark.slow
+def test_what_came_later_is_prepared_in_the_project_once(run: Run) -> None:
+    add_to_project()
+    told = run("apply", "p", "--workers", "1")
+    assert told.code == 0 and "edited     c.urdf: 5 -> 5 hulls\n    note: base/h0 holds seat and leg, " in told.out
+    assert "base/h0 divided into 2 hulls" in run("status", "p").out
+    assert run("prepare", "p", "c.urdf", "--undo").code == 0
+    told = run("apply", "p", "--workers", "1")
+    assert "split in" not in told.out, "what a person took back is not done again"
+    assert Project.open("p").mesh("c.urdf").hulls[0].name == "base/h0"
+
+
+@pytest.mark.slow
+def test_no_split_in_a_project_is_made_good_by_the_next_run(run: Run) -> None:
+    add_to_project()
+    assert "%: not split" in run("apply", "p", "--workers", "1", "--no-split").out
+    assert "split in 2" in run("apply", "p", "--workers", "1").out
+
+
+def test_removing_all_that_was_prepared_ends_it(run: Run) -> None:
+    assert run("prepare", "p", "--remove").code == 0
+    told = run("apply", "p", "new", "--out", "out", "--workers", "1")
+    assert "split in 2" not in told.out and "not split" not in told.out
+
+
+def test_the_projects_own_assets_are_taken_as_they_are_there(run: Run) -> None:
+    told = run("apply", "p", "assets/a.urdf", "--out", "out", "--workers", "1")
+    assert told.code == 0 and told.out.startswith("edited     a.urdf: 5 -> 5 hulls\n1 asset")
+
+
+@pytest.mark.slow
+def test_what_is_less_sure_than_asked_is_held_and_reported(run: Run) -> None:
+    told = run("apply", "p", "new", "--out", "out", "--workers", "1", "--sure", "0.999")
+    assert told.code == 1 and not Path("out/c.urdf").exists()
+    assert "held       c.urdf: " in told.out and "% sure; " in told.out
+    told = run("apply", "p", "new", "--out", "out", "--workers", "1", "--sure", "0.5", "--json", "--report", "r.html")
+    line = json.loads(told.out)
+    assert 0.5 <= line["probability"] <= line["split"][0]["chance"]
+    assert any("split in 2" in doubt["text"] for doubt in line["doubts"])
+    assert "split in 2" in Path("r.html").read_text()
+
+
+@pytest.mark.parametrize(
+    ("words", "problem"),
+    [
+        (["p", "new"], "--out DIR is missing"),
+        (["p", "new", "--out", "p/edited"], "this folder is for the project's own assets"),
+        (["p", "--labels", "new"], "a project has its own labels"),
+        (["p/program.mf", "new", "--out", "out", "--no-split"], "--no-split needs a project"),
+        (["p", "nowhere", "--out", "out"], "there is no such file or folder"),
+    ],
+)
+def test_bad_input(run: Run, words: list[str], problem: str) -> None:
+    told = run("apply", *words)
+    assert told.code == 2 and problem in told.err and "Traceback" not in told.err
+
+
+def test_an_asset_that_cannot_be_read_fails_alone(run: Run) -> None:
+    Path("new/x.urdf").write_text("<robot")
+    told = run("apply", "p", "new", "--out", "out", "--workers", "1")
+    assert told.code == 1
+    assert "failed     x.urdf\n    it could not be prepared: " in told.out and "edited     c.urdf" in told.out

@@ -1,0 +1,200 @@
+from __future__ import annotations
+
+import json
+import shutil
+from collections.abc import Sequence
+from pathlib import Path
+
+import pytest
+
+from meshforge.batch import IN_PROCESS, ExecutionOptions, read_preparation
+from meshforge.geometry import volume_of_union
+from meshforge.labels.reference_family import choose_labelled
+from meshforge.project import (
+    NewAsset,
+    NewAssetOptions,
+    NewAssetResult,
+    Project,
+    new_assets,
+    prepare_aside,
+    read_preparation_plan,
+)
+from meshforge.symbolic import Label, LabelFile, read_labels
+from tests.unit.batch.families import tree
+from tests.unit.project.stools import PARTS, boxes, coarse, write_stool
+
+
+@pytest.fixture(scope="module")
+def made(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A project of two labelled stools, whose spanning hulls were split; and two new stools that have one each."""
+    folder = tmp_path_factory.mktemp("stools")
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("MESHFORGE_CACHE", str(folder / "cache"))
+        for name, width in (("a", 0.2), ("b", 0.22)):
+            parts = boxes(width, 0.4)
+            write_stool(folder / "assets", name, parts, parts)
+        for name, width in (("c", 0.18), ("d", 0.21)):
+            parts = boxes(width, 0.4)
+            write_stool(folder / "new", name, parts, coarse(parts))
+        project = Project.create(folder / "p", [folder / "assets"], vocabulary=("seat", "leg"))
+        for name in ("a.urdf", "b.urdf"):
+            names = [hull.name for hull in project.mesh(name).hulls]
+            project.set_labels(name, dict(zip(names, PARTS, strict=True)))
+        list(project.split_spanning(execution=IN_PROCESS))
+    return folder
+
+
+@pytest.fixture
+def folder(made: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    monkeypatch.setenv("MESHFORGE_CACHE", str(made / "cache"))
+    for name in ("assets", "new", "p"):
+        shutil.copytree(made / name, tmp_path / name)
+    return tmp_path
+
+
+def prepare(
+    folder: Path, names: Sequence[str] = ("c.urdf", "d.urdf"), to: str = "aside", **options: object
+) -> dict[str, NewAssetResult]:
+    project = Project.open(folder / "p")
+    plan = read_preparation_plan(project)
+    new = [NewAsset(name, folder / "new" / name, plan) for name in names]
+    given = NewAssetOptions(**{"execution": IN_PROCESS, **options})  # type: ignore[arg-type]
+    return {work.id: result for work, result in prepare_aside(project, new, folder / to, given)}
+
+
+def test_a_new_hull_that_spans_parts_is_split_and_all_is_labelled(folder: Path) -> None:
+    before = tree(folder / "new"), tree(folder / "p")
+    found = prepare(folder)
+    assert (tree(folder / "new"), tree(folder / "p")) == before, "neither the project nor the source is written"
+    (split,) = found["c.urdf"].splits
+    assert split.hull == "base/h0" and split.chance > 0.9
+    assert {label.name for label in split.parts.values()} == {"seat", "leg"}
+    assert str(split).startswith(f"base/h0 holds seat and leg, {split.chance:.0%}: split in 2, ")
+    labels = read_labels(folder / "aside/labels/c.urdf.json").labels
+    assert [label.name for label in labels.values()].count("seat") == 1 and len(labels) == 5
+    assert {label.source for label in labels.values()} == {"propagated"}, "no guess passes for a fact"
+    kept = read_preparation(folder / "aside/prepared/c.urdf")
+    assert kept is not None and [step.do for step in kept.steps] == ["divide"]
+    parts = boxes(0.18, 0.4)[:2]
+    assert volume_of_union(list(kept.hulls.values())) == pytest.approx(sum(one.volume for one in parts), rel=1e-3)
+
+
+def test_what_was_guessed_is_no_surer_than_the_guess(folder: Path) -> None:
+    found = prepare(folder)["c.urdf"]
+    least = min(found.splits[0].chance, *(label.confidence for label in found.splits[0].parts.values()))
+    least = min(least, *(label.confidence for label in found.guesses.values()))
+    assert found.probability == pytest.approx(least) and found.probability < 1
+    left = prepare(folder, split=False)["c.urdf"]
+    assert left.probability == pytest.approx(1 - left.spanning[0].chance), "what likely spans parts is likely wrong"
+
+
+def test_without_splits_it_is_said_which_hulls_likely_span_parts(folder: Path) -> None:
+    found = prepare(folder, split=False)["c.urdf"]
+    assert found.splits == () and [span.hull for span in found.spanning] == ["base/h0"]
+    assert found.describe()[0].endswith(": not split")
+    assert not (folder / "aside/prepared/c.urdf").exists()
+    assert found.to_json()["spanning"][0]["hull"] == "base/h0" and found.to_json()["split"] == []
+
+
+def test_what_is_less_sure_than_the_project_asks_is_left_and_named(folder: Path) -> None:
+    path = folder / "p/preparation.json"
+    path.write_text(json.dumps(json.loads(path.read_text()) | {"sure": 0.999}))
+    found = prepare(folder)["c.urdf"]
+    assert found.splits == () and [span.hull for span in found.spanning] == ["base/h0"]
+
+
+def test_nothing_is_looked_for_where_the_project_does_not_say_so(folder: Path) -> None:
+    (folder / "p/preparation.json").unlink()
+    found = prepare(folder)["c.urdf"]
+    assert (found.splits, found.spanning) == ((), ()) and len(found.guesses) == 4
+
+
+@pytest.mark.slow
+def test_the_same_alone_and_together_here_and_in_workers(folder: Path) -> None:
+    prepare(folder)
+    prepare(folder, ["d.urdf"], "alone")
+    prepare(folder, ["d.urdf", "c.urdf"], "workers", execution=ExecutionOptions(workers=2))
+    together, workers = tree(folder / "aside"), tree(folder / "workers")
+    assert len(together) == 8 and workers == together
+    assert tree(folder / "alone") == {name: one for name, one in together.items() if "d.urdf" in str(name)}
+
+
+def test_what_was_prepared_of_the_same_is_not_prepared_again(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    done = list[str]()
+
+    def count(task: object, work: NewAsset) -> object:
+        done.append(work.id)
+        return prepare_one(task, work)  # type: ignore[arg-type]
+
+    prepare_one = new_assets._prepare
+    monkeypatch.setattr(new_assets, "_prepare", count)
+    first = prepare(folder)
+    again = prepare(folder)
+    assert done == ["c.urdf", "d.urdf"]
+    assert [(one.describe(), one.to_json()) for one in again.values()] == [
+        (one.describe(), one.to_json()) for one in first.values()
+    ]
+    (folder / "aside/labels/c.urdf.json").unlink()
+    with (folder / "new/d_seen.obj").open("a") as file:
+        file.write("# changed\n")
+    prepare(folder)
+    assert done[2:] == ["c.urdf", "d.urdf"], "what was made of it, or it, is another now"
+    Project.open(folder / "p").set_labels("a.urdf", {"base/h4": None})
+    prepare(folder)
+    assert done[4:] == ["c.urdf", "d.urdf"], "the family says something else now"
+
+
+def test_labels_that_a_new_asset_has_stay(folder: Path) -> None:
+    project = Project.open(folder / "p")
+    path = folder / "new/c.labels.json"
+    path.write_text('{"vocabulary": ["seat", "leg"], "hulls": {"base/h1": "seat"}}')
+    new = NewAsset("c.urdf", folder / "new/c.urdf", read_preparation_plan(project), path)
+    ((work, found),) = prepare_aside(project, [new], folder / "aside", NewAssetOptions(execution=IN_PROCESS))
+    assert "base/h1" not in found.guesses and work.labels is not None
+    assert read_labels(work.labels).labels["base/h1"] == Label("seat", 1.0, "file")
+
+
+def test_an_asset_that_cannot_be_read_does_not_stop_the_others(folder: Path) -> None:
+    (folder / "new/c.urdf").write_text("<robot")
+    found = prepare(folder)
+    assert found["c.urdf"].problem and "c.urdf" in found["c.urdf"].problem
+    assert len(found["d.urdf"].splits) == 1
+
+
+def test_without_a_surface_or_a_label_it_is_said_that_nothing_was_looked_for(folder: Path) -> None:
+    text = (folder / "new/c.urdf").read_text()
+    start, end = text.index("<visual>"), text.index("</visual>") + len("</visual>")
+    (folder / "new/c.urdf").write_text(text[:start] + text[end:])
+    assert prepare(folder, ["c.urdf"])["c.urdf"].notes == (
+        "it shows no surface, so nothing says which hulls span parts",
+    )
+    shutil.rmtree(folder / "p/labels")
+    assert prepare(folder, ["d.urdf"])["d.urdf"].notes == (
+        "no hull of the project has a label, so nothing says which hulls span parts",
+    )
+
+
+def test_what_comes_later_to_a_project_is_kept_in_it_and_undone(folder: Path) -> None:
+    for path in (folder / "new").glob("c*"):
+        shutil.copy(path, folder / "assets")
+    project = Project.open(folder / "p")
+    (found,) = project.prepare_new(NewAssetOptions(execution=IN_PROCESS))
+    assert found.asset == "c.urdf"
+    assert len(found.splits) == 1
+    mesh = project.mesh("c.urdf")
+    assert sorted(hull.label or "" for hull in mesh.hulls) == sorted(PARTS)
+    assert {hull.source for hull in mesh.hulls} == {"propagated"}
+    project.unprepare("c.urdf")
+    assert list(project.prepare_new()) == [], "what was taken back is not done again"
+    assert [hull.name for hull in project.mesh("c.urdf").hulls] == ["base/h0", "base/h1", "base/h2", "base/h3"]
+
+
+def test_those_that_people_labelled_come_first_of_more_than_are_compared() -> None:
+    files = {
+        f"{k:02}": LabelFile(labels={"h": Label("leg", 1.0, "user" if k % 10 == 0 else "name")}) for k in range(40)
+    }
+    files["lone"] = LabelFile(labels={"h": Label("leg", 1.0, "propagated")})
+    chosen = choose_labelled(files, 8)
+    assert {"00", "10", "20", "30"} <= set(chosen) and len(chosen) == 8 and "lone" not in chosen
+    assert chosen == sorted(chosen)
+    assert len(choose_labelled(files, 100)) == 40
