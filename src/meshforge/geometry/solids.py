@@ -12,7 +12,7 @@ import manifold3d
 import numpy as np
 
 from meshforge.common import GeometryError
-from meshforge.geometry.arrays import Aabb, Floats
+from meshforge.geometry.arrays import Aabb, Floats, Ints
 from meshforge.geometry.convex import convex_hull, spans_volume
 from meshforge.geometry.round_shapes import Capsule, Cylinder, Ellipsoid, Sphere
 from meshforge.geometry.shape import Box, Polytope, Shape

@@ -157,7 +157,8 @@ class SpanPosterior:
 
     def rebuild(self, mesh: int, hulls: Ints) -> tuple[tuple[int, HullPart], ...]:
         """New hulls for what some hulls (n,) stand for together: fine pieces of one label, joined where a convex hull
-        around them adds little; each with the old hull that has most of it. Pieces that no hull has half of are left out.
+        around them adds little; each with the old hull that has most of it. Pieces of which no half is in hulls are
+        left out.
         """
         asset, chances = self.assets[mesh], self.chances[mesh]
         pieces = [piece.shape.tessellate() for piece in asset.pieces.hulls]
