@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import json
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -18,6 +18,7 @@ from meshforge.geometry import FINE, Floats, HullPart, Polytope, cache_folder, d
 from meshforge.label_model import SpanModel, SpanPosterior, evidence_of, piece_mesh
 from meshforge.labels.descriptor_cache import read_arrays, write_arrays
 from meshforge.labels.family_comparison import Stage
+from meshforge.labels.hull_arrays import HULL_ARRAYS, pack_hulls, unpack_hulls
 from meshforge.store import Store
 from meshforge.symbolic import Surface, SymbolicMesh
 
@@ -129,16 +130,16 @@ def _find_pieces(work: _Work) -> dict[str, list[Polytope]] | str:
     try:
         surfaces = batch.find_surfaces(read(work.path))
         key = _digest(surfaces)
-        known = read_arrays(work.kept, key, "bodies", "sizes", "vertices", "faces")
+        known = read_arrays(work.kept, key, *HULL_ARRAYS)
         if known is not None:
-            return _unpack(*known)
+            return unpack_hulls(*known)
         found = dict[str, list[Polytope]]()
         for body, surface in surfaces.items():
             try:
                 found[body] = list(decompose_finely(surface.vertices, surface.faces, cache=cache_folder()))
             except MeshForgeError:  # flat, or without an area: nothing stands for it
                 continue
-        write_arrays(work.kept, key, _pack(found))
+        write_arrays(work.kept, key, pack_hulls(found))
         return found
     except Exception as error:  # one asset never stops the others
         return describe_error(error, str(work.path))
@@ -152,25 +153,3 @@ def _digest(surfaces: Mapping[str, Surface]) -> str:
         state.update(np.ascontiguousarray(surface.vertices).tobytes())
         state.update(np.ascontiguousarray(surface.faces).tobytes())
     return state.hexdigest()
-
-
-def _pack(pieces: Mapping[str, Sequence[Polytope]]) -> dict[str, np.ndarray[tuple[int, ...], np.dtype[np.generic]]]:
-    rows = [(body, piece) for body, own in pieces.items() for piece in own]
-    return {
-        "bodies": np.array([body for body, _ in rows], dtype=np.str_),
-        "sizes": np.array([(len(p.vertices), len(p.faces)) for _, p in rows], dtype=np.int64).reshape(-1, 2),
-        "vertices": np.concatenate([np.zeros((0, 3)), *(piece.vertices for _, piece in rows)]),
-        "faces": np.concatenate([np.zeros((0, 3), np.int64), *(piece.faces for _, piece in rows)]),
-    }
-
-
-def _unpack(
-    bodies: Iterable[str], sizes: Floats, vertices: Floats, faces: np.ndarray[tuple[int, ...], np.dtype[np.int64]]
-) -> dict[str, list[Polytope]]:
-    found = dict[str, list[Polytope]]()
-    points = triangles = 0
-    for body, (count, sides) in zip(bodies, np.asarray(sizes, dtype=np.int64).tolist(), strict=True):
-        piece = Polytope(vertices[points : points + count], faces[triangles : triangles + sides])
-        found.setdefault(str(body), []).append(piece)
-        points, triangles = points + count, triangles + sides
-    return found

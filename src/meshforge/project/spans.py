@@ -1,22 +1,28 @@
-"""Hulls that span parts split, asset by asset, so far as that is sure enough; what is likely is kept for the status."""
+"""Hulls that span parts split, asset by asset, so far as that is sure enough; what is likely is kept for the status and
+for the questions of a review."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import AbstractContextManager, nullcontext
+from dataclasses import dataclass, replace
+from functools import cache
 
 from meshforge import batch
-from meshforge.common import MeshForgeError, UsageError, pluralize
-from meshforge.formats import read
+from meshforge.common import MeshForgeError, UsageError
+from meshforge.geometry import HullPart, Polytope
 from meshforge.labels import HullSpan, SpanReport, find_spans, ignore_stage
-from meshforge.project.prepare import PreparationResult, exchange_preparation
-from meshforge.store import SpanLine, SpansFile, Store, hull_digests
-from meshforge.symbolic import Label
+from meshforge.project.prepare import PreparationResult
+from meshforge.project.span_splits import Split, keep_shapes, write_splits
+from meshforge.store import SinglePartsFile, SpanLine, SpanPart, SpansFile, Store, hull_digests
 
 SURE_TO_SPAN = 0.9
 """The probability from which a hull is split unless another is asked for."""
-_LIKELY = 0.5  # from which a hull is named
+_LIKELY = 0.5  # from which a hull is named, and asked about
 _DIGITS = 3
+
+_Divide = Callable[[str, str], list[tuple[HullPart, str, float]]]
+"""The parts of a hull of an asset, as `SpanReport.divide` gives them."""
 
 
 def split_spanning(
@@ -31,8 +37,10 @@ def split_spanning(
 ) -> Iterator[PreparationResult]:
     """Split the hulls that span parts with a probability of at least `sure`, one step an asset, and label their parts.
 
-    assets: which may be split, all when None; all of the project are compared. dry_run: nothing is written, and `notes`
-    say what would be done. What `unprepare` takes back brings the hulls, their labels and selections back.
+    Hulls that a person said to be one part stay as they are.
+    assets: which may be split, all when None; all of the project are compared. dry_run: nothing is written but what was
+    found, for the status and the review, and `notes` say what would be done. What `unprepare` takes back brings the
+    hulls, their labels and selections back.
     Raises UsageError for a probability that is none, ProjectError where no hull has a label or no asset a surface.
     """
     if not 0 < sure <= 1:
@@ -42,8 +50,8 @@ def split_spanning(
         store.path(asset)
     seen = {asset: batch.record_digest(store.layout.preparation(asset)) for asset in ids}
     report = find_spans(store, execution, stage)
-    if not dry_run:
-        _keep_likely(store, report)
+    divide, single = cache(report.divide), store.single_parts()
+    _keep_likely(store, report, divide)
     for asset in ids:
         if asset in report.lost:
             yield PreparationResult(asset, problems=(report.lost[asset],))
@@ -53,74 +61,69 @@ def split_spanning(
             continue
         try:
             with nullcontext() if dry_run else write_block(asset):
-                result = _split_one(store, asset, report, sure, seen[asset], dry_run)
+                result = _split_one(
+                    store, asset, _plan_splits(asset, report, divide, sure, single), seen[asset], dry_run
+                )
         except MeshForgeError as error:
             result = PreparationResult(asset, problems=(error.message,))
         yield result
 
 
-def _split_one(
-    store: Store, asset: str, report: SpanReport, sure: float, seen: str | None, dry_run: bool
-) -> PreparationResult:
-    """What becomes of one asset."""
-    divisions, labels = list[batch.HullDivision](), list[list[Label]]()
-    notes = [f"{name} stands for no surface: left as it is" for name in report.bare.get(asset, ())]
+@dataclass(frozen=True, slots=True)
+class _Plan:
+    """What to do to an asset. notes: on hulls that stay as they are; sure: the probability that was asked for."""
+
+    splits: tuple[Split, ...]
+    notes: tuple[str, ...]
+    sure: float
+
+
+def _plan_splits(asset: str, report: SpanReport, divide: _Divide, sure: float, single: SinglePartsFile) -> _Plan:
+    splits, notes = (
+        list[Split](),
+        [f"{name} stands for no surface: left as it is" for name in report.bare.get(asset, ())],
+    )
+    digests = hull_digests(report.meshes[asset])
     for span in report.spans_of(asset):
-        if span.chance < sure:
+        if span.chance >= min(sure, _LIKELY) and single.holds(asset, span.hull, digests[span.hull]):
+            notes.append(f"{span}: left as it is, since a person said that it is one part")
+        elif span.chance < sure:
             notes += [f"{span}: left as it is, below {sure:.0%}"] if span.chance >= _LIKELY else []
-            continue
-        parts = report.divide(asset, span.hull)
-        if len(parts) < 2:
+        elif len(parts := divide(asset, span.hull)) < 2:
             notes.append(f"{span}: no plane divides it; split it by hand: meshforge split")
-            continue
-        made = ", ".join(f"{label} ({share:.0%})" for _, label, share in parts)
-        told = f"{span}: into {pluralize(len(parts), 'part')}, {made}"
-        shapes = tuple(part.shape for part, _, _ in parts)
-        divisions.append(batch.HullDivision(span.hull, span.chance, shapes, told))
-        labels.append([Label(label, round(share, _DIGITS), "propagated") for _, label, share in parts])
-    if not divisions or dry_run:
-        return PreparationResult(asset, notes=(*(f"would split {one.told}" for one in divisions), *notes))
-    return _write(store, asset, divisions, labels, sure, seen, notes)
+        else:
+            splits.append(Split(span.hull, _to_line(span, digests[span.hull], parts), _shapes_of(parts)))
+    return _Plan(tuple(splits), tuple(notes), sure)
 
 
-def _write(
-    store: Store,
-    asset: str,
-    divisions: list[batch.HullDivision],
-    labels: list[list[Label]],
-    sure: float,
-    seen: str | None,
-    notes: list[str],
-) -> PreparationResult:
-    folder = store.layout.preparation(asset)
-    before = batch.read_preparation(folder) or batch.Preparation()
-    chances = {one.hull: round(one.chance, _DIGITS) for one in divisions}
-    source = read(store.path(asset))
-    after = batch.divide_hulls(source, before, divisions, {"sure": sure, "chances": chances})
-    entries = after.steps[-1].replaced
-    known = {
-        name: label
-        for entry, own in zip(entries, labels, strict=True)
-        for name, label in zip(entry.made, own, strict=True)
-        if label.name in store.vocabulary
-    }
-    notes = [*exchange_preparation(store, asset, after, seen, known), *notes]
-    return PreparationResult(asset, entries, tuple(notes))
+def _split_one(store: Store, asset: str, plan: _Plan, seen: str | None, dry_run: bool) -> PreparationResult:
+    """What becomes of one asset. seen: the digest of its preparation as it was looked at."""
+    if not plan.splits or dry_run:
+        return PreparationResult(asset, notes=(*(f"would split {one}" for one in plan.splits), *plan.notes))
+    result = write_splits(store, asset, plan.splits, {"sure": plan.sure}, seen)
+    return replace(result, notes=(*result.notes, *plan.notes))
 
 
-def _keep_likely(store: Store, report: SpanReport) -> None:
-    """Keep which hulls likely span parts, for the status."""
+def _keep_likely(store: Store, report: SpanReport, divide: _Divide) -> None:
+    """Keep which hulls likely span parts, and which parts, for the status and the questions of a review."""
     found = dict[str, dict[str, SpanLine]]()
     for asset, mesh in report.meshes.items():
-        digests = hull_digests(mesh)
-        likely = [span for span in report.spans_of(asset) if span.chance >= _LIKELY]
-        if likely:
-            found[asset] = {span.hull: _to_line(span, digests[span.hull]) for span in likely}
+        likely = {span.hull: span for span in report.spans_of(asset) if span.chance >= _LIKELY}
+        if not likely:
+            continue
+        digests, parts = hull_digests(mesh), {hull: divide(asset, hull) for hull in likely}
+        found[asset] = {hull: _to_line(span, digests[hull], parts[hull]) for hull, span in likely.items()}
+        keep_shapes(store, asset, found[asset], {hull: _shapes_of(own) for hull, own in parts.items()})
     store.write_spans(SpansFile(assets=found))
 
 
-def _to_line(span: HullSpan, geometry: str) -> SpanLine:
-    return SpanLine(geometry=geometry, chance=round(span.chance, _DIGITS), told=str(span))
+def _to_line(span: HullSpan, geometry: str, parts: Sequence[tuple[HullPart, str, float]]) -> SpanLine:
+    rows = tuple(SpanPart(label=label, share=round(share, _DIGITS)) for _, label, share in parts)
+    return SpanLine(geometry=geometry, chance=round(span.chance, _DIGITS), told=str(span), parts=rows)
+
+
+def _shapes_of(parts: Sequence[tuple[HullPart, str, float]]) -> tuple[Polytope, ...]:
+    return tuple(part.shape for part, _, _ in parts)
 
 
 def list_spans(
@@ -129,7 +132,11 @@ def list_spans(
     execution: batch.ExecutionOptions = batch.EXECUTION_DEFAULTS,
     stage: Callable[[int, str], AbstractContextManager[Callable[[], None]]] = ignore_stage,
 ) -> SpanReport:
-    """Which hulls span parts, found anew and kept for the status. Raises ProjectError as `split_spanning` does."""
+    """Which hulls span parts, found anew and kept for the status and the review.
+
+    Raises ProjectError as `split_spanning` does, StoppedError on a stop, with nothing written.
+    """
     report = find_spans(store, execution, stage)
-    _keep_likely(store, report)
+    batch.raise_if_stopped(execution.stop)
+    _keep_likely(store, report, report.divide)
     return report

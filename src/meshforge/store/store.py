@@ -26,7 +26,7 @@ from meshforge.store.feedback import AnswersFile, Review, ReviewFile
 from meshforge.store.layout import Layout, read_json, write_json
 from meshforge.store.meshes import AssetFiles, read_labels_file
 from meshforge.store.sign_off import AssessmentFile, LaterFile, SignOffFile
-from meshforge.store.spans import SpansFile
+from meshforge.store.spans import SinglePartsFile, SpansFile
 from meshforge.symbolic import Label, LabelFile, SymbolicMesh, format_labels, match_labels, transfer_labels
 from meshforge.synthesis import Demonstration, Step
 
@@ -330,6 +330,11 @@ class Store:
             write_json(self.layout.assessment, found)
 
     def spans(self) -> SpansFile:
+        """Which hulls likely span parts, but for those that a person said to be one part."""
+        found = self.last_spans()
+        return found.without(self.single_parts()) if found.assets else found
+
+    def last_spans(self) -> SpansFile:
         """Which hulls likely span parts, as was found last; none where that is not kept, or damaged."""
         try:
             return read_json(self.layout.spans, SpansFile) or SpansFile()
@@ -340,6 +345,14 @@ class Store:
         """Keep which hulls likely span parts."""
         with self.lock():
             write_json(self.layout.spans, found)
+
+    def single_parts(self) -> SinglePartsFile:
+        """Which hulls a person said to be one part."""
+        return read_json(self.layout.single_parts, SinglePartsFile) or SinglePartsFile()
+
+    def write_single_parts(self, said: SinglePartsFile) -> None:
+        """Write which hulls are one part, under the lock that the caller holds."""
+        write_json(self.layout.single_parts, said)
 
     def reviews(self) -> dict[str, Review]:
         """What a person said about edited assets."""

@@ -1,0 +1,67 @@
+"""Questions of a review about hulls that likely span parts, as was found last, and what becomes of the answers."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import replace
+
+from meshforge.common import ProjectError, join_names
+from meshforge.project.span_splits import mark_as_one_part, split_as_found
+from meshforge.signoff import Assessment, HullPlace, ReviewChoice, ReviewQuestion
+from meshforge.signoff.prices import YES_OR_NO
+from meshforge.signoff.question import ONE_PART, SPLIT, identify
+from meshforge.store import SpanLine, Store, hull_digests
+from meshforge.symbolic import SymbolicMesh
+
+
+def ask_about_spans(
+    store: Store, meshes: Mapping[str, SymbolicMesh], found: Assessment, has_program: bool
+) -> Assessment:
+    """An assessment whose question is about a hull that likely spans parts, where that is worth most.
+
+    meshes: those of the family, by id. While there is no program these questions come first: what is demonstrated on a
+    hull that spans parts has to be demonstrated anew once it is split.
+    """
+    question = choose_span_question(store, {name: mesh for name, mesh in meshes.items() if name not in found.aside})
+    other = found.question
+    if question is None or (other and has_program and other.worth >= question.worth):
+        return found
+    return replace(found, question=question)
+
+
+def choose_span_question(store: Store, meshes: Mapping[str, SymbolicMesh]) -> ReviewQuestion | None:
+    """The question about the hull that most likely spans parts; None where none is known, or all were put off."""
+    later = set(store.put_off_ids())
+    asked = (one for one in _list_questions(store, meshes) if one.id not in later)
+    return min(asked, key=lambda one: (-one.gain, one.asset, one.hulls), default=None)
+
+
+def _list_questions(store: Store, meshes: Mapping[str, SymbolicMesh]) -> Iterator[ReviewQuestion]:
+    """A question for each hull that likely spans parts, is as it was when that was found, and can be divided."""
+    spans = store.spans()
+    for asset in spans.assets.keys() & meshes.keys():
+        for hull, span in spans.likely(asset, hull_digests(meshes[asset])).items():
+            if span.parts:
+                yield _ask(asset, hull, span)
+
+
+def _ask(asset: str, hull: str, span: SpanLine) -> ReviewQuestion:
+    text = f"{hull} of {asset} {span.told.removeprefix(f'{hull} ')}: split so?"
+    choices = (ReviewChoice(f"{SPLIT}: {join_names([str(part) for part in span.parts])}"), ReviewChoice(ONE_PART))
+    place = HullPlace(asset, hull)
+    draft = ReviewQuestion("", "span", text, YES_OR_NO, span.chance, asset, hulls=(place,), choices=choices)
+    return identify(draft, [span.geometry])
+
+
+def answer_span(store: Store, question: ReviewQuestion, choice: ReviewChoice) -> None:
+    """Split the hull that a question is about, or keep that it is one part.
+
+    Raises ProjectError where the hull is not as it was when it was asked about.
+    """
+    (place,) = question.hulls
+    if choice.text == ONE_PART:
+        mark_as_one_part(store, place.asset, place.hull)
+        return
+    result = split_as_found(store, place.asset, place.hull)
+    if result.problems:
+        raise ProjectError(result.problems[0], where=place.asset)
