@@ -79,7 +79,12 @@ class Session:
         self.refresh_queue = refresher.queue
         self._early_labels = EarlyLabels(self.pages, lambda: refresher.names)
         self.learning = LearningScheduler(
-            Learner(project.folder), self.pages, self._has_demonstrations, self._end_learning, self.refresh_queue.add
+            Learner(project.folder),
+            self.pages,
+            self._has_demonstrations,
+            lambda: bool(self.project.spans().assets),
+            self._end_learning,
+            self.refresh_queue.add,
         )
         self._watcher = FileWatcher(self._poll_files)
         self._file_sync = FileSync(project, self.pages, self.learning, self.refresh_queue)

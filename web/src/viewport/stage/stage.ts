@@ -250,6 +250,7 @@ function drawPane(gl: WebGLRenderer, stage: Stage, pane: Pane): void {
   stage.contents.cut.measure(frame);
   stage.contents.section.measure(frame);
   stage.contents.made?.measure(frame);
+  stage.contents.parts?.measure(frame);
   if (stage.section) gl.clippingPlanes = [clippingPlane(stage.section)];
   shade(gl, stage, side, pane.width, camera);
   gl.render(side.root, camera);
