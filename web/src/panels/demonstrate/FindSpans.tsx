@@ -37,7 +37,7 @@ function Ready({ job }: { job: Job | null }) {
   const why = useProject(whyNotFindSpans);
   const isAsked = useProject((state) => openQuestion(state)?.kind === "span");
   return (
-    <>
+    <div className={css.spans}>
       <div className={css.buttons}>
         <Button icon={Split} disabled={why !== null} onClick={() => void findSpans()} tip="Hulls of all assets that hold more than one part">
           Find hulls that span parts
@@ -50,6 +50,6 @@ function Ready({ job }: { job: Job | null }) {
       </div>
       {why !== null && <p className={css.hint}>{why}</p>}
       {job && <Note mood={MOODS[job.state]}>{job.message}</Note>}
-    </>
+    </div>
   );
 }

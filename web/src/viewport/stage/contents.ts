@@ -69,7 +69,9 @@ export class Contents {
     this.parts?.object.removeFromParent();
     this.parts?.dispose();
     this.parts = packet && hull && this.shown ? new PartHulls(packet, hull, this.centre, tone, this.ink) : null;
-    if (this.parts) this.shown?.turned.add(this.parts.object);
+    if (!this.shown) return;
+    this.shown.divided = this.parts && hull ? hull.name : null;
+    if (this.parts) this.shown.turned.add(this.parts.object);
   }
 
   setGhost(packet: ShapesPacket | null): void {
