@@ -15,9 +15,9 @@ from meshforge.batch import IN_PROCESS
 from meshforge.project import Project
 from meshforge.rendering import label_color
 from tests.e2e.hand import Hand, chromium, hand
-from tests.e2e.studio import opened
+from tests.e2e.studio import ok, opened
 from tests.e2e.walk import PAGE, PATIENCE, address
-from tests.unit.project.stools import PARTS, boxes, coarse, write_stool
+from tests.unit.project.stools import create_stools
 
 pytestmark = pytest.mark.slow
 
@@ -29,13 +29,8 @@ _MANY = 2000
 @pytest.fixture
 def project(tmp_path: Path) -> Project:
     """Four stools, two of them labelled; of the others the first hull spans the seat and a leg."""
-    for name, width, height in (("a", 0.2, 0.4), ("b", 0.22, 0.45), ("c", 0.18, 0.38), ("d", 0.19, 0.42)):
-        parts = boxes(width, height)
-        write_stool(tmp_path / "assets", name, parts, parts if name in "ab" else coarse(parts))
-    project = Project.create(tmp_path / "project", [tmp_path / "assets/*.urdf"], vocabulary=("seat", "leg"))
-    for asset in ("a.urdf", "b.urdf"):
-        project.set_labels(asset, dict(zip((hull.name for hull in project.mesh(asset).hulls), PARTS, strict=True)))
-    return project
+    sizes = {"a": (0.2, 0.4), "b": (0.22, 0.45), "c": (0.18, 0.38), "d": (0.19, 0.42)}
+    return create_stools(tmp_path, sizes, "cd")
 
 
 def test_a_card_asks_about_each_hull_that_spans_parts_and_yes_splits_it(project: Project, tmp_path: Path) -> None:
@@ -62,6 +57,22 @@ def test_a_card_asks_about_each_hull_that_spans_parts_and_yes_splits_it(project:
         assert not person.complaints
 
 
+def test_the_job_can_be_stopped_and_says_what_is_wrong(project: Project, tmp_path: Path) -> None:
+    with opened(tmp_path, project.folder) as studio, studio.page() as page:
+        studio.settled()
+        job = ok(studio.post("/api/jobs", {"kind": "spans"}))["id"]
+        cancelled = studio.post("/api/jobs/cancel", {"id": job}).status_code == 200
+        state = page.job(job)["state"]
+        assert state == "done" or (cancelled and state == "cancelled")
+        assert project.layout.spans.exists() == (state == "done")
+        for asset in project.assets():
+            project.set_labels(asset, dict.fromkeys((hull.name for hull in project.mesh(asset).hulls), None))
+        found = page.job(ok(studio.post("/api/jobs", {"kind": "spans"}))["id"])
+        assert found["state"] == "failed" and "no hull has a label" in found["message"]
+        refused = studio.get("/api/parts", asset="a.urdf", hull="base/h0")
+        assert refused.status_code == 400 and "nothing is known of parts" in refused.json()["message"]
+
+
 def _find(person: Hand) -> None:
     person.press("Alt+2")
     person.click("Find hulls that span parts")
@@ -84,7 +95,7 @@ def _asked(person: Hand, before: str | None = None) -> str:
 
 
 def _sees_parts_in_color(person: Hand, file: Path) -> None:
-    """Wait until the view shows both colours: without the parts no hull of these assets has any, as none has a label."""
+    """Wait until the view shows both colours: without the parts there are none, as no hull of the asset has a label."""
     parts = person.page.get_by_role("list", name="Parts").get_by_role("listitem")
     parts.nth(1).wait_for()
     assert [text.split()[0] for text in parts.all_inner_texts()] == ["leg", "seat"]
