@@ -1,4 +1,4 @@
-"""Hulls that span parts, in the browser: found by a job, asked about on a card with the parts in colour, and answered."""
+"""Hulls that span parts, in the browser: found by a job, asked about on a card that shows their parts, and answered."""
 
 from __future__ import annotations
 
