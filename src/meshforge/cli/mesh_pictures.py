@@ -57,8 +57,10 @@ class MeshPictures:
         return self._write(name, render(mesh, color_by="label", size=PICTURE_SIZE, title=asset, vocabulary=words))
 
     def draw_split(self, asset: str, hull: str, name: str) -> Path:
-        """Draw an asset from two sides, grey but for the parts of a hull that likely spans them, which have the colours of
-        their labels. Raises ProjectError where they are not known any more."""
+        """Draw an asset from two sides, and in the colours of their labels the parts of a hull that likely spans them.
+
+        Raises ProjectError where they are not known any more.
+        """
         divided, parts = self._project.find_split(asset, hull).divide(self._meshes()[asset])
         pale = (hull if hull.name in parts else replace(hull, annotation=None) for hull in divided.hulls)
         views: tuple[View, ...] = ("iso", "iso-back")

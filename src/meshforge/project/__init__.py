@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from meshforge.project.run_report import add_standings, build_run_report, summarize_outputs
     from meshforge.project.sign_off_text import format_review, format_share, format_standing, format_status
     from meshforge.project.sign_offs import AssessmentBasis, digest_lesson, keep_assessment
-    from meshforge.project.span_questions import ask_about_spans, choose_span_question
+    from meshforge.project.span_questions import ask_about_spans, can_ask_about_spans, choose_span_question
     from meshforge.project.span_splits import Split
     from meshforge.project.spans import SURE_TO_SPAN
     from meshforge.project.status import AssetStatus, Status
@@ -43,6 +43,7 @@ __all__ = [
     "add_standings",
     "ask_about_spans",
     "build_run_report",
+    "can_ask_about_spans",
     "choose_span_question",
     "digest_lesson",
     "format_review",

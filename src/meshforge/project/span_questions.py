@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from dataclasses import replace
 
 from meshforge.common import ProjectError, join_names
-from meshforge.project.span_splits import mark_as_one_part, split_as_found
+from meshforge.project.span_splits import likely_spans, mark_as_one_part, split_as_found
+from meshforge.project.split_examples import has_split_examples, propose_lookalikes
 from meshforge.signoff import Assessment, HullPlace, ReviewChoice, ReviewQuestion
 from meshforge.signoff.prices import YES_OR_NO
 from meshforge.signoff.question import ONE_PART, SPLIT, identify
@@ -22,31 +23,43 @@ def ask_about_spans(
     meshes: those of the family, by id. While there is no program these questions come first: what is demonstrated on a
     hull that spans parts has to be demonstrated anew once it is split.
     """
-    question = choose_span_question(store, {name: mesh for name, mesh in meshes.items() if name not in found.aside})
+    question = choose_span_question(store, meshes, found.aside)
     other = found.question
     if question is None or (other and has_program and other.worth >= question.worth):
         return found
     return replace(found, question=question)
 
 
-def choose_span_question(store: Store, meshes: Mapping[str, SymbolicMesh]) -> ReviewQuestion | None:
-    """The question about the hull that most likely spans parts; None where none is known, or all were put off."""
+def can_ask_about_spans(store: Store) -> bool:
+    """Whether there may be such a question: hulls that span parts were found, or a person split one."""
+    return bool(store.spans().assets) or has_split_examples(store)
+
+
+def choose_span_question(
+    store: Store, meshes: Mapping[str, SymbolicMesh], aside: Collection[str] = ()
+) -> ReviewQuestion | None:
+    """The question about the hull that most likely spans parts; None where none is known, or all were put off.
+
+    meshes: those of the family, by id; hulls that look like one which a person split are looked for in them; aside:
+    those that nothing is asked about.
+    """
+    propose_lookalikes(store, meshes)
     later = set(store.put_off_ids())
-    asked = (one for one in _list_questions(store, meshes) if one.id not in later)
+    asked = (one for one in _list_questions(store, meshes) if one.id not in later and one.asset not in aside)
     return min(asked, key=lambda one: (-one.gain, one.asset, one.hulls), default=None)
 
 
 def _list_questions(store: Store, meshes: Mapping[str, SymbolicMesh]) -> Iterator[ReviewQuestion]:
     """A question for each hull that likely spans parts, is as it was when that was found, and can be divided."""
-    spans = store.spans()
-    for asset in spans.assets.keys() & meshes.keys():
-        for hull, span in spans.likely(asset, hull_digests(meshes[asset])).items():
+    some = (store.last_spans().assets.keys() | store.lookalike_spans().assets.keys()) & meshes.keys()
+    for asset in some:
+        for hull, span in likely_spans(store, asset, hull_digests(meshes[asset])).items():
             if span.parts:
                 yield _ask(asset, hull, span)
 
 
 def _ask(asset: str, hull: str, span: SpanLine) -> ReviewQuestion:
-    text = f"{hull} of {asset} {span.told.removeprefix(f'{hull} ')}: split so?"
+    text = f"{hull} of {asset} {span.told.removeprefix(f'{hull} ')}: split {'as that was' if span.like else 'so'}?"
     choices = (ReviewChoice(f"{SPLIT}: {join_names([str(part) for part in span.parts])}"), ReviewChoice(ONE_PART))
     place = HullPlace(asset, hull)
     draft = ReviewQuestion("", "span", text, YES_OR_NO, span.chance, asset, hulls=(place,), choices=choices)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
 from meshforge import batch
@@ -68,13 +69,20 @@ def write_splits(
     return PreparationResult(asset, entries, tuple(exchange_preparation(store, asset, after, seen, labels)))
 
 
-def keep_shapes(
-    store: Store, asset: str, spans: Mapping[str, SpanLine], shapes: Mapping[str, Sequence[Polytope]]
-) -> None:
+def keep_shapes(path: Path, spans: Mapping[str, SpanLine], shapes: Mapping[str, Sequence[Polytope]]) -> None:
     """Keep the parts of hulls of an asset, by name, as they were found."""
-    path = store.layout.span_parts(asset)
-    path.parent.mkdir(parents=True, exist_ok=True)
     write_arrays(path, _digest(spans), pack_hulls(shapes))
+
+
+def likely_spans(store: Store, asset: str, hulls: Mapping[str, str]) -> dict[str, SpanLine]:
+    """The hulls of an asset that likely span parts, by the surface or as they look like one that a person split,
+    whichever is likelier; not those that a person said to be one part. hulls: their digests by name."""
+    single, found = store.single_parts(), dict[str, SpanLine]()
+    for file in (store.last_spans(), store.lookalike_spans()):
+        for name, line in file.without(single).likely(asset, hulls).items():
+            if name not in found or line.chance > found[name].chance:
+                found[name] = line
+    return found
 
 
 def find_split(store: Store, asset: str, hull: str) -> Split:
@@ -82,15 +90,20 @@ def find_split(store: Store, asset: str, hull: str) -> Split:
 
     Raises ProjectError where the hull is not as it was then, or no plane divides it.
     """
-    spans = store.last_spans().assets.get(asset, {})
-    span = spans.get(hull)
-    if span is None or hull_digests(store.mesh(asset)).get(hull) != span.geometry:
+    span = likely_spans(store, asset, hull_digests(store.mesh(asset))).get(hull)
+    if span is None:
         raise ProjectError(
             "nothing is known of parts of this hull as it is now", where=f"{asset}: {hull}", remedy=_FIND
         )
     if not span.parts:
         raise ProjectError("no plane divides this hull", where=f"{asset}: {hull}", remedy="Split it: meshforge split")
-    kept = read_arrays(store.layout.span_parts(asset), _digest(spans), *HULL_ARRAYS)
+    layout = store.layout
+    path, file = (
+        (layout.lookalike_parts(asset), store.lookalike_spans())
+        if span.like
+        else (layout.span_parts(asset), store.last_spans())
+    )
+    kept = read_arrays(path, _digest(file.assets[asset]), *HULL_ARRAYS)
     shapes = tuple(unpack_hulls(*kept).get(hull, ())) if kept else ()
     if len(shapes) != len(span.parts):
         raise ProjectError("the parts of this hull are not kept any more", where=f"{asset}: {hull}", remedy=_FIND)
@@ -104,7 +117,8 @@ def split_as_found(store: Store, asset: str, hull: str) -> PreparationResult:
     """
     seen = batch.record_digest(store.layout.preparation(asset))
     split = find_split(store, asset, hull)
-    return write_splits(store, asset, [split], {"asked": True}, seen)
+    like = {"like": split.span.like} if split.span.like else {}
+    return write_splits(store, asset, [split], {"asked": True, **like}, seen)
 
 
 def mark_as_one_part(store: Store, asset: str, hull: str) -> None:

@@ -113,7 +113,8 @@ def _keep_likely(store: Store, report: SpanReport, divide: _Divide) -> None:
             continue
         digests, parts = hull_digests(mesh), {hull: divide(asset, hull) for hull in likely}
         found[asset] = {hull: _to_line(span, digests[hull], parts[hull]) for hull, span in likely.items()}
-        keep_shapes(store, asset, found[asset], {hull: _shapes_of(own) for hull, own in parts.items()})
+        path = store.layout.span_parts(asset)
+        keep_shapes(path, found[asset], {hull: _shapes_of(own) for hull, own in parts.items()})
     store.write_spans(SpansFile(assets=found))
 
 

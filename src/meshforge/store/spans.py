@@ -22,18 +22,21 @@ class SpanPart(JsonFile):
 
 class SpanLine(JsonFile):
     """One hull that likely spans parts. geometry: the digest of the hull as it was; told: in words; parts: what a split
-    makes of it, none where no plane divides it.
+    makes of it, none where no plane divides it; like: the hull that a person split, which this one looks like.
     """
 
     geometry: str
     chance: float
     told: str
     parts: tuple[SpanPart, ...] = ()
+    like: str | None = None
 
 
 class SpansFile(JsonFile):
-    """.meshforge/spans.json: likely hulls, by asset and name."""
+    """.meshforge/spans.json: likely hulls, by asset and name; .meshforge/lookalikes.json: those that look like one that
+    a person split. key: a digest of what the latter was made from."""
 
+    key: str = ""
     assets: dict[str, dict[str, SpanLine]] = Field(default_factory=dict)
 
     def likely(self, asset: str, hulls: Mapping[str, str]) -> dict[str, SpanLine]:

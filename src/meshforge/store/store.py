@@ -334,6 +334,18 @@ class Store:
         found = self.last_spans()
         return found.without(self.single_parts()) if found.assets else found
 
+    def lookalike_spans(self) -> SpansFile:
+        """Which hulls look like hulls that a person split; none where that is not kept, or damaged."""
+        try:
+            return read_json(self.layout.lookalike_spans, SpansFile) or SpansFile()
+        except ProjectError:  # it can be found again
+            return SpansFile()
+
+    def write_lookalike_spans(self, found: SpansFile) -> None:
+        """Keep which hulls look like hulls that a person split."""
+        with self.lock():
+            write_json(self.layout.lookalike_spans, found)
+
     def last_spans(self) -> SpansFile:
         """Which hulls likely span parts, as was found last; none where that is not kept, or damaged."""
         try:

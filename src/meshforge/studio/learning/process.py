@@ -12,7 +12,7 @@ from time import perf_counter
 from meshforge.batch import RECORD_FILE, source_files
 from meshforge.common import FileStates, MeshForgeError, file_states
 from meshforge.language import Program, parse_extractor
-from meshforge.project import AssessmentBasis, Project, digest_lesson, select_assets
+from meshforge.project import AssessmentBasis, Project, can_ask_about_spans, digest_lesson, select_assets
 from meshforge.studio.learning.assessment import assess_project, view_assessment, view_first_question
 from meshforge.studio.learning.queue import CancelToken
 from meshforge.studio.learning.results import ProgramWithTemplates, RuleSelector, build_outcome_view, measure_reach
@@ -103,9 +103,10 @@ def assess(folder: Path, token: CancelToken, number: int) -> AssessmentView | No
 
 
 def _ask_first(project: Project, token: CancelToken, number: int) -> AssessmentView | None:
-    some = [asset for asset in project.assets() if asset in project.spans().assets]
+    if not can_ask_about_spans(project):
+        return None
     try:
-        meshes = dict(_family_cache(project.folder).read_meshes(project, some, token.stop))
+        meshes = dict(_family_cache(project.folder).read_meshes(project, select_assets(project), token.stop))
     except ReadInterrupted:
         return None
     return view_first_question(project, meshes, number)
