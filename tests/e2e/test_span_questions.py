@@ -73,6 +73,23 @@ def test_the_job_can_be_stopped_and_says_what_is_wrong(project: Project, tmp_pat
         assert refused.status_code == 400 and "nothing is known of parts" in refused.json()["message"]
 
 
+def test_a_cut_whose_parts_are_labelled_is_proposed_on_a_look_alike(project: Project, tmp_path: Path) -> None:
+    with opened(tmp_path, project.folder) as studio:
+        studio.settled()
+        low = project.mesh("c.urdf").hull_of("base/h0").aabb.max[2] - 0.04
+        studio.edit("cut", asset="c.urdf", hull="base/h0", at=[0, 0, low], across=[0, 0, 1])
+        studio.edit("label", asset="c.urdf", hulls=["base/h0#0"], label="leg")
+        studio.edit("label", asset="c.urdf", hulls=["base/h0#1"], label="seat")
+        hello = studio.until(lambda hello: bool(hello["assessment"] and hello["assessment"]["question"]))
+        question = hello["assessment"]["question"]
+        assert question["text"].startswith("base/h0 of d.urdf looks like base/h0 of c.urdf, ")
+        assert studio.get("/api/parts", asset="d.urdf", hull="base/h0").status_code == 200
+        studio.edit("split-span", asset="d.urdf", hull="base/h0")
+        assert [hull.label for hull in project.mesh("d.urdf").hulls[:2]] == ["leg", "seat"]
+        ok(studio.post("/api/undo"))
+        assert len(project.mesh("d.urdf").hulls) == 4
+
+
 def _find(person: Hand) -> None:
     person.press("Alt+2")
     person.click("Find hulls that span parts")

@@ -31,7 +31,7 @@ def example(plane: bool = True) -> SplitExample:
     ("linear", "why"),
     [
         (np.eye(3), "the same shape"),
-        (np.diag([2.0, 0.5, 3.0]), "stretched along the axes"),
+        (np.diag([1.3, 0.9, 1.2]), "stretched along the axes"),
         (np.diag([-1.0, 1, 1]), "mirrored"),
         (QUARTER @ np.diag([1.1, 1.1, 1.1]), "turned by a quarter"),
         (np.diag([1.0, -1, 1]) @ QUARTER, "turned and mirrored"),
