@@ -114,12 +114,15 @@ def _keep_likely(store: Store, report: SpanReport, divide: _Divide) -> None:
         digests, parts = hull_digests(mesh), {hull: divide(asset, hull) for hull in likely}
         found[asset] = {hull: _to_line(span, digests[hull], parts[hull]) for hull, span in likely.items()}
         path = store.layout.span_parts(asset)
-        keep_shapes(path, found[asset], {hull: _shapes_of(own) for hull, own in parts.items()})
+        keep_shapes(path, found[asset], {hull: _shapes_of(own) for hull, own in parts.items() if len(own) > 1})
     store.write_spans(SpansFile(assets=found))
 
 
 def _to_line(span: HullSpan, geometry: str, parts: Sequence[tuple[HullPart, str, float]]) -> SpanLine:
-    rows = tuple(SpanPart(label=label, share=round(share, _DIGITS)) for _, label, share in parts)
+    """A hull as it is kept; with one part alone nothing divides it."""
+    rows = (
+        tuple(SpanPart(label=label, share=round(share, _DIGITS)) for _, label, share in parts) if len(parts) > 1 else ()
+    )
     return SpanLine(geometry=geometry, chance=round(span.chance, _DIGITS), told=str(span), parts=rows)
 
 

@@ -10,8 +10,10 @@ import pytest
 
 from meshforge.batch import IN_PROCESS
 from meshforge.common import ProjectError, StoppedError
+from meshforge.labels import SpanReport
 from meshforge.project import Project, ProjectReview, ask_about_spans, choose_span_question
 from meshforge.signoff import Assessment, AssetConfidence, ReviewQuestion, ReviewReply
+from meshforge.store import SpanPart, SpansFile
 from tests.unit.project.stools import create_stools
 from tests.unit.project.test_spans import files, split
 
@@ -62,6 +64,27 @@ def test_it_is_asked_what_a_hull_holds_how_sure_that_is_and_which_parts_it_would
     assert question.text.endswith("%: split so?")
     assert [choice.text.split(" (")[0] for choice in question.choices] == ["split so: leg", "no, it is one part"]
     assert "seat (" in question.choices[0].text
+
+
+def test_parts_of_one_label_are_told_together(project: Project) -> None:
+    found = project.last_spans()
+    line = found.assets[C][HULL]
+    rows = [("wall", 0.92), ("handle", 0.93), ("wall", 0.754), ("wall", 0.8)]
+    parts = tuple(SpanPart(label=label, share=share) for label, share in rows)
+    project.write_spans(SpansFile(assets={C: {HULL: line.model_copy(update={"parts": parts})}}))
+    assert ask(project).choices[0].text == "split so: 3 wall (75% to 92%), handle (93%)"
+
+
+def test_a_hull_that_no_plane_divides_is_named_and_not_asked_about(
+    project: Project, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    divide = SpanReport.divide
+    monkeypatch.setattr(SpanReport, "divide", lambda *given: divide(*given)[:1])
+    project.list_spans(execution=IN_PROCESS)
+    assert asked(project) is None
+    assert [len(row.spans) for row in project.status().assets] == [0, 0, 1, 1]
+    with pytest.raises(ProjectError, match="no plane divides this hull"):
+        project.split_as_found(C, HULL)
 
 
 def test_nothing_is_asked_where_nobody_has_looked(project: Project) -> None:

@@ -1,7 +1,7 @@
 // The parts of a hull that a person is asked about: where they are shown, and until when.
 import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
 import { api } from "../server/api";
-import { dividedHull, showHullParts, useHullParts } from "./hullParts";
+import { dividedHull, groupParts, showHullParts, useHullParts } from "./hullParts";
 import type { Scene } from "./scene";
 import { useToasts } from "./toasts";
 
@@ -39,6 +39,14 @@ describe("the parts of a hull", () => {
     showHullParts("cup", "base");
     await vi.waitFor(() => expect(useToasts.getState().toasts).toHaveLength(1));
     expect(shown()).toBeNull();
+  });
+
+  it("are told by their labels", () => {
+    const part = (label: string, confidence: number) => ({ label, confidence });
+    expect(groupParts([part("wall", 0.92), part("handle", 0.93), part("wall", 0.754), part("wall", 0.92)])).toEqual([
+      { label: "wall", count: 3, share: "75% to 92%" },
+      { label: "handle", count: 1, share: "93%" },
+    ]);
   });
 
   it("are on their asset as it comes, and nowhere else", () => {

@@ -2,6 +2,8 @@
 import { create } from "zustand";
 import { api } from "../server/api";
 import type { PartsPacket } from "../server/packet";
+import type { HullView } from "../wire";
+import { percentText } from "./assessment";
 import type { Scene, SceneHull } from "./scene";
 import { reportError } from "./toasts";
 
@@ -11,6 +13,24 @@ interface HullPartsState {
 }
 
 export const useHullParts = create<HullPartsState>()(() => ({ shown: null }));
+
+/** Parts of one label. */
+export interface PartGroup {
+  readonly label: string;
+  readonly count: number;
+  /** How sure the label is, `93%` or `75% to 92%`. */
+  readonly share: string;
+}
+
+/** Parts by their labels, in the order in which these come. */
+export function groupParts(parts: readonly Pick<HullView, "label" | "confidence">[]): readonly PartGroup[] {
+  const groups = new Map<string, number[]>();
+  for (const { label, confidence } of parts) groups.set(label ?? "", [...(groups.get(label ?? "") ?? []), confidence ?? 0]);
+  return [...groups].map(([label, shares]) => {
+    const ends = [Math.min(...shares), Math.max(...shares)].map((share) => percentText(share));
+    return { label, count: shares.length, share: [...new Set(ends)].join(" to ") };
+  });
+}
 
 /** Shows the parts of a hull, until the returned function is called. */
 export function showHullParts(asset: string, hull: string): () => void {

@@ -4,8 +4,7 @@ import { useCallback, useEffect, useState } from "react";
 import { putOff, reply, showAsked } from "../../commands/question";
 import { IdPicture } from "../../pictures/IdPicture";
 import { api } from "../../server/api";
-import { percentText } from "../../store/assessment";
-import { showHullParts, useHullParts } from "../../store/hullParts";
+import { groupParts, type PartGroup, showHullParts, useHullParts } from "../../store/hullParts";
 import { useProject } from "../../store/project";
 import { Swatch } from "../../ui/Section";
 import type { HullView, ReviewQuestionView } from "../../wire";
@@ -30,8 +29,8 @@ export function SpanCard({ question }: { question: ReviewQuestionView }) {
         <PartsPicture id={id} asset={asset} hull={hull} parts={parts} />
       </button>
       <ul className={css.parts} aria-label="Parts">
-        {parts.map((part) => (
-          <Part key={part.name} part={part} />
+        {groupParts(parts).map((group) => (
+          <Part key={group.label} {...group} />
         ))}
       </ul>
       <div className={css.row}>
@@ -50,11 +49,14 @@ export function SpanCard({ question }: { question: ReviewQuestionView }) {
 
 const NO_PARTS: readonly HullView[] = [];
 
-function Part({ part: { label, confidence } }: { part: HullView }) {
+/** Parts of one label: how many, and how sure it is of each. */
+function Part({ label, count, share }: PartGroup) {
   const color = useLabelColors()(label);
   return (
     <li>
-      <Swatch color={color} /> {label} <span className={css.facts}>{percentText(confidence ?? 0)}</span>
+      <Swatch color={color} /> {label}
+      {count > 1 && <b>×{count}</b>}
+      <span className={css.facts}>{share}</span>
     </li>
   );
 }

@@ -41,8 +41,10 @@ describe("a hull", () => {
     useHullParts.setState({ shown: { asset: scene.asset, packet: { header: { rows: [], hull: "b", parts: [] }, rows: [], shapes: [] } } });
     const { a, b } = looks();
     expect([a?.visible, b?.visible]).toEqual([true, false]);
+    expect(a?.role).toBe(ROLE.washed);
     useHullParts.setState({ shown: null });
     expect(looks()["b"]?.visible).toBe(true);
+    expect(looks()["a"]?.role).toBe(ROLE.plain);
   });
 
   it("is lit by a region that is drawn over it, less than by the pointer", () => {

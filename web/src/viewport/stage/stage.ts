@@ -264,7 +264,8 @@ function shade(gl: WebGLRenderer, stage: Stage, { occlusion, shadow }: AssetDraw
     shadow.hide();
     return;
   }
-  if (stage.section) occlusion.hide(); // it knows nothing of faces that close what is cut open
+  // it knows nothing of faces that close what is cut open, nor of parts in the place of a hull
+  if (stage.section || stage.contents.parts) occlusion.hide();
   else occlusion.update(gl, camera, { width, height, explode, radius: stage.view.radius }, hasTime);
   shadow.update(gl, bounds, explode, ink.dark, hasTime);
 }
