@@ -9,6 +9,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from meshforge import batch
+from meshforge.batch.preparation.record import PreparationStep
+from meshforge.batch.preparation.storage import read_steps
 from meshforge.common import MeshForgeError
 from meshforge.formats import read
 from meshforge.labels.split_lookalikes import SplitExample, SplitLookalikes, SplitProposal
@@ -40,7 +42,7 @@ class _ExampleStep:
 
 def has_split_examples(store: Store) -> bool:
     """Whether a person cut or split a hull of any asset."""
-    return any(step.do in ("cut", "split") for asset in _list_prepared(store) for step in _read(store, asset).steps)
+    return any(step.do in ("cut", "split") for asset in _list_prepared(store) for step in _read_steps(store, asset))
 
 
 def propose_lookalikes(store: Store, meshes: Mapping[str, SymbolicMesh]) -> None:
@@ -100,22 +102,22 @@ def _list_prepared(store: Store) -> tuple[str, ...]:
     return tuple(asset for asset in store.layout.ids_with_preparation() if asset in ids)
 
 
-def _read(store: Store, asset: str) -> batch.Preparation:
-    """The preparation of an asset; an empty one for a damaged one, which the reader of the asset names."""
+def _read_steps(store: Store, asset: str) -> tuple[PreparationStep, ...]:
+    """What was done to an asset; nothing where that is damaged, which the reader of the asset names."""
     try:
-        return store.preparation(asset)
+        return read_steps(store.layout.preparation(asset)) or ()
     except MeshForgeError:
-        return batch.Preparation()
+        return ()
 
 
 def _list_parts(store: Store, asset: str) -> frozenset[str]:
     """The hulls of an asset that some split made."""
-    entries = (entry for step in _read(store, asset).steps for entry in step.replaced if entry.kind == "hull")
+    entries = (entry for step in _read_steps(store, asset) for entry in step.replaced if entry.kind == "hull")
     return frozenset(name for entry in entries for name in entry.made)
 
 
 def _find_examples(store: Store, mesh: SymbolicMesh, asset: str) -> Iterator[_ExampleStep]:
-    for place, step in enumerate(_read(store, asset).steps):
+    for place, step in enumerate(_read_steps(store, asset)):
         for entry in step.replaced if step.do in ("cut", "split") else ():
             labels = [mesh.hull_of(name).label if name in mesh.index else None for name in entry.made]
             named = tuple(label for label in labels if label)

@@ -47,19 +47,26 @@ def prepare_from_folder(asset: Asset, folder: Path) -> Asset:
 
 def read_preparation(folder: Path) -> Preparation | None:
     """The preparation in a folder, None where there is none. Raises AssetError where it is damaged."""
-    path = folder / RECORD_FILE
-    try:
-        steps = _read_steps(path)
-    except (FileNotFoundError, NotADirectoryError):
+    steps = read_steps(folder)
+    if steps is None:
         return None
-    except OSError as error:
-        raise _file_error(path, error) from error
     hulls = _read_hulls(folder / _HULLS) if steps else {}
     found = Preparation(steps, hulls)
     for name, known in found.hull_digests.items():
         if known not in hulls:
             raise _damage_error(folder / _HULLS, f"the hull {name} is not in it as it was made")
     return found.with_only(steps)
+
+
+def read_steps(folder: Path) -> tuple[PreparationStep, ...] | None:
+    """What was done, without the hulls, None where nothing was. Raises AssetError where that is damaged."""
+    path = folder / RECORD_FILE
+    try:
+        return _read_record(path)
+    except (FileNotFoundError, NotADirectoryError):
+        return None
+    except OSError as error:
+        raise _file_error(path, error) from error
 
 
 def record_digest(folder: Path) -> str | None:
@@ -104,7 +111,7 @@ def remove_preparation(folder: Path) -> None:
         folder.rmdir()
 
 
-def _read_steps(path: Path) -> tuple[PreparationStep, ...]:
+def _read_record(path: Path) -> tuple[PreparationStep, ...]:
     """The steps in a record. Raises OSError, and AssetError where it is damaged."""
     content = path.read_bytes().removeprefix(codecs.BOM_UTF8)
     from pydantic import TypeAdapter, ValidationError  # lazy: 0.1 s, only preparations need it
