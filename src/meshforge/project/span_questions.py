@@ -6,7 +6,7 @@ from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import replace
 
 from meshforge.common import ProjectError
-from meshforge.project.span_splits import likely_spans, mark_as_one_part, split_as_found
+from meshforge.project.span_splits import likely_spans, mark_as_one_part, read_spans, split_as_found
 from meshforge.project.split_examples import has_split_examples, propose_lookalikes
 from meshforge.signoff import Assessment, HullPlace, ReviewChoice, ReviewQuestion
 from meshforge.signoff.prices import YES_OR_NO
@@ -51,9 +51,9 @@ def choose_span_question(
 
 def _list_questions(store: Store, meshes: Mapping[str, SymbolicMesh]) -> Iterator[ReviewQuestion]:
     """A question for each hull that likely spans parts, is as it was when that was found, and can be divided."""
-    some = (store.last_spans().assets.keys() | store.lookalike_spans().assets.keys()) & meshes.keys()
-    for asset in some:
-        for hull, span in likely_spans(store, asset, hull_digests(meshes[asset])).items():
+    files = read_spans(store)
+    for asset in sorted({asset for file in files for asset in file.assets} & meshes.keys()):
+        for hull, span in likely_spans(files, asset, hull_digests(meshes[asset])).items():
             if span.parts:
                 yield _ask(asset, hull, span)
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -16,7 +16,7 @@ from meshforge.geometry import Polytope
 from meshforge.labels.descriptor_cache import read_arrays, write_arrays
 from meshforge.labels.hull_arrays import HULL_ARRAYS, pack_hulls, unpack_hulls
 from meshforge.project.prepare import PreparationResult, exchange_preparation
-from meshforge.store import SpanLine, Store, hull_digests
+from meshforge.store import SpanLine, SpansFile, Store, hull_digests
 from meshforge.symbolic import Hull, Label, SymbolicMesh
 
 _FIND = "Find them again: meshforge prepare PROJECT --split-spanning --dry-run"
@@ -74,12 +74,18 @@ def keep_shapes(path: Path, spans: Mapping[str, SpanLine], shapes: Mapping[str, 
     write_arrays(path, _digest(spans), pack_hulls(shapes))
 
 
-def likely_spans(store: Store, asset: str, hulls: Mapping[str, str]) -> dict[str, SpanLine]:
-    """The hulls of an asset that likely span parts, by the surface or as they look like one that a person split,
-    whichever is likelier; not those that a person said to be one part. hulls: their digests by name."""
-    single, found = store.single_parts(), dict[str, SpanLine]()
-    for file in (store.last_spans(), store.lookalike_spans()):
-        for name, line in file.without(single).likely(asset, hulls).items():
+def read_spans(store: Store) -> tuple[SpansFile, ...]:
+    """The hulls that likely span parts, by the surface and as they look like one that a person split; not those that a
+    person said to be one part."""
+    single = store.single_parts()
+    return tuple(file.without(single) for file in (store.last_spans(), store.lookalike_spans()))
+
+
+def likely_spans(files: Iterable[SpansFile], asset: str, hulls: Mapping[str, str]) -> dict[str, SpanLine]:
+    """Those of an asset that are as they were when that was found, each as it is likelier. hulls: digests by name."""
+    found = dict[str, SpanLine]()
+    for file in files:
+        for name, line in file.likely(asset, hulls).items():
             if name not in found or line.chance > found[name].chance:
                 found[name] = line
     return found
@@ -90,7 +96,7 @@ def find_split(store: Store, asset: str, hull: str) -> Split:
 
     Raises ProjectError where the hull is not as it was then, or no plane divides it.
     """
-    span = likely_spans(store, asset, hull_digests(store.mesh(asset))).get(hull)
+    span = likely_spans(read_spans(store), asset, hull_digests(store.mesh(asset))).get(hull)
     if span is None:
         raise ProjectError(
             "nothing is known of parts of this hull as it is now", where=f"{asset}: {hull}", remedy=_FIND
