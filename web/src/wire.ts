@@ -18,6 +18,8 @@ export type AnyEdit =
   | PutOff
   | WriteProgram
   | CutHull
+  | SplitSpan
+  | MarkAsOnePart
   | Unprepare
   | ReviewAssets
   | CorrectByHand
@@ -38,7 +40,7 @@ export type Event =
   | ProgramChanged
   | JobChanged;
 export type JobRequest =
-  ApplyJob | DecomposeJob | ExportJob | PropagateJob | ForecastJob | AskJob | CheckJob | DownloadJob;
+  ApplyJob | DecomposeJob | SpansJob | ExportJob | PropagateJob | ForecastJob | AskJob | CheckJob | DownloadJob;
 export type NewProject = ProjectOfFolder | ProjectOfUpload | ProjectOfFamily;
 
 export interface Everything {
@@ -116,6 +118,7 @@ export interface Everything {
   LanguageView: LanguageView;
   LeaveOut: LeaveOut;
   Mark: Mark;
+  MarkAsOnePart: MarkAsOnePart;
   Model: Model;
   MoveRule: MoveRule;
   NearMiss: NearMiss;
@@ -127,6 +130,7 @@ export interface Everything {
   Operator: Operator;
   OutcomeChanged: OutcomeChanged;
   OutcomeView: OutcomeView;
+  PartsHeader: PartsHeader;
   PreviewRequest: PreviewRequest;
   Problem: Problem;
   ProgramChanged: ProgramChanged;
@@ -163,6 +167,8 @@ export interface Everything {
   ShapesHeader: ShapesHeader;
   SimilarRequest: SimilarRequest;
   SimilarView: SimilarView;
+  SpansJob: SpansJob;
+  SplitSpan: SplitSpan;
   Start: Start;
   StartView: StartView;
   StepText: StepText;
@@ -365,6 +371,22 @@ export interface CutHull {
   across: [number, number, number];
 }
 /**
+ * Split a hull that likely spans parts into those that were found last.
+ */
+export interface SplitSpan {
+  asset: string;
+  kind: "split-span";
+  hull: string;
+}
+/**
+ * Keep that a hull is one part, so that nobody is asked whether to split it.
+ */
+export interface MarkAsOnePart {
+  kind: "one-part";
+  asset: string;
+  hull: string;
+}
+/**
  * Take back the last thing that was done to an asset before the program.
  */
 export interface Unprepare {
@@ -477,7 +499,7 @@ export interface DoubtView {
  */
 export interface ReviewQuestionView {
   id: string;
-  kind: "group" | "repair" | "reading" | "label" | "selection" | "orientation" | "result" | "demonstrate";
+  kind: "group" | "repair" | "reading" | "label" | "selection" | "orientation" | "result" | "demonstrate" | "span";
   text: string;
   seconds: number;
   gain: number;
@@ -1103,7 +1125,18 @@ export interface Reach {
  */
 export interface Job {
   id: string;
-  kind: "read" | "apply" | "decompose" | "export" | "add" | "propagate" | "forecast" | "ask" | "check" | "download";
+  kind:
+    | "read"
+    | "apply"
+    | "decompose"
+    | "spans"
+    | "export"
+    | "add"
+    | "propagate"
+    | "forecast"
+    | "ask"
+    | "check"
+    | "download";
   title: string;
   done: number;
   total: number;
@@ -1261,6 +1294,12 @@ export interface JobCancel {
   id: string;
 }
 /**
+ * Find the hulls of all assets that likely span parts.
+ */
+export interface SpansJob {
+  kind: "spans";
+}
+/**
  * Propagate the labels of people and files to all other hulls of the family.
  */
 export interface PropagateJob {
@@ -1341,6 +1380,15 @@ export interface ProjectOfFamily {
  */
 export interface OpenReceipt {
   folder: string;
+}
+/**
+ * The header of a packet of the parts of a hull that likely spans them; see `ShapesHeader`. hull: its name; parts:
+ * in the order of the rows.
+ */
+export interface PartsHeader {
+  rows: ShapeRow[];
+  hull: string;
+  parts: HullView[];
 }
 /**
  * What would an action do? steps: how many of the asset's own steps come before it; result: apply it to what the

@@ -57,8 +57,11 @@ def _to_reply(number: int, row: Any) -> ReviewReply:
 
 def parse_reply(line: str, question: ReviewQuestion) -> ReviewReply:
     """The reply that a person typed: nothing for the first choice, a number from 1, n for none of them, l for later;
-    after the number those hulls of a group that are something else, as `c=leg`. Raises UsageError for anything else."""
+    after the number those hulls of a group that are something else, as `c=leg`; y or n where that is all there is to
+    say. Raises UsageError for anything else."""
     words = line.replace(",", " ").split()
+    if question.kind == "span" and words in (["y"], ["n"]):
+        return ReviewReply(question.id, int(words == ["n"]))
     if words == ["l"]:
         return ReviewReply(question.id, later=True)
     choice: int | None = 0

@@ -24,6 +24,8 @@ def draw_question(project: Project, found: ProjectReview, question: ReviewQuesti
 
 def _draw(pictures: MeshPictures, found: ProjectReview, question: ReviewQuestion) -> list[Path]:
     name, program = question.id, found.outcome.program if found.outcome else None
+    if question.kind == "span":
+        return [pictures.draw_split(*question.hulls[0], name)]
     if question.hulls:
         return [pictures.draw_sheet(_hulls_by_asset(question), name)]
     if question.asset not in found.state.meshes:

@@ -36,6 +36,8 @@ def format_prompt(question: ReviewQuestion) -> str:
     count = len(question.choices)
     if not count:
         return "l later, q stop: "
+    if question.kind == "span":
+        return "y split so, n it is one part, l later, q stop; Enter: y: "
     numbers = ", ".join(map(str, range(1, count + 1)))
     but = " (what is something else after it: 1 b=LABEL)" if len(question.hulls) > 1 else ""
     return f"{numbers}{but}, n for none, l later, q stop; Enter: 1: "

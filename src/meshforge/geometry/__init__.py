@@ -29,8 +29,8 @@ if TYPE_CHECKING:
     from meshforge.geometry.faults import HullFault, describe_fault, find_fault
     from meshforge.geometry.fill import aabb_box, aabb_capsule, aabb_cylinder, aabb_sphere, longest_axis, map_to_box
     from meshforge.geometry.fit import tight_box, tight_capsule, tight_cylinder
-    from meshforge.geometry.merging import PieceGroup, merge_pieces
     from meshforge.geometry.native import native_capsule, native_cylinder, native_sphere
+    from meshforge.geometry.piece_groups import PieceGroup, merge_pieces
     from meshforge.geometry.pieces import Piece, split_pieces
     from meshforge.geometry.pose import (
         Pose,

@@ -25,6 +25,8 @@ if TYPE_CHECKING:
     from meshforge.project.run_report import add_standings, build_run_report, summarize_outputs
     from meshforge.project.sign_off_text import format_review, format_share, format_standing, format_status
     from meshforge.project.sign_offs import AssessmentBasis, digest_lesson, keep_assessment
+    from meshforge.project.span_questions import ask_about_spans, can_ask_about_spans, choose_span_question
+    from meshforge.project.span_splits import Split
     from meshforge.project.spans import SURE_TO_SPAN
     from meshforge.project.status import AssetStatus, Status
 else:
@@ -42,10 +44,14 @@ __all__ = [
     "ProgramState",
     "Project",
     "ProjectReview",
+    "Split",
     "Status",
     "add_standings",
+    "ask_about_spans",
     "assess_new_assets",
     "build_run_report",
+    "can_ask_about_spans",
+    "choose_span_question",
     "describe_new",
     "digest_lesson",
     "forget_plan",

@@ -23,7 +23,7 @@ from meshforge.project.new_asset_memory import NewAssetFolder, digest_basis
 from meshforge.project.new_asset_result import HullSplit, NewAssetResult
 from meshforge.project.preparation_plan import PreparationPlan, extend_plan, find_new_assets
 from meshforge.project.prepare import exchange_preparation
-from meshforge.project.span_search import plan_divisions
+from meshforge.project.span_search import plan_splits
 from meshforge.store import Store, hull_digests
 from meshforge.symbolic import Asset, Label, LabelFile, SymbolicMesh, read_labels, transfer_labels, write_labels
 
@@ -124,7 +124,7 @@ def prepare_new(store: Store, options: NewAssetOptions = NEW_ASSET_DEFAULTS) -> 
 def _keep_in_project(store: Store, asset: str, found: _WorkerOutcome) -> list[str]:
     """Write what was done step by step, since each is undone by itself; notes on that."""
     notes, seen, after = list[str](), found.seen, found.preparation
-    before = len(batch.read_steps(store.layout.preparation(asset)))
+    before = len(batch.read_steps(store.layout.preparation(asset)) or ())
     labels = {name: label for name, label in found.parts.items() if label.name in store.vocabulary}
     for count in range(before + 1, len(after.steps) + 1):
         is_last = count == len(after.steps)
@@ -262,10 +262,10 @@ def _split(task: _Task, source: Asset, before: batch.Preparation, mesh: Symbolic
     report = task.family.find_spans(source, mesh)
     bare = report.bare.get(NEW, ())
     notes = (f"no surface says whether {join_names(bare)} span parts",) if bare else ()
-    plan = plan_divisions(report, NEW, sure)
+    plan = plan_splits(report, NEW, sure)
     spans = {span.hull: span for span in report.spans_of(NEW)}
-    divided = [spans[one.hull] for one in plan.divisions] if task.split else []
-    likely = {span.hull for span in (*plan.unsure, *plan.whole)} | {one.hull for one in plan.divisions}
+    divided = [spans[one.hull] for one in plan.splits] if task.split else []
+    likely = {span.hull for span in (*plan.unsure, *plan.whole)} | {one.hull for one in plan.splits}
     left = tuple(span for name, span in spans.items() if name in likely and span not in divided)
     if not divided:
         return _SplitOutcome(before, (), left, notes)

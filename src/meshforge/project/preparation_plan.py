@@ -52,7 +52,7 @@ def read_preparation_plan(store: Store) -> PreparationPlan:
         if asset not in store.found.ids:
             continue
         try:
-            steps = batch.read_steps(store.layout.preparation(asset))
+            steps = batch.read_steps(store.layout.preparation(asset)) or ()
         except MeshForgeError:  # the run says so of that asset
             continue
         done = [json.dumps(step.settings, sort_keys=True) for step in steps if step.do == "decompose"]

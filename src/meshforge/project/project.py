@@ -9,7 +9,18 @@ from pathlib import Path
 from meshforge import batch
 from meshforge.labels import LabelStore
 from meshforge.language import Orient
-from meshforge.project import demonstrations, learn, new_assets, overview, prepare, rename, run, sign_offs, spans
+from meshforge.project import (
+    demonstrations,
+    learn,
+    new_assets,
+    overview,
+    prepare,
+    rename,
+    run,
+    sign_offs,
+    span_splits,
+    spans,
+)
 from meshforge.project.review import build_review_state, reply_to, review_project
 from meshforge.store import add_assets, create_folder, find_assets
 
@@ -58,6 +69,9 @@ class Project(LabelStore):
     split_spanning = spans.split_spanning
     list_spans = spans.list_spans
     prepare_new = new_assets.prepare_new
+    find_split = span_splits.find_split
+    split_as_found = span_splits.split_as_found
+    mark_as_one_part = span_splits.mark_as_one_part
 
     # Demonstrations
 

@@ -28,6 +28,7 @@ from meshforge.project import demonstrations, learn, run
 from meshforge.project.alarms import measure_results
 from meshforge.project.family_state import FamilyStateReader
 from meshforge.project.sign_offs import AssessmentBasis, Clock, keep_assessment, now_utc, renew_sign_offs
+from meshforge.project.span_questions import answer_span, ask_about_spans
 from meshforge.signoff import (
     BAR,
     Assessment,
@@ -82,7 +83,7 @@ def review_project(
     measures = measure_results(store, program, meshes, basis.inputs) if program else {}
     alarms = describe_odd_results(measures)
     found = review_family(state, outcome, model_family(list(meshes.values())), bar, alarms)
-    found = _add_unreadable(store, found, state, lost)
+    found = ask_about_spans(store, meshes, _add_unreadable(store, found, state, lost), program is not None)
     keep_assessment(store, found, basis, measures, execution)
     taken_back = renew_sign_offs(store, clock=clock, execution=execution)
     return ProjectReview(found, outcome, state, lost, taken_back)
@@ -154,6 +155,9 @@ def reply_to(store: Store, review: ProjectReview, question: ReviewQuestion, repl
     choice = None if reply.choice is None else choices[reply.choice]
     if reply.later or (choice is None and question.kind not in ("reading", "label") and not reply.exceptions):
         store.put_off(question.id)
+    elif question.kind == "span":
+        assert choice is not None
+        answer_span(store, question, choice)
     elif question.kind == "result":
         assert choice is not None
         _judge(store, question.asset, choice.text)

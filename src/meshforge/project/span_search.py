@@ -3,71 +3,97 @@ asset by itself in a worker process, so that no process holds all of them."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
+from types import MappingProxyType
 
 from meshforge import batch
-from meshforge.common import ProjectError, describe_error, pluralize
+from meshforge.common import ProjectError, describe_error
 from meshforge.formats import read
 from meshforge.labels import NEW, HullSpan, ReferenceFamily, SpanReport, find_spans, read_reference_family
 from meshforge.labels.family_comparison import Stage
 from meshforge.labels.spans import pieces_file
-from meshforge.store import SpanLine, Store, hull_digests
+from meshforge.project.span_splits import Split, make_splits
+from meshforge.store import SpanLine, SpanPart, Store, hull_digests
 from meshforge.store.meshes import AssetFiles
 from meshforge.symbolic import Asset, Label
 
 LIKELY = 0.5
-"""The probability from which a hull is named."""
+"""The probability from which a hull is named, and asked about."""
 MOST_TOGETHER = 300
 """Assets of a project that are compared all with all; of more, each with the labelled ones alone."""
 _DIGITS = 3
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class DivisionPlan:
-    """Which hulls of an asset are to be divided. divisions: these, with the labels of the parts of each; unsure: hulls
-    that likely span parts, but not surely enough; whole: those that no plane divides."""
+class SplitPlan:
+    """Which hulls of an asset are to be split. unsure: hulls that likely span parts, but not surely enough; whole:
+    those that no plane divides; single: those that a person said to be one part."""
 
     sure: float
-    divisions: tuple[batch.HullDivision, ...] = ()
-    labels: tuple[tuple[Label, ...], ...] = ()
+    splits: tuple[Split, ...] = ()
     unsure: tuple[HullSpan, ...] = ()
     whole: tuple[HullSpan, ...] = ()
+    single: tuple[HullSpan, ...] = ()
+
+    @property
+    def notes(self) -> list[str]:
+        """On hulls that stay as they are."""
+        return [
+            *(f"{span}: left as it is, since a person said that it is one part" for span in self.single),
+            *(f"{span}: left as it is, below {self.sure:.0%}" for span in self.unsure),
+            *(f"{span}: no plane divides it; split it by hand: meshforge split" for span in self.whole),
+        ]
 
     def divide(self, source: Asset, before: batch.Preparation) -> tuple[batch.Preparation, dict[str, Label]]:
-        """A preparation with the step that divides them, and the label of each part by its name."""
-        chances = {one.hull: round(one.chance, _DIGITS) for one in self.divisions}
-        after = batch.divide_hulls(source, before, self.divisions, {"sure": self.sure, "chances": chances})
-        rows = zip(after.steps[-1].replaced, self.labels, strict=True)
-        return after, {name: one for entry, own in rows for name, one in zip(entry.made, own, strict=True)}
+        """A preparation with the step that splits them, and the label of each part by its name."""
+        return make_splits(source, before, self.splits, {"sure": self.sure})
 
 
-def plan_divisions(report: SpanReport, asset: str, sure: float) -> DivisionPlan:
-    """How the hulls of an asset that span parts with a probability of at least `sure` are divided."""
-    divisions, labels = list[batch.HullDivision](), list[tuple[Label, ...]]()
-    unsure, whole = list[HullSpan](), list[HullSpan]()
+def list_likely(report: SpanReport, asset: str, least: float = LIKELY) -> dict[str, Split]:
+    """The hulls of an asset that span parts with a probability of at least `least`, by name, and their parts; no parts
+    where no plane divides a hull."""
+    digests, found = hull_digests(report.meshes[asset]), dict[str, Split]()
     for span in report.spans_of(asset):
-        if span.chance < sure:
-            unsure += [span] if span.chance >= LIKELY else []
+        if span.chance < least:
             continue
         parts = report.divide(asset, span.hull)
-        if len(parts) < 2:
-            whole.append(span)
+        parts = parts if len(parts) > 1 else []
+        rows = tuple(SpanPart(label=label, share=round(share, _DIGITS)) for _, label, share in parts)
+        line = SpanLine(geometry=digests[span.hull], chance=round(span.chance, _DIGITS), told=str(span), parts=rows)
+        found[span.hull] = Split(span.hull, line, tuple(part.shape for part, _, _ in parts))
+    return found
+
+
+def plan_splits(
+    report: SpanReport, asset: str, sure: float, single: Mapping[str, str] = MappingProxyType({})
+) -> SplitPlan:
+    """How the hulls of an asset that span parts with a probability of at least `sure` are split.
+
+    single: the digests of the hulls that a person said to be one part, by name.
+    """
+    return _plan_likely(report, asset, sure, single, list_likely(report, asset, min(sure, LIKELY)))
+
+
+def _plan_likely(
+    report: SpanReport, asset: str, sure: float, single: Mapping[str, str], likely: Mapping[str, Split]
+) -> SplitPlan:
+    splits, unsure, whole, left = list[Split](), list[HullSpan](), list[HullSpan](), list[HullSpan]()
+    for span in report.spans_of(asset):
+        one = likely.get(span.hull)
+        if one is None:
             continue
-        made = ", ".join(f"{label} ({share:.0%})" for _, label, share in parts)
-        told = f"{span}: into {pluralize(len(parts), 'part')}, {made}"
-        shapes = tuple(part.shape for part, _, _ in parts)
-        divisions.append(batch.HullDivision(span.hull, span.chance, shapes, told))
-        labels.append(tuple(Label(label, round(share, _DIGITS), "propagated") for _, label, share in parts))
-    return DivisionPlan(sure, tuple(divisions), tuple(labels), tuple(unsure), tuple(whole))
-
-
-def list_likely(report: SpanReport, asset: str) -> dict[str, SpanLine]:
-    """The hulls of an asset that likely span parts, by name."""
-    digests, likely = hull_digests(report.meshes[asset]), (s for s in report.spans_of(asset) if s.chance >= LIKELY)
-    return {s.hull: SpanLine(geometry=digests[s.hull], chance=round(s.chance, _DIGITS), told=str(s)) for s in likely}
+        if single.get(span.hull) == one.span.geometry:
+            left.append(span)
+        elif span.chance < sure:
+            unsure.append(span)
+        elif one.shapes:
+            splits.append(one)
+        else:
+            whole.append(span)
+    return SplitPlan(sure, tuple(splits), tuple(unsure), tuple(whole), tuple(left))
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -75,9 +101,9 @@ class AssetSpans:
     """What was found of an asset. notes: what could not be looked at; likely: hulls that likely span parts, by name;
     seen: the digest of the preparation that it had."""
 
-    plan: DivisionPlan
+    plan: SplitPlan
     notes: tuple[str, ...]
-    likely: dict[str, SpanLine]
+    likely: Mapping[str, Split]
     seen: str | None
 
 
@@ -100,7 +126,8 @@ def search_spans(
     rows = zip(assets, store.asset_files(assets), strict=True)
     work = [_Work(asset, files, pieces_file(store, asset)) for asset, files in rows]
     with stage(len(work), "looking for hulls that span parts") as advance:
-        found = batch.execute(partial(_search_one, family, sure), work, replace(execution, progress=advance))
+        single = store.single_parts().assets
+        found = batch.execute(partial(_search_one, family, sure, single), work, replace(execution, progress=advance))
         for asset, one in zip(assets, found, strict=True):
             yield asset, one.why if isinstance(one, batch.WorkerFailure) else one
 
@@ -113,17 +140,19 @@ def _search_together(
     stage: Stage,
 ) -> Iterator[tuple[str, AssetSpans | str]]:
     seen = {asset: batch.record_digest(store.layout.preparation(asset)) for asset in assets}
-    report = find_spans(store, execution, stage)
+    report, single = find_spans(store, execution, stage), store.single_parts().assets
     for asset, digest in seen.items():
         if asset in report.lost or asset not in report.meshes:
             yield asset, report.lost.get(asset, "it cannot be read")
         else:
-            yield asset, _describe(report, asset, sure, digest)
+            yield asset, _describe(report, asset, sure, single.get(asset, {}), digest)
 
 
-def _describe(report: SpanReport, asset: str, sure: float, seen: str | None) -> AssetSpans:
+def _describe(report: SpanReport, asset: str, sure: float, single: Mapping[str, str], seen: str | None) -> AssetSpans:
     bare = tuple(f"{name} stands for no surface: left as it is" for name in report.bare.get(asset, ()))
-    return AssetSpans(plan_divisions(report, asset, sure), bare, list_likely(report, asset), seen)
+    found = list_likely(report, asset, min(sure, LIKELY))
+    likely = {hull: one for hull, one in found.items() if one.span.chance >= LIKELY}
+    return AssetSpans(_plan_likely(report, asset, sure, single, found), bare, likely, seen)
 
 
 @dataclass(frozen=True, slots=True)
@@ -135,12 +164,14 @@ class _Work:
     pieces: Path
 
 
-def _search_one(family: ReferenceFamily, sure: float, work: _Work) -> AssetSpans | str:
+def _search_one(
+    family: ReferenceFamily, sure: float, single: Mapping[str, Mapping[str, str]], work: _Work
+) -> AssetSpans | str:
     """What a worker finds of an asset, or why it failed."""
     try:
         seen = batch.record_digest(work.files.preparation)
         own = family.without(work.asset)
         report = own.find_spans(read(work.files.path), work.files.read_mesh(), work.pieces)
-        return _describe(report, NEW, sure, seen)
+        return _describe(report, NEW, sure, single.get(work.asset, {}), seen)
     except Exception as error:  # one asset never stops the others
         return describe_error(error, str(work.files.path))

@@ -1,9 +1,11 @@
-"""Hulls that span parts split, asset by asset, so far as that is sure enough; what is likely is kept for the status."""
+"""Hulls that span parts split, asset by asset, so far as that is sure enough; what is likely is kept for the status and
+for the questions of a review."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import AbstractContextManager, nullcontext
+from dataclasses import replace
 
 from meshforge import batch
 from meshforge.common import MeshForgeError, UsageError
@@ -12,10 +14,11 @@ from meshforge.formats import read
 from meshforge.labels import SpanReport, find_spans
 from meshforge.labels.family_comparison import Stage, ignore_stage
 from meshforge.project.preparation_plan import keep_split
-from meshforge.project.prepare import PreparationResult, exchange_preparation
+from meshforge.project.prepare import PreparationResult
 from meshforge.project.span_search import AssetSpans, list_likely, search_spans
+from meshforge.project.span_splits import Split, keep_shapes, write_splits
 from meshforge.project.split_limits import describe_limits
-from meshforge.store import SpansFile, Store
+from meshforge.store import SpanLine, SpansFile, Store
 
 SURE_TO_SPAN = 0.9
 """The probability from which a hull is split unless another is asked for."""
@@ -34,9 +37,11 @@ def split_spanning(
 ) -> Iterator[PreparationResult]:
     """Split the hulls that span parts with a probability of at least `sure`, one step an asset, and label their parts.
 
-    assets: which may be split, all when None; all of the project are compared. dry_run: nothing is written, and `notes`
-    say what would be done, and which limits of an engine, by default of those that read the file, the hulls would
-    exceed then. What `unprepare` takes back brings the hulls, their labels and selections back.
+    Hulls that a person said to be one part stay as they are.
+    assets: which may be split, all when None; all of the project are compared. dry_run: nothing is written but what was
+    found, for the status and the review, and `notes` say what would be done, and which limits of an engine, by default
+    of those that read the file, the hulls would exceed then. What `unprepare` takes back brings the hulls, their labels
+    and selections back.
     Raises UsageError for a probability that is none and for an unknown engine, ProjectError where no hull has a label
     or no asset can be read.
     """
@@ -47,39 +52,51 @@ def split_spanning(
     ids = store.assets() if assets is None else tuple(dict.fromkeys(assets))
     for asset in ids:
         store.path(asset)
-    likely = dict(store.spans().assets)
-    for asset, found in search_spans(store, ids, sure, execution, stage):
-        if isinstance(found, str):
-            yield PreparationResult(asset, problems=(found,))
-            continue
-        likely[asset] = found.likely
-        try:
-            with nullcontext() if dry_run else write_block(asset):
-                result = _split_one(store, asset, found, dry_run, engine)
-        except MeshForgeError as error:
-            result = PreparationResult(asset, problems=(error.message,))
-        yield result
+    likely = dict(store.last_spans().assets)
+    try:
+        for asset, found in search_spans(store, ids, sure, execution, stage):
+            if isinstance(found, str):
+                yield PreparationResult(asset, problems=(found,))
+                continue
+            likely[asset] = _keep_shapes(store, asset, found.likely)
+            try:
+                with nullcontext() if dry_run else write_block(asset):
+                    result = _split_one(store, asset, found, dry_run, engine)
+            except MeshForgeError as error:
+                result = PreparationResult(asset, problems=(error.message,))
+            yield result
+    finally:
+        _write_likely(store, likely)
     if not dry_run:
-        known = {asset: lines for asset, lines in likely.items() if lines and asset in store.found.ids}
-        store.write_spans(SpansFile(assets=known))
         keep_split(store, ids, sure)
 
 
 def _split_one(store: Store, asset: str, found: AssetSpans, dry_run: bool, engine: str | None) -> PreparationResult:
     """What becomes of one asset."""
-    plan, notes = found.plan, [*found.notes]
-    notes += [f"{span}: left as it is, below {plan.sure:.0%}" for span in plan.unsure]
-    notes += [f"{span}: no plane divides it; split it by hand: meshforge split" for span in plan.whole]
-    if not plan.divisions:
-        return PreparationResult(asset, notes=tuple(notes))
+    plan, notes = found.plan, (*found.notes, *found.plan.notes)
+    if not plan.splits:
+        return PreparationResult(asset, notes=notes)
     source, before = read(store.path(asset)), store.preparation(asset)
-    after, labels = plan.divide(source, before)
-    notes += describe_limits(source, before, after, engine)
+    limits = describe_limits(source, before, plan.divide(source, before)[0], engine)
     if dry_run:
-        return PreparationResult(asset, notes=(*(f"would split {one.told}" for one in plan.divisions), *notes))
-    known = {name: label for name, label in labels.items() if label.name in store.vocabulary}
-    notes = [*exchange_preparation(store, asset, after, found.seen, known), *notes]
-    return PreparationResult(asset, after.steps[-1].replaced, tuple(notes))
+        return PreparationResult(asset, notes=(*(f"would split {one}" for one in plan.splits), *notes, *limits))
+    result = write_splits(store, asset, plan.splits, {"sure": plan.sure}, found.seen)
+    return replace(result, notes=(*result.notes, *notes, *limits))
+
+
+def _keep_shapes(store: Store, asset: str, likely: Mapping[str, Split]) -> dict[str, SpanLine]:
+    """Keep the parts of hulls of an asset; what is known of each hull by its name."""
+    lines = {hull: one.span for hull, one in likely.items()}
+    if lines:
+        shapes = {hull: one.shapes for hull, one in likely.items() if one.shapes}
+        keep_shapes(store.layout.span_parts(asset), lines, shapes)
+    return lines
+
+
+def _write_likely(store: Store, likely: Mapping[str, dict[str, SpanLine]]) -> None:
+    """Keep which hulls likely span parts, of assets that are still there."""
+    known = {asset: lines for asset, lines in likely.items() if lines and asset in store.found.ids}
+    store.write_spans(SpansFile(assets=known))
 
 
 def list_spans(
@@ -88,8 +105,11 @@ def list_spans(
     execution: batch.ExecutionOptions = batch.EXECUTION_DEFAULTS,
     stage: Stage = ignore_stage,
 ) -> SpanReport:
-    """Which hulls span parts, found anew and kept for the status. Raises ProjectError as `split_spanning` does."""
+    """Which hulls span parts, found anew and kept for the status and the review.
+
+    Raises ProjectError as `split_spanning` does, StoppedError on a stop, with nothing written.
+    """
     report = find_spans(store, execution, stage)
-    likely = {asset: list_likely(report, asset) for asset in report.meshes}
-    store.write_spans(SpansFile(assets={asset: lines for asset, lines in likely.items() if lines}))
+    batch.raise_if_stopped(execution.stop)
+    _write_likely(store, {asset: _keep_shapes(store, asset, list_likely(report, asset)) for asset in report.meshes})
     return report

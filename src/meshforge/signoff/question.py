@@ -11,16 +11,20 @@ from meshforge.language import Orient, Program, Template
 from meshforge.symbolic import SymbolicMesh
 from meshforge.synthesis import Answer, Demonstration
 
-QuestionKind = Literal["group", "repair", "reading", "label", "selection", "orientation", "result", "demonstrate"]
+QuestionKind = Literal[
+    "group", "repair", "reading", "label", "selection", "orientation", "result", "demonstrate", "span"
+]
 """A group of look-alike hulls and what they are; one hull's label; what a rule means; whether a rule is meant for a
 label that no demonstration shows; whether what was shown or said was a slip; an orientation; whether a
-result is right; an asset to demonstrate."""
+result is right; an asset to demonstrate; whether a hull that likely spans parts is to be split."""
 
 Selections = tuple[frozenset[str], ...]
 """What each rule selects on an asset, names of hulls."""
 
 RIGHT, WRONG, ASIDE = "right", "wrong", "set aside"
 """The choices of a question about a result."""
+SPLIT, ONE_PART = "split so", "no, it is one part"
+"""The choices of a question about a hull that likely spans parts; which parts follows the first."""
 
 
 class HullPlace(NamedTuple):
@@ -57,6 +61,11 @@ class ReviewQuestion:
     rule: int | None = None
     hulls: tuple[HullPlace, ...] = ()
     choices: tuple[ReviewChoice, ...] = ()
+
+    @property
+    def worth(self) -> float:
+        """What an answer makes right a second of a person's time; equal where nobody could tell a difference."""
+        return round(self.gain / self.seconds, 9)
 
     def to_json(self) -> dict[str, Any]:
         return {

@@ -156,7 +156,7 @@ def _questions(
 def _choose(questions: Iterator[ReviewQuestion], state: ReviewState) -> ReviewQuestion | None:
     """The one that is worth most a second; of equals the first by its id."""
     asked = (one for one in questions if one.id not in state.later)
-    return min(asked, key=lambda one: (-round(one.gain / one.seconds, 9), one.id), default=None)
+    return min(asked, key=lambda one: (-one.worth, one.id), default=None)
 
 
 def _ask_group(family: FamilyTrial, group: LookalikeGroup) -> ReviewQuestion:

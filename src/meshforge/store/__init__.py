@@ -45,7 +45,7 @@ if TYPE_CHECKING:
         toml_value,
     )
     from meshforge.store.sign_off import AssessmentFile, ConfidenceLine, SignOff, SignOffFile, find_changes
-    from meshforge.store.spans import SpanLine, SpansFile
+    from meshforge.store.spans import SinglePartsFile, SpanLine, SpanPart, SpansFile
     from meshforge.store.store import Store
 else:
     __getattr__ = export_lazily(__name__)
@@ -70,7 +70,9 @@ __all__ = [
     "Settings",
     "SignOff",
     "SignOffFile",
+    "SinglePartsFile",
     "SpanLine",
+    "SpanPart",
     "SpansFile",
     "StepLine",
     "Store",

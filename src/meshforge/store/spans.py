@@ -1,25 +1,67 @@
-"""Which hulls were found to span parts, when the project was looked at last."""
+"""Which hulls were found to span parts, when the project was looked at last; and which a person said do not."""
 
 from __future__ import annotations
+
+from collections.abc import Mapping
 
 from pydantic import Field
 
 from meshforge.store.layout import JsonFile
 
 
+class SpanPart(JsonFile):
+    """One part of a hull. label: its likeliest; share: of that label in what the part stands for."""
+
+    label: str
+    share: float
+
+    def __str__(self) -> str:
+        """`handle (93%)`."""
+        return f"{self.label} ({self.share:.0%})"
+
+
 class SpanLine(JsonFile):
-    """One hull that likely spans parts. geometry: the digest of the hull as it was; told: in words."""
+    """One hull that likely spans parts. geometry: the digest of the hull as it was; told: in words; parts: what a split
+    makes of it, none where no plane divides it; like: the hull that a person split, which this one looks like.
+    """
 
     geometry: str
     chance: float
     told: str
+    parts: tuple[SpanPart, ...] = ()
+    like: str | None = None
 
 
 class SpansFile(JsonFile):
-    """.meshforge/spans.json: likely hulls, by asset and name."""
+    """.meshforge/spans.json: likely hulls, by asset and name; .meshforge/lookalikes.json: those that look like one that
+    a person split. key: a digest of what the latter was made from."""
 
+    key: str = ""
     assets: dict[str, dict[str, SpanLine]] = Field(default_factory=dict)
 
-    def likely(self, asset: str, hulls: dict[str, str]) -> dict[str, SpanLine]:
+    def likely(self, asset: str, hulls: Mapping[str, str]) -> dict[str, SpanLine]:
         """Those of an asset whose geometry is what it was; hulls: their digests by name."""
         return {name: line for name, line in self.assets.get(asset, {}).items() if hulls.get(name) == line.geometry}
+
+    def without(self, single: SinglePartsFile) -> SpansFile:
+        """The same but for hulls that a person said to be one part."""
+        rows = {
+            asset: {name: line for name, line in lines.items() if not single.holds(asset, name, line.geometry)}
+            for asset, lines in self.assets.items()
+        }
+        return self.model_copy(update={"assets": {asset: lines for asset, lines in rows.items() if lines}})
+
+
+class SinglePartsFile(JsonFile):
+    """single_parts.json: hulls that a person said to be one part, each with its digest, by asset and name."""
+
+    assets: dict[str, dict[str, str]] = Field(default_factory=dict)
+
+    def holds(self, asset: str, hull: str, geometry: str) -> bool:
+        """Whether that was said of a hull of this geometry."""
+        return self.assets.get(asset, {}).get(hull) == geometry
+
+    def with_hull(self, asset: str, hull: str, geometry: str) -> SinglePartsFile:
+        """The same, and one hull more."""
+        rows = {**self.assets, asset: dict(sorted({**self.assets.get(asset, {}), hull: geometry}.items()))}
+        return self.model_copy(update={"assets": dict(sorted(rows.items()))})

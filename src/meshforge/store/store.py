@@ -27,7 +27,7 @@ from meshforge.store.layout import Layout, read_json, write_json
 from meshforge.store.meshes import AssetFiles, read_labels_file
 from meshforge.store.preparation_plan import forget_assets
 from meshforge.store.sign_off import AssessmentFile, LaterFile, SignOffFile
-from meshforge.store.spans import SpansFile
+from meshforge.store.spans import SinglePartsFile, SpansFile
 from meshforge.symbolic import Label, LabelFile, SymbolicMesh, format_labels, match_labels, transfer_labels
 from meshforge.synthesis import Demonstration, Step
 
@@ -332,6 +332,23 @@ class Store:
             write_json(self.layout.assessment, found)
 
     def spans(self) -> SpansFile:
+        """Which hulls likely span parts, but for those that a person said to be one part."""
+        found = self.last_spans()
+        return found.without(self.single_parts()) if found.assets else found
+
+    def lookalike_spans(self) -> SpansFile:
+        """Which hulls look like hulls that a person split; none where that is not kept, or damaged."""
+        try:
+            return read_json(self.layout.lookalike_spans, SpansFile) or SpansFile()
+        except ProjectError:  # it can be found again
+            return SpansFile()
+
+    def write_lookalike_spans(self, found: SpansFile) -> None:
+        """Keep which hulls look like hulls that a person split."""
+        with self.lock():
+            write_json(self.layout.lookalike_spans, found)
+
+    def last_spans(self) -> SpansFile:
         """Which hulls likely span parts, as was found last; none where that is not kept, or damaged."""
         try:
             return read_json(self.layout.spans, SpansFile) or SpansFile()
@@ -342,6 +359,14 @@ class Store:
         """Keep which hulls likely span parts."""
         with self.lock():
             write_json(self.layout.spans, found)
+
+    def single_parts(self) -> SinglePartsFile:
+        """Which hulls a person said to be one part."""
+        return read_json(self.layout.single_parts, SinglePartsFile) or SinglePartsFile()
+
+    def write_single_parts(self, said: SinglePartsFile) -> None:
+        """Write which hulls are one part, under the lock that the caller holds."""
+        write_json(self.layout.single_parts, said)
 
     def reviews(self) -> dict[str, Review]:
         """What a person said about edited assets."""

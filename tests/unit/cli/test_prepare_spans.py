@@ -49,6 +49,29 @@ def test_dry_run_then_split_then_undo(run: Run) -> None:
     assert json.loads(run("info", "c.urdf", "--project", "p", "--json").out)["spans"] == spans["c.urdf"]
 
 
+@pytest.mark.slow
+def test_review_asks_about_it_and_a_reply_splits_it_or_keeps_it(run: Run, tmp_path: Path) -> None:
+    assert "demonstrate" in run("review", "p").out, "nobody has looked for such hulls"
+    run("prepare", "p", "--split-spanning", "--dry-run", "--workers", "1")
+    told = run("review", "p", "--json")
+    question = json.loads(told.out)["question"]
+    assert question["kind"] == "span" and question["hulls"] == [{"asset": "c.urdf", "hull": "base/h0"}]
+    assert [choice["text"].split(":")[0] for choice in question["choices"]] == ["split so", "no, it is one part"]
+    (picture,) = question["pictures"]
+    assert Path(picture).read_bytes().startswith(b"\x89PNG")
+    told = run("review", "p")
+    assert "base/h0 of c.urdf holds seat and leg, " in told.out and "%: split so?  [span-" in told.out
+    replies = tmp_path / "replies.json"
+    for choice in (0, 1):
+        replies.write_text(json.dumps([{"id": question["id"], "choice": choice}]))
+        assert "[span-" not in run("review", "p", "--answers", str(replies)).out
+        assert (tmp_path / "p/prepared/c.urdf").exists() == (choice == 0)
+        if choice == 0:
+            run("prepare", "p", "c.urdf", "--undo")
+    told = run("prepare", "p", "--split-spanning", "--workers", "1")
+    assert "left as it is, since a person said that it is one part" in told.out and "into 2 hulls" not in told.out
+
+
 def test_as_json(run: Run) -> None:
     told = run("prepare", "p", "--split-spanning", "--workers", "1", "--json")
     rows = [json.loads(line) for line in told.out.splitlines()]

@@ -49,6 +49,17 @@ def test_a_line_is_a_reply(line: str, reply: ReviewReply) -> None:
     assert parse_reply(line, GROUP) == reply
 
 
+@pytest.mark.parametrize(
+    ("line", "choice", "later"),
+    [("", 0, False), ("y", 0, False), ("1", 0, False), ("n", 1, False), ("2", 1, False), ("l", None, True)],
+)
+def test_whether_to_split_a_hull_is_a_yes_or_no(line: str, choice: int | None, later: bool) -> None:
+    choices = (ReviewChoice("split so: wall (98%), handle (93%)"), ReviewChoice("no, it is one part"))
+    span = ReviewQuestion("span-1", "span", "split so?", 3.0, 0.9, "a.obj", None, (LEFT,), choices)
+    assert parse_reply(line, span) == ReviewReply("span-1", choice, later=later)
+    assert format_prompt(span).startswith("y split so, n it is one part, l later")
+
+
 @pytest.mark.parametrize("line", ["2", "0", "maybe", "1 c=panel", "1 a=", "1 a"])
 def test_a_line_that_is_no_reply_is_one_clear_message(line: str) -> None:
     with pytest.raises(UsageError, match=r"is no reply|there is no choice"):

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 import numpy as np
 
 from meshforge.geometry import Box, Floats, Polytope, Pose, convex_hull
+from meshforge.project import Project
 
 PARTS = ("seat", "leg", "leg", "leg", "leg")
 
@@ -28,6 +29,18 @@ def coarse(parts: Sequence[Polytope]) -> list[Polytope]:
     """Hulls of which the first spans the seat and the first leg, and the others are legs."""
     both = convex_hull(np.concatenate([parts[0].vertices, parts[1].vertices]))
     return [both, *parts[2:]]
+
+
+def create_stools(folder: Path, sizes: Mapping[str, tuple[float, float]], spanning: str) -> Project:
+    """A project of stools, by name with their width and height [m], in `folder / "p"`: of those in `spanning` the first
+    hull spans the seat and a leg, the others are labelled."""
+    for name, size in sizes.items():
+        parts = boxes(*size)
+        write_stool(folder / "assets", name, parts, coarse(parts) if name in spanning else parts)
+    project = Project.create(folder / "p", [folder / "assets/*.urdf"], vocabulary=("seat", "leg"))
+    for asset in (f"{name}.urdf" for name in sizes if name not in spanning):
+        project.set_labels(asset, dict(zip((hull.name for hull in project.mesh(asset).hulls), PARTS, strict=True)))
+    return project
 
 
 def write_stool(folder: Path, name: str, parts: Sequence[Polytope] | None, hulls: Sequence[Polytope]) -> Path:

@@ -82,10 +82,11 @@ def test_what_is_split_is_taken_back_to_the_last_byte(project: Project) -> None:
     assert files(project) == before | plan, "what is to be done to new assets stays"
 
 
-def test_a_dry_run_writes_nothing_and_says_what_would_be_split(project: Project) -> None:
+def test_a_dry_run_says_what_would_be_split_and_keeps_what_it_found(project: Project) -> None:
     before = files(project)
     results = split(project, dry_run=True)
-    assert files(project) == before and not project.layout.spans.exists()
+    assert files(project) == before
+    assert list(project.spans().assets) == ["c.urdf"], "for the status and the review"
     assert [bool(result.notes) for result in results] == [False, False, True]
     assert results[2].notes[0].startswith("would split ")
     assert not any(result.made for result in results)

@@ -7,7 +7,7 @@ import pytest
 from meshforge.language import Program
 from meshforge.project import Project
 from meshforge.signoff import Assessment, AssetConfidence, Doubt, HullPlace, ReviewChoice, ReviewQuestion, ReviewState
-from meshforge.studio.edits.assets import GroupHull, LabelGroup
+from meshforge.studio.edits.assets import GroupHull, LabelGroup, MarkAsOnePart
 from meshforge.studio.edits.program import PutOff
 from meshforge.studio.learning.assessment import view_assessment
 from meshforge.studio.session.file_sync import changes_of
@@ -89,3 +89,14 @@ def test_a_question_that_is_put_off_is_judged_anew_without_learning(project: Pro
     changes = changes_of(project, [str(path.relative_to(project.folder)) for path in paths])
     assert changes.questions
     assert not changes.learning
+
+
+def test_what_is_said_of_hulls_that_span_parts_is_judged_anew_without_learning(project: Project) -> None:
+    hull = project.mesh(ONE).hulls[0].name
+    edit = MarkAsOnePart(asset=ONE, hull=hull)
+    edit.apply(project)
+    assert list(project.single_parts().assets[ONE]) == [hull]
+    assert edit.list_paths(project) == (project.layout.single_parts,)
+    for path in (project.layout.single_parts, project.layout.spans):
+        changes = changes_of(project, [str(path.relative_to(project.folder))])
+        assert changes.questions and not changes.learning and not changes.assets

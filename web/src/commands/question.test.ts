@@ -40,6 +40,13 @@ describe("a reply", () => {
     expect(editsFor(slip, 1)).toEqual([{ kind: "put-off", id: "group-1" }]);
   });
 
+  it("splits a hull, keeps that it is one part, or asks later", () => {
+    const span = sampleQuestion({ kind: "span", hulls: hulls.slice(0, 1), choices: [choice("split so: leg (98%)"), choice("no, it is one part")] });
+    expect(editsFor(span, 0)).toEqual([{ kind: "split-span", asset: "a", hull: "x" }]);
+    expect(editsFor(span, 1)).toEqual([{ kind: "one-part", asset: "a", hull: "x" }]);
+    expect(editsFor(span, null)).toEqual([{ kind: "put-off", id: "group-1" }]);
+  });
+
   it("accepts a result, takes an orientation", () => {
     const result = sampleQuestion({ kind: "result", choices: [choice("right"), choice("wrong")] });
     expect(editsFor(result, 0)).toEqual([{ kind: "review", ids: ["a0"], verdict: "accepted" }]);

@@ -48,6 +48,11 @@ export function editsFor(question: ReviewQuestionView, place: number | null): An
       return choice?.orient ? [{ kind: "orient", text: choice.orient }, later] : [later];
     case "result":
       return choice?.text === "right" ? [{ kind: "review", ids: [asset], verdict: "accepted" }] : [later];
+    case "span": {
+      const [hull] = hulls;
+      if (!hull || place === null) return [later];
+      return [{ kind: place === 0 ? "split-span" : "one-part", asset: hull.asset, hull: hull.hull }];
+    }
     case "demonstrate":
     default: // also of a kind that this page does not know, where the server is newer
       return [later];
@@ -95,7 +100,8 @@ export function takeCall(): boolean {
   return count !== taken;
 }
 
-function goToCard(): void {
+/** Opens the stage of the card, and gives it the focus. */
+export function goToCard(): void {
   const { stage } = useWorkspace.getState();
   if (stage !== "learn" && stage !== "review") openStage("learn");
   useCardCalls.setState(({ count }) => ({ count: count + 1 }));

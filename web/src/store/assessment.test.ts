@@ -92,9 +92,12 @@ describe("the question of the assessment", () => {
     expect(asked(repair, learned)).toBe(repair);
   });
 
-  it("is none while there is no program", () => {
-    const assessment = sampleAssessment(0, 0, { question: sampleQuestion() });
-    expect(openQuestion({ assessment, outcome: null })).toBeNull();
+  it("is none while there is no program, but for hulls that span parts", () => {
+    const before = (question: ReturnType<typeof sampleQuestion>) =>
+      openQuestion({ assessment: sampleAssessment(0, 0, { question }), outcome: null });
+    expect(before(sampleQuestion())).toBeNull();
+    const span = sampleQuestion({ kind: "span" });
+    expect(before(span)).toBe(span);
   });
 
   it("about readings is one of pictures; hulls are found by asset", () => {

@@ -90,9 +90,13 @@ export function doubtsText(asset: string, row: ConfidenceView | undefined, bar: 
 export const rowsOf = (assessment: AssessmentView): Readonly<Record<string, ConfidenceView>> =>
   Object.fromEntries(assessment.assets.map((row) => [row.asset, row]));
 
-/** The question of the assessment; null where there is none, or what learning asks itself would ask the same. */
+/**
+ * The question of the assessment; null where there is none, or what learning asks itself would ask the same. While there
+ * is no program only whether hulls span parts.
+ */
 export function openQuestion({ assessment, outcome }: Pick<ProjectState, "assessment" | "outcome">): ReviewQuestionView | null {
-  const asked = assessment?.assets.length ? assessment.question : null;
+  const question = assessment?.question ?? null;
+  const asked = assessment?.assets.length || question?.kind === "span" ? question : null;
   return asked && !(outcome && asksSame(asked, outcome)) ? asked : null;
 }
 

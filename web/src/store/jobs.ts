@@ -70,6 +70,18 @@ export async function makeResult(asset: string): Promise<boolean> {
 
 export const propagateLabels = (): Promise<boolean> => startJob({ kind: "propagate" });
 
+/** Why hulls that span parts cannot be looked for, null where they can. */
+export function whyNotFindSpans(): string | null {
+  const { cards, order, jobs } = useProject.getState();
+  if (jobs.some((job) => job.kind === "spans" && job.state === "running")) return "They are being looked for now.";
+  if (!order.length) return "There are no assets yet.";
+  const isLabelled = Object.values(cards).some((card) => card.labels.some((label) => label >= 0));
+  return isLabelled ? null : "Label the hulls of one or two assets first.";
+}
+
+/** Finds the hulls of all assets that likely span parts; a question about each follows. */
+export const findSpans = (): Promise<boolean> => startJob({ kind: "spans" });
+
 /** Finds out what asking the model would send and cost; gives the id of the job. */
 export const forecastModel = (mode: Model["mode"]): Promise<string | null> => requestJob({ kind: "forecast", mode });
 

@@ -9,11 +9,13 @@ import {
   cancelJob,
   checkAll,
   exportTo,
+  findSpans,
   forecastModel,
   makeHulls,
   propagateLabels,
   whyNotApply,
   whyNotCheck,
+  whyNotFindSpans,
 } from "./jobs";
 import { emptyProject, type ProjectState, useProject } from "./project";
 import { sampleCard } from "./sample.test-help";
@@ -41,6 +43,7 @@ describe("a job", () => {
     await applyTo(["a"]);
     await propagateLabels();
     await checkAll();
+    await findSpans();
     await exportTo("out", true);
     await askModel("exact", 2.5);
     makeHulls(["a"]);
@@ -49,6 +52,7 @@ describe("a job", () => {
       { kind: "apply", assets: ["a"] },
       { kind: "propagate" },
       { kind: "check" },
+      { kind: "spans" },
       { kind: "export", folder: "out", signed_only: true },
       { kind: "ask", mode: "exact", max_cost: 2.5 },
       { kind: "decompose", assets: ["a"] },
@@ -106,5 +110,18 @@ describe("results can be checked", () => {
     expect(whyNotCheck()).toBeNull();
     set({ jobs: [job("check")] });
     expect(whyNotCheck()).toContain("checked now");
+  });
+});
+
+describe("hulls that span parts can be looked for", () => {
+  it("where a hull has a label, and they are not being looked for", () => {
+    set({ cards: { a: sampleCard({ labels: [-1, -1] }) } });
+    expect(whyNotFindSpans()).toContain("Label the hulls");
+    set({ cards: { a: sampleCard({ labels: [-1, 0] }) } });
+    expect(whyNotFindSpans()).toBeNull();
+    set({ jobs: [job("spans")] });
+    expect(whyNotFindSpans()).toContain("looked for now");
+    set({ jobs: [job("spans", "cancelled")], order: [] });
+    expect(whyNotFindSpans()).toContain("no assets");
   });
 });

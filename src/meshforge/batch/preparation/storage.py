@@ -47,13 +47,9 @@ def prepare_from_folder(asset: Asset, folder: Path) -> Asset:
 
 def read_preparation(folder: Path) -> Preparation | None:
     """The preparation in a folder, None where there is none. Raises AssetError where it is damaged."""
-    path = folder / RECORD_FILE
-    try:
-        steps = _read_steps(path)
-    except (FileNotFoundError, NotADirectoryError):
+    steps = read_steps(folder)
+    if steps is None:
         return None
-    except OSError as error:
-        raise _file_error(path, error) from error
     hulls = _read_hulls(folder / _HULLS) if steps else {}
     found = Preparation(steps, hulls)
     for name, known in found.hull_digests.items():
@@ -62,14 +58,15 @@ def read_preparation(folder: Path) -> Preparation | None:
     return found.with_only(steps)
 
 
-def read_steps(folder: Path) -> tuple[PreparationStep, ...]:
-    """What was done, without the hulls; nothing where nothing was. Raises AssetError where the record is damaged."""
+def read_steps(folder: Path) -> tuple[PreparationStep, ...] | None:
+    """What was done, without the hulls, None where nothing was. Raises AssetError where that is damaged."""
+    path = folder / RECORD_FILE
     try:
-        return _read_steps(folder / RECORD_FILE)
+        return _read_record(path)
     except (FileNotFoundError, NotADirectoryError):
-        return ()
+        return None
     except OSError as error:
-        raise _file_error(folder / RECORD_FILE, error) from error
+        raise _file_error(path, error) from error
 
 
 def record_digest(folder: Path) -> str | None:
@@ -114,7 +111,7 @@ def remove_preparation(folder: Path) -> None:
         folder.rmdir()
 
 
-def _read_steps(path: Path) -> tuple[PreparationStep, ...]:
+def _read_record(path: Path) -> tuple[PreparationStep, ...]:
     """The steps in a record. Raises OSError, and AssetError where it is damaged."""
     content = path.read_bytes().removeprefix(codecs.BOM_UTF8)
     from pydantic import TypeAdapter, ValidationError  # lazy: 0.1 s, only preparations need it

@@ -26,6 +26,8 @@ AnyEdit = Annotated[
     | program.PutOff
     | program.WriteProgram
     | assets.CutHull
+    | assets.SplitSpan
+    | assets.MarkAsOnePart
     | assets.Unprepare
     | assets.ReviewAssets
     | assets.CorrectByHand

@@ -10,7 +10,7 @@ from meshforge.batch import SETTINGS
 from meshforge.common import join_names, pluralize
 from meshforge.project import Project
 from meshforge.store import parse_action_text
-from meshforge.studio.edits.base import PROGRAM_FILES, Edit, JobEdit, LabelsByAsset
+from meshforge.studio.edits.base import PROGRAM_FILES, SINGLE_PARTS_FILE, Edit, JobEdit, LabelsByAsset
 from meshforge.studio.wire.requests import HullOfAsset
 
 
@@ -206,6 +206,34 @@ class CutHull(_PreparationEdit):
 
     def describe(self, project: Project) -> str:
         return f"{self.hull} of {self.asset} cut in two"
+
+
+class SplitSpan(_PreparationEdit):
+    """Split a hull that likely spans parts into those that were found last."""
+
+    kind: Literal["split-span"] = "split-span"
+    hull: str
+
+    def apply(self, project: Project) -> None:
+        project.split_as_found(self.asset, self.hull)
+
+    def describe(self, project: Project) -> str:
+        return f"{self.hull} of {self.asset} split into its parts"
+
+
+class MarkAsOnePart(Edit):
+    """Keep that a hull is one part, so that nobody is asked whether to split it."""
+
+    kind: Literal["one-part"] = "one-part"
+    touches = (SINGLE_PARTS_FILE,)
+    asset: str
+    hull: str
+
+    def apply(self, project: Project) -> None:
+        project.mark_as_one_part(self.asset, self.hull)
+
+    def describe(self, project: Project) -> str:
+        return f"{self.hull} of {self.asset} is one part"
 
 
 class Unprepare(_PreparationEdit):

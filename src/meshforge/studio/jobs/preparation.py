@@ -7,7 +7,7 @@ from contextlib import contextmanager
 from uuid import uuid4
 
 from meshforge.batch import ExecutionOptions, record_digest
-from meshforge.common import MeshForgeError, ProjectError, join_names, pluralize
+from meshforge.common import MeshForgeError, ProjectError, join_names, pluralize, relative_name
 from meshforge.geometry import CoacdSettings, VhacdSettings
 from meshforge.labels import LabelOutcome, PropagationResult, VlmForecast, VlmResult, check_vlm_settings
 from meshforge.project import PreparationResult, Project
@@ -48,6 +48,34 @@ def _decompose_line(result: PreparationResult) -> JobLine:
     if result.made:
         return JobLine(asset=result.asset, status="done", text=text or pluralize(len(result.hulls), "hull"))
     return JobLine(asset=result.asset, status="failed" if result.problems else "unchanged", text=text)
+
+
+def start_spans(session: Session) -> Job:
+    """Start to find hulls that likely span parts, which are asked about then."""
+    project = session.project
+
+    def work(progress: JobProgress) -> str:
+        report = project.list_spans(execution=ExecutionOptions(stop=progress.is_stopped), stage=progress.stage)
+        for asset, why in report.lost.items():
+            progress.add_line(JobLine(asset=asset, status="failed", text=why))
+        session.update([relative_name(project.layout.spans, project.folder)])
+        found = project.spans().assets
+        for asset, lines in found.items():
+            progress.add_line(JobLine(asset=asset, status="done", text="; ".join(one.told for one in lines.values())))
+        return _describe_spans(sum(map(len, found.values())), len(found), len(report.lost))
+
+    assets = project.assets()
+    return session.jobs.start(
+        "spans", "Looking for hulls that span parts", len(assets), work, stays="nothing was kept."
+    )
+
+
+def _describe_spans(hulls: int, assets: int, lost: int) -> str:
+    left = f" {pluralize(lost, 'asset')} could not be looked at." if lost else ""
+    if not hulls:
+        return f"No hull likely spans parts.{left}"
+    spans = "likely span parts" if hulls > 1 else "likely spans parts"
+    return f"{pluralize(hulls, 'hull')} of {pluralize(assets, 'asset')} {spans}: you are asked about each.{left}"
 
 
 def start_propagate(session: Session) -> Job:

@@ -12,6 +12,8 @@ from meshforge.language import Program, explain, parse_extractor, show
 from meshforge.project import (
     AssessmentBasis,
     Project,
+    ask_about_spans,
+    choose_span_question,
     keep_assessment,
     measure_results,
     sees_whole_family,
@@ -78,7 +80,19 @@ def assess_project(
         return None
     last = project.assessment()
     found = review_family(state, judged, model, last.bar if last else BAR, describe_odd_results(measures))
+    found = ask_about_spans(project, meshes, found, program is not None)
     return ProjectAssessment(found, state, program, basis, measures)
+
+
+def view_first_question(
+    project: Project, meshes: Mapping[str, SymbolicMesh], number: int
+) -> wire.AssessmentView | None:
+    """What is asked before anything is demonstrated; None where that is nothing.
+
+    meshes: the assets that it may be about; number: of the learning run that was not needed.
+    """
+    question = choose_span_question(project, meshes)
+    return wire.AssessmentView(number=number, bar=BAR, question=_view_question(question, meshes)) if question else None
 
 
 def read_review_state(
@@ -101,7 +115,7 @@ def view_assessment(
     """An assessment as the page shows it; without a program no edit has a probability. unseen: assets of the family
     that are not in it."""
     question = assessment.question
-    asked = _view_question(question, state) if question else None
+    asked = _view_question(question, state.meshes) if question else None
     if not has_program:
         return wire.AssessmentView(number=number, bar=assessment.bar, question=asked)
     signed = set(assessment.signed_off)
@@ -128,7 +142,7 @@ def view_assessment(
     )
 
 
-def _view_question(question: ReviewQuestion, state: ReviewState) -> wire.ReviewQuestionView:
+def _view_question(question: ReviewQuestion, meshes: Mapping[str, SymbolicMesh]) -> wire.ReviewQuestionView:
     first = next(iter(question.hulls), None)
     return wire.ReviewQuestionView(
         id=question.id,
@@ -139,10 +153,9 @@ def _view_question(question: ReviewQuestion, state: ReviewState) -> wire.ReviewQ
         asset=question.asset,
         rule=question.rule,
         hulls=tuple(
-            wire.HullRef(asset=asset, hull=hull, place=state.meshes[asset].index[hull])
-            for asset, hull in question.hulls
+            wire.HullRef(asset=asset, hull=hull, place=meshes[asset].index[hull]) for asset, hull in question.hulls
         ),
-        was=state.meshes[first.asset].hull_of(first.hull).label if first else None,
+        was=meshes[first.asset].hull_of(first.hull).label if first else None,
         choices=tuple(map(_view_choice, question.choices)),
     )
 

@@ -14,7 +14,7 @@ from meshforge.common import MeshForgeError
 from meshforge.formats import VisualSurfaces
 from meshforge.geometry import Floats, Pose
 from meshforge.language import Orient, Program, orient_mesh
-from meshforge.project import Project
+from meshforge.project import Project, Split
 from meshforge.store import action_text
 from meshforge.studio.edits.base import steps_version
 from meshforge.studio.queries.packets import contact_names, frame_packet, hull_views
@@ -164,6 +164,15 @@ def draw_rule_picture(
     pose = Z_FROM_Y if is_y_up(mesh, plan.orient) else None
     header = json.dumps({"names": [hull.name for hull in seen.hulls]})
     return frame_packet(header.encode(), _to_png(rendering.render_revealing(seen, show, pose, RULE_PICTURE_SIZE)))
+
+
+def draw_split_picture(project: Project, mesh: SymbolicMesh, split: Split) -> bytes:
+    """A packet as `draw_rule_picture` makes it, of an asset with parts in the place of a hull, from a side on which the
+    parts can be seen."""
+    divided, parts = split.divide(mesh)
+    pose = compute_upright(project, mesh).pose
+    header = json.dumps({"names": [hull.name for hull in divided.hulls]})
+    return frame_packet(header.encode(), _to_png(rendering.render_revealing(divided, parts, pose, RULE_PICTURE_SIZE)))
 
 
 def picture_digest(geometry: str, labels: Iterable[Label | None], orient: str) -> str:

@@ -14,7 +14,7 @@ from meshforge.batch import SETTINGS, STATE, source_files
 from meshforge.common import MeshForgeError, relative_name
 from meshforge.project import Project
 from meshforge.store import Review
-from meshforge.studio.edits.base import LATER_FILE, LEARNED_FILE, PROGRAM_FILE
+from meshforge.studio.edits.base import LATER_FILE, LEARNED_FILE, PROGRAM_FILE, SINGLE_PARTS_FILE
 from meshforge.studio.learning.scheduler import LearningScheduler
 from meshforge.studio.pages import PageState
 from meshforge.studio.queries.programs import read_program_view
@@ -31,12 +31,15 @@ _LEARNING_FOLDERS = ("labels/", "demonstrations/", "prepared/", "templates/")
 _LEARNING_FILES = frozenset(("answers.json", "review.json", PROGRAM_FILE))
 
 SIGN_OFF_FILE = "signoff.json"
+_QUESTION_FILES = (LATER_FILE, SINGLE_PARTS_FILE, f"{STATE}/spans.json")
 
 POLL_SECONDS = 1.5
 """Seconds between two polls; more where a poll itself takes long, so that it takes a small share of the time."""
 _SHARE = 10
 _WATCH_FOLDERS = ("labels", "demonstrations", "corrections", "prepared", "templates", f"edited/{STATE}/stamps")
-_WATCH_FILES = (SETTINGS, "answers.json", PROGRAM_FILE, "review.json", LATER_FILE, SIGN_OFF_FILE, LEARNED_FILE)
+_WATCH_FILES = (
+    SETTINGS, "answers.json", PROGRAM_FILE, "review.json", SIGN_OFF_FILE, LEARNED_FILE, *_QUESTION_FILES,
+)  # fmt: skip
 
 FileStamps = dict[str, tuple[int, int]]
 """Modification time [ns] and size of each file, by its path from the project's folder."""
@@ -143,8 +146,8 @@ def _view_program(project: Project, before: ProgramView) -> ProgramView:
 class FileChanges:
     """assets: ids of which something changed; shapes: those of them whose hulls may be others.
 
-    settings, program, reviews: whether these changed; questions: whether some were put off; learning: whether what is
-    learned from did.
+    settings, program, reviews: whether these changed; questions: whether others are to be asked; learning: whether
+    what is learned from did.
     """
 
     assets: frozenset[str] = field(default_factory=frozenset)
@@ -171,7 +174,7 @@ def changes_of(project: Project, names: Iterable[str]) -> FileChanges:
         settings=settings,
         program=bool(names & {PROGRAM_FILE, LEARNED_FILE}),
         reviews="review.json" in names,
-        questions=LATER_FILE in names,
+        questions=not names.isdisjoint(_QUESTION_FILES),
         learning=settings
         or bool(shapes)
         or any(n.startswith(_LEARNING_FOLDERS) or n in _LEARNING_FILES for n in names),

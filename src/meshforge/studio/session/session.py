@@ -13,7 +13,7 @@ from typing import Literal
 from meshforge.batch import STATE, stamp_path
 from meshforge.common import UsageError, relative_name
 from meshforge.labels import OfferCache
-from meshforge.project import Project
+from meshforge.project import Project, can_ask_about_spans
 from meshforge.studio.downloads import Downloads
 from meshforge.studio.edits.base import LEARNED_BEFORE, LEARNED_FILE, PREVIOUS_FILE, PROGRAM_FILE, Edit
 from meshforge.studio.edits.program import TakeLearned
@@ -79,7 +79,12 @@ class Session:
         self.refresh_queue = refresher.queue
         self._early_labels = EarlyLabels(self.pages, lambda: refresher.names)
         self.learning = LearningScheduler(
-            Learner(project.folder), self.pages, self._has_demonstrations, self._end_learning, self.refresh_queue.add
+            Learner(project.folder),
+            self.pages,
+            self._has_demonstrations,
+            lambda: can_ask_about_spans(self.project),
+            self._end_learning,
+            self.refresh_queue.add,
         )
         self._watcher = FileWatcher(self._poll_files)
         self._file_sync = FileSync(project, self.pages, self.learning, self.refresh_queue)

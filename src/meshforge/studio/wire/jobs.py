@@ -8,7 +8,9 @@ from pydantic import Field
 
 from meshforge.studio.wire import Wire
 
-JobKind = Literal["read", "apply", "decompose", "export", "add", "propagate", "forecast", "ask", "check", "download"]
+JobKind = Literal[
+    "read", "apply", "decompose", "spans", "export", "add", "propagate", "forecast", "ask", "check", "download"
+]
 
 VlmMode = Literal["cheap", "balanced", "exact"]
 """How many pictures and questions a model gets for each hull."""
@@ -54,6 +56,12 @@ class DecomposeJob(Wire):
     kind: Literal["decompose"] = "decompose"
     assets: tuple[str, ...]
     method: Literal["coacd", "vhacd"] = "coacd"
+
+
+class SpansJob(Wire):
+    """Find the hulls of all assets that likely span parts."""
+
+    kind: Literal["spans"] = "spans"
 
 
 class ExportJob(Wire):
@@ -102,7 +110,9 @@ class DownloadJob(Wire):
     count: Annotated[int, Field(ge=1, le=12)] = 4
 
 
-JobRequest = ApplyJob | DecomposeJob | ExportJob | PropagateJob | ForecastJob | AskJob | CheckJob | DownloadJob
+JobRequest = (
+    ApplyJob | DecomposeJob | SpansJob | ExportJob | PropagateJob | ForecastJob | AskJob | CheckJob | DownloadJob
+)
 
 
 class AssetLabelUpdate(Wire):

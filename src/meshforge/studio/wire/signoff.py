@@ -7,7 +7,9 @@ from typing import Literal
 from meshforge.studio.wire import Wire
 
 DoubtKind = Literal["reading", "label", "orientation", "unlike", "alarm"]
-QuestionKind = Literal["group", "repair", "reading", "label", "selection", "orientation", "result", "demonstrate"]
+QuestionKind = Literal[
+    "group", "repair", "reading", "label", "selection", "orientation", "result", "demonstrate", "span"
+]
 SignoffState = Literal["signed", "held", "aside"]
 
 

@@ -16,6 +16,7 @@ import { Button } from "../../ui/Button";
 import { Section } from "../../ui/Section";
 import css from "./demonstrate.module.css";
 import { DraftForm } from "./DraftForm";
+import { FindSpans } from "./FindSpans";
 import { FamilyRules } from "./FamilyRules";
 import { Orientation } from "./Orientation";
 
@@ -31,6 +32,7 @@ export function DemonstratePanel() {
       <FamilyRules />
       <Orientation />
       <Preparation />
+      <FindSpans />
     </div>
   );
 }

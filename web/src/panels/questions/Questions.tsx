@@ -13,6 +13,7 @@ import { PlainCard } from "./PlainCard";
 import css from "./questions.module.css";
 import { ReadingsCard } from "./ReadingsCard";
 import { Repairs } from "./Repairs";
+import { SpanCard } from "./SpanCard";
 
 const NO_REPAIRS: readonly RepairView[] = [];
 
@@ -80,6 +81,7 @@ function showInView({ own, review }: Asked): void {
 function Card({ asked: { own, review }, onSkip }: { asked: Asked; onSkip: (id: string) => void }) {
   if (own) return <ReadingsCard question={own} onLater={() => onSkip(own.id)} />;
   if (!review) return null;
+  if (review.kind === "span") return <SpanCard question={review} />;
   const readings = asReadings(review);
   return readings ? <ReadingsCard question={readings} review={review} /> : <PlainCard question={review} />;
 }

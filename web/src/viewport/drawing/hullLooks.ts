@@ -43,7 +43,8 @@ function roleOf(name: string, { going, changed }: Appearance): number {
 
 const known = new Map<string, Color>();
 
-function colorOf(hex: string): Color {
+/** A colour of the page as three.js needs it. */
+export function colorOf(hex: string): Color {
   const color = known.get(hex) ?? new Color(hex);
   known.set(hex, color);
   return color;

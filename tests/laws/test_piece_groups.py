@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -39,7 +41,7 @@ def test_each_piece_is_in_one_group_of_its_kind_and_hulls_hold_their_pieces(
 def test_a_box_in_slices_of_one_kind_is_one_box_again(whole: Polytope, count: int, axis: int) -> None:
     low, high = whole.aabb.min, whole.aabb.max
     ends = np.linspace(low[axis], high[axis], count + 1)
-    slices = [_slice(low, high, axis, a, b) for a, b in zip(ends[:-1], ends[1:], strict=True)]
+    slices = [_slice(low, high, axis, a, b) for a, b in pairwise(ends)]
     (group,) = merge_pieces(slices, np.zeros(count, np.int64))
     assert group.shape.volume == pytest.approx(whole.volume, rel=1e-6)
     apart = merge_pieces(slices, np.arange(count))

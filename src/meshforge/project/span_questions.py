@@ -1,0 +1,90 @@
+"""Questions of a review about hulls that likely span parts, as was found last, and what becomes of the answers."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from dataclasses import replace
+
+from meshforge.common import ProjectError
+from meshforge.project.span_splits import likely_spans, mark_as_one_part, read_spans, split_as_found
+from meshforge.project.split_examples import has_split_examples, propose_lookalikes
+from meshforge.signoff import Assessment, HullPlace, ReviewChoice, ReviewQuestion
+from meshforge.signoff.prices import YES_OR_NO
+from meshforge.signoff.question import ONE_PART, SPLIT, identify
+from meshforge.store import SpanLine, SpanPart, Store, hull_digests
+from meshforge.symbolic import SymbolicMesh
+
+
+def ask_about_spans(
+    store: Store, meshes: Mapping[str, SymbolicMesh], found: Assessment, has_program: bool
+) -> Assessment:
+    """An assessment whose question is about a hull that likely spans parts, where that is worth most.
+
+    meshes: those of the family, by id. While there is no program these questions come first: what is demonstrated on a
+    hull that spans parts has to be demonstrated anew once it is split.
+    """
+    question = choose_span_question(store, meshes, found.aside)
+    other = found.question
+    if question is None or (other and has_program and other.worth >= question.worth):
+        return found
+    return replace(found, question=question)
+
+
+def can_ask_about_spans(store: Store) -> bool:
+    """Whether there may be such a question: hulls that span parts were found, or a person split one."""
+    return bool(store.spans().assets) or has_split_examples(store)
+
+
+def choose_span_question(
+    store: Store, meshes: Mapping[str, SymbolicMesh], aside: Collection[str] = ()
+) -> ReviewQuestion | None:
+    """The question about the hull that most likely spans parts; None where none is known, or all were put off.
+
+    meshes: those of the family, by id; hulls that look like one which a person split are looked for in them; aside:
+    those that nothing is asked about.
+    """
+    propose_lookalikes(store, meshes)
+    later = set(store.put_off_ids())
+    asked = (one for one in _list_questions(store, meshes) if one.id not in later and one.asset not in aside)
+    return min(asked, key=lambda one: (-one.gain, one.asset, one.hulls), default=None)
+
+
+def _list_questions(store: Store, meshes: Mapping[str, SymbolicMesh]) -> Iterator[ReviewQuestion]:
+    """A question for each hull that likely spans parts, is as it was when that was found, and can be divided."""
+    files = read_spans(store)
+    for asset in sorted({asset for file in files for asset in file.assets} & meshes.keys()):
+        for hull, span in likely_spans(files, asset, hull_digests(meshes[asset])).items():
+            if span.parts:
+                yield _ask(asset, hull, span)
+
+
+def _ask(asset: str, hull: str, span: SpanLine) -> ReviewQuestion:
+    text = f"{hull} of {asset} {span.told.removeprefix(f'{hull} ')}: split {'as that was' if span.like else 'so'}?"
+    choices = (ReviewChoice(f"{SPLIT}: {_describe_parts(span.parts)}"), ReviewChoice(ONE_PART))
+    place = HullPlace(asset, hull)
+    draft = ReviewQuestion("", "span", text, YES_OR_NO, span.chance, asset, hulls=(place,), choices=choices)
+    return identify(draft, [span.geometry])
+
+
+def _describe_parts(parts: Sequence[SpanPart]) -> str:
+    """`10 wall (75% to 92%), handle (93%)`."""
+    shares = {label: [part.share for part in parts if part.label == label] for label in (part.label for part in parts)}
+    words = []
+    for label, own in shares.items():
+        ends = dict.fromkeys(f"{share:.0%}" for share in (min(own), max(own)))
+        words.append(f"{len(own)} {label} ({' to '.join(ends)})" if len(own) > 1 else f"{label} ({own[0]:.0%})")
+    return ", ".join(words)
+
+
+def answer_span(store: Store, question: ReviewQuestion, choice: ReviewChoice) -> None:
+    """Split the hull that a question is about, or keep that it is one part.
+
+    Raises ProjectError where the hull is not as it was when it was asked about.
+    """
+    (place,) = question.hulls
+    if choice.text == ONE_PART:
+        mark_as_one_part(store, place.asset, place.hull)
+        return
+    result = split_as_found(store, place.asset, place.hull)
+    if result.problems:
+        raise ProjectError(result.problems[0], where=place.asset)

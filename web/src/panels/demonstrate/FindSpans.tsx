@@ -1,0 +1,55 @@
+// Looking for hulls of all assets that hold more than one part, which the card of questions asks about then.
+import { CircleQuestionMark, Split, Square } from "lucide-react";
+import { goToCard } from "../../commands/question";
+import { openQuestion } from "../../store/assessment";
+import { cancelJob, findSpans, useJob, whyNotFindSpans } from "../../store/jobs";
+import { useProject } from "../../store/project";
+import { Button } from "../../ui/Button";
+import { Note, Section } from "../../ui/Section";
+import type { Job } from "../../wire";
+import css from "./demonstrate.module.css";
+
+export function FindSpans() {
+  const job = useJob("spans");
+  return (
+    <Section title="Prepare all assets">
+      {job?.state === "running" ? <Running job={job} /> : <Ready job={job} />}
+    </Section>
+  );
+}
+
+function Running({ job }: { job: Job }) {
+  const counts = job.done < job.total;
+  return (
+    <div className={css.buttons}>
+      <span role="status">{counts ? `Decomposing finely: ${job.done} of ${job.total}` : "Comparing all hulls…"}</span>
+      <Button icon={Square} onClick={() => cancelJob(job.id)} aria-label="Stop looking for hulls that span parts">
+        Stop
+      </Button>
+      <progress className={css.progress} value={counts ? job.done : undefined} max={job.total || 1} aria-label={job.title} />
+    </div>
+  );
+}
+
+const MOODS = { running: "plain", done: "good", failed: "bad", cancelled: "warn" } as const;
+
+function Ready({ job }: { job: Job | null }) {
+  const why = useProject(whyNotFindSpans);
+  const isAsked = useProject((state) => openQuestion(state)?.kind === "span");
+  return (
+    <div className={css.spans}>
+      <div className={css.buttons}>
+        <Button icon={Split} disabled={why !== null} onClick={() => void findSpans()} tip="Hulls of all assets that hold more than one part">
+          Find hulls that span parts
+        </Button>
+        {isAsked && (
+          <Button icon={CircleQuestionMark} onClick={goToCard} keys="U">
+            Go to the question
+          </Button>
+        )}
+      </div>
+      {why !== null && <p className={css.hint}>{why}</p>}
+      {job && <Note mood={MOODS[job.state]}>{job.message}</Note>}
+    </div>
+  );
+}
