@@ -8,6 +8,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache, cached_property
 from importlib.resources import files
+from typing import Any
 
 import numpy as np
 
@@ -18,8 +19,9 @@ from meshforge.symbolic import Hull, Label, SymbolicMesh
 WEIGHTS_FILE = "spans.json"
 WHOLE = 0.9
 """A hull of which one label has this share, by volume of what it stands for, is of one part."""
-_SURE = 0.005  # a share of other labels is at least this, for its logarithm
-_DOUBT = 0.03  # standard deviation of a share whose labels are all certain
+_LEAST_REST = 0.005  # a share of other labels is at least this, for its logarithm
+_LEAST_DRAWN = 0.002  # and how often a hull spans parts
+_DRAWS = 512  # of the labels of all pieces
 _MOST = 0.8  # how much a label is believed that a piece takes from the hull that it lies in
 _ALL = 0.85  # of a piece, from which a hull has nearly all of it
 _WITHIN = 0.5  # of a piece's volume that the hull must have
@@ -27,8 +29,8 @@ _WITHIN = 0.5  # of a piece's volume that the hull must have
 
 @cache
 def span_weights(key: str = "weights") -> Floats:
-    """The weights of the evidence: (3,) of one, of the logit of the share of other labels, and of its distance from the
-    limit; key: "weights" of hulls that stand for a surface, "cells" of others, by the evidence of `CellPosterior`."""
+    """The weights of the evidence: (3,) of one, and of the logits of the share of other labels and of how often a hull
+    spans parts where labels are drawn; key: "weights" of hulls that stand for a surface, "cells" of others, by the evidence of `CellPosterior`."""
     read = json.loads(files("meshforge.label_model").joinpath(WEIGHTS_FILE).read_text("utf-8"))
     found = np.array(read[key], dtype=float)
     found.flags.writeable = False
@@ -135,18 +137,12 @@ class SpanPosterior:
         """What the probability is made from (hulls, 3), as `span_weights` has it."""
         common, chances = self.assets[mesh].common, self.chances[mesh]
         if not chances.size:
-            return np.tile(np.array([1.0, -5.0, -5.0]), (len(common), 1))
+            return np.tile(np.array([1.0, -5.0, -6.0]), (len(common), 1))
         held = common.sum(axis=1)
         likeliest = np.eye(chances.shape[1])[chances.argmax(axis=1)]
-        rest = 1 - _scale(common @ likeliest, held).max(axis=1)
-        expected = _scale(common @ chances, held)
-        main = expected.argmax(axis=1)
-        sure = chances[:, main].T
-        spread = np.sqrt((_scale(common, held) ** 2 * sure * (1 - sure)).sum(axis=1) + _DOUBT**2)
-        rest = np.clip(rest, _SURE, 1 - _SURE)
-        away = (WHOLE - expected[np.arange(len(main)), main]) / spread
-        limit = np.log((1 - WHOLE) / WHOLE)
-        return np.column_stack([np.ones(len(rest)), np.log(rest / (1 - rest)) - limit, np.clip(away, -5, 5)])
+        rest = np.clip(1 - _scale(common @ likeliest, held).max(axis=1), _LEAST_REST, 1 - _LEAST_REST)
+        drawn = np.clip(_draw_spans(_scale(common, held), chances), _LEAST_DRAWN, 1 - _LEAST_DRAWN)
+        return np.column_stack([np.ones(len(rest)), _logit(rest) - _logit(1 - WHOLE), _logit(drawn)])
 
     def divide(self, mesh: int, hull: int) -> tuple[HullPart, ...]:
         """The parts that a hull is divided into; one alone where it is not to be divided."""
@@ -174,6 +170,23 @@ class SpanPosterior:
             shares = volumes[members] @ chances[members] / volumes[members].sum()
             found.append((int(hulls[common[:, members].sum(axis=1).argmax()]), HullPart(group.shape, shares)))
         return tuple(found)
+
+
+def _logit(shares: Any) -> Any:
+    return np.log(shares / (1 - shares))
+
+
+def _draw_spans(shares: Floats, chances: Floats) -> Floats:
+    """How often no label has `WHOLE` of a hull (hulls,), where labels of pieces are drawn one by one by their
+    probabilities (pieces, labels); shares: (hulls, pieces) of what a hull stands for."""
+    ends = np.cumsum(chances, axis=1)
+    drawn = np.random.default_rng(0).random((_DRAWS, len(chances)))
+    codes = (drawn[:, :, None] * ends[None, :, -1:] > ends[None]).sum(axis=2)
+    most = np.zeros((len(shares), _DRAWS))
+    for label in range(chances.shape[1]):
+        most = np.maximum(most, shares @ (codes == label).T)
+    found: Floats = (most < WHOLE).mean(axis=1)
+    return found
 
 
 def _scale(rows: Floats, totals: Floats) -> Floats:
