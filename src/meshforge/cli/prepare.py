@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import asdict, dataclass
+from functools import partial
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -41,6 +42,12 @@ class PrepareArguments:
     split_spanning: Annotated[
         bool, typer.Option("--split-spanning", help="Split hulls that span parts, where labels change within them.")
     ] = False
+    rebuild_spanning: Annotated[
+        bool,
+        typer.Option(
+            "--rebuild-spanning", help="Make all hulls anew, part by part, of bodies where a hull spans parts."
+        ),
+    ] = False
     sure: Annotated[
         float | None,
         typer.Option("--sure", metavar="P", help="Split hulls that span parts with at least this probability [0.9]."),
@@ -65,15 +72,19 @@ def prepare(given: PrepareArguments) -> None:
     asset; the asset's own files stay as they are. To split one hull: meshforge split.
     Exit code 1 when some pieces could not be decomposed, or something could not be taken back (each named).
     """
-    if (given.method is not None) + given.split_spanning + given.undo + given.remove != 1:
-        raise UsageError("say what to do: --decompose METHOD, --split-spanning, --undo or --remove")
+    spanning = given.split_spanning + given.rebuild_spanning
+    if (given.method is not None) + spanning + given.undo + given.remove != 1:
+        what = "--decompose METHOD, --split-spanning, --rebuild-spanning, --undo or --remove"
+        raise UsageError(f"say what to do: {what}")
+    if not spanning:
+        options.refuse_options(given.context, ("sure", "dry_run"), "--split-spanning or --rebuild-spanning")
     if not given.split_spanning:
-        options.refuse_options(given.context, ("sure", "dry_run", "engine"), "--split-spanning")
+        options.refuse_options(given.context, ("engine",), "--split-spanning")
     if given.undo and not given.assets:
         raise UsageError("--undo of which asset?", remedy="Name it; --remove takes back everything, of all assets too.")
     project = Project.open(given.project)
-    if given.split_spanning:
-        raise typer.Exit(_split_spanning(project, given))
+    if spanning:
+        raise typer.Exit(_divide_spanning(project, given))
     if given.method is None:
         only_with_method = ("option", "only", "again", "hollow", "by", "workers", "timeout")
         options.refuse_options(given.context, only_with_method, "--decompose METHOD")
@@ -99,14 +110,16 @@ def prepare(given: PrepareArguments) -> None:
     )
 
 
-def _split_spanning(project: Project, given: PrepareArguments) -> int:
-    """Split hulls that span parts and print what became of each asset; the exit code."""
+def _divide_spanning(project: Project, given: PrepareArguments) -> int:
+    """Split hulls that span parts, or rebuild their bodies, and print what became of each asset; the exit code."""
     options.refuse_options(given.context, ("option", "only", "again", "hollow", "by"), "--decompose METHOD")
-    results = project.split_spanning(
+    change: Callable[..., Iterator[PreparationResult]] = project.rebuild_spanning
+    if given.split_spanning:
+        change = partial(project.split_spanning, engine=given.engine)
+    results = change(
         [options.asset_id(asset, project) for asset in given.assets] if given.assets else None,
         sure=SURE_TO_SPAN if given.sure is None else given.sure,
         dry_run=given.dry_run,
-        engine=given.engine,
         execution=ExecutionOptions(workers=given.workers, timeout=given.timeout),
         stage=progress,
     )

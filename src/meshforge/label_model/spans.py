@@ -30,7 +30,8 @@ _WITHIN = 0.5  # of a piece's volume that the hull must have
 @cache
 def span_weights(key: str = "weights") -> Floats:
     """The weights of the evidence: (3,) of one, and of the logits of the share of other labels and of how often a hull
-    spans parts where labels are drawn; key: "weights" of hulls that stand for a surface, "cells" of others, by the evidence of `CellPosterior`."""
+    spans parts where labels are drawn; key: "weights" of hulls that stand for a surface, "cells" of others, by the
+    evidence of `CellPosterior`."""
     read = json.loads(files("meshforge.label_model").joinpath(WEIGHTS_FILE).read_text("utf-8"))
     found = np.array(read[key], dtype=float)
     found.flags.writeable = False

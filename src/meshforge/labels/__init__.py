@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from meshforge.labels.merge import LabelOutcome, label_new_hulls
     from meshforge.labels.offers import LabelOffers, OfferCache
     from meshforge.labels.reference_family import NEW, ReferenceFamily, read_reference_family
-    from meshforge.labels.spans import HullSpan, SpanReport, find_spans
+    from meshforge.labels.spans import HullSpan, LabelledPart, SpanReport, find_spans
     from meshforge.labels.summary import Proposal, Proposals, SourceTally, Tally
     from meshforge.labels.vlm.endpoint import endpoint_of
     from meshforge.labels.vlm.label_by_vlm import VlmForecast, VlmResult, check_vlm_settings
@@ -39,6 +39,7 @@ __all__ = [
     "LabelOffers",
     "LabelOutcome",
     "LabelStore",
+    "LabelledPart",
     "OfferCache",
     "PointAlignment",
     "PointsOptions",

@@ -35,19 +35,26 @@ from meshforge.symbolic import Surface, SymbolicMesh
 _SHOWN = 0.1  # of what a hull stands for: labels of smaller shares are not named
 
 
+LabelledPart = tuple[HullPart, str, float]
+"""A part of a hull, its likeliest label, and the share of that in what it stands for."""
+
+
 @dataclass(frozen=True, eq=False)
 class HullSpan:
-    """A hull that may span parts. chance: of that; shares: of each label in what it stands for, the largest first."""
+    """A hull that may span parts. chance: of that; shares: of each label in what it stands for, the largest first;
+    by_surface: whether a surface says so, or only likeness."""
 
     asset: str
     hull: str
     chance: float
     shares: Mapping[str, float]
+    by_surface: bool = True
 
     def __str__(self) -> str:
-        """`base holds wall and handle, 94%`."""
+        """`base holds wall and handle, 94%`; without a surface `base holds wall and handle, by likeness, 64%`."""
         names = [label for label, share in self.shares.items() if share >= _SHOWN]
-        return f"{self.hull} holds {' and '.join(names)}, {self.chance:.0%}"
+        how = "" if self.by_surface else ", by likeness"
+        return f"{self.hull} holds {' and '.join(names)}{how}, {self.chance:.0%}"
 
 
 @dataclass(frozen=True, eq=False)
@@ -88,13 +95,26 @@ class SpanReport:
                 found.update((span.hull, span) for span in self._list_spans(asset, posterior, unseen))
         return [found[hull.name] for hull in self.meshes[asset].hulls if hull.name in found]
 
-    def divide(self, asset: str, hull: str) -> list[tuple[HullPart, str, float]]:
+    def divide(self, asset: str, hull: str) -> list[LabelledPart]:
         """The parts of a hull, each with its likeliest label and the share of that in what it stands for."""
         place = self.meshes[asset].index[hull]
         posterior = self.by_cells if self.meshes[asset].hulls[place].body in self.unseen[asset] else self.by_surface
         assert posterior, f"{hull} of {asset} stands for nothing"
         parts = posterior.divide(self._places[asset], place)
         return [(part, posterior.labels[part.kind], float(part.shares[part.kind])) for part in parts]
+
+    def rebuild(self, asset: str, body: str) -> dict[str, list[LabelledPart]]:
+        """New hulls for all of a body that stand for its surface, each of one label, by the old hull that has most of
+        it; nothing where the body has no surface."""
+        mesh, bare = self.meshes[asset], set(self.bare.get(asset, ()))
+        own = [k for k, hull in enumerate(mesh.hulls) if hull.body == body and hull.name not in bare]
+        if self.by_surface is None or body in self.unseen[asset]:
+            return {}
+        found: dict[str, list[LabelledPart]] = {mesh.hulls[k].name: [] for k in own}
+        for place, part in self.by_surface.rebuild(self._places[asset], np.array(own, dtype=np.int64)):
+            label = self.by_surface.labels[part.kind]
+            found[mesh.hulls[place].name].append((part, label, float(part.shares[part.kind])))
+        return found if any(found.values()) else {}
 
     def _list_spans(self, asset: str, posterior: SpanPosterior, unseen: bool) -> Iterator[HullSpan]:
         """Those of hulls whose body has a surface, or has none."""
@@ -103,7 +123,7 @@ class SpanReport:
         rows = zip(mesh.hulls, posterior.chances_of(place).tolist(), posterior.shares_of(place), strict=True)
         for hull, chance, shares in rows:
             if hull.name not in bare and (hull.body in self.unseen[asset]) == unseen:
-                yield HullSpan(asset, hull.name, chance, _name_shares(posterior.labels, shares))
+                yield HullSpan(asset, hull.name, chance, _name_shares(posterior.labels, shares), not unseen)
 
 
 def _name_shares(labels: Sequence[str], shares: Floats) -> dict[str, float]:

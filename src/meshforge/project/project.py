@@ -15,6 +15,7 @@ from meshforge.project import (
     new_assets,
     overview,
     prepare,
+    rebuild,
     rename,
     run,
     sign_offs,
@@ -67,6 +68,7 @@ class Project(LabelStore):
     split = prepare.split
     unprepare = prepare.unprepare
     split_spanning = spans.split_spanning
+    rebuild_spanning = rebuild.rebuild_spanning
     list_spans = spans.list_spans
     prepare_new = new_assets.prepare_new
     find_split = span_splits.find_split

@@ -45,8 +45,7 @@ def split_spanning(
     Raises UsageError for a probability that is none and for an unknown engine, ProjectError where no hull has a label
     or no asset can be read.
     """
-    if not 0 < sure <= 1:
-        raise UsageError(f"--sure {sure:g}: a probability is needed, above 0 and at most 1")
+    check_sure(sure)
     if engine is not None:
         find_engine(engine)
     ids = store.assets() if assets is None else tuple(dict.fromkeys(assets))
@@ -69,6 +68,12 @@ def split_spanning(
         _write_likely(store, likely)
     if not dry_run:
         keep_split(store, ids, sure)
+
+
+def check_sure(sure: float) -> None:
+    """Raises UsageError for a probability that is none."""
+    if not 0 < sure <= 1:
+        raise UsageError(f"--sure {sure:g}: a probability is needed, above 0 and at most 1")
 
 
 def _split_one(store: Store, asset: str, found: AssetSpans, dry_run: bool, engine: str | None) -> PreparationResult:

@@ -150,7 +150,8 @@ def test_a_hull_that_spans_parts_is_split_where_no_asset_has_a_surface(tmp_path:
         assert held > 0.6 * solid.volume, f"most of the {label} has its label"
     assert [asset.spans for asset in project.status().assets] == [(), (), ()]
     project.unprepare("c.urdf")
-    assert files(project) == before
+    plan = {"preparation.json": project.layout.preparation_plan.read_bytes()}
+    assert files(project) == before | plan
     assert project.status().assets[2].spans[0].startswith(f"{spanning.name} holds ")
 
 
@@ -191,3 +192,36 @@ def test_in_a_large_family_each_asset_is_looked_at_by_itself(project: Project, m
         project.set_labels(asset, dict.fromkeys(names))
     with pytest.raises(ProjectError, match="no hull has a label"):
         split(project)
+
+
+def rebuild(project: Project, *assets: str, **more: object) -> list[PreparationResult]:
+    return list(project.rebuild_spanning(assets or None, execution=IN_PROCESS, **more))  # type: ignore[arg-type]
+
+
+def test_a_body_is_rebuilt_part_by_part_and_taken_back_to_the_last_byte(project: Project) -> None:
+    before = files(project)
+    results = rebuild(project)
+    assert [result.problems for result in results] == [(), (), ()]
+    assert [len(result.made) for result in results] == [0, 0, 4], "all hulls of the body, of that asset alone"
+    mesh, parts = project.mesh("c.urdf"), boxes(0.18, 0.38)
+    assert sorted(str(hull.label) for hull in mesh.hulls) == sorted(PARTS), "one hull a part"
+    assert sorted(hull.volume for hull in mesh.hulls) == pytest.approx(sorted(part.volume for part in parts), rel=1e-3)
+    project.unprepare("c.urdf")
+    assert files(project) == before
+
+
+def test_rebuilding_says_first_what_it_would_do_and_leaves_what_a_person_said_is_one_part(project: Project) -> None:
+    before = files(project)
+    (result,) = rebuild(project, "c.urdf", dry_run=True)
+    assert result.notes[0].startswith("would rebuild base: ") and result.notes[0].endswith("4 hulls into 5")
+    assert files(project) == before
+    project.mark_as_one_part("c.urdf", project.mesh("c.urdf").hulls[0].name)
+    assert rebuild(project, "c.urdf")[0].made == ()
+
+
+def test_labels_that_a_person_gave_stay_a_persons_when_a_body_is_rebuilt(project: Project) -> None:
+    legs = project.mesh("c.urdf").hulls[1:]
+    project.set_labels("c.urdf", {legs[0].name: "leg"})
+    rebuild(project, "c.urdf")
+    sources = {hull.name.split("#")[0]: hull.source for hull in project.mesh("c.urdf").hulls}
+    assert sources[legs[0].name] == "user" and sources[legs[1].name] == "propagated"
