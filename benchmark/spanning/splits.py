@@ -29,7 +29,7 @@ _COLUMNS = (
     "volume kept",
     "pure hulls split",
 )
-_COUNT_COLUMNS = ("set", "category", "hulls", "after", "next finer", "its hulls", "ratio")
+_COUNT_COLUMNS = ("set", "category", "hulls", "rebuilt", "after the split", "next finer", "its hulls", "ratio")
 
 
 @dataclass(frozen=True, slots=True)
@@ -135,14 +135,24 @@ def _list_purities(families: Sequence[SplitFamily], sure: float) -> Iterator[tup
 def _count_hulls(families: Sequence[SplitFamily]) -> Iterator[tuple[Cell, ...]]:
     """By the labels of pieces."""
     for setting in MERGED:
-        total = [0, 0, 0]
+        total = [0, 0, 0, 0]
         for category in categories_of(families):
             rows = hulls_of(families, setting, BY_PIECES, category)
             after = sum(len(row.parts_at()) for row in rows)
             name, finer = next_finer(category, len(rows), {row.asset for row in rows})
-            total = [a + b for a, b in zip(total, (len(rows), after, finer), strict=True)]
-            yield setting, category, len(rows), after, name, finer, after / finer
-        yield setting, "all", *total[:2], "–", total[2], total[1] / max(total[2], 1)
+            rebuilt = _count_rebuilt(families, setting, category, rows)
+            total = [a + b for a, b in zip(total, (len(rows), rebuilt, after, finer), strict=True)]
+            yield setting, category, len(rows), rebuilt, after, name, finer, after / finer
+        yield setting, "all", *total[:3], "–", total[3], total[2] / max(total[3], 1)
+
+
+def _count_rebuilt(families: Sequence[SplitFamily], setting: str, category: str, rows: Sequence[SplitHull]) -> int:
+    """The hulls of a set where assets are rebuilt of which a hull likely spans parts."""
+    made: dict[str, int] = {}
+    for one in families:
+        if (one.setting, one.category, one.labelled) == (setting, category, BY_PIECES):
+            made |= one.rebuilt
+    return sum(made.values()) + sum(row.asset not in made for row in rows)
 
 
 def next_finer(category: str, hulls: int, assets: set[str]) -> tuple[str, int]:
