@@ -135,7 +135,7 @@ def _count_pixels(file: Path, color: str) -> int:
 
 
 def _assert_split_as_by_command(project: Project, other: Project, asset: str) -> None:
-    results = list(other.split_spanning([asset], execution=IN_PROCESS))
+    results = list(other.split_spanning([asset], sure=0.5, execution=IN_PROCESS))
     assert not any(result.problems for result in results)
     own, theirs = (one.layout.preparation(asset) / "hulls.obj" for one in (project, other))
     assert own.read_bytes() == theirs.read_bytes()

@@ -29,7 +29,7 @@ def made(tmp_path_factory: pytest.TempPathFactory) -> Path:
         project = Project.create(folder / "p", [folder / "assets"], vocabulary=("seat", "leg"))
         names = [hull.name for hull in project.mesh("a.urdf").hulls]
         project.set_labels("a.urdf", dict(zip(names, PARTS, strict=True)))
-        list(project.split_spanning(execution=IN_PROCESS))
+        list(project.split_spanning(sure=0.7, execution=IN_PROCESS))
         (folder / "p/program.mf").write_text(PROGRAM)
     return folder
 
@@ -64,7 +64,7 @@ def test_what_was_split_is_told_and_the_program_sees_the_parts(run: Run) -> None
 def test_as_json(run: Run) -> None:
     line = json.loads(run("apply", "p", "new", "--out", "out", "--workers", "1", "--json").out)
     (split,) = line["split"]
-    assert split["hull"] == "base/h0" and 0.9 <= split["chance"] < 1
+    assert split["hull"] == "base/h0" and 0.7 <= split["chance"] < 1
     assert {part["label"] for part in split["into"]} == {"seat", "leg"}
     assert [part["hull"] for part in split["into"]] == ["base/h0#0", "base/h0#1"]
     assert line["spanning"] == [] and set(line["guessed"]) == {"base/h1", "base/h2", "base/h3"}

@@ -29,11 +29,11 @@ def _stools(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def test_dry_run_then_split_then_undo(run: Run) -> None:
-    told = run("prepare", "p", "--split-spanning", "--dry-run", "--workers", "1")
+    told = run("prepare", "p", "--split-spanning", "--sure", "0.7", "--dry-run", "--workers", "1")
     assert told.code == 0
     assert "c.urdf: nothing new\n    note: would split base/h0 holds seat and leg, " in told.out
     assert "a.urdf: nothing new\n" in told.out
-    told = run("prepare", "p", "--split-spanning", "--workers", "1")
+    told = run("prepare", "p", "--split-spanning", "--sure", "0.7", "--workers", "1")
     assert told.code == 0
     assert "c.urdf: 1 piece into 2 hulls\n    base/h0: base/h0 holds seat and leg, " in told.out
     told = run("status", "p")
@@ -52,7 +52,7 @@ def test_dry_run_then_split_then_undo(run: Run) -> None:
 @pytest.mark.slow
 def test_review_asks_about_it_and_a_reply_splits_it_or_keeps_it(run: Run, tmp_path: Path) -> None:
     assert "demonstrate" in run("review", "p").out, "nobody has looked for such hulls"
-    run("prepare", "p", "--split-spanning", "--dry-run", "--workers", "1")
+    run("prepare", "p", "--split-spanning", "--sure", "0.7", "--dry-run", "--workers", "1")
     told = run("review", "p", "--json")
     question = json.loads(told.out)["question"]
     assert question["kind"] == "span" and question["hulls"] == [{"asset": "c.urdf", "hull": "base/h0"}]
@@ -68,12 +68,12 @@ def test_review_asks_about_it_and_a_reply_splits_it_or_keeps_it(run: Run, tmp_pa
         assert (tmp_path / "p/prepared/c.urdf").exists() == (choice == 0)
         if choice == 0:
             run("prepare", "p", "c.urdf", "--undo")
-    told = run("prepare", "p", "--split-spanning", "--workers", "1")
+    told = run("prepare", "p", "--split-spanning", "--sure", "0.7", "--workers", "1")
     assert "left as it is, since a person said that it is one part" in told.out and "into 2 hulls" not in told.out
 
 
 def test_as_json(run: Run) -> None:
-    told = run("prepare", "p", "--split-spanning", "--workers", "1", "--json")
+    told = run("prepare", "p", "--split-spanning", "--sure", "0.7", "--workers", "1", "--json")
     rows = [json.loads(line) for line in told.out.splitlines()]
     assert [row["asset"] for row in rows] == ["a.urdf", "b.urdf", "c.urdf"]
     assert rows[2]["hulls"] == ["base/h0#0", "base/h0#1"]
