@@ -53,9 +53,9 @@ class PrepareArguments:
         typer.Option("--sure", metavar="P", help="Split hulls that span parts with at least this probability [0.9]."),
     ] = None
     dry_run: Annotated[bool, typer.Option("--dry-run", help="Say which hulls would be split; write nothing.")] = False
-    engine: Annotated[
+    limits: Annotated[
         options.EngineName | None,
-        typer.Option("--engine", help="Say which limits of this engine a split breaks [those that read the file]."),
+        typer.Option("--limits", help="Say which limits of this engine a split breaks [those that read the file]."),
     ] = None
     undo: Annotated[bool, typer.Option("--undo", help="Take back the last thing that was done to each.")] = False
     remove: Annotated[bool, typer.Option("--remove", help="Take back all that was done to each.")] = False
@@ -79,7 +79,7 @@ def prepare(given: PrepareArguments) -> None:
     if not spanning:
         options.refuse_options(given.context, ("sure", "dry_run"), "--split-spanning or --rebuild-spanning")
     if not given.split_spanning:
-        options.refuse_options(given.context, ("engine",), "--split-spanning")
+        options.refuse_options(given.context, ("limits",), "--split-spanning")
     if given.undo and not given.assets:
         raise UsageError("--undo of which asset?", remedy="Name it; --remove takes back everything, of all assets too.")
     project = Project.open(given.project)
@@ -115,7 +115,7 @@ def _divide_spanning(project: Project, given: PrepareArguments) -> int:
     options.refuse_options(given.context, ("option", "only", "again", "hollow", "by"), "--decompose METHOD")
     change: Callable[..., Iterator[PreparationResult]] = project.rebuild_spanning
     if given.split_spanning:
-        change = partial(project.split_spanning, engine=given.engine)
+        change = partial(project.split_spanning, engine=given.limits)
     results = change(
         [options.asset_id(asset, project) for asset in given.assets] if given.assets else None,
         sure=SURE_TO_SPAN if given.sure is None else given.sure,
