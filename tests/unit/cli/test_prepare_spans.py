@@ -85,7 +85,7 @@ def test_as_json(run: Run) -> None:
         (["--split-spanning", "--undo"], "say what to do"),
         (["--decompose", "coacd", "--sure", "0.5"], "--sure"),
         (["--decompose", "coacd", "--dry-run"], "--dry-run"),
-        (["--decompose", "coacd", "--limits", "mujoco"], "--engine"),
+        (["--decompose", "coacd", "--limits", "mujoco"], "--limits"),
         (["--split-spanning", "--sure", "0"], "--sure 0: a probability is needed"),
         (["--split-spanning", "--hollow"], "--hollow"),
         (["nope.urdf", "--split-spanning"], "nope.urdf"),
