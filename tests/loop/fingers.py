@@ -30,7 +30,7 @@ class Fingers:
         spec.option.gravity = [0, 0, 0]
         for name, side in (("left", -1), ("right", 1)):
             away = side * (self.opening / 2 + self.half[0])
-            body = spec.worldbody.add_body(name=name, pos=self.middle + [away, 0, 0])
+            body = spec.worldbody.add_body(name=name, pos=self.middle + np.array([away, 0, 0]))
             body.add_joint(name=name, type=mujoco.mjtJoint.mjJNT_SLIDE, axis=[1, 0, 0], damping=[20, 0, 0])
             body.add_geom(name=name, type=mujoco.mjtGeom.mjGEOM_BOX, size=self.half, mass=0.05)
         return spec.compile()

@@ -7,7 +7,6 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from meshforge.project import Project
 from tests.surface_cover import merge_solids, sample_lost
 from tests.unit.project.stools import boxes, coarse, create_stools
 
