@@ -14,7 +14,7 @@ from types import MappingProxyType
 import numpy as np
 
 from meshforge import batch
-from meshforge.common import MeshForgeError, ProjectError, describe_error
+from meshforge.common import MeshForgeError, ProjectError, describe_error, join_and
 from meshforge.formats import read
 from meshforge.geometry import FINE, Floats, HullPart, Polytope, cache_folder, decompose_finely
 from meshforge.label_model import (
@@ -52,9 +52,13 @@ class HullSpan:
 
     def __str__(self) -> str:
         """`base holds wall and handle, 94%`; without a surface `base holds wall and handle, by likeness, 64%`."""
-        names = [label for label, share in self.shares.items() if share >= _SHOWN]
         how = "" if self.by_surface else ", by likeness"
-        return f"{self.hull} holds {' and '.join(names)}{how}, {self.chance:.0%}"
+        return f"{self.hull} holds {join_and(self.labels)}{how}, {self.chance:.0%}"
+
+    @property
+    def labels(self) -> tuple[str, ...]:
+        """The labels of at least a tenth of what it stands for, that of the largest share first."""
+        return tuple(label for label, share in self.shares.items() if share >= _SHOWN)
 
 
 @dataclass(frozen=True, eq=False)
