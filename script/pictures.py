@@ -1,4 +1,4 @@
-"""Pictures for the README and the documentation, of the bundled tables, seen upright."""
+"""Pictures for the README and the documentation, of the bundled tables and a cup, seen upright."""
 
 from __future__ import annotations
 
@@ -16,6 +16,7 @@ from meshforge.rendering import compare, draw_labeling_pictures, make_contact_sh
 from meshforge.samples import TABLES
 from meshforge.symbolic import SymbolicMesh, read_labels
 from script.sign_off_picture import draw_sign_off
+from script.span_picture import draw_spans
 
 SHOWN = ("table_03", "table_08", "table_09", "table_11")
 CHOICES = ("Geo(Is(handle), -Z)", "Attach(Is(handle), Is(drawer))", "Geo(Is(handle), -Y)")
@@ -31,6 +32,7 @@ def main(folder: Path) -> None:
     _draw_numbers(folder / "numbers.png")
     _labels(folder / "labels.png")
     draw_sign_off(folder / "signoff.png")
+    draw_spans(folder / "spans.png")
 
 
 def _tables(path: Path) -> None:

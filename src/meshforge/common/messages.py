@@ -14,6 +14,11 @@ def pluralize(number: int, one: str, many: str | None = None) -> str:
     return f"{number:,} {one if number == 1 else many or one + 's'}"
 
 
+def join_and(names: Sequence[str]) -> str:
+    """All names in a row: `a`, `a and b`, `a, b and c`."""
+    return " and ".join(part for part in (", ".join(names[:-1]), *names[-1:]) if part)
+
+
 def join_names(names: Sequence[str], most: int = 5) -> str:
     """Names in a row, of many the first ones: `a, b, c, d, e and 7 more`."""
     more = len(names) - most

@@ -14,7 +14,7 @@ from types import MappingProxyType
 import numpy as np
 
 from meshforge import batch
-from meshforge.common import MeshForgeError, ProjectError, describe_error
+from meshforge.common import MeshForgeError, ProjectError, describe_error, join_and
 from meshforge.formats import read
 from meshforge.geometry import FINE, Floats, HullPart, Polytope, cache_folder, decompose_finely
 from meshforge.label_model import (
@@ -30,7 +30,7 @@ from meshforge.labels.descriptor_cache import read_arrays, write_arrays
 from meshforge.labels.family_comparison import Stage
 from meshforge.labels.hull_arrays import HULL_ARRAYS, pack_hulls, unpack_hulls
 from meshforge.store import Store
-from meshforge.symbolic import Surface, SymbolicMesh
+from meshforge.symbolic import HUMAN_SOURCES, Surface, SymbolicMesh
 
 _SHOWN = 0.1  # of what a hull stands for: labels of smaller shares are not named
 
@@ -52,9 +52,13 @@ class HullSpan:
 
     def __str__(self) -> str:
         """`base holds wall and handle, 94%`; without a surface `base holds wall and handle, by likeness, 64%`."""
-        names = [label for label, share in self.shares.items() if share >= _SHOWN]
         how = "" if self.by_surface else ", by likeness"
-        return f"{self.hull} holds {' and '.join(names)}{how}, {self.chance:.0%}"
+        return f"{self.hull} holds {join_and(self.labels)}{how}, {self.chance:.0%}"
+
+    @property
+    def labels(self) -> tuple[str, ...]:
+        """The labels of at least a tenth of what it stands for, that of the largest share first."""
+        return tuple(label for label, share in self.shares.items() if share >= _SHOWN)
 
 
 @dataclass(frozen=True, eq=False)
@@ -122,7 +126,9 @@ class SpanReport:
         bare = set(self.bare.get(asset, ()))
         rows = zip(mesh.hulls, posterior.chances_of(place).tolist(), posterior.shares_of(place), strict=True)
         for hull, chance, shares in rows:
-            if hull.name not in bare and (hull.body in self.unseen[asset]) == unseen:
+            if hull.name in bare or (hull.body in self.unseen[asset]) != unseen:
+                continue
+            if not (unseen and hull.source in HUMAN_SOURCES):  # likeness does not outweigh what a person called it
                 yield HullSpan(asset, hull.name, chance, _name_shares(posterior.labels, shares), not unseen)
 
 
