@@ -161,6 +161,7 @@ def test_an_asset_that_cannot_be_read_does_not_stop_the_others(folder: Path) -> 
     assert len(found["d.urdf"].splits) == 1
 
 
+@pytest.mark.slow
 def test_without_a_surface_likeness_says_so_and_without_a_label_nothing_is_looked_for(folder: Path) -> None:
     text = (folder / "new/c.urdf").read_text()
     start, end = text.index("<visual>"), text.index("</visual>") + len("</visual>")
