@@ -13,7 +13,7 @@ from meshforge.cli.console import progress
 from meshforge.cli.terminal import remark
 
 if TYPE_CHECKING:
-    from meshforge.project import NewAssetOptions, NewAssetResult, Project
+    from meshforge.project import NewAsset, NewAssetOptions, NewAssetResult, Project
     from meshforge.signoff import AssetConfidence
 
 _PREPARED = 600.0  # seconds for an asset at least, as `meshforge prepare` gives it
@@ -40,6 +40,13 @@ class NewAssets:
         own = {asset: {**changes.get(asset, {}), "notes": result.describe()} for asset, result in fine.items()}
         return NewAssets(fine, own, failed)
 
+    @staticmethod
+    def aside(made: Iterable[tuple[NewAsset, NewAssetResult]]) -> NewAssets:
+        """Those whose preparation and labels are kept beside the project."""
+        rows = list(made)
+        changes = {work.id: {"labels": work.labels, "preparation": work.preparation} for work, _ in rows}
+        return NewAssets.of({work.id: result for work, result in rows}, changes)
+
     def update(self, jobs: Iterable[batch.AssetJob]) -> list[batch.AssetJob]:
         """The jobs as they are to be done now."""
         failed = {one.asset for one in self.failed}
@@ -63,12 +70,7 @@ def prepare_given(
     ours = {job.path: job for job in project.jobs({known[job.path] for job in given if job.path in known})}
     jobs = [replace(ours[job.path], id=job.id, base=job.base) if job.path in ours else job for job in given]
     new = [NewAsset(job.id, job.path, plan, job.labels) for job in given if job.path not in ours]
-    results: dict[str, NewAssetResult] = {}
-    changes: dict[str, dict[str, Any]] = {}
-    for work, result in prepare_aside(project, new, folder, _with_stage(options)):
-        results[work.id] = result
-        changes[work.id] = {"labels": work.labels, "preparation": work.preparation}
-    found = NewAssets.of(results, changes)
+    found = NewAssets.aside(prepare_aside(project, new, folder, _with_stage(options)))
     return found.update(jobs), found
 
 
@@ -86,9 +88,7 @@ def prepare_later(project: Project, folder: Path | None, options: NewAssetOption
     options = replace(_with_stage(options), guess=program is None or bool(program.labels_asked))
     if folder is None:
         return NewAssets.of({result.asset: result for result in project.prepare_new(options)}, {})
-    aside = list(prepare_aside(project, new, folder, options))
-    changes = {work.id: {"labels": work.labels, "preparation": work.preparation} for work, _ in aside}
-    return NewAssets.of({work.id: result for work, result in aside}, changes)
+    return NewAssets.aside(prepare_aside(project, new, folder, options))
 
 
 def _with_stage(options: NewAssetOptions) -> NewAssetOptions:

@@ -3,7 +3,7 @@ parts, labels by likeness) in words, as JSON and as doubts; and how probable its
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import partial
 from typing import Any
@@ -43,6 +43,11 @@ class HullSplit:
         return f"{f'{len(sure)} ' if len(sure) > 1 else ''}{name} ({min(sure):.0%})"
 
 
+def parts_of(splits: Iterable[HullSplit]) -> dict[str, Label]:
+    """The label of each part of hulls that were split, by its name."""
+    return {name: label for split in splits for name, label in split.parts.items()}
+
+
 @dataclass(frozen=True, slots=True)
 class NewAssetResult:
     """What became of a new asset before the program.
@@ -61,9 +66,9 @@ class NewAssetResult:
     @property
     def doubts(self) -> tuple[Doubt, ...]:
         """All that was guessed, with the probability that it is wrong, the least sure first."""
-        parts = {name: label for split in self.splits for name, label in split.parts.items()}
         words = [
-            (f"{name} is called {one.name} as a part that was split off", one, name) for name, one in parts.items()
+            (f"{name} is called {one.name} as a part that was split off", one, name)
+            for name, one in parts_of(self.splits).items()
         ]
         words += [(f"{name} is called {one.name} by its likeness", one, name) for name, one in self.guesses.items()]
         labels = [Doubt("label", text, (name,), share=1 - one.confidence) for text, one, name in words]

@@ -20,12 +20,12 @@ from meshforge.labels import NEW, HullSpan, ReferenceFamily, ignore_stage, read_
 from meshforge.labels.family_comparison import Stage
 from meshforge.labels.merge import LabelWriter, can_fill_gap
 from meshforge.project.new_asset_memory import NewAssetFolder, digest_basis
-from meshforge.project.new_asset_result import HullSplit, NewAssetResult
+from meshforge.project.new_asset_result import HullSplit, NewAssetResult, parts_of
 from meshforge.project.preparation_plan import PreparationPlan, extend_plan, find_new_assets
 from meshforge.project.prepare import exchange_preparation
 from meshforge.project.span_search import plan_splits
 from meshforge.store import Store, hull_digests
-from meshforge.symbolic import Asset, Label, LabelFile, SymbolicMesh, read_labels, transfer_labels, write_labels
+from meshforge.symbolic import Asset, LabelFile, SymbolicMesh, read_labels, transfer_labels, write_labels
 
 _NO_LABELS = "no hull of the project has a label, so nothing says which hulls span parts"
 
@@ -53,10 +53,6 @@ class _WorkerOutcome:
     mesh: SymbolicMesh
     vocabulary: tuple[str, ...]
     result: NewAssetResult
-
-    @property
-    def parts(self) -> dict[str, Label]:
-        return {name: label for split in self.result.splits for name, label in split.parts.items()}
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -125,7 +121,7 @@ def _keep_in_project(store: Store, asset: str, found: _WorkerOutcome) -> list[st
     """Write what was done step by step, since each is undone by itself; notes on that."""
     notes, seen, after = list[str](), found.seen, found.preparation
     before = len(batch.read_steps(store.layout.preparation(asset)) or ())
-    labels = {name: label for name, label in found.parts.items() if label.name in store.vocabulary}
+    labels = {name: label for name, label in parts_of(found.result.splits).items() if label.name in store.vocabulary}
     for count in range(before + 1, len(after.steps) + 1):
         is_last = count == len(after.steps)
         part = after if is_last else after.with_only(after.steps[:count])
@@ -209,7 +205,7 @@ def _prepare(task: _Task, work: NewAsset) -> _WorkerOutcome | str:
         if work.plan.sure is not None and mesh.hulls:
             found = _split(task, source, after, mesh, work.plan.sure)
             if found.splits:
-                mesh = _build_mesh(source, found.preparation, labels, task.contact).with_labels(found.parts)
+                mesh = _build_mesh(source, found.preparation, labels, task.contact).with_labels(parts_of(found.splits))
         guesses = task.family.infer_labels(mesh) if task.guess and task.family and mesh.hulls else {}
         result = NewAssetResult(work.id, found.splits, found.spanning, guesses, (*found.notes, *notes))
         words = labels.vocabulary or (task.family.words if task.family else ())
@@ -249,10 +245,6 @@ class _SplitOutcome:
     splits: tuple[HullSplit, ...] = ()
     spanning: tuple[HullSpan, ...] = ()
     notes: tuple[str, ...] = ()
-
-    @property
-    def parts(self) -> dict[str, Label]:
-        return {name: label for split in self.splits for name, label in split.parts.items()}
 
 
 def _split(task: _Task, source: Asset, before: batch.Preparation, mesh: SymbolicMesh, sure: float) -> _SplitOutcome:

@@ -8,14 +8,14 @@ from contextlib import AbstractContextManager, nullcontext
 from meshforge import batch
 from meshforge.common import MeshForgeError, pluralize
 from meshforge.formats import read
-from meshforge.labels import HullSpan, LabelledPart, SpanReport, find_spans
+from meshforge.labels import HullSpan, SpanReport, find_spans
 from meshforge.labels.family_comparison import Stage, ignore_stage
 from meshforge.project.prepare import PreparationResult, exchange_preparation
-from meshforge.project.spans import SURE_TO_SPAN, check_sure
+from meshforge.project.span_search import make_split
+from meshforge.project.span_splits import make_splits
+from meshforge.project.spans import SURE_TO_SPAN, choose_assets
 from meshforge.store import Store, hull_digests
 from meshforge.symbolic import HUMAN_SOURCES, Label
-
-_DIGITS = 3
 
 
 def rebuild_spanning(
@@ -35,10 +35,7 @@ def rebuild_spanning(
     nothing is written, and `notes` say what would be done.
     Raises UsageError for a probability that is none, ProjectError where no hull has a label or no asset can be read.
     """
-    check_sure(sure)
-    ids = store.assets() if assets is None else tuple(dict.fromkeys(assets))
-    for asset in ids:
-        store.path(asset)
+    ids = choose_assets(store, assets, sure)
     seen = {asset: batch.record_digest(store.layout.preparation(asset)) for asset in ids}
     report, single = find_spans(store, execution, stage), store.single_parts()
     for asset in ids:
@@ -78,30 +75,22 @@ def _rebuild_one(
     told = f"{'; '.join(map(str, spanning))}: {pluralize(len(made), 'hull')} into {count}"
     if dry_run:
         return PreparationResult(asset, notes=(f"would rebuild {', '.join(bodies)}: {told}", *notes))
-    divisions = [
-        batch.HullDivision(hull, rows[hull].chance, tuple(part.shape for part, _, _ in parts), _tell(rows[hull], parts))
-        for hull, parts in made
-    ]
+    digests = hull_digests(mesh)
+    splits = [make_split(rows[hull], digests[hull], parts) for hull, parts in made]
     before = batch.read_preparation(store.layout.preparation(asset)) or batch.Preparation()
-    more = {"rebuilt": list(bodies), "chances": {span.hull: round(span.chance, _DIGITS) for span in spanning}}
-    after = batch.divide_hulls(read(store.path(asset)), before, divisions, {**settings, **more})
+    more = {**settings, "rebuilt": list(bodies)}
+    after, labels = make_splits(read(store.path(asset)), before, splits, more)
     entries = after.steps[-1].replaced
-    labels = {
-        name: Label(label, round(share, _DIGITS), "propagated")
-        for entry, (hull, parts) in zip(entries, made, strict=True)
-        for name, (_, label, share) in zip(entry.made, parts, strict=True)
-        if label in store.vocabulary and not _is_told(mesh.hull_of(hull).annotation, label)
+    known = {
+        name: labels[name]
+        for entry in entries
+        for name in entry.made
+        if labels[name].name in store.vocabulary and not _is_told(mesh.hull_of(entry.what).annotation, labels[name])
     }
-    changed = exchange_preparation(store, asset, after, seen, labels)
+    changed = exchange_preparation(store, asset, after, seen, known)
     return PreparationResult(asset, entries, (*changed, f"{', '.join(bodies)} rebuilt: {told}", *notes))
 
 
-def _is_told(known: Label | None, label: str) -> bool:
+def _is_told(known: Label | None, label: Label) -> bool:
     """Whether a person gave the old hull the same label, which the new ones take from it."""
-    return known is not None and known.source in HUMAN_SOURCES and known.name == label
-
-
-def _tell(span: HullSpan, parts: list[LabelledPart]) -> str:
-    """`base holds wall and handle, 94%: into 5 hulls, wall and handle`."""
-    labels = ", ".join(dict.fromkeys(label for _, label, _ in parts))
-    return f"{span}: into {pluralize(len(parts), 'hull')}, {labels}" if parts else f"{span}: its place is others'"
+    return known is not None and known.source in HUMAN_SOURCES and known.name == label.name

@@ -12,7 +12,7 @@ from types import MappingProxyType
 from meshforge import batch
 from meshforge.common import ProjectError, describe_error
 from meshforge.formats import read
-from meshforge.labels import NEW, HullSpan, ReferenceFamily, SpanReport, find_spans, read_reference_family
+from meshforge.labels import NEW, HullSpan, LabelledPart, ReferenceFamily, SpanReport, find_spans, read_reference_family
 from meshforge.labels.family_comparison import Stage
 from meshforge.labels.spans import pieces_file
 from meshforge.project.span_splits import Split, make_splits
@@ -60,11 +60,15 @@ def list_likely(report: SpanReport, asset: str, least: float = LIKELY) -> dict[s
         if span.chance < least:
             continue
         parts = report.divide(asset, span.hull)
-        parts = parts if len(parts) > 1 else []
-        rows = tuple(SpanPart(label=label, share=round(share, _DIGITS)) for _, label, share in parts)
-        line = SpanLine(geometry=digests[span.hull], chance=round(span.chance, _DIGITS), told=str(span), parts=rows)
-        found[span.hull] = Split(span.hull, line, tuple(part.shape for part, _, _ in parts))
+        found[span.hull] = make_split(span, digests[span.hull], parts if len(parts) > 1 else [])
     return found
+
+
+def make_split(span: HullSpan, geometry: str, parts: Sequence[LabelledPart]) -> Split:
+    """A hull with the parts that take its place. geometry: its digest."""
+    rows = tuple(SpanPart(label=label, share=round(share, _DIGITS)) for _, label, share in parts)
+    line = SpanLine(geometry=geometry, chance=round(span.chance, _DIGITS), told=str(span), parts=rows)
+    return Split(span.hull, line, tuple(part.shape for part, _, _ in parts))
 
 
 def plan_splits(

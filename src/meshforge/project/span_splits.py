@@ -33,6 +33,8 @@ class Split:
     def __str__(self) -> str:
         """`base holds wall and handle, 94%: into 2 parts, wall (98%), handle (93%)`."""
         parts = self.span.parts
+        if not parts:
+            return f"{self.span.told}: its place is others'"
         return f"{self.span.told}: into {pluralize(len(parts), 'part')}, {', '.join(map(str, parts))}"
 
     def divide(self, mesh: SymbolicMesh) -> tuple[SymbolicMesh, tuple[str, ...]]:

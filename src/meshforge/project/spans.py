@@ -45,12 +45,9 @@ def split_spanning(
     Raises UsageError for a probability that is none and for an unknown engine, ProjectError where no hull has a label
     or no asset can be read.
     """
-    check_sure(sure)
+    ids = choose_assets(store, assets, sure)
     if engine is not None:
         find_engine(engine)
-    ids = store.assets() if assets is None else tuple(dict.fromkeys(assets))
-    for asset in ids:
-        store.path(asset)
     likely = dict(store.last_spans().assets)
     try:
         for asset, found in search_spans(store, ids, sure, execution, stage):
@@ -70,10 +67,17 @@ def split_spanning(
         keep_split(store, ids, sure)
 
 
-def check_sure(sure: float) -> None:
-    """Raises UsageError for a probability that is none."""
+def choose_assets(store: Store, assets: Iterable[str] | None, sure: float) -> tuple[str, ...]:
+    """The assets whose hulls may be split from a probability on, each once; all of a project when None.
+
+    Raises UsageError for a probability that is none, ProjectError for an asset that the project does not have.
+    """
     if not 0 < sure <= 1:
         raise UsageError(f"--sure {sure:g}: a probability is needed, above 0 and at most 1")
+    ids = store.assets() if assets is None else tuple(dict.fromkeys(assets))
+    for asset in ids:
+        store.path(asset)
+    return ids
 
 
 def _split_one(store: Store, asset: str, found: AssetSpans, dry_run: bool, engine: str | None) -> PreparationResult:
