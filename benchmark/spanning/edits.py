@@ -86,7 +86,7 @@ _NOTES = (
     "the task are about. Each hull, and each part of one that is split, has the label that has most of it in true "
     "parts; so what is tried is the geometry of the split, and what was found to be split. *True labels of pieces*: "
     "all hulls that span, and no other, are split by the true labels of the fine pieces. *Rebuilt*: all hulls of an "
-    "asset are made anew, part by part, by the labels that were inferred for its fine pieces, where a hull of it likely "
-    "spans parts, as `prepare --rebuild-spanning` does.",
+    "asset are made anew, part by part, by the labels that were inferred for its fine pieces, where a hull of it "
+    "likely spans parts, as `prepare --rebuild-spanning` does.",
     *(f"Labels, *{name}*: {told}." for name, told in ABOUT_LABELS.items()),
 )
