@@ -156,16 +156,26 @@ def print_results(results: Iterable[PreparationResult], json: bool = False) -> i
 
 
 def _print_one(result: PreparationResult) -> None:
-    pieces = f"{pluralize(len(result.made), 'piece')} into {pluralize(len(result.hulls), 'hull')}"
-    typer.echo(f"{result.asset}: {pieces if result.made else 'taken back' if result.undone else 'nothing new'}")
+    typer.echo(f"{result.asset}: {_describe_change(result)}")
     for step in result.undone:
         typer.echo(f"    {step}")
-    for entry in result.made:
-        typer.echo(f"    {entry.what}: {entry.told}")
+    for entry in (*result.made, *result.planned):
+        is_named = entry.told.startswith((f"{entry.what} ", f"{entry.what},"))
+        typer.echo(f"    {entry.told}" if is_named else f"    {entry.what}: {entry.told}")
     for note in result.notes:
         typer.echo(f"    note: {note}")
     for problem in result.problems:
         typer.echo("    failed: " + problem.replace("\n", "\n    "))
+
+
+def _describe_change(result: PreparationResult) -> str:
+    """`2 pieces into 6 hulls`; what was taken back or is planned; or nothing new."""
+    entries = result.made or result.planned
+    if not entries:
+        return "taken back" if result.undone else "nothing new"
+    hulls = sum(len(entry.made) for entry in entries)
+    told = f"{pluralize(len(entries), 'piece')} into {pluralize(hulls, 'hull')}"
+    return told if result.made else f"nothing written; would turn {told}"
 
 
 def _select_assets(project: Project, assets: list[str] | None) -> tuple[str, ...]:

@@ -16,7 +16,7 @@ from meshforge.labels.reference_family import MOST_COMPARED, choose_labelled
 from meshforge.project.review import ProjectReview
 from meshforge.project.run import pick_evenly
 from meshforge.signoff import AssetConfidence, Doubt, ReviewState, assess_asset
-from meshforge.store import Store
+from meshforge.store import Store, describe_parts
 from meshforge.symbolic import Label, LabelFile
 from meshforge.synthesis import LearningOutcome
 
@@ -34,13 +34,9 @@ class HullSplit:
     parts: Mapping[str, Label]
 
     def __str__(self) -> str:
-        """`base holds wall and handle, 94%: split in 3, wall (99%) and 2 handle (97%)`; of a label the least sure."""
-        names = dict.fromkeys(label.name for label in self.parts.values())
-        return f"{self.told}: split in {len(self.parts)}, {' and '.join(map(self._describe_label, names))}"
-
-    def _describe_label(self, name: str) -> str:
-        sure = [label.confidence for label in self.parts.values() if label.name == name]
-        return f"{f'{len(sure)} ' if len(sure) > 1 else ''}{name} ({min(sure):.0%})"
+        """`base holds wall and handle, 94%: split in 3, wall (99%), 2 handle (97% to 98%)`."""
+        parts = describe_parts((label.name, label.confidence) for label in self.parts.values())
+        return f"{self.told}: split in {len(self.parts)}, {parts}"
 
 
 def parts_of(splits: Iterable[HullSplit]) -> dict[str, Label]:

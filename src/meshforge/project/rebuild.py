@@ -73,14 +73,17 @@ def _rebuild_one(
         return PreparationResult(asset, notes=(*(f"{span}: no surface to rebuild it by" for span in spanning), *notes))
     count = sum(len(parts) for _, parts in made)
     told = f"{'; '.join(map(str, spanning))}: {pluralize(len(made), 'hull')} into {count}"
-    if dry_run:
-        return PreparationResult(asset, notes=(f"would rebuild {', '.join(bodies)}: {told}", *notes))
-    digests = hull_digests(mesh)
-    splits = [make_split(rows[hull], digests[hull], parts) for hull, parts in made]
+    digests, named = hull_digests(mesh), {span.hull for span in spanning}
+    splits = [
+        make_split(rows[hull], digests[hull], parts, None if hull in named else f"{hull}, made anew with its body")
+        for hull, parts in made
+    ]
     before = batch.read_preparation(store.layout.preparation(asset)) or batch.Preparation()
     more = {**settings, "rebuilt": list(bodies)}
     after, labels = make_splits(read(store.path(asset)), before, splits, more)
     entries = after.steps[-1].replaced
+    if dry_run:
+        return PreparationResult(asset, notes=tuple(notes), planned=entries)
     known = {
         name: labels[name]
         for entry in entries

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping
 from dataclasses import replace
 
 from meshforge.common import ProjectError
@@ -11,7 +11,7 @@ from meshforge.project.split_examples import has_split_examples, propose_lookali
 from meshforge.signoff import Assessment, HullPlace, ReviewChoice, ReviewQuestion
 from meshforge.signoff.prices import YES_OR_NO
 from meshforge.signoff.question import ONE_PART, SPLIT, identify
-from meshforge.store import SpanLine, SpanPart, Store, hull_digests
+from meshforge.store import SpanLine, Store, hull_digests
 from meshforge.symbolic import SymbolicMesh
 
 
@@ -60,20 +60,10 @@ def _list_questions(store: Store, meshes: Mapping[str, SymbolicMesh]) -> Iterato
 
 def _ask(asset: str, hull: str, span: SpanLine) -> ReviewQuestion:
     text = f"{hull} of {asset} {span.told.removeprefix(f'{hull} ')}: split {'as that was' if span.like else 'so'}?"
-    choices = (ReviewChoice(f"{SPLIT}: {_describe_parts(span.parts)}"), ReviewChoice(ONE_PART))
+    choices = (ReviewChoice(f"{SPLIT}: {span.parts_told}"), ReviewChoice(ONE_PART))
     place = HullPlace(asset, hull)
     draft = ReviewQuestion("", "span", text, YES_OR_NO, span.chance, asset, hulls=(place,), choices=choices)
     return identify(draft, [span.geometry])
-
-
-def _describe_parts(parts: Sequence[SpanPart]) -> str:
-    """`10 wall (75% to 92%), handle (93%)`."""
-    shares = {label: [part.share for part in parts if part.label == label] for label in (part.label for part in parts)}
-    words = []
-    for label, own in shares.items():
-        ends = dict.fromkeys(f"{share:.0%}" for share in (min(own), max(own)))
-        words.append(f"{len(own)} {label} ({' to '.join(ends)})" if len(own) > 1 else f"{label} ({own[0]:.0%})")
-    return ", ".join(words)
 
 
 def answer_span(store: Store, question: ReviewQuestion, choice: ReviewChoice) -> None:

@@ -25,6 +25,7 @@ LIKELY = 0.5
 MOST_TOGETHER = 300
 """Assets of a project that are compared all with all; of more, each with the labelled ones alone."""
 _DIGITS = 3
+_TOLD = 3  # hulls that a note names
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -43,9 +44,16 @@ class SplitPlan:
         """On hulls that stay as they are."""
         return [
             *(f"{span}: left as it is, since a person said that it is one part" for span in self.single),
-            *(f"{span}: left as it is, below {self.sure:.0%}" for span in self.unsure),
+            *self._tell_unsure(),
             *(f"{span}: no plane divides it; split it by hand: meshforge split" for span in self.whole),
         ]
+
+    def _tell_unsure(self) -> list[str]:
+        if not self.unsure:
+            return []
+        more = len(self.unsure) - _TOLD
+        named = "; ".join(map(str, self.unsure[:_TOLD])) + (f"; and {more} more" if more > 0 else "")
+        return [f"below {self.sure:.0%}, left for meshforge review to ask about: {named}"]
 
     def divide(self, source: Asset, before: batch.Preparation) -> tuple[batch.Preparation, dict[str, Label]]:
         """A preparation with the step that splits them, and the label of each part by its name."""
@@ -64,10 +72,10 @@ def list_likely(report: SpanReport, asset: str, least: float = LIKELY) -> dict[s
     return found
 
 
-def make_split(span: HullSpan, geometry: str, parts: Sequence[LabelledPart]) -> Split:
-    """A hull with the parts that take its place. geometry: its digest."""
+def make_split(span: HullSpan, geometry: str, parts: Sequence[LabelledPart], told: str | None = None) -> Split:
+    """A hull with the parts that take its place. geometry: its digest; told: why, None for that it spans parts."""
     rows = tuple(SpanPart(label=label, share=round(share, _DIGITS)) for _, label, share in parts)
-    line = SpanLine(geometry=geometry, chance=round(span.chance, _DIGITS), told=str(span), parts=rows)
+    line = SpanLine(geometry=geometry, chance=round(span.chance, _DIGITS), told=told or str(span), parts=rows)
     return Split(span.hull, line, tuple(part.shape for part, _, _ in parts))
 
 

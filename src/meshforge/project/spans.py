@@ -39,9 +39,9 @@ def split_spanning(
 
     Hulls that a person said to be one part stay as they are.
     assets: which may be split, all when None; all of the project are compared. dry_run: nothing is written but what was
-    found, for the status and the review, and `notes` say what would be done, and which limits of an engine, by default
-    of those that read the file, the hulls would exceed then. What `unprepare` takes back brings the hulls, their labels
-    and selections back.
+    found, for the status and the review; `planned` is what would be done. `notes` say which limits of an engine, by
+    default of those that read the file, the hulls exceed then. What `unprepare` takes back brings the hulls, their
+    labels and selections back.
     Raises UsageError for a probability that is none and for an unknown engine, ProjectError where no hull has a label
     or no asset can be read.
     """
@@ -86,9 +86,10 @@ def _split_one(store: Store, asset: str, found: AssetSpans, dry_run: bool, engin
     if not plan.splits:
         return PreparationResult(asset, notes=notes)
     source, before = read(store.path(asset)), store.preparation(asset)
-    limits = describe_limits(source, before, plan.divide(source, before)[0], engine)
+    after, _ = plan.divide(source, before)
+    limits = describe_limits(source, before, after, engine)
     if dry_run:
-        return PreparationResult(asset, notes=(*(f"would split {one}" for one in plan.splits), *notes, *limits))
+        return PreparationResult(asset, notes=(*notes, *limits), planned=after.steps[-1].replaced)
     result = write_splits(store, asset, plan.splits, {"sure": plan.sure}, found.seen)
     return replace(result, notes=(*result.notes, *notes, *limits))
 

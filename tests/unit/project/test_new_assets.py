@@ -72,7 +72,7 @@ def test_a_new_hull_that_spans_parts_is_split_and_all_is_labelled(folder: Path) 
     assert str(split).startswith(f"base/h0 holds seat and leg, {split.chance:.0%}: split in 2, ")
     labels = read_labels(folder / "aside/labels/c.urdf.json").labels
     assert [label.name for label in labels.values()].count("seat") == 1 and len(labels) == 5
-    assert {label.source for label in labels.values()} == {"propagated"}, "no guess passes for a fact"
+    assert {label.source for label in labels.values()} == {"propagated", "split"}, "no guess passes for a fact"
     kept = read_preparation(folder / "aside/prepared/c.urdf")
     assert kept is not None and [step.do for step in kept.steps] == ["divide"]
     parts = boxes(0.18, 0.4)[:2]
@@ -185,7 +185,7 @@ def test_what_comes_later_to_a_project_is_kept_in_it_and_undone(folder: Path) ->
     assert len(found.splits) == 1
     mesh = project.mesh("c.urdf")
     assert sorted(hull.label or "" for hull in mesh.hulls) == sorted(PARTS)
-    assert {hull.source for hull in mesh.hulls} == {"propagated"}
+    assert {hull.source for hull in mesh.hulls} == {"propagated", "split"}
     project.unprepare("c.urdf")
     assert list(project.prepare_new()) == [], "what was taken back is not done again"
     assert [hull.name for hull in project.mesh("c.urdf").hulls] == ["base/h0", "base/h1", "base/h2", "base/h3"]
