@@ -15,7 +15,7 @@ from meshforge.cli.console import progress
 from meshforge.cli.terminal import print_json
 from meshforge.common import UsageError, describe_error, pluralize
 from meshforge.geometry import DecomposeSettings
-from meshforge.project import SPLIT_DEFAULTS, PreparationResult, Project, SplitSettings, forget_plan
+from meshforge.project import MADE_ANEW, SPLIT_DEFAULTS, PreparationResult, Project, SplitSettings, forget_plan
 
 
 @dataclass(frozen=True, slots=True)
@@ -154,9 +154,14 @@ def _print_one(result: PreparationResult) -> None:
     typer.echo(f"{result.asset}: {_describe_change(result)}")
     for step in result.undone:
         typer.echo(f"    {step}")
-    for entry in (*result.made, *result.planned):
-        is_named = entry.told.startswith((f"{entry.what} ", f"{entry.what},"))
+    entries = result.made or result.planned
+    anew = [entry for entry in entries if entry.told.startswith(f"{entry.what}, {MADE_ANEW}")]
+    for entry in (entry for entry in entries if entry not in anew):
+        is_named = entry.told.startswith(f"{entry.what} ")
         typer.echo(f"    {entry.told}" if is_named else f"    {entry.what}: {entry.told}")
+    if anew:
+        hulls = pluralize(sum(len(entry.made) for entry in anew), "hull")
+        typer.echo(f"    {pluralize(len(anew), 'other')} {MADE_ANEW}: into {hulls}")
     for note in result.notes:
         typer.echo(f"    note: {note}")
     for problem in result.problems:

@@ -34,13 +34,15 @@ class PieceGroup:
         return float(sum(piece.volume for piece in self.pieces))
 
 
-def merge_pieces(pieces: Sequence[Polytope], kinds: Ints) -> tuple[PieceGroup, ...]:
+def merge_pieces(pieces: Sequence[Polytope], kinds: Ints, sliver: float = 0.0) -> tuple[PieceGroup, ...]:
     """Join pieces that touch, are of one kind (n,), and whose convex hull adds at most 15%, the least first.
 
-    Each piece is in one group. A group of one is the piece as it is. In the order of the first member.
+    Each piece is in one group. A group of one is the piece as it is. In the order of the first member. sliver: [m^3] a
+    smaller group is then joined to one of any kind, whose hull grows by no more than that.
     """
     merger = _Merger(pieces, kinds)
     merger.run()
+    merger.join_slivers(sliver)
     return tuple(sorted(merger.groups.values(), key=lambda group: group.members))
 
 
@@ -68,6 +70,20 @@ class _Merger:
             self.groups[place] = group
             self._propose(place, [k for k in self.groups if k != place])
 
+    def join_slivers(self, least: float) -> None:
+        """Join groups below a volume to the neighbour of any kind whose hull grows least, by at most that volume."""
+        for place in sorted(self.groups, key=lambda k: (self.groups[k].volume, k)):
+            own = self.groups[place]
+            if own.volume >= least:
+                break
+            near = [k for k, one in self.groups.items() if k != place and _is_near(own.shape, one.shape, self._near)]
+            hulls = [(k, self._enclose(k, place)) for k in near]
+            found = [(shape.volume - self.groups[k].shape.volume, k, shape) for k, shape in hulls]
+            grown, other, shape = min(found, key=lambda row: row[:2], default=(np.inf, -1, own.shape))
+            if grown <= least:
+                self.groups[other] = _unite(self.groups[other], own, shape)
+                del self.groups[place]
+
     def _propose(self, place: int, others: Sequence[int]) -> None:
         own = self.groups[place]
         self._taken[place] = self._overlap_others(own.shape, own.kind)
@@ -80,22 +96,29 @@ class _Merger:
 
     def _join(self, one: int, other: int) -> tuple[float, PieceGroup] | None:
         """The share of the hull around two groups that nothing fills, and the hull; None where they stay apart."""
-        a, b = self.groups[one], self.groups[other]
-        points = np.concatenate([a.shape.vertices, b.shape.vertices])
-        shape = convex_hull(points, name="pieces of a part", thicken=self._thickness)
+        shape, a, b = self._enclose(one, other), self.groups[one], self.groups[other]
         if shape.volume - a.volume - b.volume > _WASTE * shape.volume:
             return None
-        pieces = (*a.pieces, *b.pieces)
-        waste = 1 - volume_of_union(pieces) / shape.volume
+        waste = 1 - volume_of_union((*a.pieces, *b.pieces)) / shape.volume
         had = self._taken[one] + self._taken[other]
         if waste > _WASTE or self._overlap_others(shape, a.kind) - had > _TAKEN * shape.volume:
             return None
-        return round(waste, 9), PieceGroup(shape, tuple(sorted(a.members + b.members)), a.kind, pieces)
+        return round(waste, 9), _unite(a, b, shape)
+
+    def _enclose(self, one: int, other: int) -> Polytope:
+        """The hull around two groups."""
+        points = np.concatenate([self.groups[place].shape.vertices for place in (one, other)])
+        return convex_hull(points, name="pieces of a part", thicken=self._thickness)
 
     def _overlap_others(self, shape: Polytope, kind: int) -> float:
         """What a shape has of pieces of other kinds [m^3]."""
         others = (self._pieces[k] for k in np.flatnonzero(self._kinds != kind).tolist())
         return sum(overlap_volume(shape, piece) for piece in others)
+
+
+def _unite(a: PieceGroup, b: PieceGroup, shape: Polytope) -> PieceGroup:
+    """Two groups as one of the kind of the first."""
+    return PieceGroup(shape, tuple(sorted(a.members + b.members)), a.kind, (*a.pieces, *b.pieces))
 
 
 def _is_near(a: Polytope, b: Polytope, reach: float) -> bool:

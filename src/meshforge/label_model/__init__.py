@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from meshforge.label_model.posterior import FamilyModel, FamilyPosterior, infer_labels, model_family
     from meshforge.label_model.sides import correct_upright, find_doubtful_sides
     from meshforge.label_model.similar import find_similar
-    from meshforge.label_model.spans import AssetPieces, SpanModel, SpanPosterior, piece_mesh
+    from meshforge.label_model.spans import WHOLE, AssetPieces, SpanModel, SpanPosterior, piece_mesh
     from meshforge.label_model.table import (
         FamilyTable,
         Observations,
@@ -28,6 +28,7 @@ else:
 
 __all__ = [
     "EVIDENCE",
+    "WHOLE",
     "AssetCells",
     "AssetPieces",
     "CellModel",

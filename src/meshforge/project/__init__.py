@@ -31,12 +31,14 @@ if TYPE_CHECKING:
         can_ask_about_spans,
         choose_span_question,
     )
+    from meshforge.project.span_search import MADE_ANEW
     from meshforge.project.span_splits import Split
     from meshforge.project.status import AssetStatus, Status
 else:
     __getattr__ = export_lazily(__name__)
 
 __all__ = [
+    "MADE_ANEW",
     "SPLIT_DEFAULTS",
     "AssessmentBasis",
     "AssetStatus",

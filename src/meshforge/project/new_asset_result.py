@@ -34,11 +34,9 @@ class HullSplit:
     parts: Mapping[str, Label]
 
     def __str__(self) -> str:
-        """`base holds wall and handle, 94%: split in 3, wall (99%), 2 handle (97% to 98%)`."""
-        if not self.parts:
-            return f"{self.told}: none left"
+        """`base holds wall and handle, 94%: into wall (99%), 2 handle (97% to 98%)`."""
         parts = describe_parts((label.name, label.confidence) for label in self.parts.values())
-        return f"{self.told}: split in {len(self.parts)}, {parts}"
+        return f"{self.told}: into {parts or 'nothing'}"
 
 
 def parts_of(splits: Iterable[HullSplit]) -> dict[str, Label]:

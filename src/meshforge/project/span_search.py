@@ -13,6 +13,7 @@ from typing import Any
 from meshforge import batch
 from meshforge.common import ProjectError, describe_error
 from meshforge.formats import read
+from meshforge.label_model import WHOLE
 from meshforge.labels import NEW, HullSpan, LabelledPart, ReferenceFamily, SpanReport, find_spans, read_reference_family
 from meshforge.labels.family_comparison import Stage
 from meshforge.labels.spans import pieces_file
@@ -26,6 +27,8 @@ LIKELY = 0.5
 """The probability from which a hull is named, and asked about."""
 MOST_TOGETHER = 300
 """Assets of a project that are compared all with all; of more, each with the labelled ones alone."""
+MADE_ANEW = "made anew with its body"
+"""Why a hull of one part is replaced where its body is rebuilt."""
 _DIGITS = 3
 _TOLD = 3  # hulls that a note names
 
@@ -80,12 +83,14 @@ class SplitPlan:
 
 def list_likely(report: SpanReport, asset: str, least: float = LIKELY) -> dict[str, Split]:
     """The hulls of an asset that span parts with a probability of at least `least`, by name, and their parts; no parts
-    where no plane divides a hull."""
+    where no plane divides a hull. One that only reaches into a part which another hull stands for is not among them."""
     digests, found = hull_digests(report.meshes[asset]), dict[str, Split]()
     for span in report.spans_of(asset):
         if span.chance < least:
             continue
         parts = report.divide(asset, span.hull)
+        if len(parts) == 1 and parts[0][2] >= WHOLE:
+            continue
         found[span.hull] = make_split(span, digests[span.hull], parts if len(parts) > 1 else [])
     return found
 
@@ -126,11 +131,12 @@ def _rebuild(report: SpanReport, asset: str, plan: SplitPlan) -> SplitPlan:
     mesh = report.meshes[asset]
     digests, spans = hull_digests(mesh), {span.hull: span for span in report.spans_of(asset)}
     bodies = dict.fromkeys(mesh.hull_of(span.hull).body for span in plan.spanning)
+    named = {span.hull for span in plan.spanning}
     made = {body: rows for body in bodies if (rows := report.rebuild(asset, body))}
     splits = list[Split]()
     for rows in made.values():
         for hull, parts in rows.items():
-            told = None if spans[hull] in plan.spanning else f"{hull}, made anew with its body"
+            told = None if hull in named else f"{hull}, {MADE_ANEW}"
             splits.append(make_split(spans[hull], digests[hull], parts, told))
     return replace(
         plan,

@@ -31,11 +31,8 @@ class Split:
     shapes: tuple[Polytope, ...]
 
     def __str__(self) -> str:
-        """`base holds wall and handle, 94%: split in 3, 2 wall (97% to 98%), handle (93%)`."""
-        count = len(self.span.parts)
-        return (
-            f"{self.span.told}: split in {count}, {self.span.parts_told}" if count else f"{self.span.told}: none left"
-        )
+        """`base holds wall and handle, 94%: into 2 wall (97% to 98%), handle (93%)`."""
+        return f"{self.span.told}: into {self.span.parts_told or 'nothing'}"
 
     def divide(self, mesh: SymbolicMesh) -> tuple[SymbolicMesh, tuple[str, ...]]:
         """A mesh to look at, with the parts in the place of the hull, each with its label; and their names."""

@@ -53,12 +53,12 @@ def test_what_was_split_is_told_and_the_program_sees_the_parts(run: Run) -> None
     told = run("apply", "p", "new", "--out", "out", "--workers", "1")
     assert told.code == 0
     assert "edited     c.urdf: 5 -> 5 hulls\n    note: base/h0 holds seat and leg, " in told.out
-    assert "%: split in 2, " in told.out and "by likeness to the family; least sure: " in told.out
+    assert "%: into " in told.out and "by likeness to the family; least sure: " in told.out
     assert "1 hull of new assets split (c.urdf)" in told.err
     assert tree(Path("new")) == before
     assert sorted(hull.label or "" for hull in load("out/c.urdf").hulls) == sorted(PARTS)
     again = run("apply", "p", "new", "--out", "out", "--workers", "1")
-    assert "skipped    c.urdf" in again.out and "split in 2" in again.out
+    assert "skipped    c.urdf" in again.out and "%: into " in again.out
 
 
 def test_as_json(run: Run) -> None:
@@ -83,9 +83,9 @@ def test_a_dry_run_writes_nothing(run: Run) -> None:
     add_to_project()
     before = tree(Path("p"))
     told = run("apply", "p", "--dry-run", "--workers", "1")
-    assert told.code == 0 and "split in 2" in told.out and tree(Path("p")) == before
+    assert told.code == 0 and "%: into " in told.out and tree(Path("p")) == before
     told = run("apply", "p", "new", "--out", "out", "--dry-run", "--workers", "1")
-    assert told.code == 0 and "split in 2" in told.out and not Path("out").exists()
+    assert told.code == 0 and "%: into " in told.out and not Path("out").exists()
 
 
 @pytest.mark.slow
@@ -104,13 +104,13 @@ def test_what_came_later_is_prepared_in_the_project_once(run: Run) -> None:
 def test_no_split_in_a_project_is_made_good_by_the_next_run(run: Run) -> None:
     add_to_project()
     assert "%: not split" in run("apply", "p", "--workers", "1", "--no-split").out
-    assert "split in 2" in run("apply", "p", "--workers", "1").out
+    assert "%: into " in run("apply", "p", "--workers", "1").out
 
 
 def test_removing_all_that_was_prepared_ends_it(run: Run) -> None:
     assert run("prepare", "p", "--remove").code == 0
     told = run("apply", "p", "new", "--out", "out", "--workers", "1")
-    assert "split in 2" not in told.out and "not split" not in told.out
+    assert "%: into " not in told.out and "not split" not in told.out
 
 
 def test_the_projects_own_assets_are_taken_as_they_are_there(run: Run) -> None:
@@ -126,8 +126,8 @@ def test_what_is_less_sure_than_asked_is_held_and_reported(run: Run) -> None:
     told = run("apply", "p", "new", "--out", "out", "--workers", "1", "--sure", "0.5", "--json", "--report", "r.html")
     line = json.loads(told.out)
     assert 0.5 <= line["probability"] <= line["split"][0]["chance"]
-    assert any("split in 2" in doubt["text"] for doubt in line["doubts"])
-    assert "split in 2" in Path("r.html").read_text()
+    assert any("%: into " in doubt["text"] for doubt in line["doubts"])
+    assert "%: into " in Path("r.html").read_text()
 
 
 @pytest.mark.parametrize(

@@ -70,7 +70,7 @@ def test_a_new_hull_that_spans_parts_is_split_and_all_is_labelled(folder: Path) 
     (split,) = found["c.urdf"].splits
     assert split.hull == "base/h0" and split.chance is not None and split.chance > 0.7
     assert {label.name for label in split.parts.values()} == {"seat", "leg"}
-    assert str(split).startswith(f"base/h0 holds seat and leg, {split.chance:.0%}: split in 2, ")
+    assert str(split).startswith(f"base/h0 holds seat and leg, {split.chance:.0%}: into leg (")
     labels = read_labels(folder / "aside/labels/c.urdf.json").labels
     assert [label.name for label in labels.values()].count("seat") == 1 and len(labels) == 5
     assert {label.source for label in labels.values()} == {"propagated", "split"}, "no guess passes for a fact"
@@ -163,7 +163,7 @@ def test_new_assets_are_rebuilt_where_those_of_the_project_were(folder: Path) ->
     assert [one.hull for one in found.splits] == [f"base/h{k}" for k in range(4)]
     spanning, *others = found.splits
     assert spanning.chance is not None and {one.chance for one in others} == {None}
-    assert str(others[0]).startswith("base/h1, made anew with its body: split in 1, leg (")
+    assert str(others[0]).startswith("base/h1, made anew with its body: into leg (")
     assert found.spanning == () and found.probability > 0.5, "no hull is in doubt for being made anew"
     labels = read_labels(folder / "aside/labels/c.urdf.json").labels
     assert sorted(label.name for label in labels.values()) == sorted(PARTS)

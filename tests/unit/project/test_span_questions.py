@@ -79,7 +79,7 @@ def test_a_hull_that_no_plane_divides_is_named_and_not_asked_about(
     project: Project, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     divide = SpanReport.divide
-    monkeypatch.setattr(SpanReport, "divide", lambda *given: divide(*given)[:1])
+    monkeypatch.setattr(SpanReport, "divide", lambda *given: [(*divide(*given)[0][:2], 0.6)])
     project.list_spans(execution=IN_PROCESS)
     assert asked(project) is None
     assert [len(row.spans) for row in project.status().assets] == [0, 0, 1, 1]
