@@ -4,9 +4,11 @@ solid decomposed by itself, its pieces cut at creases."""
 from __future__ import annotations
 
 import hashlib
+from collections.abc import Mapping
 from contextlib import suppress
 from importlib.metadata import version
 from pathlib import Path
+from typing import Literal
 
 import numpy as np
 
@@ -15,7 +17,7 @@ from meshforge.geometry import connectivity
 from meshforge.geometry.arrays import Floats, Ints
 from meshforge.geometry.convex import FLATNESS, convex_hull, principal_extents
 from meshforge.geometry.decomposition.creases import cut_at_creases, find_creases
-from meshforge.geometry.decomposition.engines import CoacdSettings, DecomposeSettings
+from meshforge.geometry.decomposition.engines import CoacdSettings, DecomposeSettings, VhacdSettings
 from meshforge.geometry.decomposition.run import cache_key, decompose, read_entry, write_entry
 from meshforge.geometry.decomposition.triangles import TriangleMesh, clean_triangles, is_sheet, sheet_hulls
 from meshforge.geometry.shape import Polytope, volume_and_centroid
@@ -23,6 +25,9 @@ from meshforge.geometry.solids import list_hulls_within
 
 FINE = CoacdSettings(threshold=0.05, resolution=500, mcts_iterations=20, mcts_nodes=10, mcts_max_depth=2)
 """CoACD's settings for fine pieces: those of its authors, but for a shorter search, for time."""
+PieceEngine = Literal["coacd", "vhacd"]
+FINE_SETTINGS: Mapping[PieceEngine, DecomposeSettings] = {"coacd": FINE, "vhacd": VhacdSettings(resolution=100_000)}
+"""The settings for fine pieces of each engine; V-HACD's are those of its authors, with fewer voxels, for time."""
 _VERSION = 1  # of what is made of an engine's pieces; another one after any change, so that the cache forgets
 _CONVEX = 0.995  # of the volume of its convex hull: such a solid is one piece
 _SMALL = 0.03  # of the surface's diagonal: a smaller component is one piece
@@ -30,14 +35,14 @@ _MOST = 80  # components that are decomposed, the largest
 
 
 def decompose_finely(
-    vertices: Floats, faces: Ints, settings: DecomposeSettings = FINE, *, cache: Path | None = None
+    vertices: Floats, faces: Ints, engine: PieceEngine = "coacd", *, cache: Path | None = None
 ) -> tuple[Polytope, ...]:
     """Fine convex pieces of vertices (n, 3) [m] and faces (m, 3), the same for the same input.
 
-    cache: a folder for the pieces and for results of the engine, None keeps none.
+    engine: which makes them; cache: a folder for the pieces and for results of the engine, None keeps none.
     Raises GeometryError: nothing that has an area, a coordinate that is not finite.
     """
-    mesh = clean_triangles(vertices, faces)
+    mesh, settings = clean_triangles(vertices, faces), FINE_SETTINGS[engine]
     key = _cache_key(mesh, settings)
     if cache and (known := read_entry(cache, key)) is not None:
         return tuple(Polytope(*piece) for piece in known)
