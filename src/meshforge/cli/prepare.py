@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import asdict, dataclass
-from functools import partial
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -16,7 +15,7 @@ from meshforge.cli.console import progress
 from meshforge.cli.terminal import print_json
 from meshforge.common import UsageError, describe_error, pluralize
 from meshforge.geometry import DecomposeSettings
-from meshforge.project import SURE_TO_SPAN, PreparationResult, Project, forget_plan
+from meshforge.project import SPLIT_DEFAULTS, PreparationResult, Project, SplitSettings, forget_plan
 
 
 @dataclass(frozen=True, slots=True)
@@ -77,9 +76,7 @@ def prepare(given: PrepareArguments) -> None:
         what = "--decompose METHOD, --split-spanning, --rebuild-spanning, --undo or --remove"
         raise UsageError(f"say what to do: {what}")
     if not spanning:
-        options.refuse_options(given.context, ("sure", "dry_run"), "--split-spanning or --rebuild-spanning")
-    if not given.split_spanning:
-        options.refuse_options(given.context, ("limits",), "--split-spanning")
+        options.refuse_options(given.context, ("sure", "dry_run", "limits"), "--split-spanning or --rebuild-spanning")
     if given.undo and not given.assets:
         raise UsageError("--undo of which asset?", remedy="Name it; --remove takes back everything, of all assets too.")
     project = Project.open(given.project)
@@ -113,13 +110,11 @@ def prepare(given: PrepareArguments) -> None:
 def _divide_spanning(project: Project, given: PrepareArguments) -> int:
     """Split hulls that span parts, or rebuild their bodies, and print what became of each asset; the exit code."""
     options.refuse_options(given.context, ("option", "only", "again", "hollow", "by"), "--decompose METHOD")
-    change: Callable[..., Iterator[PreparationResult]] = project.rebuild_spanning
-    if given.split_spanning:
-        change = partial(project.split_spanning, engine=given.limits)
-    results = change(
+    results = project.split_spanning(
         [options.asset_id(asset, project) for asset in given.assets] if given.assets else None,
-        sure=SURE_TO_SPAN if given.sure is None else given.sure,
+        SplitSettings(SPLIT_DEFAULTS.sure if given.sure is None else given.sure, given.rebuild_spanning),
         dry_run=given.dry_run,
+        engine=given.limits,
         execution=ExecutionOptions(workers=given.workers, timeout=given.timeout),
         stage=progress,
     )

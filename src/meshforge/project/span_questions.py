@@ -8,7 +8,7 @@ from dataclasses import replace
 from meshforge.common import ProjectError
 from meshforge.project.span_splits import likely_spans, mark_as_one_part, read_spans, split_as_found
 from meshforge.project.split_examples import has_split_examples, propose_lookalikes
-from meshforge.signoff import Assessment, HullPlace, ReviewChoice, ReviewQuestion
+from meshforge.signoff import Assessment, Doubt, HullPlace, ReviewChoice, ReviewQuestion
 from meshforge.signoff.prices import YES_OR_NO
 from meshforge.signoff.question import ONE_PART, SPLIT, identify
 from meshforge.store import SpanLine, Store, hull_digests
@@ -28,6 +28,21 @@ def ask_about_spans(
     if question is None or (other and has_program and other.worth >= question.worth):
         return found
     return replace(found, question=question)
+
+
+def add_span_doubts(
+    store: Store, meshes: Mapping[str, SymbolicMesh], found: Assessment, seen: Collection[str]
+) -> Assessment:
+    """The same, where an edit is right at most as probably as that no hull of the asset spans parts.
+
+    meshes: those of the family, by id; seen: assets of which a person saw what the edit makes of them.
+    """
+    files, assets = read_spans(store), dict(found.assets)
+    for asset in sorted({asset for file in files for asset in file.assets} & meshes.keys() & assets.keys() - set(seen)):
+        likely = likely_spans(files, asset, hull_digests(meshes[asset]))
+        doubts = [Doubt("label", line.told, (hull,), share=line.chance) for hull, line in likely.items()]
+        assets[asset] = assets[asset].with_doubts(doubts)
+    return replace(found, assets=assets)
 
 
 def can_ask_about_spans(store: Store) -> bool:

@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+import json
 import shutil
 from pathlib import Path
 
@@ -9,7 +10,7 @@ import pytest
 from meshforge.batch import IN_PROCESS
 from meshforge.common import ProjectError, UsageError
 from meshforge.geometry import overlap_volume, volume_of_union
-from meshforge.project import PreparationResult, Project, span_search
+from meshforge.project import PreparationResult, Project, SplitSettings, span_search
 from meshforge.symbolic import Label
 from tests.unit.project.stools import PARTS, boxes, coarse, write_stool
 
@@ -37,9 +38,11 @@ def project(made: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Proj
     return Project.open(tmp_path / "p")
 
 
-def split(project: Project, *assets: str, **more: object) -> list[PreparationResult]:
-    more = {"sure": SURE, **more}
-    return list(project.split_spanning(assets or None, execution=IN_PROCESS, **more))  # type: ignore[arg-type]
+def split(
+    project: Project, *assets: str, sure: float = SURE, rebuild: bool = False, **more: object
+) -> list[PreparationResult]:
+    how = SplitSettings(sure, rebuild)
+    return list(project.split_spanning(assets or None, how, execution=IN_PROCESS, **more))  # type: ignore[arg-type]
 
 
 def files(project: Project) -> dict[str, bytes]:
@@ -100,7 +103,7 @@ def test_the_same_parts_whatever_the_number_of_workers_and_once_more_nothing(pro
     shutil.copytree(tmp_path / "p", tmp_path / "q")
     split(project)
     other = Project.open(tmp_path / "q")
-    list(other.split_spanning(sure=SURE))
+    list(other.split_spanning(how=SplitSettings(SURE)))
     assert files(project)["prepared/c.urdf/hulls.obj"] == files(other)["prepared/c.urdf/hulls.obj"]
     assert [result.made for result in split(project)] == [(), (), ()], "parts are of one label each"
 
@@ -210,9 +213,8 @@ def test_propagation_leaves_what_the_surface_says_of_parts(project: Project) -> 
     assert all(after.hull_of(name).source == "propagated" for name in others)
 
 
-def rebuild(project: Project, *assets: str, **more: object) -> list[PreparationResult]:
-    more = {"sure": SURE, **more}
-    return list(project.rebuild_spanning(assets or None, execution=IN_PROCESS, **more))  # type: ignore[arg-type]
+def rebuild(project: Project, *assets: str, dry_run: bool = False) -> list[PreparationResult]:
+    return split(project, *assets, rebuild=True, dry_run=dry_run)
 
 
 def test_a_body_is_rebuilt_part_by_part_and_taken_back_to_the_last_byte(project: Project) -> None:
@@ -224,7 +226,9 @@ def test_a_body_is_rebuilt_part_by_part_and_taken_back_to_the_last_byte(project:
     assert sorted(str(hull.label) for hull in mesh.hulls) == sorted(PARTS), "one hull a part"
     assert sorted(hull.volume for hull in mesh.hulls) == pytest.approx(sorted(part.volume for part in parts), rel=1e-3)
     project.unprepare("c.urdf")
-    assert files(project) == before
+    after = files(project)
+    assert json.loads(after.pop("preparation.json"))["rebuild"] is True, "what is to be done to new assets stays"
+    assert after == before
 
 
 def test_rebuilding_says_first_what_it_would_do_and_leaves_what_a_person_said_is_one_part(project: Project) -> None:
