@@ -57,7 +57,8 @@ class ReferenceFamily:
         known = {asset: one.mesh for asset, one in self.pieces.items()}
         pieces = {asset: FinePieces(one.pieces) for asset, one in self.pieces.items()}
         cells = self.cells if own.unseen else {}
-        return infer_spans({NEW: mesh, **known}, {NEW: own, **pieces}, {}, self.pieces, cells)
+        report = infer_spans({NEW: mesh, **known}, {NEW: own, **pieces}, {}, self.pieces, cells)
+        return replace(report, engine=self.engine)
 
     def without(self, asset: str) -> ReferenceFamily:
         """The family without one of its assets, to which that is to be compared."""

@@ -6,7 +6,7 @@ from __future__ import annotations
 import hashlib
 import json
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
 from types import MappingProxyType
@@ -66,7 +66,7 @@ class SpanReport:
     """What was found. meshes: the assets that were looked at, as they are prepared; lost: why others were not;
 
     by_surface, by_cells: what is known of hulls that stand for a surface, and of others; None where no hull is such;
-    unseen: the bodies, by asset, that have no surface.
+    unseen: the bodies, by asset, that have no surface; engine: which made the fine pieces.
     """
 
     meshes: Mapping[str, SymbolicMesh]
@@ -74,6 +74,7 @@ class SpanReport:
     by_cells: SpanPosterior | None
     unseen: Mapping[str, frozenset[str]]
     lost: Mapping[str, str]
+    engine: PieceEngine = "coacd"
 
     @cached_property
     def bare(self) -> Mapping[str, tuple[str, ...]]:
@@ -178,7 +179,7 @@ def find_spans(
     if not pieces:
         remedy = next(iter(lost.values()), "Give the project assets that can be read: meshforge add.")
         raise ProjectError("no asset can be read", where=str(store.folder), remedy=remedy)
-    return infer_spans({asset: meshes[asset] for asset in pieces}, pieces, lost)
+    return replace(infer_spans({asset: meshes[asset] for asset in pieces}, pieces, lost), engine=engine)
 
 
 def find_pieces(
