@@ -110,7 +110,8 @@ def _parse_plan(settings: Mapping[str, Any]) -> DecompositionPlan | None:
         own = kind(**values)
     except (MeshForgeError, TypeError):
         return None
-    by: DecomposeBy = "parts" if rest.get("by") == "parts" else "whole"
+    known_ways: tuple[DecomposeBy, ...] = get_args(DecomposeBy)
+    by: DecomposeBy = next((one for one in known_ways if one == rest.get("by")), "whole")
     return DecompositionPlan(own, tuple(rest.get("only", ())), bool(rest.get("hollow")), by)
 
 

@@ -1,0 +1,168 @@
+"""The parts of a surface by segmented points or faces: the class of each triangle, as islands that are parts."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+
+import numpy as np
+
+from meshforge.common import AssetError, GeometryError
+from meshforge.formats.segmentation.alignment import PointAlignment, Up, align_points
+from meshforge.formats.segmentation.base import Segmentation, find_class_names
+from meshforge.formats.segmentation.reader import attach_own_mesh, read_segmentation
+from meshforge.formats.segmentation.samples import PointSamples, samples_of_faces, samples_of_points
+from meshforge.geometry import Aabb, Floats, Ints, SurfaceParts, separate_parts
+
+REST = "rest"
+"""The name of the part of all that has no class."""
+_VOTES = 5  # points, the nearest, that say what a place on the surface is: a tenth of them may be wrong
+_NEAR = 0.02  # of the diagonal: what is farther from all points has no class
+_LEAST = 0.5  # of a surface that is near points, and of points that are near the surface
+_SAME = 1e-5  # of the diagonal: faces whose middles are no farther apart are the same
+_PURE, _TOLD = 0.9, 0.01  # of a triangle that is of its part; of the surface that is told to be of several
+
+
+@dataclass(frozen=True, slots=True)
+class SegmentationFile:
+    """A file of segmented points or faces. classes: the names of classes 0, 1, ..., none where files say them."""
+
+    path: Path
+    classes: tuple[str, ...] = ()
+    placing: PointAlignment = field(default_factory=PointAlignment)
+
+
+def read_parts(
+    surfaces: Sequence[tuple[Floats, Ints]],
+    file: SegmentationFile,
+    asset: Path,
+    up: Up | None = None,
+    note: Callable[[str], None] = lambda _: None,
+) -> list[SurfaceParts]:
+    """The parts of surfaces, vertices (n, 3) [m] and faces (m, 3) each, by a file about all of them together.
+
+    Each connected patch of a class is a part; what has no class, or is far from all points, is `rest`. asset: the file
+    of the surfaces, whose own faces the classes may be of; up: the axis that its format says points up; note: called
+    with what a user should know.
+    Raises AssetError: the file cannot be read, or does not lie where the surfaces do.
+    """
+    starts = np.cumsum([0, *(len(vertices) for vertices, _ in surfaces)])
+    vertices = np.concatenate([vertices for vertices, _ in surfaces])
+    faces = np.concatenate([own + start for (_, own), start in zip(surfaces, starts, strict=False)])
+    found = _align(read_segmentation(file.path), vertices[faces].reshape(-1, 3), file, asset, up)
+    try:
+        kinds, told = _find_kinds(found, vertices, faces, is_checked=file.placing.align != "off")
+    except GeometryError as error:
+        raise AssetError(error.problem, where=str(file.path), remedy=error.remedy) from error
+    for text in told:
+        note(text)
+    names = find_class_names(found, file.path, file.classes)
+    known, of_face = np.unique(kinds, return_inverse=True)
+    called = [REST if k < 0 else names.get(k) or f"part_{k}" for k in known.tolist()]
+    parts = separate_parts(vertices, faces, SurfaceParts(of_face.reshape(-1), tuple(called)))
+    ends = np.cumsum([len(own) for _, own in surfaces])
+    return [parts.select(np.arange(end - len(own), end)) for (_, own), end in zip(surfaces, ends, strict=True)]
+
+
+def _align(found: Segmentation, corners: Floats, file: SegmentationFile, asset: Path, up: Up | None) -> Segmentation:
+    """The segmentation in the frame of a surface, of whose triangles the corners (n, 3) are."""
+    where = str(file.path)
+    if found.vertices is None:
+        found = attach_own_mesh(found, asset, where)
+    assert found.vertices is not None
+    try:
+        return replace(found, vertices=align_points(found.vertices, [Aabb.of_points(corners)], file.placing, up))
+    except GeometryError as error:
+        raise AssetError(error.problem, where=where, remedy=error.remedy) from error
+
+
+def _find_kinds(found: Segmentation, vertices: Floats, faces: Ints, *, is_checked: bool) -> tuple[Ints, list[str]]:
+    """The class of each of faces (m, 3), -1 for none, and sentences on what is not as clear as it could be.
+
+    Raises GeometryError where they are checked, and points and surface lie mostly apart.
+    """
+    own = samples_of_faces(vertices, faces, np.arange(len(faces)), each=True)
+    diagonal = float(np.linalg.norm(np.ptp(own.points, axis=0)))
+    said = _to_samples(found)
+    kinds, gaps = _vote(own.points, said, 1 if len(found.faces) else _VOTES)
+    if is_checked:
+        _refuse_apart(own, said, gaps, _NEAR * diagonal)
+    kinds[gaps > _NEAR * diagonal] = -1
+    of_face, purity = _find_majority(own, kinds, len(faces))
+    areas = np.bincount(own.classes, own.weights, len(faces))
+    if found.of_faces:
+        same = _match_faces(found, vertices, faces, _SAME * diagonal)
+        of_face = np.where(same >= 0, found.classes[same], of_face)
+        purity[same >= 0] = 1.0
+    told = []
+    total = max(float(areas.sum()), np.finfo(float).tiny)
+    mixed = float(areas[purity < _PURE].sum()) / total
+    if mixed >= _TOLD:
+        told.append(
+            f"{mixed:.0%} of the surface is in triangles of several parts: each goes to the part with most of it"
+        )
+    bare = float(own.weights[gaps > _NEAR * diagonal].sum()) / total
+    if bare >= _TOLD:
+        told.append(f"{bare:.0%} of the surface is far from all labelled points, so it is a part by itself, {REST}")
+    return np.maximum(of_face, -1), told
+
+
+def _to_samples(found: Segmentation) -> PointSamples:
+    """Points with classes, in an order that does not depend on that of the file."""
+    assert found.vertices is not None
+    if len(found.faces):
+        return samples_of_faces(found.vertices, found.faces, found.classes, each=found.of_faces)
+    order = np.lexsort((found.classes, *found.vertices.T))
+    return samples_of_points(found.vertices[order], found.classes[order])
+
+
+def _vote(places: Floats, said: PointSamples, votes: int) -> tuple[Ints, Floats]:
+    """What most of the points nearest to each of some places (n, 3) are, the nearest of classes with as many, and how
+    far (n,) the nearest point is [m]."""
+    from scipy.spatial import cKDTree  # lazy: slow to import, only segmentations need it
+
+    count = min(votes, len(said.points))
+    found, nearest = cKDTree(said.points).query(places, k=np.arange(1, count + 1))
+    gaps, kinds = np.asarray(found), said.classes[nearest]
+    support = (kinds[:, :, None] == kinds[:, None, :]).sum(axis=2)
+    return kinds[np.arange(len(kinds)), support.argmax(axis=1)], gaps[:, 0]
+
+
+def _refuse_apart(own: PointSamples, said: PointSamples, gaps: Floats, near: float) -> None:
+    """Raise GeometryError where most of the surface is far from all points, or most points are far from the surface."""
+    from scipy.spatial import cKDTree  # lazy: as above
+
+    remedy = "It may be turned, or of another asset. If it is right, say --align off."
+    covered = float(own.weights[gaps <= near].sum()) / max(float(own.weights.sum()), np.finfo(float).tiny)
+    if covered < _LEAST:
+        problem = f"only {covered:.0%} of the surface has labelled points near it"
+        raise GeometryError(problem, remedy=remedy)
+    away, _ = cKDTree(own.points).query(said.points)
+    on = float(said.weights[away <= near].sum()) / max(float(said.weights.sum()), np.finfo(float).tiny)
+    if on < _LEAST:
+        raise GeometryError(f"only {on:.0%} of its points are near the surface", remedy=remedy)
+
+
+def _find_majority(own: PointSamples, kinds: Ints, count: int) -> tuple[Ints, Floats]:
+    """The class (count,) of each face that has most of it, the lowest of equal ones, and its share (count,).
+
+    own: places on the surface, whose classes are faces; kinds: the class of each.
+    """
+    pairs, place = np.unique(np.column_stack([own.classes, kinds]), axis=0, return_inverse=True)
+    sizes = np.bincount(place.reshape(-1), own.weights)
+    order = np.lexsort((pairs[:, 1], -sizes, pairs[:, 0]))
+    firsts = order[np.unique(pairs[order, 0], return_index=True)[1]]
+    total = np.bincount(own.classes, own.weights, count)
+    share = sizes[firsts] / np.where(total > 0, total, np.inf)
+    return pairs[firsts, 1], np.where(total > 0, share, 1.0)
+
+
+def _match_faces(found: Segmentation, vertices: Floats, faces: Ints, reach: float) -> Ints:
+    """The segmented face (m,) that each of faces (m, 3) is, -1 for none."""
+    from scipy.spatial import cKDTree  # lazy: as above
+
+    assert found.vertices is not None
+    middles = found.vertices[found.faces].mean(axis=1)
+    gaps, place = cKDTree(middles).query(vertices[faces].mean(axis=1))
+    return np.where(gaps <= reach, place, -1)
