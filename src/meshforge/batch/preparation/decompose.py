@@ -15,7 +15,7 @@ from meshforge import geometry
 from meshforge.batch.preparation import record
 from meshforge.common import MeshForgeError, join_names, pluralize
 from meshforge.formats import DecomposeBy, SegmentationFile, labels_beside, plain_part_name, points_beside, read_parts
-from meshforge.geometry import DecomposeSettings, Floats, Polytope
+from meshforge.geometry import Aabb, DecomposeSettings, Floats, Polytope
 from meshforge.symbolic import Asset, Surface
 
 _NEAR = 0.01  # of the diagonal: surface farther outside of all hulls than this is not covered
@@ -125,9 +125,20 @@ def _label_sources(
         note(f"no labels of points or faces lie beside {asset.path.name}")
         return tuple(replace(one, surface=replace(one.surface, parts=None)) for one in sources)
     surfaces = [(one.surface.vertices, one.surface.faces) for one in sources]
-    found = read_parts(surfaces, SegmentationFile(beside), asset.path, asset.up, note)
+    found = read_parts(surfaces, SegmentationFile(beside), asset.path, asset.up, note, _list_boxes(asset, sources))
     rows = zip(sources, found, strict=True)
     return tuple(replace(one, surface=replace(one.surface, parts=parts)) for one, parts in rows)
+
+
+def _list_boxes(asset: Asset, sources: Sequence[record.DecompositionSource]) -> list[Aabb]:
+    """Boxes that points of an asset may fill: that around all that collides, and that around all that is shown."""
+    hulls = [geom.shape.aabb for geom in asset.geoms]
+    pieces, shown = (_boxes_of(surfaces) for surfaces in ([one.surface for one in sources], asset.visuals))
+    return [Aabb.union(boxes) for boxes in ([*hulls, *pieces], shown) if boxes]
+
+
+def _boxes_of(surfaces: Sequence[Surface]) -> list[Aabb]:
+    return [Aabb.of_points(one.vertices[one.faces].reshape(-1, 3)) for one in surfaces if len(one.faces)]
 
 
 def _name_by_parts(base: str, parts: Sequence[str], taken: set[str]) -> list[str]:

@@ -21,6 +21,7 @@ _VOTES = 5  # points, the nearest, that say what a place on the surface is: a te
 _NEAR = 0.02  # of the diagonal: what is farther from all points has no class
 _LEAST = 0.5  # of a surface that is near points, and of points that are near the surface
 _SAME = 1e-5  # of the diagonal: faces whose middles are no farther apart are the same
+_APART = "It may be turned, or of another asset. If it is right, say --align off."
 _PURE, _TOLD = 0.9, 0.01  # of a triangle that is of its part; of the surface that is told to be of several
 
 
@@ -39,20 +40,23 @@ def read_parts(
     asset: Path,
     up: Up | None = None,
     note: Callable[[str], None] = lambda _: None,
+    beside: Sequence[Aabb] = (),
 ) -> list[SurfaceParts]:
     """The parts of surfaces, vertices (n, 3) [m] and faces (m, 3) each, by a file about all of them together.
 
     Each connected patch of a class is a part; what has no class, or is far from all points, is `rest`. asset: the file
     of the surfaces, whose own faces the classes may be of; up: the axis that its format says points up; note: called
-    with what a user should know.
+    with what a user should know; beside: boxes of more that the points may be of, besides the surfaces, none where they
+    are of these alone.
     Raises AssetError: the file cannot be read, or does not lie where the surfaces do.
     """
     starts = np.cumsum([0, *(len(vertices) for vertices, _ in surfaces)])
     vertices = np.concatenate([vertices for vertices, _ in surfaces])
     faces = np.concatenate([own + start for (_, own), start in zip(surfaces, starts, strict=False)])
-    found = _align(read_segmentation(file.path), vertices[faces].reshape(-1, 3), file, asset, up)
+    own = Aabb.of_points(vertices[faces].reshape(-1, 3))
+    found = _align(read_segmentation(file.path), [own, *beside], file, asset, up)
     try:
-        kinds, told = _find_kinds(found, vertices, faces, is_checked=file.placing.align != "off")
+        kinds, told = _find_kinds(found, vertices, faces, is_checked=file.placing.align != "off", is_part=bool(beside))
     except GeometryError as error:
         raise AssetError(error.problem, where=str(file.path), remedy=error.remedy) from error
     for text in told:
@@ -65,29 +69,36 @@ def read_parts(
     return [parts.select(np.arange(end - len(own), end)) for (_, own), end in zip(surfaces, ends, strict=True)]
 
 
-def _align(found: Segmentation, corners: Floats, file: SegmentationFile, asset: Path, up: Up | None) -> Segmentation:
-    """The segmentation in the frame of a surface, of whose triangles the corners (n, 3) are."""
+def _align(
+    found: Segmentation, boxes: Sequence[Aabb], file: SegmentationFile, asset: Path, up: Up | None
+) -> Segmentation:
+    """The segmentation in the frame of what is in one of some boxes."""
     where = str(file.path)
     if found.vertices is None:
         found = attach_own_mesh(found, asset, where)
     assert found.vertices is not None
     try:
-        return replace(found, vertices=align_points(found.vertices, [Aabb.of_points(corners)], file.placing, up))
+        return replace(found, vertices=align_points(found.vertices, boxes, file.placing, up))
     except GeometryError as error:
         raise AssetError(error.problem, where=where, remedy=error.remedy) from error
 
 
-def _find_kinds(found: Segmentation, vertices: Floats, faces: Ints, *, is_checked: bool) -> tuple[Ints, list[str]]:
+def _find_kinds(
+    found: Segmentation, vertices: Floats, faces: Ints, *, is_checked: bool, is_part: bool
+) -> tuple[Ints, list[str]]:
     """The class of each of faces (m, 3), -1 for none, and sentences on what is not as clear as it could be.
 
-    Raises GeometryError where they are checked, and points and surface lie mostly apart.
+    is_part: the points may be of more than these. Raises GeometryError where they are checked, and points and surface
+    lie mostly apart.
     """
     own = samples_of_faces(vertices, faces, np.arange(len(faces)), each=True)
     diagonal = float(np.linalg.norm(np.ptp(own.points, axis=0)))
     said = _to_samples(found)
     kinds, gaps = _vote(own.points, said, 1 if len(found.faces) else _VOTES)
     if is_checked:
-        _refuse_apart(own, said, gaps, _NEAR * diagonal)
+        _refuse_bare(own, gaps, _NEAR * diagonal)
+        if not is_part:
+            _refuse_away(own, said, _NEAR * diagonal)
     kinds[gaps > _NEAR * diagonal] = -1
     of_face, purity = _find_majority(own, kinds, len(faces))
     areas = np.bincount(own.classes, own.weights, len(faces))
@@ -129,19 +140,21 @@ def _vote(places: Floats, said: PointSamples, votes: int) -> tuple[Ints, Floats]
     return kinds[np.arange(len(kinds)), support.argmax(axis=1)], gaps[:, 0]
 
 
-def _refuse_apart(own: PointSamples, said: PointSamples, gaps: Floats, near: float) -> None:
-    """Raise GeometryError where most of the surface is far from all points, or most points are far from the surface."""
-    from scipy.spatial import cKDTree  # lazy: as above
-
-    remedy = "It may be turned, or of another asset. If it is right, say --align off."
+def _refuse_bare(own: PointSamples, gaps: Floats, near: float) -> None:
+    """Raise GeometryError where most of the surface is far from all points."""
     covered = float(own.weights[gaps <= near].sum()) / max(float(own.weights.sum()), np.finfo(float).tiny)
     if covered < _LEAST:
-        problem = f"only {covered:.0%} of the surface has labelled points near it"
-        raise GeometryError(problem, remedy=remedy)
+        raise GeometryError(f"only {covered:.0%} of the surface has labelled points near it", remedy=_APART)
+
+
+def _refuse_away(own: PointSamples, said: PointSamples, near: float) -> None:
+    """Raise GeometryError where most points are far from the surface."""
+    from scipy.spatial import cKDTree  # lazy: as above
+
     away, _ = cKDTree(own.points).query(said.points)
     on = float(said.weights[away <= near].sum()) / max(float(said.weights.sum()), np.finfo(float).tiny)
     if on < _LEAST:
-        raise GeometryError(f"only {on:.0%} of its points are near the surface", remedy=remedy)
+        raise GeometryError(f"only {on:.0%} of its points are near the surface", remedy=_APART)
 
 
 def _find_majority(own: PointSamples, kinds: Ints, count: int) -> tuple[Ints, Floats]:
