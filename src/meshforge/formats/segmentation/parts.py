@@ -18,11 +18,12 @@ from meshforge.geometry import Aabb, Floats, Ints, SurfaceParts, separate_parts
 REST = "rest"
 """The name of the part of all that has no class."""
 _VOTES = 5  # points, the nearest, that say what a place on the surface is: a tenth of them may be wrong
-_NEAR = 0.02  # of the diagonal: what is farther from all points has no class
+_NEAR = 0.02, 0.1  # of the diagonal: what is farther from all points has no class; the second where these are few
+_SPACES = 3.0  # mean distances of points that count as near
 _LEAST = 0.5  # of a surface that is near points, and of points that are near the surface
 _SAME = 1e-5  # of the diagonal: faces whose middles are no farther apart are the same
 _APART = "It may be turned, or of another asset. If it is right, say --align off."
-_PURE, _TOLD = 0.9, 0.01  # of a triangle that is of its part; of the surface that is told to be of several
+_TOLD = 0.02  # of the surface: what is as good as told to be of another part, or of none
 
 
 @dataclass(frozen=True, slots=True)
@@ -94,26 +95,24 @@ def _find_kinds(
     own = samples_of_faces(vertices, faces, np.arange(len(faces)), each=True)
     diagonal = float(np.linalg.norm(np.ptp(own.points, axis=0)))
     said = _to_samples(found)
+    total = max(float(own.weights.sum()), np.finfo(float).tiny)
+    near = float(np.clip(_SPACES * np.sqrt(total / len(said.points)), *np.multiply(_NEAR, diagonal)))
     kinds, gaps = _vote(own.points, said, 1 if len(found.faces) else _VOTES)
     if is_checked:
-        _refuse_bare(own, gaps, _NEAR * diagonal)
+        _refuse_bare(own, gaps, near)
         if not is_part:
-            _refuse_away(own, said, _NEAR * diagonal)
-    kinds[gaps > _NEAR * diagonal] = -1
+            _refuse_away(own, said, _NEAR[0] * diagonal)
+    kinds[gaps > near] = -1
     of_face, purity = _find_majority(own, kinds, len(faces))
-    areas = np.bincount(own.classes, own.weights, len(faces))
     if found.of_faces:
         same = _match_faces(found, vertices, faces, _SAME * diagonal)
         of_face = np.where(same >= 0, found.classes[same], of_face)
         purity[same >= 0] = 1.0
     told = []
-    total = max(float(areas.sum()), np.finfo(float).tiny)
-    mixed = float(areas[purity < _PURE].sum()) / total
-    if mixed >= _TOLD:
-        told.append(
-            f"{mixed:.0%} of the surface is in triangles of several parts: each goes to the part with most of it"
-        )
-    bare = float(own.weights[gaps > _NEAR * diagonal].sum()) / total
+    other = float(((1.0 - purity) * np.bincount(own.classes, own.weights, len(faces))).sum()) / total
+    if other >= _TOLD:
+        told.append(f"{other:.0%} of the surface is in triangles that are mostly of another part, and goes with it")
+    bare = float(own.weights[gaps > near].sum()) / total
     if bare >= _TOLD:
         told.append(f"{bare:.0%} of the surface is far from all labelled points, so it is a part by itself, {REST}")
     return np.maximum(of_face, -1), told
