@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import Annotated
 
 import typer
 
@@ -80,19 +80,8 @@ class LabelArguments:
             show_default=False,
         ),
     ] = ""
-    align: Annotated[
-        Literal["check", "box", "off"] | None,
-        typer.Option(
-            "--align",
-            help="Segmented points lie where the asset does (check, the default), or are scaled and moved so that the "
-            "boxes fit (box), or are taken as they are (off).",
-            show_default=False,
-        ),
-    ] = None
-    points_up: Annotated[
-        Literal["y", "z"] | None,
-        typer.Option("--points-up", help="The axis that points up among segmented points.", show_default=False),
-    ] = None
+    align: options.Align = None
+    points_up: options.PointsUp = None
     dry_run: Annotated[
         bool,
         typer.Option("--dry-run", help="Take nothing: show what would be taken, or what vlm would send and cost."),

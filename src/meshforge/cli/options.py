@@ -166,12 +166,27 @@ def _to_parameter(field: Field[Any], hint: Any) -> Parameter:
 
 
 By = Annotated[
-    Literal["whole", "parts"],
+    Literal["whole", "parts", "labels"],
     typer.Option(
         "--by",
-        help="Decompose a mesh at once, or each of its parts (groups, nodes, materials) by itself, so that no hull "
-        "crosses from one to another.",
+        help="Decompose a mesh at once, or each of its parts by itself, so that no hull crosses from one to another: "
+        "its groups, nodes and materials, or what the labels of points or faces beside it (MESH.points.npz) say.",
     ),
+]
+
+
+Align = Annotated[
+    Literal["check", "box", "off"] | None,
+    typer.Option(
+        "--align",
+        help="Segmented points lie where the asset does (check, the default), or are scaled and moved so that the "
+        "boxes fit (box), or are taken as they are (off).",
+        show_default=False,
+    ),
+]
+PointsUp = Annotated[
+    Literal["y", "z"] | None,
+    typer.Option("--points-up", help="The axis that points up among segmented points.", show_default=False),
 ]
 
 

@@ -29,7 +29,12 @@ class PrepareArguments:
         typer.Argument(help="Assets by their ids, as `status` lists them, or their files; default all."),
     ] = None
     method: Annotated[
-        options.EngineMethod | None, typer.Option("--decompose", help="Make hulls of what has none, by this engine.")
+        options.EngineMethod | None,
+        typer.Option(
+            "--decompose",
+            help="Make hulls of what has none, by this engine. With --split-spanning or --rebuild-spanning: the engine "
+            "of the fine pieces that hulls are compared with; default coacd.",
+        ),
     ] = None
     option: options.EngineOptions = None
     only: Annotated[
@@ -72,7 +77,7 @@ def prepare(given: PrepareArguments) -> None:
     Exit code 1 when some pieces could not be decomposed, or something could not be taken back (each named).
     """
     spanning = given.split_spanning + given.rebuild_spanning
-    if (given.method is not None) + spanning + given.undo + given.remove != 1:
+    if (given.method is not None and not spanning) + spanning + given.undo + given.remove != 1:
         what = "--decompose METHOD, --split-spanning, --rebuild-spanning, --undo or --remove"
         raise UsageError(f"say what to do: {what}")
     if not spanning:
@@ -109,10 +114,16 @@ def prepare(given: PrepareArguments) -> None:
 
 def _divide_spanning(project: Project, given: PrepareArguments) -> int:
     """Split hulls that span parts, or rebuild their bodies, and print what became of each asset; the exit code."""
-    options.refuse_options(given.context, ("option", "only", "again", "hollow", "by"), "--decompose METHOD")
+    options.refuse_with(
+        given.context, ("option", "only", "again", "hollow", "by"), "--split-spanning and --rebuild-spanning"
+    )
     results = project.split_spanning(
         [options.asset_id(asset, project) for asset in given.assets] if given.assets else None,
-        SplitSettings(SPLIT_DEFAULTS.sure if given.sure is None else given.sure, given.rebuild_spanning),
+        SplitSettings(
+            SPLIT_DEFAULTS.sure if given.sure is None else given.sure,
+            given.rebuild_spanning,
+            given.method.value if given.method else SPLIT_DEFAULTS.pieces,
+        ),
         dry_run=given.dry_run,
         engine=given.limits,
         execution=ExecutionOptions(workers=given.workers, timeout=given.timeout),

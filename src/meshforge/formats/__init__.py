@@ -9,7 +9,7 @@ from meshforge.common.exports import export_lazily
 if TYPE_CHECKING:
     from meshforge.formats.base import Collision, Format, Loss, Mass, Output, ReadOptions
     from meshforge.formats.convert_asset import convert, to_mjspec
-    from meshforge.formats.decompose_mesh import DecomposeBy, decompose, name_hulls, read_surface
+    from meshforge.formats.decompose_mesh import DecomposeBy, decompose, label_surface, name_hulls, read_surface
     from meshforge.formats.engine_names.conventions import EngineName, MarkName
     from meshforge.formats.mesh_reader import read_triangles, split_into_pieces
     from meshforge.formats.meshfile.surface import RawSurface
@@ -41,15 +41,20 @@ if TYPE_CHECKING:
         resolve_asset_path,
         to_mesh,
     )
+    from meshforge.formats.segmentation.alignment import PointAlignment, align_points
     from meshforge.formats.segmentation.base import (
         POINTS_SUFFIXES,
         SEMANTICS_FILE,
         Segmentation,
+        class_files,
+        find_class_names,
         points_beside,
         read_class_names,
         read_semantics,
     )
+    from meshforge.formats.segmentation.parts import SegmentationFile, read_parts
     from meshforge.formats.segmentation.reader import attach_own_mesh, read_segmentation
+    from meshforge.formats.segmentation.samples import PointSamples, samples_of_faces, samples_of_points
     from meshforge.formats.surface_parts import plain_part_name
     from meshforge.formats.trimesh_meshes import from_trimesh
     from meshforge.formats.visuals import VisualSurfaces
@@ -76,17 +81,23 @@ __all__ = [
     "MeshPart",
     "MujocoTrial",
     "Output",
+    "PointAlignment",
+    "PointSamples",
     "RawSurface",
     "ReadOptions",
     "SaveResult",
     "Segmentation",
+    "SegmentationFile",
     "Source",
     "VisualSurfaces",
+    "align_points",
     "all_suffixes",
     "attach_own_mesh",
+    "class_files",
     "convert",
     "decompose",
     "describe_collision",
+    "find_class_names",
     "format_for",
     "format_obj",
     "format_of",
@@ -94,6 +105,7 @@ __all__ = [
     "from_trimesh",
     "is_asset",
     "is_description",
+    "label_surface",
     "labels_beside",
     "load",
     "load_many",
@@ -105,11 +117,14 @@ __all__ = [
     "points_beside",
     "read",
     "read_class_names",
+    "read_parts",
     "read_segmentation",
     "read_semantics",
     "read_surface",
     "read_triangles",
     "resolve_asset_path",
+    "samples_of_faces",
+    "samples_of_points",
     "save",
     "split_into_pieces",
     "to_mesh",

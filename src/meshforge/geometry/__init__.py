@@ -21,8 +21,8 @@ if TYPE_CHECKING:
     from meshforge.geometry.convex import FLATNESS, convex_hull, measure_extents, principal_extents, spans_volume
     from meshforge.geometry.decomposition.by_parts import PartHull, decompose_by_parts
     from meshforge.geometry.decomposition.engines import CoacdSettings, DecomposeSettings, EngineControl, VhacdSettings
-    from meshforge.geometry.decomposition.fine import FINE, decompose_finely
-    from meshforge.geometry.decomposition.parts import SurfaceParts, stack_parts
+    from meshforge.geometry.decomposition.fine import FINE_SETTINGS, PieceEngine, decompose_finely
+    from meshforge.geometry.decomposition.parts import SurfaceParts, separate_parts, stack_parts
     from meshforge.geometry.decomposition.run import cache_folder, decompose
     from meshforge.geometry.decomposition.triangles import is_line, is_sheet, sheet_hulls, volume_inside
     from meshforge.geometry.division import HullPart, divide
@@ -64,7 +64,7 @@ else:
     __getattr__ = export_lazily(__name__)
 
 __all__ = [
-    "FINE",
+    "FINE_SETTINGS",
     "FLATNESS",
     "LEVEL",
     "Aabb",
@@ -84,6 +84,7 @@ __all__ = [
     "Ints",
     "PartHull",
     "Piece",
+    "PieceEngine",
     "PieceGroup",
     "Polytope",
     "Pose",
@@ -144,6 +145,7 @@ __all__ = [
     "rotation_about",
     "rotation_of_quaternion",
     "sample_surface",
+    "separate_parts",
     "sheet_hulls",
     "smallest_rotation",
     "snap_rotation",

@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING
 from meshforge.common.exports import export_lazily
 
 if TYPE_CHECKING:
+    from meshforge.formats import PointAlignment
     from meshforge.labels.by_hand import label_command
     from meshforge.labels.family_comparison import ignore_stage
     from meshforge.labels.from_files.points import PointsOptions
     from meshforge.labels.from_files.read import LabelFileOptions, label_file_beside
-    from meshforge.labels.from_files.segments import PointAlignment
     from meshforge.labels.label_by_consensus import ConsensusResult, LabelChange, SourceRestoration
     from meshforge.labels.label_by_plugin import LABELERS, AssetLabeler, check_labeler
     from meshforge.labels.label_by_propagation import PropagationResult

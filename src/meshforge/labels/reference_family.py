@@ -5,11 +5,12 @@ from __future__ import annotations
 
 import json
 from collections.abc import Collection, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
 
 from meshforge import batch
+from meshforge.geometry import PieceEngine
 from meshforge.label_model import AssetCells, AssetPieces, evidence_beside_splits, model_family
 from meshforge.label_model.describe import describe_mesh, digest_mesh
 from meshforge.labels.family_comparison import Stage
@@ -26,18 +27,19 @@ NEW = ""
 @dataclass(frozen=True, eq=False)
 class ReferenceFamily:
     """Assets of which hulls are labelled. meshes: as they are prepared, by id; pieces: with the fine pieces of their
-    surfaces, by id; words: the project's vocabulary."""
+    surfaces, by id; words: the project's vocabulary; engine: which makes the pieces."""
 
     meshes: Mapping[str, SymbolicMesh]
     pieces: Mapping[str, AssetPieces]
     words: tuple[str, ...]
+    engine: PieceEngine = "coacd"
 
     @cached_property
     def digest(self) -> str:
         """Equal for families that say the same about a new asset."""
         rows = [[digest_mesh(one).hex(), str(one.labels)] for one in self.meshes.values()]
         fine = [digest_mesh(one.pieces).hex() for one in self.pieces.values()]
-        return batch.text_digest(json.dumps([rows, fine, self.words]))
+        return batch.text_digest(json.dumps([rows, fine, self.words, self.engine]))
 
     @cached_property
     def cells(self) -> dict[str, AssetCells]:
@@ -50,18 +52,20 @@ class ReferenceFamily:
         source: the asset as it was read; mesh: it as it is prepared, with its labels; kept: the file of its pieces.
         """
         surfaces = batch.find_surfaces(source)
-        own = FinePieces.of(read_pieces(surfaces, kept) if kept else decompose_surfaces(surfaces), mesh)
+        found = read_pieces(surfaces, kept, self.engine) if kept else decompose_surfaces(surfaces, self.engine)
+        own = FinePieces.of(found, mesh)
         known = {asset: one.mesh for asset, one in self.pieces.items()}
         pieces = {asset: FinePieces(one.pieces) for asset, one in self.pieces.items()}
         cells = self.cells if own.unseen else {}
-        return infer_spans({NEW: mesh, **known}, {NEW: own, **pieces}, {}, self.pieces, cells)
+        report = infer_spans({NEW: mesh, **known}, {NEW: own, **pieces}, {}, self.pieces, cells)
+        return replace(report, engine=self.engine)
 
     def without(self, asset: str) -> ReferenceFamily:
         """The family without one of its assets, to which that is to be compared."""
         if asset not in self.meshes:
             return self
         meshes = {name: mesh for name, mesh in self.meshes.items() if name != asset}
-        return ReferenceFamily(meshes, {n: one for n, one in self.pieces.items() if n != asset}, self.words)
+        return replace(self, meshes=meshes, pieces={n: one for n, one in self.pieces.items() if n != asset})
 
     def infer_labels(self, mesh: SymbolicMesh) -> dict[str, Label]:
         """The likeliest label of each hull of an asset that has none, by its name, with its probability."""
@@ -76,11 +80,18 @@ class ReferenceFamily:
 
 
 def read_reference_family(
-    store: Store, execution: batch.ExecutionOptions, stage: Stage, *, without: Collection[str] = (), spans: bool = True
+    store: Store,
+    execution: batch.ExecutionOptions,
+    stage: Stage,
+    engine: PieceEngine = "coacd",
+    *,
+    without: Collection[str] = (),
+    spans: bool = True,
 ) -> ReferenceFamily | None:
     """The labelled assets of a project; None where no hull has a label that was not inferred.
 
-    without: assets that do not count; spans: whether their surfaces are needed. Raises AssetError where a labels file
+    engine: which makes the fine pieces of surfaces; without: assets that do not count; spans: whether their surfaces
+    are needed. Raises AssetError where a labels file
     cannot be read.
     """
     chosen = choose_labelled({asset: store.labels(asset) for asset in store.assets() if asset not in set(without)})
@@ -91,13 +102,13 @@ def read_reference_family(
     }
     if not meshes:
         return None
-    found = find_pieces(store, meshes, execution, stage)[0] if spans else {}
+    found = find_pieces(store, meshes, execution, stage, engine)[0] if spans else {}
     pieces = {asset: AssetPieces(meshes[asset], own.mesh) for asset, own in found.items()}
     for one in pieces.values():
         assert one.common is not None  # measured here, so that no worker does it again; likewise below
     for mesh in (*meshes.values(), *(own.mesh for own in found.values())):
         describe_mesh(mesh)
-    return ReferenceFamily(meshes, pieces, store.vocabulary)
+    return ReferenceFamily(meshes, pieces, store.vocabulary, engine)
 
 
 def choose_labelled(files: Mapping[str, LabelFile], most: int = MOST_COMPARED) -> list[str]:

@@ -6,7 +6,7 @@ from __future__ import annotations
 import hashlib
 import json
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
 from types import MappingProxyType
@@ -16,7 +16,7 @@ import numpy as np
 from meshforge import batch
 from meshforge.common import MeshForgeError, ProjectError, describe_error, join_and
 from meshforge.formats import read
-from meshforge.geometry import FINE, Floats, HullPart, Polytope, cache_folder, decompose_finely
+from meshforge.geometry import FINE_SETTINGS, Floats, HullPart, PieceEngine, Polytope, cache_folder, decompose_finely
 from meshforge.label_model import (
     AssetCells,
     AssetPieces,
@@ -66,7 +66,7 @@ class SpanReport:
     """What was found. meshes: the assets that were looked at, as they are prepared; lost: why others were not;
 
     by_surface, by_cells: what is known of hulls that stand for a surface, and of others; None where no hull is such;
-    unseen: the bodies, by asset, that have no surface.
+    unseen: the bodies, by asset, that have no surface; engine: which made the fine pieces.
     """
 
     meshes: Mapping[str, SymbolicMesh]
@@ -74,6 +74,7 @@ class SpanReport:
     by_cells: SpanPosterior | None
     unseen: Mapping[str, frozenset[str]]
     lost: Mapping[str, str]
+    engine: PieceEngine = "coacd"
 
     @cached_property
     def bare(self) -> Mapping[str, tuple[str, ...]]:
@@ -153,14 +154,18 @@ class FinePieces:
 
 @dataclass(frozen=True, slots=True)
 class _Work:
-    """One asset whose surface is decomposed finely; kept: the file where the pieces are kept."""
+    """One asset whose surface is decomposed finely; kept: the file where the pieces are kept; engine: which makes
+    them."""
 
     path: Path
     kept: Path
+    engine: PieceEngine
 
 
-def find_spans(store: Store, execution: batch.ExecutionOptions, stage: Stage) -> SpanReport:
-    """Which hulls span parts, of all assets that can be read.
+def find_spans(
+    store: Store, execution: batch.ExecutionOptions, stage: Stage, engine: PieceEngine = "coacd"
+) -> SpanReport:
+    """Which hulls span parts, of all assets that can be read. engine: which makes the fine pieces of their surfaces.
 
     Raises ProjectError where no hull has a label: nothing says what parts there are; and where no asset can be read.
     """
@@ -170,18 +175,22 @@ def find_spans(store: Store, execution: batch.ExecutionOptions, stage: Stage) ->
         raise ProjectError(
             "no hull has a label, so nothing says what parts there are", where=str(store.folder), remedy=remedy
         )
-    pieces, lost = find_pieces(store, meshes, execution, stage)
+    pieces, lost = find_pieces(store, meshes, execution, stage, engine)
     if not pieces:
         remedy = next(iter(lost.values()), "Give the project assets that can be read: meshforge add.")
         raise ProjectError("no asset can be read", where=str(store.folder), remedy=remedy)
-    return infer_spans({asset: meshes[asset] for asset in pieces}, pieces, lost)
+    return replace(infer_spans({asset: meshes[asset] for asset in pieces}, pieces, lost), engine=engine)
 
 
 def find_pieces(
-    store: Store, meshes: Mapping[str, SymbolicMesh], execution: batch.ExecutionOptions, stage: Stage
+    store: Store,
+    meshes: Mapping[str, SymbolicMesh],
+    execution: batch.ExecutionOptions,
+    stage: Stage,
+    engine: PieceEngine = "coacd",
 ) -> tuple[dict[str, FinePieces], dict[str, str]]:
     """The fine pieces of the surfaces of assets, by id, and why those of others are not known."""
-    work = [_Work(store.path(asset), pieces_file(store, asset)) for asset in meshes]
+    work = [_Work(store.path(asset), pieces_file(store, asset), engine) for asset in meshes]
     pieces, lost = dict[str, FinePieces](), dict[str, str]()
     with stage(len(work), "decomposing finely") as advance:
         options = batch.ExecutionOptions(execution.workers, execution.timeout, progress=advance, stop=execution.stop)
@@ -221,7 +230,7 @@ def infer_spans(
 def _find_pieces(work: _Work) -> dict[str, list[Polytope]] | str:
     """The fine pieces of an asset by body, kept where they were found already; or why there are none."""
     try:
-        return read_pieces(batch.find_surfaces(read(work.path)), work.kept)
+        return read_pieces(batch.find_surfaces(read(work.path)), work.kept, work.engine)
     except Exception as error:  # one asset never stops the others
         return describe_error(error, str(work.path))
 
@@ -231,31 +240,34 @@ def pieces_file(store: Store, asset: str) -> Path:
     return store.layout.sketches / "fine" / f"{asset}.npz"
 
 
-def read_pieces(surfaces: Mapping[str, Surface], kept: Path) -> dict[str, list[Polytope]]:
+def read_pieces(
+    surfaces: Mapping[str, Surface], kept: Path, engine: PieceEngine = "coacd"
+) -> dict[str, list[Polytope]]:
     """The fine pieces of surfaces by body, from a file where they were kept, else kept there."""
-    key = _digest(surfaces)
+    key = _digest(surfaces, engine)
     known = read_arrays(kept, key, *HULL_ARRAYS)
     if known is not None:
         return {body: [] for body in surfaces} | unpack_hulls(*known)
-    found = decompose_surfaces(surfaces)
+    found = decompose_surfaces(surfaces, engine)
     write_arrays(kept, key, pack_hulls(found))
     return found
 
 
-def decompose_surfaces(surfaces: Mapping[str, Surface]) -> dict[str, list[Polytope]]:
+def decompose_surfaces(surfaces: Mapping[str, Surface], engine: PieceEngine = "coacd") -> dict[str, list[Polytope]]:
     """The fine pieces of surfaces by body, as `batch.find_surfaces` gives these."""
     found = dict[str, list[Polytope]]()
     for body, surface in surfaces.items():
         try:
-            found[body] = list(decompose_finely(surface.vertices, surface.faces, cache=cache_folder()))
+            found[body] = list(decompose_finely(surface.vertices, surface.faces, engine, cache=cache_folder()))
         except MeshForgeError:  # flat, or without an area: its hulls stand for nothing
             found[body] = []
     return found
 
 
-def _digest(surfaces: Mapping[str, Surface]) -> str:
+def _digest(surfaces: Mapping[str, Surface], engine: PieceEngine) -> str:
     """A digest of all that fine pieces are made from."""
-    state = hashlib.blake2b(json.dumps([FINE.as_dict(), batch.software_version()]).encode(), digest_size=16)
+    basis = [engine, FINE_SETTINGS[engine].as_dict(), batch.software_version()]
+    state = hashlib.blake2b(json.dumps(basis).encode(), digest_size=16)
     for body, surface in surfaces.items():
         state.update(body.encode())
         state.update(np.ascontiguousarray(surface.vertices).tobytes())

@@ -175,12 +175,14 @@ def _keep_aside(home: NewAssetFolder, basis: str, found: _WorkerOutcome) -> NewA
 
 def _make_task(store: Store, assets: Sequence[NewAsset], options: NewAssetOptions) -> _Task:
     """What is the same for all assets; the project's labelled ones are read, but for those that are new themselves."""
-    spans = any(one.plan.split for one in assets)
+    engine = next((one.plan.split.pieces for one in assets if one.plan.split), None)  # one for all of a project
     own = {path: asset for asset, path in store.found.ids.items()}
     without = {own[one.path] for one in assets if one.path in own}
     family = None
-    if spans or options.guess:
-        family = read_reference_family(store, options.execution, options.stage, without=without, spans=spans)
+    if engine or options.guess:
+        family = read_reference_family(
+            store, options.execution, options.stage, engine or "coacd", without=without, spans=engine is not None
+        )
     return _Task(family, options.split, options.guess, store.settings.thresholds.contact)
 
 

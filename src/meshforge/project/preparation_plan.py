@@ -14,7 +14,7 @@ from typing import Any, get_args
 from meshforge import batch
 from meshforge.common import MeshForgeError, join_names
 from meshforge.formats import DecomposeBy
-from meshforge.geometry import CoacdSettings, DecomposeSettings
+from meshforge.geometry import CoacdSettings, DecomposeSettings, PieceEngine
 from meshforge.store import PreparationPlanFile, Store, read_json, write_json
 
 _EXAMPLES = 2  # assets that are named where they were decomposed otherwise
@@ -33,10 +33,12 @@ class DecompositionPlan:
 @dataclass(frozen=True, slots=True)
 class SplitSettings:
     """How hulls that span parts are split. sure: the probability from which that is done; rebuild: whether all hulls of
-    their bodies that stand for its surface are made anew, each of one part."""
+    their bodies that stand for its surface are made anew, each of one part; pieces: the engine of the fine pieces that
+    they are found and divided by."""
 
     sure: float = 0.9
     rebuild: bool = False
+    pieces: PieceEngine = "coacd"
 
 
 SPLIT_DEFAULTS = SplitSettings()
@@ -59,7 +61,7 @@ class PreparationPlan:
 def read_preparation_plan(store: Store) -> PreparationPlan:
     """What a project says about new assets. Raises ProjectError where its file is damaged."""
     kept = _read(store)
-    split = None if kept.sure is None else SplitSettings(kept.sure, kept.rebuild)
+    split = None if kept.sure is None else SplitSettings(kept.sure, kept.rebuild, kept.pieces)
     ways = dict[str, list[str]]()
     for asset in store.layout.ids_with_preparation():
         if asset not in store.found.ids:
@@ -108,7 +110,8 @@ def _parse_plan(settings: Mapping[str, Any]) -> DecompositionPlan | None:
         own = kind(**values)
     except (MeshForgeError, TypeError):
         return None
-    by: DecomposeBy = "parts" if rest.get("by") == "parts" else "whole"
+    known_ways: tuple[DecomposeBy, ...] = get_args(DecomposeBy)
+    by: DecomposeBy = next((one for one in known_ways if one == rest.get("by")), "whole")
     return DecompositionPlan(own, tuple(rest.get("only", ())), bool(rest.get("hollow")), by)
 
 
@@ -131,6 +134,11 @@ def extend_plan(store: Store, assets: Collection[str], *, decomposed: bool, spli
     lists = {"decomposed": kept.decomposed if decomposed else None, "split": kept.split if split else None}
     values = {name: tuple(dict.fromkeys([*ids, *assets])) for name, ids in lists.items() if ids is not None}
     _change(store, values)
+
+
+def read_piece_engine(store: Store) -> PieceEngine:
+    """The engine of the fine pieces by which the hulls of all assets were looked at last, CoACD where they were not."""
+    return _read(store).pieces
 
 
 def forget_plan(store: Store) -> None:

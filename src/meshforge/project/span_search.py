@@ -78,7 +78,8 @@ class SplitPlan:
     @property
     def settings(self) -> dict[str, Any]:
         """Of the step, besides the probabilities."""
-        return {"sure": self.how.sure} | ({"rebuilt": list(self.rebuilt)} if self.rebuilt else {})
+        rebuilt = {"rebuilt": list(self.rebuilt)} if self.rebuilt else {}
+        return {"sure": self.how.sure, "pieces": self.how.pieces, **rebuilt}
 
 
 def list_likely(report: SpanReport, asset: str, least: float = LIKELY) -> dict[str, Split]:
@@ -91,7 +92,8 @@ def list_likely(report: SpanReport, asset: str, least: float = LIKELY) -> dict[s
         parts = report.divide(asset, span.hull)
         if len(parts) == 1 and parts[0][2] >= WHOLE:
             continue
-        found[span.hull] = make_split(span, digests[span.hull], parts if len(parts) > 1 else [])
+        one = make_split(span, digests[span.hull], parts if len(parts) > 1 else [])
+        found[span.hull] = replace(one, span=one.span.model_copy(update={"pieces": report.engine}))
     return found
 
 
@@ -169,7 +171,7 @@ def search_spans(
     if len(store.assets()) <= MOST_TOGETHER:
         yield from _search_together(store, assets, how, execution, stage)
         return
-    family = read_reference_family(store, execution, stage)
+    family = read_reference_family(store, execution, stage, how.pieces)
     if family is None:
         remedy = "Label the hulls of one or two assets first: meshforge label, or the studio."
         problem = "no hull has a label, so nothing says what parts there are"
@@ -191,7 +193,7 @@ def _search_together(
     stage: Stage,
 ) -> Iterator[tuple[str, AssetSpans | str]]:
     seen = {asset: batch.record_digest(store.layout.preparation(asset)) for asset in assets}
-    report, single = find_spans(store, execution, stage), store.single_parts().assets
+    report, single = find_spans(store, execution, stage, how.pieces), store.single_parts().assets
     for asset, digest in seen.items():
         if asset in report.lost or asset not in report.meshes:
             yield asset, report.lost.get(asset, "it cannot be read")

@@ -13,7 +13,7 @@ from meshforge.engines import find_engine
 from meshforge.formats import read
 from meshforge.labels import SpanReport, find_spans
 from meshforge.labels.family_comparison import Stage, ignore_stage
-from meshforge.project.preparation_plan import SPLIT_DEFAULTS, SplitSettings, keep_split
+from meshforge.project.preparation_plan import SPLIT_DEFAULTS, SplitSettings, keep_split, read_piece_engine
 from meshforge.project.prepare import PreparationResult
 from meshforge.project.span_search import AssetSpans, list_likely, search_spans
 from meshforge.project.span_splits import Split, keep_shapes, write_splits
@@ -116,7 +116,7 @@ def list_spans(
 
     Raises ProjectError as `split_spanning` does, StoppedError on a stop, with nothing written.
     """
-    report = find_spans(store, execution, stage)
+    report = find_spans(store, execution, stage, read_piece_engine(store))
     batch.raise_if_stopped(execution.stop)
     _write_likely(store, {asset: _keep_shapes(store, asset, list_likely(report, asset)) for asset in report.meshes})
     return report

@@ -6,6 +6,7 @@ from collections.abc import Iterable, Mapping
 
 from pydantic import Field
 
+from meshforge.geometry import PieceEngine
 from meshforge.store.layout import JsonFile
 
 
@@ -18,13 +19,15 @@ class SpanPart(JsonFile):
 
 class SpanLine(JsonFile):
     """One hull that likely spans parts. geometry: the digest of the hull as it was; told: in words; parts: what a split
-    makes of it, none where no plane divides it; like: the hull that a person split, which this one looks like.
+    makes of it, none where no plane divides it; pieces: the engine of the fine pieces that say so; like: the hull that
+    a person split, which this one looks like.
     """
 
     geometry: str
     chance: float
     told: str
     parts: tuple[SpanPart, ...] = ()
+    pieces: PieceEngine = "coacd"
     like: str | None = None
 
     @property

@@ -72,6 +72,23 @@ def test_review_asks_about_it_and_a_reply_splits_it_or_keeps_it(run: Run, tmp_pa
     assert "left as it is, since a person said that it is one part" in told.out and "into 2 hulls" not in told.out
 
 
+def test_another_engine_makes_the_fine_pieces(run: Run, tmp_path: Path) -> None:
+    told = run("prepare", "p", "--split-spanning", "--sure", "0.7", "--workers", "1", "--decompose", "vhacd")
+    assert told.code == 0 and "c.urdf: 1 piece into 2 hulls\n" in told.out
+    kept = json.loads((tmp_path / "p/prepared/c.urdf/preparation.json").read_text())
+    assert kept["steps"][0]["settings"]["pieces"] == "vhacd"
+    told = run("prepare", "p", "c.urdf", "--undo")
+    assert told.code == 0 and not (tmp_path / "p/prepared/c.urdf").exists()
+
+
+@pytest.mark.parametrize("option", [("--set", "resolution=5"), ("--only", "base"), ("--hollow",), ("--by", "parts")])
+@pytest.mark.parametrize("what", ["--split-spanning", "--rebuild-spanning"])
+def test_settings_of_a_decomposition_do_not_go_with_fine_pieces(run: Run, what: str, option: tuple[str, ...]) -> None:
+    told = run("prepare", "p", what, "--decompose", "vhacd", *option)
+    assert told.code == 2 and told.out == ""
+    assert f"{option[0]} does not go with --split-spanning and --rebuild-spanning\n" in told.err
+
+
 def test_as_json(run: Run) -> None:
     told = run("prepare", "p", "--split-spanning", "--sure", "0.7", "--workers", "1", "--json")
     rows = [json.loads(line) for line in told.out.splitlines()]

@@ -1,7 +1,9 @@
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
+import manifold3d
 import numpy as np
 import pytest
 
@@ -20,6 +22,8 @@ from meshforge.geometry import (
 from meshforge.geometry.decomposition import by_parts
 from meshforge.geometry.decomposition.engines import CoacdSettings, EngineControl, VhacdSettings
 from meshforge.geometry.decomposition.parts import join_small_parts
+from meshforge.geometry.decomposition.triangles import cap_holes, clean_triangles
+from meshforge.geometry.shape import volume_and_centroid
 from meshforge.geometry.surface import heights_above, rises_above
 
 QUICK = CoacdSettings(threshold=0.3, resolution=200, mcts_iterations=20, mcts_nodes=8)
@@ -163,3 +167,35 @@ def test_parts_of_several_surfaces_stay_apart_though_names_repeat() -> None:
     one = SurfaceParts(np.array([0, 0]), ("leg",))
     assert stack_parts([one, one]).of_face.tolist() == [0, 0, 1, 1]
     assert stack_parts([one, one]).names == ("leg", "leg")
+
+
+def jagged_bar() -> tuple[Floats, Ints, SurfaceParts]:
+    """A closed bar, 3 by 1 by 1, of many triangles, in two halves whose boundary follows these."""
+    mesh = manifold3d.Manifold.cube((3.0, 1.0, 1.0)).refine(7).to_mesh64()
+    vertices, faces = np.asarray(mesh.vert_properties)[:, :3], np.asarray(mesh.tri_verts).astype(np.int64)
+    return vertices, faces, SurfaceParts((vertices[faces].mean(axis=1)[:, 0] > 1.5).astype(np.int64), ("left", "right"))
+
+
+def test_a_part_with_a_jagged_rim_is_closed_roughly_by_a_fan_where_its_edges_are_in_the_way() -> None:
+    vertices, faces, parts = jagged_bar()
+    for part in (0, 1):
+        mesh = clean_triangles(vertices, faces[parts.of_face == part])
+        assert mesh.open_edges
+        assert cap_holes(mesh)[1] == 0, "no plane holds its rim"
+        capped, holes = cap_holes(mesh, 0.3)
+        assert (holes, capped.open_edges) == (1, 0)
+        assert volume_and_centroid(capped.vertices, capped.faces)[0] == pytest.approx(1.5, rel=0.1)
+
+
+@pytest.mark.parametrize("settings", [QUICK, replace(VOXELS, resolution=3000)], ids=["coacd", "vhacd"])
+def test_parts_with_jagged_rims_are_decomposed_as_solids(settings: CoacdSettings | VhacdSettings) -> None:
+    vertices, faces, parts = jagged_bar()
+    notes = list[str]()
+    found = decompose_by_parts(vertices, faces, parts, settings, note=notes.append)
+    assert not any("open" in note for note in notes), notes
+    for part in (0, 1):
+        own = [one.hull for one in found if one.part == part]
+        corners = vertices[faces[parts.of_face == part]].reshape(-1, 3)
+        assert sum(hull.volume for hull in own) == pytest.approx(1.5, rel=0.2)
+        around = convex_hull(corners)
+        assert not any(rises_above(hull.vertices, around.vertices, around.faces, 1e-5) for hull in own)

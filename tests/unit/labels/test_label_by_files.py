@@ -9,10 +9,9 @@ import numpy as np
 import pytest
 
 from meshforge.common import AssetError, MeshForgeError, ProjectError, UsageError
-from meshforge.formats import read
+from meshforge.formats import PointAlignment, read
 from meshforge.geometry import Floats
 from meshforge.labels import LabelFileOptions, LabelOutcome, OfferCache, PointsOptions
-from meshforge.labels.from_files.segments import PointAlignment
 from meshforge.project import Project
 from meshforge.symbolic import Label
 from tests.unit.batch.families import label_of, tree, write_table

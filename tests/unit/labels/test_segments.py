@@ -8,16 +8,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from meshforge.common import GeometryError
+from meshforge.formats import PointAlignment, PointSamples, align_points, samples_of_faces, samples_of_points
+from meshforge.formats.segmentation.samples import _COUNT
 from meshforge.geometry import Aabb, Box, Floats, Ints, Pose, Sphere
-from meshforge.labels.from_files.segments import (
-    _COUNT,
-    PointAlignment,
-    PointSamples,
-    align_points,
-    samples_of_faces,
-    samples_of_points,
-    vote_by_points,
-)
+from meshforge.labels.from_files.segments import vote_by_points
 
 Case = tuple[list[Box], Floats, Ints]
 

@@ -171,6 +171,14 @@ def test_new_assets_are_rebuilt_where_those_of_the_project_were(folder: Path) ->
     assert kept is not None and kept.steps[0].settings["rebuilt"] == ["base"]
 
 
+def test_new_assets_are_looked_at_by_the_engine_of_the_project(folder: Path) -> None:
+    project = Project.open(folder / "p")
+    list(project.split_spanning(how=SplitSettings(0.7, pieces="vhacd"), execution=IN_PROCESS))
+    assert len(prepare(folder)["c.urdf"].splits) == 1
+    kept = read_preparation(folder / "aside/prepared/c.urdf")
+    assert kept is not None and kept.steps[0].settings["pieces"] == "vhacd" and "vhacdx" in kept.steps[0].software
+
+
 def test_an_asset_that_cannot_be_read_does_not_stop_the_others(folder: Path) -> None:
     (folder / "new/c.urdf").write_text("<robot")
     found = prepare(folder)

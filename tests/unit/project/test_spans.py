@@ -9,7 +9,8 @@ import pytest
 
 from meshforge.batch import IN_PROCESS
 from meshforge.common import ProjectError, UsageError
-from meshforge.geometry import overlap_volume, volume_of_union
+from meshforge.geometry import Floats, Ints, PieceEngine, Polytope, decompose_finely, overlap_volume, volume_of_union
+from meshforge.labels import spans
 from meshforge.project import PreparationResult, Project, SplitSettings, span_search
 from meshforge.symbolic import Label
 from tests.unit.project.stools import PARTS, boxes, coarse, write_stool
@@ -106,6 +107,49 @@ def test_the_same_parts_whatever_the_number_of_workers_and_once_more_nothing(pro
     list(other.split_spanning(how=SplitSettings(SURE)))
     assert files(project)["prepared/c.urdf/hulls.obj"] == files(other)["prepared/c.urdf/hulls.obj"]
     assert [result.made for result in split(project)] == [(), (), ()], "parts are of one label each"
+
+
+@pytest.fixture
+def engines(monkeypatch: pytest.MonkeyPatch) -> list[str]:
+    """The engine of each surface whose fine pieces are made."""
+    used = list[str]()
+
+    def note(vertices: Floats, faces: Ints, engine: PieceEngine, *, cache: Path) -> tuple[Polytope, ...]:
+        used.append(engine)
+        return decompose_finely(vertices, faces, engine, cache=cache)
+
+    monkeypatch.setattr(spans, "decompose_finely", note)
+    return used
+
+
+@pytest.mark.parametrize("rebuild", [False, True])
+def test_another_engine_makes_the_fine_pieces_where_it_is_asked_for(
+    project: Project, engines: list[str], rebuild: bool
+) -> None:
+    before, how = files(project), SplitSettings(SURE, rebuild, "vhacd")
+    list(project.split_spanning(None, how, execution=IN_PROCESS))
+    assert engines == ["vhacd"] * 3
+    (step,) = project.preparation("c.urdf").steps
+    assert step.settings["pieces"] == "vhacd" and "vhacdx" in step.software
+    assert json.loads(project.layout.preparation_plan.read_text())["pieces"] == "vhacd"
+    project.unprepare("c.urdf")
+    assert files(project).keys() - {"preparation.json"} == before.keys()
+    engines.clear()
+    project.list_spans(execution=IN_PROCESS)
+    assert engines == [], "the studio looks at the project by the same engine, whose pieces are kept"
+    split(project, dry_run=True)
+    assert engines == ["coacd"] * 3, "pieces of another engine are not taken for its own"
+
+
+def test_a_dry_run_by_another_engine_is_kept_for_the_review_alone(project: Project, engines: list[str]) -> None:
+    before, how = files(project), SplitSettings(SURE, pieces="vhacd")
+    list(project.split_spanning(None, how, dry_run=True, execution=IN_PROCESS))
+    assert files(project) == before
+    ((hull, line),) = project.spans().assets["c.urdf"].items()
+    assert line.pieces == "vhacd"
+    project.split_as_found("c.urdf", hull)
+    (step,) = project.preparation("c.urdf").steps
+    assert (step.settings["asked"], step.settings["pieces"]) == (True, "vhacd") and "vhacdx" in step.software
 
 
 def test_only_named_assets_are_split(project: Project) -> None:

@@ -12,7 +12,7 @@ import numpy as np
 from meshforge.batch.preparation import record
 from meshforge.batch.preparation.decompose import decompose_surface, settings_to_json, software_versions
 from meshforge.common import GeometryError, pluralize, suggest_name
-from meshforge.geometry import FINE, DecomposeSettings, Floats, Polytope, cut, digest, partition
+from meshforge.geometry import FINE_SETTINGS, DecomposeSettings, Floats, Polytope, cut, digest, partition
 from meshforge.symbolic import Asset, Geom, Surface
 
 Vector = Sequence[float]
@@ -85,7 +85,11 @@ class HullDivision:
 def divide_hulls(
     asset: Asset, before: record.Preparation, divisions: Sequence[HullDivision], settings: Mapping[str, Any]
 ) -> record.Preparation:
-    """Put the parts of hulls that span parts in their place, in one step. Raises GeometryError: no such hull."""
+    """Put the parts of hulls that span parts in their place, in one step.
+
+    settings: of the step; `pieces` is the engine of the fine pieces, CoACD where there is none. Raises GeometryError:
+    no such hull.
+    """
     geoms = {geom.name: geom for geom in record.apply_preparation(asset, before).geoms}
     taken = {*(g.name for g in asset.geoms), *(o.name for o in asset.opaque), *before.hull_digests}
     entries = list[record.Replacement]()
@@ -96,7 +100,8 @@ def divide_hulls(
         made = dict(zip(names, map(record.hull_digest, one.parts), strict=True))
         entries.append(record.Replacement(one.hull, "hull", digest(geoms[one.hull].shape), made, one.told))
         taken |= made.keys()
-    step = record.PreparationStep("divide", dict(settings), software_versions(FINE), tuple(entries))
+    fine = FINE_SETTINGS[settings.get("pieces", "coacd")]
+    step = record.PreparationStep("divide", dict(settings), software_versions(fine), tuple(entries))
     return before.with_step(step, [part for one in divisions for part in one.parts])
 
 

@@ -24,7 +24,8 @@ _LARGEST = 2**31
 
 POINTS_SUFFIXES = (".ply", ".npz", ".npy")
 """The suffixes of segmented points and meshes."""
-_MARK = ".points"
+POINTS_MARK = ".points"
+"""What their names end with before the suffix: `table.points.npz`."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -89,13 +90,13 @@ def to_whole_numbers(values: npt.ArrayLike, where: str) -> Ints:
 def points_beside(place: Path) -> Path | None:
     """The file of segmented points beside an asset, None where there is none; place: that of its labels file."""
     stem = place.name.removesuffix(".labels.json")
-    candidates = (place.with_name(f"{stem}{_MARK}{suffix}") for suffix in POINTS_SUFFIXES)
+    candidates = (place.with_name(f"{stem}{POINTS_MARK}{suffix}") for suffix in POINTS_SUFFIXES)
     return next((path for path in candidates if path.is_file()), None)
 
 
 def is_segmentation(path: Path) -> bool:
     """Whether a file is one of segmented points of some asset by its name, `table.points.ply`."""
-    return path.suffix.lower() in POINTS_SUFFIXES and Path(path.stem).suffix.lower() == _MARK
+    return path.suffix.lower() in POINTS_SUFFIXES and Path(path.stem).suffix.lower() == POINTS_MARK
 
 
 _NUMBERED = re.compile(r"(-?\d+)\s*[\s:,=]\s*(\S.*)")
@@ -127,6 +128,20 @@ def read_class_names(path: Path) -> dict[int, str]:
             raise AssetError(f"class {number} is named twice", where=f"{path}:{k + 1}", remedy="Keep one of them.")
         names[number] = found[2]
     return names
+
+
+def class_files(path: Path) -> tuple[Path, Path]:
+    """Where the names of the classes in a file may lie beside it, the first that is there counts."""
+    return path.with_name(f"{path.stem.removesuffix(POINTS_MARK)}.classes.txt"), path.with_name("classes.txt")
+
+
+def find_class_names(found: Segmentation, path: Path, given: Sequence[str] = ()) -> Mapping[int, str]:
+    """The names of classes by their number: those given, of 0, 1, ..., else those in the file, else those beside it.
+
+    Raises AssetError for a file of names that cannot be read.
+    """
+    beside = (read_class_names(file) for file in class_files(path) if file.is_file())
+    return dict(enumerate(given)) or found.names or next(beside, {})
 
 
 def _read_lines(path: Path, what: str) -> list[str]:

@@ -17,12 +17,13 @@ from meshforge.geometry.convex import convex_hull
 from meshforge.geometry.decomposition import engines
 from meshforge.geometry.decomposition.parts import SurfaceParts, join_small_parts
 from meshforge.geometry.decomposition.run import UNCONTROLLED, decompose
-from meshforge.geometry.decomposition.triangles import clean_triangles, is_line, is_sheet, sheet_hulls
+from meshforge.geometry.decomposition.triangles import cap_holes, clean_triangles, is_line, is_sheet, sheet_hulls
 from meshforge.geometry.shape import Polytope
 from meshforge.geometry.solids import intersect
 from meshforge.geometry.surface import rises_above
 
 _WITHIN = 1e-6  # of the size: a hull that rises above the hull of its part by less is within it
+_ROUGH = 0.3  # of the size of a hole that a cut leaves: how uneven its rim may be, along triangles or around a curve
 _LEAST_VOXELS = 10_000  # of a part, for V-HACD, unless the whole is to have fewer
 _LOW, _HIGH = 0.01, 1.0  # the limits of CoACD's threshold
 
@@ -93,7 +94,7 @@ class _PartRun:
         name = self._names[part]
         self._done += 1
         used, local = np.unique(faces, return_inverse=True)
-        points, triangles = vertices[used], local.reshape(-1, 3)
+        points, triangles = self._close_cuts(vertices[used], local.reshape(-1, 3))
         if is_line(points):
             self._note(name, "it has no area: left out")
             return []
@@ -104,6 +105,13 @@ class _PartRun:
         except GeometryError as error:
             raise GeometryError(error.problem, where=f"part {name}", remedy=error.remedy) from error
         return [PartHull(part, hull) for hull in _keep_within(points, hulls)]
+
+    def _close_cuts(self, points: Floats, triangles: Ints) -> tuple[Floats, Ints]:
+        """A part with the holes closed that its cut from the rest leaves, whose rims are only about planar."""
+        if not self._close or is_sheet(points):
+            return points, triangles
+        mesh, _ = cap_holes(clean_triangles(points, triangles), _ROUGH)
+        return (points, triangles) if mesh.open_edges else (mesh.vertices, mesh.faces)
 
     def _run(self, points: Floats, triangles: Ints, name: str, settings: engines.DecomposeSettings) -> list[Polytope]:
         def run(vertices: Floats, faces: Ints) -> list[Polytope]:

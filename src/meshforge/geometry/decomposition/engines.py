@@ -15,6 +15,7 @@ import threading
 import time
 from collections.abc import Callable
 from dataclasses import asdict, dataclass, field, fields
+from multiprocessing import parent_process
 from pathlib import Path
 from typing import Any, ClassVar
 
@@ -150,6 +151,8 @@ def run_engine(mesh: TriangleMesh, settings: DecomposeSettings, control: EngineC
 def _supervise(command: list[str], errors: int, control: EngineControl) -> int:
     """The exit code of a command, which is killed when it is cancelled or time is up."""
     environment = {**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, sys.path)), "PYTHONWARNINGS": "ignore"}
+    if parent_process() is not None:  # one of several workers, which share the processors; results are the same
+        environment.setdefault("OMP_NUM_THREADS", "1")
     process = subprocess.Popen(
         command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=errors, text=True, env=environment
     )

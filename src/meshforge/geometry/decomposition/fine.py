@@ -3,49 +3,74 @@ solid decomposed by itself, its pieces cut at creases."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import hashlib
+from collections.abc import Mapping
+from contextlib import suppress
+from importlib.metadata import version
 from pathlib import Path
+from typing import Literal
 
 import numpy as np
 
-from meshforge.common import GeometryError, pluralize
+from meshforge.common import GeometryError
 from meshforge.geometry import connectivity
 from meshforge.geometry.arrays import Floats, Ints
 from meshforge.geometry.convex import FLATNESS, convex_hull, principal_extents
 from meshforge.geometry.decomposition.creases import cut_at_creases, find_creases
-from meshforge.geometry.decomposition.engines import CoacdSettings
-from meshforge.geometry.decomposition.run import decompose
-from meshforge.geometry.decomposition.triangles import clean_triangles, is_sheet, sheet_hulls
+from meshforge.geometry.decomposition.engines import CoacdSettings, DecomposeSettings, VhacdSettings
+from meshforge.geometry.decomposition.run import cache_key, decompose, read_entry, write_entry
+from meshforge.geometry.decomposition.triangles import TriangleMesh, clean_triangles, is_sheet, sheet_hulls
 from meshforge.geometry.shape import Polytope, volume_and_centroid
 from meshforge.geometry.solids import list_hulls_within
 
 FINE = CoacdSettings(threshold=0.05, resolution=500, mcts_iterations=20, mcts_nodes=10, mcts_max_depth=2)
 """CoACD's settings for fine pieces: those of its authors, but for a shorter search, for time."""
+PieceEngine = Literal["coacd", "vhacd"]
+FINE_SETTINGS: Mapping[PieceEngine, DecomposeSettings] = {"coacd": FINE, "vhacd": VhacdSettings(resolution=100_000)}
+"""The settings for fine pieces of each engine; V-HACD's are those of its authors, with fewer voxels, for time."""
+_VERSION = 1  # of what is made of an engine's pieces; another one after any change, so that the cache forgets
 _CONVEX = 0.995  # of the volume of its convex hull: such a solid is one piece
 _SMALL = 0.03  # of the surface's diagonal: a smaller component is one piece
 _MOST = 80  # components that are decomposed, the largest
 
 
 def decompose_finely(
-    vertices: Floats,
-    faces: Ints,
-    *,
-    cache: Path | None = None,
-    note: Callable[[str], None] = lambda _: None,
+    vertices: Floats, faces: Ints, engine: PieceEngine = "coacd", *, cache: Path | None = None
 ) -> tuple[Polytope, ...]:
     """Fine convex pieces of vertices (n, 3) [m] and faces (m, 3), the same for the same input.
 
-    cache: a folder for results of the engine, None keeps none; note: called with what a user should know.
+    engine: which makes them; cache: a folder for the pieces and for results of the engine, None keeps none.
     Raises GeometryError: nothing that has an area, a coordinate that is not finite.
     """
-    mesh = clean_triangles(vertices, faces)
+    mesh, settings = clean_triangles(vertices, faces), FINE_SETTINGS[engine]
+    key = _cache_key(mesh, settings)
+    if cache and (known := read_entry(cache, key)) is not None:
+        return tuple(Polytope(*piece) for piece in known)
+    failed: list[GeometryError] = []
+    pieces = _decompose_mesh(mesh, settings, cache, failed)
+    if cache and not failed:  # an engine that was killed may not be the next time
+        with suppress(OSError):  # a cache that cannot be written costs time alone
+            write_entry(cache, key, [(piece.vertices, piece.faces) for piece in pieces])
+    return pieces
+
+
+def _cache_key(mesh: TriangleMesh, settings: DecomposeSettings) -> str:
+    """A digest of geometry, settings, and the versions of all that makes the pieces."""
+    text = f"pieces {_VERSION} {version('manifold3d')} {cache_key(mesh, settings)}"
+    return hashlib.blake2b(text.encode(), digest_size=20).hexdigest()
+
+
+def _decompose_mesh(
+    mesh: TriangleMesh, settings: DecomposeSettings, cache: Path | None, failed: list[GeometryError]
+) -> tuple[Polytope, ...]:
+    """The pieces of a mesh. failed: gets why an engine failed on a solid."""
     creases = find_creases(mesh.vertices, mesh.faces)
     solids = _find_solids(mesh.vertices, mesh.faces)
     sizes = [float(np.linalg.norm(np.ptp(mesh.vertices[solid], axis=(0, 1)))) for solid in solids]
     least = max(_SMALL * mesh.diagonal, sorted(sizes, reverse=True)[_MOST - 1] if len(sizes) >= _MOST else 0.0)
     pieces: list[Polytope] = []
     for solid, size in zip(solids, sizes, strict=True):
-        found = _decompose_solid(mesh.vertices, solid, size >= least, cache, note)
+        found = _decompose_solid(mesh.vertices, solid, settings if size >= least else None, cache, failed)
         parts = [part for piece in found for part in cut_at_creases(piece, creases)]
         pieces += list_hulls_within(parts, mesh.vertices, solid) if len(parts) > 1 else parts
     if not pieces:
@@ -75,24 +100,28 @@ def _is_within(vertices: Floats, inner: Ints, outer: Ints) -> bool:
 
 
 def _decompose_solid(
-    vertices: Floats, faces: Ints, is_large: bool, cache: Path | None, note: Callable[[str], None]
+    vertices: Floats,
+    faces: Ints,
+    settings: DecomposeSettings | None,
+    cache: Path | None,
+    failed: list[GeometryError],
 ) -> list[Polytope]:
-    """The pieces of one solid; one that no engine takes is its convex hull."""
+    """The pieces of one solid; its convex hull where no engine takes it, and where there are no settings."""
     points = vertices[np.unique(faces)]
     if len(points) < 3 or principal_extents(points)[2][1] <= 0:
         return []
     thickness = FLATNESS * float(np.linalg.norm(np.ptp(points, axis=0)))
     hull = convex_hull(points, name="a piece of the surface", thicken=thickness)
-    if not is_large or volume_and_centroid(vertices, faces)[0] >= _CONVEX * hull.volume:
+    if settings is None or volume_and_centroid(vertices, faces)[0] >= _CONVEX * hull.volume:
         return [hull]
 
     def run(corners: Floats, triangles: Ints) -> list[Polytope]:
-        return decompose(corners, triangles, FINE, close=True, cache=cache, note=note)
+        return decompose(corners, triangles, settings, close=True, cache=cache)
 
     try:
         if is_sheet(vertices[faces].reshape(-1, 3)):
             return sheet_hulls(vertices, faces, run, "a piece of the surface")
         return run(vertices, faces)
     except GeometryError as error:
-        note(f"{pluralize(len(faces), 'triangle')} taken as one convex piece: {error.problem}")
+        failed.append(error)
         return [hull]

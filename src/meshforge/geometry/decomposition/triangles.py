@@ -70,15 +70,30 @@ def _refuse_flat(points: Floats, any_triangle: bool) -> None:
         raise GeometryError("the mesh is flat: it spans no volume", remedy=remedy)
 
 
-def cap_holes(mesh: TriangleMesh) -> tuple[TriangleMesh, int]:
-    """The mesh with caps on its holes, and how many these were; 0 where caps on planar holes alone do not close it."""
+def cap_holes(mesh: TriangleMesh, rough: float = 0.0) -> tuple[TriangleMesh, int]:
+    """The mesh with caps on its holes, and how many these were; 0 where caps on planar holes alone do not close it.
+
+    rough: of the size of a hole, how far from a plane its rim may be to count as planar. Where flat caps do not close
+    the mesh, as an edge of one may be there already, holes are closed by fans around the middles of their rims.
+    """
     loops = _find_loops(mesh.faces) if mesh.open_edges else []
-    groups = _group_by_plane([mesh.vertices[loop] for loop in loops], _LEVEL * mesh.diagonal)
-    if loops and groups:
-        faces = np.concatenate([mesh.faces, *[_make_cap(mesh.vertices, [loops[k] for k in group]) for group in groups]])
-        if is_closed(faces):
-            return TriangleMesh(mesh.vertices, faces, 0), len(loops)
-    return mesh, 0
+    groups = _group_by_plane([mesh.vertices[loop] for loop in loops], _LEVEL * mesh.diagonal, rough)
+    if not loops or not groups:
+        return mesh, 0
+    faces = np.concatenate([mesh.faces, *[_make_cap(mesh.vertices, [loops[k] for k in group]) for group in groups]])
+    if is_closed(faces):
+        return TriangleMesh(mesh.vertices, faces, 0), len(loops)
+    fans = _make_fans(mesh, loops) if rough > 0 else mesh
+    return fans, len(loops) if not fans.open_edges else 0
+
+
+def _make_fans(mesh: TriangleMesh, loops: list[Ints]) -> TriangleMesh:
+    """The mesh with triangles from each edge of its rims to the middle of the rim; as it is where that does not do."""
+    middles = [mesh.vertices[loop].mean(axis=0) for loop in loops]
+    tips = [np.full(len(loop), len(mesh.vertices) + k) for k, loop in enumerate(loops)]
+    fans = [np.column_stack([loop, np.roll(loop, -1), tip]) for loop, tip in zip(loops, tips, strict=True)]
+    faces = np.concatenate([mesh.faces, *fans])
+    return TriangleMesh(np.concatenate([mesh.vertices, middles]), faces, 0) if is_closed(faces) else mesh
 
 
 def volume_inside(vertices: Any, faces: Any) -> float | None:
@@ -119,22 +134,24 @@ def _find_rim(faces: Ints) -> tuple[Ints, Ints]:
     return start[rim], end[rim]
 
 
-def _group_by_plane(loops: list[Floats], level: float) -> list[list[int]]:
+def _group_by_plane(loops: list[Floats], level: float, rough: float) -> list[list[int]]:
     """Loops (n, 3) that lie in one plane together, by their indices; none at all where one is not planar."""
     groups: list[list[int]] = []
     for k, loop in enumerate(loops):
-        if not _is_planar(loop, level):
+        if not _is_planar(loop, level, rough):
             return []
-        home = next((g for g in groups if _is_planar(np.concatenate([loop, *(loops[j] for j in g)]), level)), None)
+        joint = (np.concatenate([loop, *(loops[j] for j in group)]) for group in groups)
+        home = next((g for g, points in zip(groups, joint, strict=False) if _is_planar(points, level, rough)), None)
         if home is None:
             groups.append(home := [])
         home.append(k)
     return groups
 
 
-def _is_planar(points: Floats, level: float) -> bool:
+def _is_planar(points: Floats, level: float, rough: float) -> bool:
     center, axes = _plane_of(points)
-    return bool(np.abs((points - center) @ axes[2]).max() <= level)
+    local = (points - center) @ axes.T
+    return bool(np.abs(local[:, 2]).max() <= max(level, rough * float(np.ptp(local[:, 0]))))
 
 
 def _plane_of(points: Floats) -> tuple[Floats, Floats]:

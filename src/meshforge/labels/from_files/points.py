@@ -11,7 +11,18 @@ from pathlib import Path
 import numpy as np
 
 from meshforge.common import AssetError, GeometryError, join_names, pluralize, suggest_aside
-from meshforge.formats import Segmentation, attach_own_mesh, read_class_names, read_segmentation
+from meshforge.formats import (
+    PointAlignment,
+    PointSamples,
+    Segmentation,
+    align_points,
+    attach_own_mesh,
+    class_files,
+    find_class_names,
+    read_segmentation,
+    samples_of_faces,
+    samples_of_points,
+)
 from meshforge.geometry import Aabb, Floats
 from meshforge.labels.from_files import segments
 from meshforge.labels.names.label_by_names import NamePattern, find_pattern
@@ -50,11 +61,7 @@ def class_names_of(
 
     Raises AssetError where a class has none.
     """
-    names = (
-        dict(enumerate(vocabulary if tuple(given) == (VOCABULARY,) else given))
-        or found.names
-        or next((read_class_names(file) for file in _class_files(path) if file.is_file()), {})
-    )
+    names = find_class_names(found, path, vocabulary if tuple(given) == (VOCABULARY,) else given)
     kinds = [int(k) for k in np.unique(found.classes) if k >= 0]
     bare = [str(number) for number in kinds if not names.get(number)]
     if bare:
@@ -62,7 +69,7 @@ def class_names_of(
             f"class {join_names(bare)} has no name" if names else "its classes are numbers, and nothing names them",
             where=str(path),
             remedy="Name them in order: --classes drawer,handle,leg, or --classes vocabulary where they are those of "
-            f"the vocabulary; or put them beside it, a name a line, in {_class_files(path)[0].name} or classes.txt.",
+            f"the vocabulary; or put them beside it, a name a line, in {class_files(path)[0].name} or classes.txt.",
         )
     return {number: names[number] for number in kinds}
 
@@ -71,10 +78,6 @@ def class_names_in_file(path: Path, given: Sequence[str]) -> list[str]:
     """The names of the classes in a file, in their order. Raises AssetError."""
     names = class_names_of(read_segmentation(path), path, given, ())
     return list(dict.fromkeys(names[number] for number in sorted(names)))
-
-
-def _class_files(path: Path) -> tuple[Path, Path]:
-    return path.with_name(f"{path.stem.removesuffix('.points')}.classes.txt"), path.with_name("classes.txt")
 
 
 @dataclass(frozen=True, slots=True)
@@ -104,7 +107,7 @@ class PointsOptions:
     those of the vocabulary; none where files say them. placing: how points come into the frame of an asset."""
 
     classes: tuple[str, ...] = ()
-    placing: segments.PointAlignment = field(default_factory=segments.PointAlignment)
+    placing: PointAlignment = field(default_factory=PointAlignment)
 
 
 def label_by_points(
@@ -137,9 +140,7 @@ def _merge_codes(names: Mapping[int, str], meanings: Mapping[int, ClassMeaning |
     return {k: firsts.setdefault(key[k], k) for k in names}
 
 
-def _sample(
-    found: Segmentation, mesh: SymbolicMesh, path: Path, placing: segments.PointAlignment
-) -> segments.PointSamples:
+def _sample(found: Segmentation, mesh: SymbolicMesh, path: Path, placing: PointAlignment) -> PointSamples:
     """Points with classes in the frame of the asset."""
     assert found.vertices is not None  # those of the asset's own mesh were found
     try:
@@ -147,22 +148,22 @@ def _sample(
     except GeometryError as error:
         raise AssetError(error.problem, where=str(path), remedy=error.remedy) from error
     if len(found.faces):
-        return segments.samples_of_faces(vertices, found.faces, found.classes, each=found.of_faces)
-    return segments.samples_of_points(vertices, found.classes)
+        return samples_of_faces(vertices, found.faces, found.classes, each=found.of_faces)
+    return samples_of_points(vertices, found.classes)
 
 
-def _align(points: Floats, mesh: SymbolicMesh, placing: segments.PointAlignment) -> Floats:
+def _align(points: Floats, mesh: SymbolicMesh, placing: PointAlignment) -> Floats:
     """The points where the hulls are, or else where is what the asset shows, of which hulls may be only a part."""
     box, up = mesh.aabb, mesh.asset.up if mesh.asset else None
     if box is None:
         return points
     try:
-        return segments.align_points(points, [box], placing, up)
+        return align_points(points, [box], placing, up)
     except GeometryError:
         shown = _visual_box(mesh)
         if shown is None:
             raise
-        return segments.align_points(points, [box, shown], placing, up)
+        return align_points(points, [box, shown], placing, up)
 
 
 def _visual_box(mesh: SymbolicMesh) -> Aabb | None:
@@ -173,7 +174,7 @@ def _visual_box(mesh: SymbolicMesh) -> Aabb | None:
     return box if box and box.diagonal > 0 else None
 
 
-def _refuse_points_outside(said: segments.HullVotes, path: Path, placing: segments.PointAlignment) -> None:
+def _refuse_points_outside(said: segments.HullVotes, path: Path, placing: PointAlignment) -> None:
     """Raise AssetError where most points are in no hull, unless they are to be taken as they are."""
     if placing.align != "off" and said.of_hulls and said.held < _HELD:
         problem = f"only {said.held:.0%} of its points are in hulls: it may be turned, or of another asset"
