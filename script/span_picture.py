@@ -33,7 +33,7 @@ _COARSE = CoacdSettings(threshold=0.2)
 def draw_spans(path: Path) -> None:
     """Write the picture."""
     with tempfile.TemporaryDirectory() as scratch:
-        project = _create_project(Path(scratch))
+        project = create_project(Path(scratch))
         spans = project.list_spans(execution=IN_PROCESS).spans_of(CUP)
         found = {span.hull: span for span in spans if span.chance >= SPLIT_DEFAULTS.sure}
         pictures, titles = (
@@ -50,7 +50,7 @@ def draw_spans(path: Path) -> None:
         write_png(path, make_contact_sheet(pictures, columns=len(pictures), titles=titles))
 
 
-def _create_project(folder: Path) -> Project:
+def create_project(folder: Path) -> Project:
     """Two labelled cups, and one whose visual mesh is decomposed in one call of CoACD and has propagated labels."""
     family = family_of("cups")
     write_family(family, folder / "cups")

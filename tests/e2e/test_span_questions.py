@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import colorsys
+import json
 import shutil
 import time
+from io import BytesIO
 from pathlib import Path
 
 import numpy as np
@@ -15,7 +17,7 @@ from meshforge.batch import IN_PROCESS
 from meshforge.project import Project, SplitSettings
 from meshforge.rendering import label_color
 from tests.e2e.hand import Hand, chromium, hand
-from tests.e2e.studio import ok, opened
+from tests.e2e.studio import Studio, ok, opened
 from tests.e2e.walk import PAGE, PATIENCE, address
 from tests.unit.project.stools import create_stools
 
@@ -43,9 +45,12 @@ def test_a_card_asks_about_each_hull_that_spans_parts_and_yes_splits_it(project:
         first = _asked(person)
         assert not project.layout.preparation(first).exists()
         _sees_parts_in_color(person, tmp_path / "view.png")
+        person.sees("1 more hull likely spans parts.")
+        _is_marked(person, studio, first)
         person.press("y")
         other = _asked(person, before=first)
         assert {first, other} == set(_SPANNING)
+        studio.cards(lambda cards: [asset for asset in cards if cards[asset]["spans"]] == [other])
         _assert_split_as_by_command(project, Project.open(tmp_path / "by_command"), first)
         person.press("Control+z")
         assert _asked(person, before=other) == first, "undone, it is asked about again"
@@ -53,6 +58,7 @@ def test_a_card_asks_about_each_hull_that_spans_parts_and_yes_splits_it(project:
         person.press("n")
         assert _asked(person, before=first) == other
         assert list(project.single_parts().assets) == [first]
+        studio.cards(lambda cards: [asset for asset in cards if cards[asset]["spans"]] == [other])
         assert not project.layout.preparation(first).exists()
         assert not person.complaints
 
@@ -84,10 +90,25 @@ def test_a_cut_whose_parts_are_labelled_is_proposed_on_a_look_alike(project: Pro
         question = hello["assessment"]["question"]
         assert question["text"].startswith("base/h0 of d.urdf looks like base/h0 of c.urdf, ")
         assert studio.get("/api/parts", asset="d.urdf", hull="base/h0").status_code == 200
+        _is_beside_its_parts(studio.get("/api/parts/picture", asset="d.urdf", hull="base/h0").content)
         studio.edit("split-span", asset="d.urdf", hull="base/h0")
         assert [hull.label for hull in project.mesh("d.urdf").hulls[:2]] == ["leg", "seat"]
+        hello = studio.until(lambda hello: not hello["assessing"])
+        assert hello["assessment"]["question"] is None, "nothing more is asked, and nobody waits for it"
         ok(studio.post("/api/undo"))
         assert len(project.mesh("d.urdf").hulls) == 4
+
+
+def _is_beside_its_parts(packet: bytes) -> None:
+    """The left half of the picture shows the hull, the right half its parts, as many as the left half's other hulls."""
+    length = int.from_bytes(packet[:4], "little")
+    names = json.loads(packet[4 : 4 + length])["names"]
+    assert names == ["base/h0#0", "base/h0#1", "base/h1", "base/h2", "base/h3", "base/h0"]
+    with Image.open(BytesIO(packet[4 + length :])) as picture:
+        shown = np.asarray(picture)[..., 1].astype(int)
+    left, right = (set(half.ravel()) - {0} for half in np.hsplit(shown, 2))
+    assert 6 in left and not left & {1, 2}
+    assert {1, 2} <= right and 6 not in right
 
 
 def _find(person: Hand) -> None:
@@ -109,6 +130,18 @@ def _asked(person: Hand, before: str | None = None) -> str:
     (asset,) = (name for name in _SPANNING if f"of {name} holds seat and leg" in text)
     person.drawn(asset)
     return asset
+
+
+def _is_marked(person: Hand, studio: Studio, asset: str) -> None:
+    """Cards and the list of hulls name the hull."""
+    spans = {name: card["spans"] for name, card in studio.cards(lambda cards: bool(cards[asset]["spans"])).items()}
+    assert [name for name in spans if spans[name]] == list(_SPANNING)
+    (told,) = spans[asset].values()
+    assert told.startswith("base/h0 holds seat and leg, ")
+    person.press("Alt+2")
+    row = person.page.locator("[role=row][data-name='base/h0']")
+    row.get_by_role("img", name=told).wait_for()
+    person.press("u")
 
 
 def _sees_parts_in_color(person: Hand, file: Path) -> None:

@@ -8,11 +8,13 @@ from pathlib import Path
 
 import pytest
 
+from meshforge.project import Project
 from meshforge.samples import TABLES
 from tests.e2e.hand import chromium, hand
 from tests.e2e.studio import Studio, ending, started
 from tests.e2e.transfer import drop
 from tests.e2e.walk import PAGE, address
+from tests.unit.project.stools import write_bare_stool
 
 
 @pytest.fixture
@@ -46,3 +48,25 @@ def test_a_dropped_folder_becomes_a_project_with_its_assets(studio: Studio, tmp_
         assert person.complaints == []
     assert sorted(path.name for path in (project / "assets" / "desks").iterdir()) == ["table_01.obj", "table_02.obj"]
     assert sorted(path.name for path in source.iterdir()) == ["table_01.obj", "table_02.obj"]
+
+
+@pytest.mark.slow
+def test_assets_without_hulls_are_decomposed_part_by_part_where_that_is_chosen(studio: Studio, tmp_path: Path) -> None:
+    write_bare_stool(tmp_path / "stools", "a")
+    project = tmp_path / "project"
+    with chromium() as browser:
+        person = hand(browser)
+        person.page.goto(address(studio))
+        person.page.get_by_label("Folder of assets", exact=True).fill(str(tmp_path / "stools"))
+        person.press("Enter")
+        person.sees("1 asset says what its parts are (seat and leg): a hull may hold several of them.")
+        person.click(person.page.get_by_role("radio", name="Part by part"))
+        person.sees("no hull crosses from one to another")
+        person.page.get_by_label("Project folder").fill(str(project))
+        person.press("Enter")
+        person.page.locator("[role=row][data-name='base/leg#0']").wait_for()
+        assert person.complaints == []
+    made = Project.open(project)
+    assert [hull.name for hull in made.mesh("a.urdf").hulls] == ["base/seat#0", *(f"base/leg#{k}" for k in range(4))]
+    (step,) = made.preparation("a.urdf").steps
+    assert step.settings["by"] == "parts"

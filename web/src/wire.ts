@@ -123,6 +123,7 @@ export interface Everything {
   MoveRule: MoveRule;
   NearMiss: NearMiss;
   NearestView: NearestView;
+  NewAssetsView: NewAssetsView;
   NewProject: NewProject;
   Next: Next;
   OpaqueView: OpaqueView;
@@ -434,11 +435,13 @@ export interface RemoveAssets {
   ids: string[];
 }
 /**
- * Run the program on all assets, or on some.
+ * Run the program on all assets, or on some; those that are new are prepared before. split: whether hulls of these
+ * that span parts are split, if the project's own were.
  */
 export interface ApplyJob {
   kind: "apply";
   assets?: string[] | null;
+  split?: boolean;
 }
 /**
  * Ask the model that meshforge.toml names for labels. max_cost: dollars to spend, null for the amount set there.
@@ -634,7 +637,8 @@ export interface AssetsChanged {
  *
  * folder: where it lies; kinds: how many of which format, in words; assets: how many; read: how many of them were
  * looked at, the first ones. Of these, pieces: how many pieces and bodies have no hulls and can be decomposed; bare:
- * how many assets have such pieces; broken: how many cannot be read; problem: why the first of them cannot be read;
+ * how many assets have such pieces; divided: how many of these have a piece with several parts that are known; parts:
+ * some names of these; broken: how many cannot be read; problem: why the first of them cannot be read;
  * left_out: whether a project gets these not. project: the folder that is offered for the new project.
  */
 export interface AssetsFound {
@@ -644,6 +648,8 @@ export interface AssetsFound {
   read: number;
   pieces: number;
   bare: number;
+  divided: number;
+  parts: string[];
   broken: number;
   problem: string | null;
   left_out: boolean;
@@ -658,6 +664,7 @@ export interface AssetsFound {
  * after: how many hulls the output has; after_labels: like `labels`, empty where they are not known; stale: what
  * changed since the output was made; corrections: how many edits by hand.
  * sources: how many pieces and bodies have no hulls and can be decomposed; prepared: what was done before the program.
+ * spans: the hulls that likely hold more than one part, by name, in words, as found last.
  * picture, edited_picture: the digest that the address of the thumbnail takes, null where there is none yet.
  * check: the digest of the output and of its inputs, null where there is no output; faults: what checks found, null
  * where it was not checked.
@@ -680,6 +687,9 @@ export interface Card {
   corrections: number;
   sources: number;
   prepared: string[];
+  spans: {
+    [k: string]: string;
+  };
   picture: string | null;
   edited_picture: string | null;
   check: string | null;
@@ -774,12 +784,15 @@ export interface CoverageView {
   };
 }
 /**
- * Make hulls for pieces and bodies that have none; method: the tool that makes them.
+ * Make hulls for pieces and bodies that have none; method: the tool that makes them, null for what made those of
+ * the project's other assets, else CoACD; by: of each piece as a whole, or of each of its parts by itself, where these
+ * are known.
  */
 export interface DecomposeJob {
   kind: "decompose";
   assets: string[];
-  method?: "coacd" | "vhacd";
+  method?: ("coacd" | "vhacd") | null;
+  by?: "whole" | "parts" | "labels";
 }
 /**
  * Make a file that the browser fetches then. what: a zip of outputs, the report, or a GIF in which assets turn,
@@ -927,8 +940,9 @@ export interface Hello {
  * The project. orient: the text of the directive, empty for none; orient_sentence: that in words.
  *
  * rules: what is demonstrated, by rule; templates: hull templates that actions can name; carried: the last propagation
- * of labels, null where there was none; problem: why the program cannot be applied; lost: ids that files are kept for
- * though there is no such asset; left_out: ids of assets that are kept, but not as part of the family.
+ * of labels, null where there was none; new: assets that a run prepares first, null for none; problem: why the program
+ * cannot be applied; lost: ids that files are kept for though there is no such asset; left_out: ids of assets that are
+ * kept, but not as part of the family.
  */
 export interface ProjectView {
   name: string;
@@ -943,6 +957,7 @@ export interface ProjectView {
   templates: string[];
   carried: PropagationState | null;
   next: Next;
+  new: NewAssetsView | null;
   problem: string | null;
   lost: string[];
   left_out: string[];
@@ -979,6 +994,17 @@ export interface Next {
   stage: "label" | "demonstrate" | "learn" | "review";
   say: string;
   asset: string | null;
+}
+/**
+ * The assets that came after the others were prepared, so that a run prepares them first. ids: of all of them;
+ * split: of how many hulls that span parts are looked for, and split where that is as sure as `sure`; unclear: why
+ * they are not decomposed, null where it is clear how.
+ */
+export interface NewAssetsView {
+  ids: string[];
+  split: number;
+  sure: number | null;
+  unclear: string | null;
 }
 /**
  * What can be undone and redone next, in words; null where there is nothing.
@@ -1119,7 +1145,8 @@ export interface Reach {
   error: string | null;
 }
 /**
- * Work that takes long. lines: what became of assets, those that failed first, at most 200.
+ * Work that takes long. done, total: of the things to do now; doing: what that is, empty where the title says it;
+ * lines: what became of assets, at most 200: those that failed first, then those that were prepared before.
  *
  * message: its result in a sentence; out: the folder that was written, or of a download the name of the file.
  */
@@ -1140,18 +1167,20 @@ export interface Job {
   title: string;
   done: number;
   total: number;
+  doing: string;
   state: "running" | "done" | "failed" | "cancelled";
   message: string;
   lines: JobLine[];
   out: string | null;
 }
 /**
- * What became of one asset in a job.
+ * What became of one asset in a job. before: what was done to a new asset before the program, in sentences.
  */
 export interface JobLine {
   asset: string;
   status: "done" | "edited" | "unchanged" | "failed" | "skipped";
   text: string;
+  before: string[];
 }
 /**
  * The project as it is now.
@@ -1351,13 +1380,15 @@ export interface Mark {
 }
 /**
  * Make a project of the assets in a folder, which stay where they are. project: the folder to make; decompose: the
- * tool that makes hulls of what has none, null to leave it as it is.
+ * tool that makes hulls of what has none, null to leave it as it is; by: of each piece as a whole, or of each of its
+ * parts by itself, where these are known.
  */
 export interface ProjectOfFolder {
   kind: "folder";
   folder: string;
   project: string;
   decompose?: ("coacd" | "vhacd") | null;
+  by?: "whole" | "parts" | "labels";
 }
 /**
  * Make a project of the files that were sent, which come into its own folder; fields as in `ProjectOfFolder`.
@@ -1366,6 +1397,7 @@ export interface ProjectOfUpload {
   kind: "upload";
   project: string;
   decompose?: ("coacd" | "vhacd") | null;
+  by?: "whole" | "parts" | "labels";
 }
 /**
  * Make a project of a bundled family, whose files are written into its own folder.

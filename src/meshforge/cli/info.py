@@ -36,7 +36,7 @@ def info(
 
 def _list_spans(asset: Path, folder: Path | None) -> tuple[str, ...]:
     """The hulls of a project's asset that likely hold more than one part, in words, as was found last."""
-    return _read_status(asset, folder).spans if folder else ()
+    return tuple(_read_status(asset, folder).spans.values()) if folder else ()
 
 
 def _describe_standing(asset: Path, folder: Path | None) -> dict[str, Any]:
@@ -44,7 +44,7 @@ def _describe_standing(asset: Path, folder: Path | None) -> dict[str, Any]:
     if folder is None:
         return {}
     found = _read_status(asset, folder)
-    return found.confidence_to_json() | {"spans": list(found.spans)}
+    return found.confidence_to_json() | {"spans": list(found.spans.values())}
 
 
 def _read_status(asset: Path, folder: Path) -> AssetStatus:

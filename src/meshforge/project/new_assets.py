@@ -7,7 +7,8 @@ the other new ones, nor on the number of workers, and no process holds more than
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Collection, Iterator, Sequence
+from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
@@ -69,12 +70,13 @@ class _Task:
 @dataclass(frozen=True, slots=True)
 class NewAssetOptions:
     """split: whether hulls that span parts are split, or only named; guess: whether hulls without a label get the
-    likeliest one."""
+    likeliest one; write_block: the block in which the files of an asset of the project are written."""
 
     split: bool = True
     guess: bool = True
     execution: batch.ExecutionOptions = batch.EXECUTION_DEFAULTS
     stage: Stage = ignore_stage
+    write_block: Callable[[str], AbstractContextManager[object]] = nullcontext
 
 
 NEW_ASSET_DEFAULTS = NewAssetOptions()
@@ -92,9 +94,12 @@ def prepare_in_project(
             yield NewAssetResult(work.id, problem=found)
             continue
         try:
-            yield replace(found.result, notes=(*_keep_in_project(store, work.id, found), *found.result.notes))
+            with options.write_block(work.id):
+                notes = _keep_in_project(store, work.id, found)
         except MeshForgeError as error:
             yield NewAssetResult(work.id, problem=error.message)
+        else:
+            yield replace(found.result, notes=(*notes, *found.result.notes))
 
 
 def list_new(store: Store) -> tuple[list[NewAsset], str | None]:
@@ -107,11 +112,15 @@ def list_new(store: Store) -> tuple[list[NewAsset], str | None]:
     ], unclear
 
 
-def prepare_new(store: Store, options: NewAssetOptions = NEW_ASSET_DEFAULTS) -> Iterator[NewAssetResult]:
+def prepare_new(
+    store: Store, options: NewAssetOptions = NEW_ASSET_DEFAULTS, only: Collection[str] | None = None
+) -> Iterator[NewAssetResult]:
     """Prepare the assets that came to a project after the others were prepared, as these were; `prepare --undo` takes
-    it back, and it is not done again then. Raises ProjectError where what the project keeps of that is damaged."""
+    it back, and it is not done again then. only: of these ids, all when None. Raises ProjectError where what the
+    project keeps of that is damaged."""
     new, unclear = list_new(store)
-    for result in prepare_in_project(store, new, options):
+    chosen = [one for one in new if only is None or one.id in only]
+    for result in prepare_in_project(store, chosen, options):
         if not result.problem:
             extend_plan(store, [result.asset], decomposed=unclear is None, split=options.split)
         yield result

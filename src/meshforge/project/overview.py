@@ -130,9 +130,9 @@ def _asset_status(
     )
 
 
-def _list_spans(spans: SpansFile, asset: str, facts: AssetFacts) -> tuple[str, ...]:
-    """The hulls of an asset that likely span parts, in words."""
-    return tuple(line.told for line in spans.likely(asset, dict(facts.hulls)).values())
+def _list_spans(spans: SpansFile, asset: str, facts: AssetFacts) -> dict[str, str]:
+    """The hulls of an asset that likely span parts, by name, in words."""
+    return {hull: line.told for hull, line in spans.likely(asset, dict(facts.hulls)).items()}
 
 
 def _describe_unknown_hulls(store: Store, asset: str, facts: AssetFacts) -> Iterator[str]:

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
 from typing import Any, Literal
 
 from meshforge.signoff import BAR, Doubt
@@ -30,7 +30,7 @@ class AssetStatus:
     known, and its files; corrections: edits by hand, a number.
     sign_off: whether it is signed off; signed_by: by whom; void: what changed since it was; probability, doubts: of its
     edit, as of the last review where nothing changed since, else None. spans: hulls that likely hold more than one
-    part, in words, as `prepare --split-spanning` found them.
+    part, by name, in words, as `prepare --split-spanning` found them.
     """
 
     id: str
@@ -58,7 +58,7 @@ class AssetStatus:
     void: tuple[str, ...] = ()
     probability: float | None = None
     doubts: tuple[Doubt, ...] = ()
-    spans: tuple[str, ...] = ()
+    spans: Mapping[str, str] = field(default_factory=dict)
 
     @property
     def is_done(self) -> bool:
@@ -132,7 +132,7 @@ def _asset_json(asset: AssetStatus) -> dict[str, Any]:
         "hulls": asset.hulls,
         "sources": asset.sources,
         "prepared": list(asset.prepared),
-        "spans": list(asset.spans),
+        "spans": list(asset.spans.values()),
         "labelled": asset.labelled,
         "doubtful": list(asset.doubtful),
         "demonstrated": asset.demonstrated,

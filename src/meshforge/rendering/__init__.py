@@ -41,11 +41,12 @@ if TYPE_CHECKING:
         count_visible_pixels,
         render_id_buffer,
         render_thumbnail,
+        renumber,
     )
     from meshforge.rendering.labeling.picture import LabelingPicture
     from meshforge.rendering.labeling.series import draw_labeling_pictures, hull_numbers
     from meshforge.rendering.picture import render, up_axis
-    from meshforge.rendering.reveal import render_revealing
+    from meshforge.rendering.reveal import render_division, render_revealing
     from meshforge.rendering.scene import RenderMesh, to_render_mesh
     from meshforge.rendering.turntable import draw_turn, encode_gif, list_turns, write_gif
 else:
@@ -84,9 +85,11 @@ __all__ = [
     "list_turns",
     "make_contact_sheet",
     "render",
+    "render_division",
     "render_id_buffer",
     "render_revealing",
     "render_thumbnail",
+    "renumber",
     "to_render_mesh",
     "up_axis",
     "write_gif",

@@ -55,14 +55,33 @@ def write_stool(folder: Path, name: str, parts: Sequence[Polytope] | None, hulls
     return path
 
 
+def write_bare_stool(folder: Path, name: str) -> Path:
+    """A URDF of one link that shows a stool whose parts have names, and collides by nothing."""
+    folder.mkdir(parents=True, exist_ok=True)
+    lines, start = list[str](), 1
+    for part, solid in zip(PARTS, boxes(0.2, 0.4), strict=True):
+        lines += [f"o {part}", *_format_solid(solid, start)]
+        start += len(solid.vertices)
+    (folder / f"{name}_seen.obj").write_text("\n".join(lines) + "\n")
+    path = folder / f"{name}.urdf"
+    seen = f'<visual><geometry><mesh filename="{name}_seen.obj"/></geometry></visual>'
+    path.write_text(f'<robot name="{name}"><link name="base">{seen}</link></robot>')
+    return path
+
+
 def _write(folder: Path, name: str, solids: Sequence[Polytope]) -> str:
     lines, start = list[str](), 1
     for solid in solids:
-        lines += [f"v {_format(point)}" for point in solid.vertices]
-        lines += [f"f {' '.join(str(k + start) for k in face)}" for face in solid.faces]
+        lines += _format_solid(solid, start)
         start += len(solid.vertices)
     (folder / f"{name}.obj").write_text("\n".join(lines) + "\n")
     return f"{name}.obj"
+
+
+def _format_solid(solid: Polytope, start: int) -> list[str]:
+    """Lines of an OBJ; start: the number of its first vertex."""
+    points = [f"v {_format(point)}" for point in solid.vertices]
+    return points + [f"f {' '.join(str(k + start) for k in face)}" for face in solid.faces]
 
 
 def _format(point: Floats) -> str:

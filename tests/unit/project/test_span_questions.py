@@ -122,7 +122,7 @@ def test_a_hull_that_a_person_calls_one_part_is_neither_asked_about_nor_named_no
     first, second = answer(project, 1).asset, answer(project, 1).asset
     assert {first, second} == {C, D} and asked(project) is None
     assert not project.preparation(first).steps
-    assert [row.spans for row in project.status().assets] == [(), (), (), ()]
+    assert [row.spans for row in project.status().assets] == [{}, {}, {}, {}]
     results = {result.asset: result for result in split(project)}
     assert not any(result.made for result in results.values())
     (note,) = results[C].notes

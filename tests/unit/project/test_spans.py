@@ -74,11 +74,11 @@ def test_a_hull_that_spans_parts_is_split_and_its_parts_are_labelled(project: Pr
 def test_the_status_names_the_hull_until_it_is_split(project: Project) -> None:
     (name,) = (span.hull for span in project.list_spans(execution=IN_PROCESS).spans_of("c.urdf") if span.chance > 0.5)
     told = [asset.spans for asset in project.status().assets]
-    assert told[:2] == [(), ()]
-    assert told[2][0].startswith(f"{name} holds ")
-    assert "seat" in told[2][0] and "leg" in told[2][0] and told[2][0].endswith("%")
+    assert told[:2] == [{}, {}]
+    assert told[2][name].startswith(f"{name} holds ")
+    assert "seat" in told[2][name] and "leg" in told[2][name] and told[2][name].endswith("%")
     split(project)
-    assert [asset.spans for asset in project.status().assets] == [(), (), ()]
+    assert [asset.spans for asset in project.status().assets] == [{}, {}, {}]
 
 
 def test_what_is_split_is_taken_back_to_the_last_byte(project: Project) -> None:
@@ -199,11 +199,11 @@ def test_a_hull_that_spans_parts_is_split_where_no_asset_has_a_surface(tmp_path:
     for solid, label in zip(boxes(0.18, 0.38), ("seat", "leg"), strict=False):
         held = sum(overlap_volume(solid, hull.shape) for hull in made if hull.label == label)
         assert held > 0.6 * solid.volume, f"most of the {label} has its label"
-    assert [asset.spans for asset in project.status().assets] == [(), (), ()]
+    assert [asset.spans for asset in project.status().assets] == [{}, {}, {}]
     project.unprepare("c.urdf")
     plan = {"preparation.json": project.layout.preparation_plan.read_bytes()}
     assert files(project) == before | plan
-    assert project.status().assets[2].spans[0].startswith(f"{spanning.name} holds ")
+    assert project.status().assets[2].spans[spanning.name].startswith(f"{spanning.name} holds ")
 
 
 @pytest.mark.slow

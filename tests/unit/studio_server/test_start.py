@@ -26,6 +26,7 @@ from meshforge.studio.start.page import StartPage
 from meshforge.studio.start.recent import RecentProjects, state_folder
 from meshforge.studio.wire.requests import ProjectOfUpload
 from tests.unit.batch.families import tree
+from tests.unit.project.stools import boxes, write_bare_stool, write_stool
 
 
 @pytest.fixture
@@ -137,6 +138,17 @@ def test_a_project_of_a_family_has_its_files_and_its_vocabulary(tmp_path: Path, 
     project = Project.open(tmp_path / "tables")
     assert len(project.assets()) == 14 and project.vocabulary == family.vocabulary
     assert all(path.is_relative_to(project.folder) for path in project.found.paths)
+
+
+def test_a_look_names_the_parts_of_what_has_no_hulls(tmp_path: Path, state: Path) -> None:
+    write_bare_stool(tmp_path / "stools", "a")
+    write_stool(tmp_path / "stools", "b", boxes(0.2, 0.4), [])
+    page = StartPage(state)
+    try:
+        found = page.look_at_folder(str(tmp_path / "stools"))
+    finally:
+        page.close()
+    assert (found.assets, found.bare, found.divided, found.parts) == (2, 2, 1, ("seat", "leg"))
 
 
 async def _chunks(data: bytes) -> AsyncIterator[bytes]:

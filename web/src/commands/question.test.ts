@@ -74,7 +74,7 @@ describe("a reply with more to it", () => {
     const start = vi.spyOn(api, "startJob").mockResolvedValue({ id: "1" } as never);
     useProject.setState({ ...emptyProject, cards: { a: sampleCard({ output: "edited", stale: ["program"] }) } });
     const accepted = acceptResult("a");
-    await vi.waitFor(() => expect(start).toHaveBeenCalledWith({ kind: "apply", assets: ["a"] }));
+    await vi.waitFor(() => expect(start).toHaveBeenCalledWith({ kind: "apply", assets: ["a"], split: true }));
     expect(edit).not.toHaveBeenCalled();
     useProject.setState({ cards: { a: sampleCard({ output: "edited" }) } });
     expect(await accepted).toBe(true);

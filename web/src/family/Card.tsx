@@ -13,6 +13,7 @@ import {
   type LucideIcon,
   Pencil,
   RefreshCw,
+  Split,
   Tag,
   TriangleAlert,
 } from "lucide-react";
@@ -207,6 +208,7 @@ function MakeHulls({ asset }: { asset: string }) {
 export const ICONS: Readonly<Record<Badge["name"], LucideIcon>> = {
   unlabelled: Tag,
   unsure: CircleDashed,
+  spanning: Split,
   demonstrated: CircleDot,
   edited: Pencil,
   stale: RefreshCw,

@@ -2,7 +2,7 @@
 import { CircleCheck, CircleQuestionMark, Crosshair, LoaderCircle } from "lucide-react";
 import { useMemo } from "react";
 import { lookAtHeld, showDoubt } from "../commands/question";
-import { barText, groupHeld, lookText, moodOf, percentText, signedText, unseenText } from "../store/assessment";
+import { barText, groupHeld, isJudging, lookText, moodOf, percentText, signedText, unseenText } from "../store/assessment";
 import { useProject } from "../store/project";
 import { countText, listText, shortName } from "../store/words";
 import { openAsset } from "../store/workspace";
@@ -14,9 +14,9 @@ import css from "./sureness.module.css";
 /** `Signed off 71 of 75`, as a bar and in words, with the way to those that are not. */
 export function SignOff() {
   const assessment = useProject((state) => state.assessment);
-  const assessing = useProject((state) => state.assessing);
+  const judging = useProject(isJudging);
   if (assessment?.assets.length) return <Known assessment={assessment} />;
-  if (!assessing) return null;
+  if (!judging) return null;
   return (
     <p className={css.line} role="status">
       <LoaderCircle size={14} aria-hidden className={css.spinning} />

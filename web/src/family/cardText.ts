@@ -19,7 +19,7 @@ export interface Badge {
 export function badgesOf(card: Card, engine = ""): readonly Badge[] {
   const { output, review, corrections, stale } = card;
   const [bare, unsure] = [unlabelled(card), card.unsure.length];
-  const faults = faultsOf(card, engine);
+  const [faults, spans] = [faultsOf(card, engine), Object.values(card.spans)];
   const out: (Badge | false)[] = [
     output === "failed" && { name: "failed", text: "The program fails on it" },
     matchesFilter(card, "flagged") && { name: "flagged", text: flaggedText(card) },
@@ -29,6 +29,7 @@ export function badgesOf(card: Card, engine = ""): readonly Badge[] {
     card.demonstrated && { name: "demonstrated", text: "Demonstrated" },
     corrections > 0 && countBadge("corrected", corrections, "edit by hand", "edits by hand"),
     output === "edited" && review === null && { name: "edited", text: "Edited by the program" },
+    spans.length > 0 && { name: "spanning", count: spans.length, text: spans.join("\n") },
     unsure > 0 && countBadge("unsure", unsure, "label is not sure", "labels are not sure"),
     bare > 0 && countBadge("unlabelled", bare, "hull has no label", "hulls have no label"),
   ];

@@ -156,7 +156,7 @@ function JobRow({ job }: { job: Job }) {
           {job.lines.map((line) => (
             <li key={line.asset} data-status={line.status}>
               <b>{line.asset}</b> {line.status}
-              {line.text && `: ${line.text}`}
+              {[line.text, ...line.before].filter(Boolean).map((text, k) => `${k ? "; " : ": "}${text}`)}
             </li>
           ))}
         </ul>

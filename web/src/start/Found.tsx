@@ -4,14 +4,16 @@ import { useStart } from "../store/start";
 import { Check, Choice } from "../ui/fields";
 import { Note } from "../ui/Section";
 import css from "./start.module.css";
-import { brokenText, decomposeText, foundText, METHODS } from "./words";
+import { brokenText, decomposeText, foundText, METHODS, partsText, UNITS } from "./words";
 
 export function Found() {
   const found = useStart((state) => state.found);
   const busy = useStart((state) => state.busy);
   const decompose = useStart((state) => state.decompose);
   const method = useStart((state) => state.method);
+  const by = useStart((state) => state.by);
   const bare = found && decomposeText(found);
+  const parts = found && partsText(found, by);
   const broken = found && brokenText(found);
   return (
     <div role="status">
@@ -31,6 +33,12 @@ export function Found() {
             <div className={css.method}>
               <Choice name="What makes the hulls" value={method} options={METHODS} onChange={(to) => useStart.setState({ method: to })} />
               <span className={css.dim}>{METHODS.find(({ value }) => value === method)?.about}</span>
+            </div>
+          )}
+          {parts && decompose && (
+            <div className={css.method}>
+              <Choice name="What is decomposed at a time" value={by} options={UNITS} onChange={(to) => useStart.setState({ by: to })} />
+              <span className={css.dim}>{parts}</span>
             </div>
           )}
         </div>

@@ -1,9 +1,9 @@
 // What the start page says of assets and of projects.
 import { expect, test } from "vitest";
-import { brokenText, decomposeText, foundText, moveInto, openedText } from "./words";
+import { brokenText, decomposeText, foundText, moveInto, openedText, partsText } from "./words";
 import { describeFolder, joinPath } from "./FolderDialog";
 
-const found = { folder: "/a", kinds: "12 URDF", assets: 12, read: 12, pieces: 0, bare: 0, broken: 0, problem: null, left_out: false, project: "/p" };
+const found = { folder: "/a", kinds: "12 URDF", assets: 12, read: 12, pieces: 0, bare: 0, divided: 0, parts: [], broken: 0, problem: null, left_out: false, project: "/p" };
 
 test("what is found says where not all was looked at", () => {
   expect(foundText(found)).toBe("12 URDF");
@@ -14,6 +14,13 @@ test("making hulls is explained where hulls are missing only", () => {
   expect(decomposeText(found)).toBe(null);
   expect(decomposeText({ ...found, bare: 1, pieces: 1 })).toContain("1 of 12 has geometry that is not convex, or no collision geometry: 1 piece.");
   expect(decomposeText({ ...found, read: 5, bare: 3, pieces: 4 })).toContain("3 of the first 5 have");
+});
+
+test("known parts are named, and what becomes of them", () => {
+  expect(partsText(found, "parts")).toBe(null);
+  const cup = { ...found, divided: 1, parts: ["wall", "handle"] };
+  expect(partsText(cup, "whole")).toBe("1 asset says what its parts are (wall and handle): a hull may hold several of them.");
+  expect(partsText({ ...cup, divided: 2 }, "parts")).toBe("2 assets say what their parts are (wall and handle): no hull crosses from one to another, and hulls are called by them.");
 });
 
 test("what cannot be read says why", () => {

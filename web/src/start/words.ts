@@ -1,5 +1,6 @@
 // What the start page says of assets that were found, and of when a project was open.
-import { countText } from "../store/words";
+import type { DecomposeBy } from "../store/start";
+import { countText, listText } from "../store/words";
 import type { AssetsFound } from "../wire";
 
 /** `12 URDF`, and how many of them were looked at where that is not all. */
@@ -22,6 +23,19 @@ export function decomposeText({ assets, read, bare, pieces }: AssetsFound): stri
     `${of} ${have} geometry that is not convex, or no collision geometry: ${countText(pieces, "piece")}. ` +
     "It is done in the background; you can stop it, and undo it. The files of the assets stay as they are."
   );
+}
+
+/** Whether parts that are known are decomposed each by itself. */
+export const UNITS = [
+  { value: "whole", label: "As a whole" },
+  { value: "parts", label: "Part by part" },
+] as const;
+
+/** What is known of parts, null where it is nothing. */
+export function partsText({ divided, parts }: AssetsFound, by: DecomposeBy): string | null {
+  if (!divided) return null;
+  const names = `${countText(divided, "asset")} ${divided === 1 ? "says" : "say"} what ${divided === 1 ? "its" : "their"} parts are (${listText(parts)})`;
+  return `${names}: ${by === "parts" ? "no hull crosses from one to another, and hulls are called by them." : "a hull may hold several of them."}`;
 }
 
 /** What cannot be read, null where all can. */

@@ -54,6 +54,8 @@ describe("how sure the family is", () => {
     expect(probabilityText(known, "a0")).toBe("50%");
     expect(probabilityText(changed, "a0")).toBe("…");
     expect(probabilityText(emptyProject, "a0")).toBeNull();
+    expect(probabilityText({ ...emptyProject, assessing: true }, "a0"), "while there is no program").toBeNull();
+    expect(probabilityText({ ...emptyProject, assessing: true, learning: true }, "a0")).toBe("…");
     expect(doubtsText("a0", changed.confidence["a0"], null)).toBe("a0");
   });
 

@@ -74,10 +74,14 @@ export const moodOf = ({ held, unseen }: Pick<AssessmentView, "held" | "unseen">
 export function probabilityText(state: Sureness, asset: string): string | null {
   const row = state.confidence[asset];
   if (state.assessment) return row ? percentText(row.probability, state.assessment.bar) : null;
-  return row || state.assessing ? "…" : null;
+  return row || isJudging(state) ? "…" : null;
 }
 
-type Sureness = Pick<ProjectState, "assessment" | "assessing" | "confidence">;
+type Judging = Pick<ProjectState, "assessing" | "learning" | "outcome">;
+type Sureness = Judging & Pick<ProjectState, "assessment" | "confidence">;
+
+/** Whether it is being worked out how sure edits are; while there is no program, only what to ask is. */
+export const isJudging = ({ assessing, learning, outcome }: Judging): boolean => assessing && (learning || outcome?.program != null);
 
 /** An asset and why its edit may be wrong, a sentence a line. */
 export function doubtsText(asset: string, row: ConfidenceView | undefined, bar: number | null): string {

@@ -1,7 +1,8 @@
 // The parts of a hull that a person is asked about: where they are shown, and until when.
 import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
 import { api } from "../server/api";
-import { dividedHull, groupParts, showHullParts, useHullParts } from "./hullParts";
+import { countSpans, dividedHull, groupParts, showHullParts, spansOf, useHullParts } from "./hullParts";
+import { sampleCard } from "./sample.test-help";
 import type { Scene } from "./scene";
 import { useToasts } from "./toasts";
 
@@ -55,5 +56,21 @@ describe("the parts of a hull", () => {
     expect(dividedHull(scene({ showing: { kind: "result", of: "program" } }))).toBeNull();
     expect(dividedHull(scene({ parts: [] }))).toBeNull();
     expect(dividedHull(scene({ hulls: [{ name: "base#0" }] }))).toBeNull();
+  });
+});
+
+describe("hulls that likely span parts", () => {
+  const cards = { cup: sampleCard({ asset: "cup", spans: { base: "base holds wall and base, 87%" } }), mug: sampleCard({ asset: "mug" }) };
+
+  it("are named on their asset, also among steps, and not on results or several assets", () => {
+    expect(spansOf(scene(), cards)).toEqual({ base: "base holds wall and base, 87%" });
+    expect(spansOf(scene({ showing: { kind: "steps", steps: 0 } }), cards)).toHaveProperty("base");
+    expect(spansOf(scene({ showing: { kind: "result", of: "program" } }), cards)).toEqual({});
+    expect(spansOf(scene({ parts: [] }), cards)).toEqual({});
+    expect(spansOf(scene({ asset: "gone" }), cards)).toEqual({});
+  });
+
+  it("are counted over the family", () => {
+    expect(countSpans(cards)).toBe(1);
   });
 });

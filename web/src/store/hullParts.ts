@@ -2,7 +2,7 @@
 import { create } from "zustand";
 import { api } from "../server/api";
 import type { PartsPacket } from "../server/packet";
-import type { HullView } from "../wire";
+import type { Card, HullView } from "../wire";
 import { percentText } from "./assessment";
 import type { Scene, SceneHull } from "./scene";
 import { reportError } from "./toasts";
@@ -50,3 +50,14 @@ export function dividedHull({ asset, showing, hulls, parts }: Scene): SceneHull 
   if (!shown || shown.asset !== asset || showing.kind !== "source" || parts) return null;
   return hulls.find(({ name }) => name === shown.packet.header.hull) ?? null;
 }
+
+/** The hulls of a scene that likely span parts, by name, in words; none on results and on several assets. */
+export function spansOf({ asset, showing, parts }: Scene, cards: Readonly<Record<string, Card>>): Readonly<Record<string, string>> {
+  return showing.kind !== "result" && !parts ? (cards[asset]?.spans ?? NO_SPANS) : NO_SPANS;
+}
+
+const NO_SPANS: Readonly<Record<string, string>> = {};
+
+/** How many hulls of the family likely span parts. */
+export const countSpans = (cards: Readonly<Record<string, Card>>): number =>
+  Object.values(cards).reduce((sum, { spans }) => sum + Object.keys(spans).length, 0);

@@ -9,7 +9,7 @@ import { emptyProject, useProject } from "./project";
 import { sampleCard } from "./sample.test-help";
 import { useToasts } from "./toasts";
 
-const job: Job = { id: "p", kind: "propagate", title: "", done: 0, total: 2, state: "running", message: "", lines: [], out: null };
+const job: Job = { id: "p", kind: "propagate", title: "", done: 0, total: 2, doing: "", state: "running", message: "", lines: [], out: null };
 const whole = sampleCard({ asset: "a", hulls: 2, labels: [0, 0], given: 2 });
 const bare = sampleCard({ asset: "b", hulls: 2, labels: [-1, -1] });
 const vocabulary = [{ name: "leg", color: "#000000", used: 2 }];

@@ -1,10 +1,13 @@
 // Long work that a person starts: propagating labels, applying the program, checking, exporting.
 import { api } from "../server/api";
 import type { DownloadJob, Job, JobRequest, Model } from "../wire";
+import { useSplitChoice } from "./newAssets";
 import { useProject } from "./project";
 import { isUpToDate } from "./reviews";
 import { reportError } from "./toasts";
 import { givenLabels } from "./unsureHulls";
+
+const isRunning = (jobs: readonly Job[], kind: Job["kind"]): boolean => jobs.some((job) => job.kind === kind && job.state === "running");
 
 /** Why the program cannot be applied, null where it can. */
 export function whyNotApply(): string | null {
@@ -13,14 +16,14 @@ export function whyNotApply(): string | null {
   if (program.error) return `The program cannot be read: ${program.error}`;
   if (!program.text.trim()) return "There is no program yet: demonstrate the steps, then learn.";
   if (project.problem) return project.problem;
-  return jobs.some((job) => job.kind === "apply" && job.state === "running") ? "The program is being applied now." : null;
+  return isRunning(jobs, "apply") ? "The program is being applied now." : null;
 }
 
 /** Why labels cannot be propagated, null where they can. */
 export function whyNotPropagate(): string | null {
   const { cards, project, order, jobs } = useProject.getState();
   const { hulls, given } = givenLabels(cards);
-  if (jobs.some((job) => job.kind === "propagate" && job.state === "running")) return "Labels are being propagated now.";
+  if (isRunning(jobs, "propagate")) return "Labels are being propagated now.";
   if (!order.length) return "There are no assets yet.";
   if (!project.vocabulary.length) return "Type the names of the labels first.";
   if (!given) return "Label the hulls of one asset first.";
@@ -39,16 +42,21 @@ async function requestJob(request: JobRequest): Promise<string | null> {
 
 const startJob = async (request: JobRequest): Promise<boolean> => (await requestJob(request)) !== null;
 
-/** Applies the program to all assets, or to some. */
-export const applyTo = (assets: readonly string[] | null): Promise<boolean> =>
-  startJob({ kind: "apply", assets: assets && [...assets] });
+const applyJob = (assets: readonly string[] | null): JobRequest => ({
+  kind: "apply",
+  assets: assets && [...assets],
+  split: useSplitChoice.getState().split,
+});
+
+/** Applies the program to all assets, or to some; those that are new are prepared before. */
+export const applyTo = (assets: readonly string[] | null): Promise<boolean> => startJob(applyJob(assets));
 
 /** How long the result of one asset may take [ms]. */
 const PATIENCE = 120_000;
 
 /** Makes the result of an asset; whether it is there then as it would be now. */
 export async function makeResult(asset: string): Promise<boolean> {
-  const id = await requestJob({ kind: "apply", assets: [asset] });
+  const id = await requestJob(applyJob([asset]));
   if (id === null) return false;
   return new Promise((pass) => {
     const end = (made: boolean) => {
@@ -73,7 +81,7 @@ export const propagateLabels = (): Promise<boolean> => startJob({ kind: "propaga
 /** Why hulls that span parts cannot be looked for, null where they can. */
 export function whyNotFindSpans(): string | null {
   const { cards, order, jobs } = useProject.getState();
-  if (jobs.some((job) => job.kind === "spans" && job.state === "running")) return "They are being looked for now.";
+  if (isRunning(jobs, "spans")) return "They are being looked for now.";
   if (!order.length) return "There are no assets yet.";
   const isLabelled = Object.values(cards).some((card) => card.labels.some((label) => label >= 0));
   return isLabelled ? null : "Label the hulls of one or two assets first.";
@@ -97,7 +105,7 @@ export const makeFile = (request: Omit<DownloadJob, "kind">): Promise<string | n
 /** Why results cannot be checked, null where they can. */
 export function whyNotCheck(): string | null {
   const { cards, jobs } = useProject.getState();
-  if (jobs.some((job) => job.kind === "check" && job.state === "running")) return "They are being checked now.";
+  if (isRunning(jobs, "check")) return "They are being checked now.";
   return Object.values(cards).some((card) => card.check !== null) ? null : "Nothing is written yet: apply the program.";
 }
 
@@ -112,8 +120,7 @@ export function useJob(kind: Job["kind"]): Job | null {
   return useProject((state) => state.jobs.findLast((job) => job.kind === kind) ?? null);
 }
 
-export const makeHulls = (assets: string[]) => void api.startJob({ kind: "decompose", assets }).catch(reportError);
+export const makeHulls = (assets: string[]): void => void startJob({ kind: "decompose", assets });
 
 /** Whether an asset is waiting for hulls to be made. */
-export const useIsDecomposing = () =>
-  useProject((state) => state.jobs.some((job) => job.kind === "decompose" && job.state === "running"));
+export const useIsDecomposing = () => useProject(({ jobs }) => isRunning(jobs, "decompose"));

@@ -75,7 +75,7 @@ describe("what the server says", () => {
   });
 
   it("has each job once, as it stands", () => {
-    const job = { id: "1", kind: "apply", title: "", done: 0, total: 2, state: "running", message: "", lines: [], out: null };
+    const job = { id: "1", kind: "apply", title: "", done: 0, total: 2, doing: "", state: "running", message: "", lines: [], out: null };
     const one = applyEvent(begun, { kind: "job", job: job as never });
     const two = applyEvent(one, { kind: "job", job: { ...job, done: 1 } as never });
     expect(two.jobs).toHaveLength(1);

@@ -66,6 +66,7 @@ export const emptyProject: ProjectState = {
     said: [],
     templates: [],
     carried: null,
+    new: null,
     next: { stage: "label", say: "", asset: null },
     problem: null,
     lost: [],

@@ -11,7 +11,7 @@ vi.mock("../server/api", () => ({
 const server = vi.mocked(api);
 
 const view = { version: "1", recent: [], places: ["/home"], families: [{ name: "cups", about: "", project: "/p/cups" }, { name: "tables", about: "", project: "/p/tables" }] };
-const found: AssetsFound = { folder: "/a", kinds: "3 URDF", assets: 3, read: 3, pieces: 2, bare: 1, broken: 0, problem: null, left_out: false, project: "/p/a" };
+const found: AssetsFound = { folder: "/a", kinds: "3 URDF", assets: 3, read: 3, pieces: 2, bare: 1, divided: 0, parts: [], broken: 0, problem: null, left_out: false, project: "/p/a" };
 const problem = new ServerProblem({ message: "there is no such folder", where: "/a", remedy: "Browse for it.", conflict: false }, 400);
 const state = () => start.useStart.getState();
 
@@ -28,7 +28,7 @@ describe("a project of a folder", () => {
     await start.lookAtFolder();
     expect([state().project, state().decompose, state().busy]).toEqual(["/p/a", true, null]);
     await start.makeProject();
-    expect(server.makeProject).toHaveBeenCalledWith({ kind: "folder", folder: "/a", project: "/p/a", decompose: "coacd" });
+    expect(server.makeProject).toHaveBeenCalledWith({ kind: "folder", folder: "/a", project: "/p/a", decompose: "coacd", by: "whole" });
   });
 
   it("is not decomposed where nothing is to be, or nobody wants it", async () => {
@@ -41,6 +41,15 @@ describe("a project of a folder", () => {
     expect(start.newProject(state())).toMatchObject({ decompose: "vhacd" });
     start.useStart.setState({ decompose: false });
     expect(start.newProject(state())).toMatchObject({ decompose: null });
+  });
+
+  it("is decomposed part by part only where parts are known", async () => {
+    start.useStart.setState({ by: "parts" });
+    await start.lookAtFolder("/a");
+    expect(start.newProject(state())).toMatchObject({ decompose: "coacd", by: "whole" });
+    server.lookAtFolder.mockResolvedValue({ ...found, divided: 1, parts: ["wall", "handle"] });
+    await start.lookAtFolder("/a");
+    expect(start.newProject(state())).toMatchObject({ decompose: "coacd", by: "parts" });
   });
 
   it("shows a problem at its place, until something else is typed", async () => {
@@ -67,7 +76,7 @@ it("dropped files are sent in place of those before, and looked at", async () =>
   expect(server.clearFiles).toHaveBeenCalledOnce();
   expect(server.stageProjectFile.mock.calls.map(([path]) => path)).toEqual(["desks/a.obj"]);
   expect([state().source, state().project]).toEqual(["upload", "/p/a"]);
-  expect(start.newProject(state())).toEqual({ kind: "upload", project: "/p/a", decompose: "coacd" });
+  expect(start.newProject(state())).toEqual({ kind: "upload", project: "/p/a", decompose: "coacd", by: "whole" });
 });
 
 it("a bundled family is offered a place of its own", () => {

@@ -2,7 +2,7 @@
 import { create } from "zustand";
 import { api } from "../server/api";
 import { ServerProblem } from "../server/http";
-import type { AssetsFound, NewProject, Problem, StartView } from "../wire";
+import type { AssetsFound, DecomposeJob, NewProject, Problem, StartView } from "../wire";
 import { reportError } from "./toasts";
 import { type PlacedFile, sendFiles } from "./upload";
 
@@ -10,6 +10,9 @@ export type Source = "folder" | "upload" | "family";
 
 /** What a problem is about: the place where it is shown. */
 export type Place = "open" | "assets" | "project";
+
+/** What is decomposed at a time. */
+export type DecomposeBy = NonNullable<DecomposeJob["by"]>;
 
 export interface StartState {
   /** What the start page shows; null while a project is open, or nothing is known. */
@@ -25,6 +28,8 @@ export interface StartState {
   decompose: boolean;
   /** What makes the hulls. */
   method: "coacd" | "vhacd";
+  /** Whether parts that are known are decomposed each by itself. */
+  by: DecomposeBy;
   busy: "look" | "open" | "make" | null;
   problem: { place: Place; problem: Problem } | null;
 }
@@ -38,6 +43,7 @@ export const initialStart: StartState = {
   project: "",
   decompose: true,
   method: "coacd",
+  by: "whole",
   busy: null,
   problem: null,
 };
@@ -107,13 +113,14 @@ async function look(ask: () => Promise<AssetsFound>, isWanted = () => true): Pro
 }
 
 /** What the server is asked to make. */
-export function newProject({ source, folder, family, project, decompose, method: wanted, found }: StartState): NewProject {
-  const method = decompose && found !== null && found.bare > 0 ? wanted : null;
+export function newProject({ source, folder, family, project, decompose, method, by: wanted, found }: StartState): NewProject {
+  const by = found !== null && found.divided > 0 ? wanted : "whole";
+  const hulls = { decompose: decompose && found !== null && found.bare > 0 ? method : null, by };
   switch (source) {
     case "folder":
-      return { kind: "folder", folder: found?.folder ?? folder, project, decompose: method };
+      return { kind: "folder", folder: found?.folder ?? folder, project, ...hulls };
     case "upload":
-      return { kind: "upload", project, decompose: method };
+      return { kind: "upload", project, ...hulls };
     case "family":
       return { kind: "family", family, project };
   }

@@ -21,7 +21,7 @@ import { emptyProject, type ProjectState, useProject } from "./project";
 import { sampleCard } from "./sample.test-help";
 import { useToasts } from "./toasts";
 
-const job = (kind: Job["kind"], state: Job["state"] = "running"): Job => ({ id: kind, kind, title: "", done: 0, total: 2, state, message: "", lines: [], out: null });
+const job = (kind: Job["kind"], state: Job["state"] = "running"): Job => ({ id: kind, kind, title: "", done: 0, total: 2, doing: "", state, message: "", lines: [], out: null });
 const set = (state: Partial<ProjectState>) => useProject.setState(state);
 const program = { ...emptyProject.program, text: "All => Delete" };
 const refusal = new ServerProblem({ message: "another job runs", where: null, remedy: "Stop it.", conflict: true }, 409);
@@ -48,8 +48,8 @@ describe("a job", () => {
     await askModel("exact", 2.5);
     makeHulls(["a"]);
     expect(vi.mocked(api.startJob).mock.calls.map(([request]) => request)).toEqual([
-      { kind: "apply", assets: null },
-      { kind: "apply", assets: ["a"] },
+      { kind: "apply", assets: null, split: true },
+      { kind: "apply", assets: ["a"], split: true },
       { kind: "propagate" },
       { kind: "check" },
       { kind: "spans" },

@@ -12,7 +12,7 @@ import { useToasts } from "./toasts";
 vi.mock("../server/save", () => ({ saveFrom: vi.fn() }));
 
 const job = (state: Job["state"]): Job => ({
-  id: "download-1", kind: "download", title: "", done: 0, total: 2, state, message: "", lines: [], out: "t.zip",
+  id: "download-1", kind: "download", title: "", done: 0, total: 2, doing: "", state, message: "", lines: [], out: "t.zip",
 }); // prettier-ignore
 const show = (...jobs: Job[]) => useProject.setState({ jobs });
 const held = (asset: string): ConfidenceView => ({ asset, probability: 0.5, doubts: [], state: "held", told: false });

@@ -7,8 +7,11 @@ export function countText(count: number, one: string, many = `${one}s`): string 
 
 /** A text as a sentence: with a capital, and a full stop. */
 export function toSentence(text: string): string {
-  return `${text.charAt(0).toUpperCase()}${text.slice(1)}${text.endsWith(".") ? "" : "."}`;
+  return `${capitalize(text)}${text.endsWith(".") ? "" : "."}`;
 }
+
+/** A text that begins with a capital. */
+export const capitalize = (text: string): string => `${text.charAt(0).toUpperCase()}${text.slice(1)}`;
 
 /** `a`, `a and b`, `a, b and c`; of more than `most` only the first ones and how many there are besides. */
 export function listText(words: readonly string[], most = 4): string {

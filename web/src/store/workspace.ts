@@ -61,6 +61,7 @@ export interface Filters {
 export type FilterName =
   | "unlabelled"
   | "unsure"
+  | "spanning"
   | "demonstrated"
   | "edited"
   | "accepted"

@@ -79,9 +79,9 @@ def make_project(
 ) -> requests.OpenReceipt:
     """Make a project and open it; hulls are made in a job, as far as that is asked for."""
     session = host.create(lambda start: start.create(request))
-    method = None if isinstance(request, requests.ProjectOfFamily) else request.decompose
-    if method:
-        start_job(session, DecomposeJob(assets=session.project.assets(), method=method))
+    if not isinstance(request, requests.ProjectOfFamily) and request.decompose:
+        job = DecomposeJob(assets=session.project.assets(), method=request.decompose, by=request.by)
+        start_job(session, job)
     return requests.OpenReceipt(folder=str(session.project.folder))
 
 

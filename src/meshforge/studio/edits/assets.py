@@ -302,6 +302,14 @@ class Decompose(_PreparationEdit, JobEdit):
         return f"{self.asset} decomposed"
 
 
+class PrepareNew(_PreparationEdit, JobEdit):
+    """A job prepared an asset that came later as the others. That it was is kept when this is undone, so that it is not
+    done again."""
+
+    def describe(self, project: Project) -> str:
+        return f"{self.asset} prepared as the others"
+
+
 class AddTemplate(Edit):
     """Keep an uploaded file as a template. file: where it lies."""
 

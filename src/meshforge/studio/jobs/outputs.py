@@ -18,6 +18,7 @@ from meshforge.common import (
     write_atomically,
 )
 from meshforge.project import sees_whole_family
+from meshforge.studio.jobs.new_assets import NewAssetPreparation, prepare_new
 from meshforge.studio.session.job_runner import JobProgress
 from meshforge.studio.session.session import Session
 from meshforge.studio.wire.asset import Fault
@@ -38,29 +39,37 @@ def start_apply(session: Session, request: ApplyJob) -> Job:
         raise ProjectError("there is no program yet", remedy="Demonstrate what is to be done on an asset or two.")
 
     def work(progress: JobProgress) -> str:
-        summary = batch.RunSummary()
-        outcomes = project.apply(
-            assets, execution=batch.ExecutionOptions(stop=progress.is_stopped, progress=progress.advance)
-        )
-        for outcome in outcomes:
-            summary.add(outcome)
-            progress.add_line(_apply_line(outcome))
-            session.note_output(outcome.asset)
+        summary, new = batch.RunSummary(), prepare_new(session, progress, assets, split=request.split)
+        for failed in new.failed:
+            summary.add(failed)
+            progress.add_line(_apply_line(failed, new))
+        lost = {failed.asset for failed in new.failed}
+        program, jobs, templates = project.work([asset for asset in assets if asset not in lost])
+        with progress.stage(len(jobs), "applying the program") as advance:
+            execution = batch.ExecutionOptions(stop=progress.is_stopped, progress=advance)
+            for outcome in batch.apply(
+                program, new.add_notes(jobs), project.layout.edited, templates=templates, execution=execution
+            ):
+                summary.add(outcome)
+                progress.add_line(_apply_line(outcome, new))
+                session.note_output(outcome.asset)
         if sees_whole_family(project):  # else the studio knows too little: `review` signs off
             project.renew_sign_offs(summary.find_alarms(), keep_persons=True)
         session.learning.assess()  # what was accepted counts again where it came out the same
         text = ", ".join(f"{number} {word}" for word, number in summary.counts.items())
-        return f"{pluralize(len(assets), 'asset')}: {text or 'none'}."
+        return f"{pluralize(len(assets), 'asset')}: {text or 'none'}. {new}".rstrip()
 
     title = f"Applying the program to {pluralize(len(assets), 'asset')}"
     return session.jobs.start("apply", title, len(assets), work, str(project.layout.edited))
 
 
-def _apply_line(outcome: batch.AssetOutcome) -> JobLine:
+def _apply_line(outcome: batch.AssetOutcome, new: NewAssetPreparation) -> JobLine:
+    before = new.describe(outcome.asset)
     if isinstance(outcome, batch.Failed):
-        return JobLine(asset=outcome.asset, status="failed", text=outcome.error)
-    parts = [f"{outcome.before} → {pluralize(outcome.after, 'hull')}", *outcome.notes, *outcome.flags]
-    return JobLine(asset=outcome.asset, status=batch.status_of(outcome), text="; ".join(parts))
+        return JobLine(asset=outcome.asset, status="failed", text=outcome.error, before=before)
+    notes = (note for note in outcome.notes if note not in before)
+    parts = [f"{outcome.before} → {pluralize(outcome.after, 'hull')}", *notes, *outcome.flags]
+    return JobLine(asset=outcome.asset, status=batch.status_of(outcome), text="; ".join(parts), before=before)
 
 
 def start_check(session: Session) -> Job:

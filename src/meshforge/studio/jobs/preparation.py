@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
+from typing import TypedDict
 from uuid import uuid4
 
 from meshforge.batch import ExecutionOptions, record_digest
 from meshforge.common import MeshForgeError, ProjectError, join_names, pluralize, relative_name
-from meshforge.geometry import CoacdSettings, VhacdSettings
+from meshforge.formats import DecomposeBy
+from meshforge.geometry import CoacdSettings, DecomposeSettings, VhacdSettings
 from meshforge.labels import LabelOutcome, PropagationResult, VlmForecast, VlmResult, check_vlm_settings
-from meshforge.project import PreparationResult, Project
-from meshforge.store import VlmSettings
+from meshforge.project import PreparationResult, Project, read_preparation_plan
+from meshforge.store import SpanLine, VlmSettings
 from meshforge.studio.edits.assets import Decompose, LabelFromModel, Propagate
 from meshforge.studio.errors import ConflictError
 from meshforge.studio.session.job_runner import JobProgress
@@ -20,18 +22,26 @@ from meshforge.studio.wire.jobs import AskJob, DecomposeJob, ForecastJob, Job, J
 from meshforge.symbolic import GIVEN_SOURCES
 
 
+class DecomposeOptions(TypedDict):
+    """Arguments of `Project.decompose`."""
+
+    hollow: bool
+    by: DecomposeBy
+
+
 def start_decompose(session: Session, request: DecomposeJob) -> Job:
     """Start to decompose whatever some assets have no hulls for; each asset is one edit, all are undone at once."""
     project = session.project
     session.check_assets(*request.assets)
     assets, group = tuple(dict.fromkeys(request.assets)), uuid4().hex
-    settings = CoacdSettings() if request.method == "coacd" else VhacdSettings()
+    settings, options = choose_decomposition(project, request)
 
     def work(progress: JobProgress) -> str:
         made = 0
         results = project.decompose(
             assets,
             settings,
+            **options,
             execution=ExecutionOptions(stop=progress.is_stopped, progress=progress.advance),
             write_block=lambda asset: session.record_edit(Decompose(asset=asset), group),
         )
@@ -41,6 +51,18 @@ def start_decompose(session: Session, request: DecomposeJob) -> Job:
         return f"{pluralize(made, 'hull')} made for {pluralize(len(assets), 'asset')}."
 
     return session.jobs.start("decompose", f"Decomposing {pluralize(len(assets), 'asset')}", len(assets), work)
+
+
+def choose_decomposition(project: Project, request: DecomposeJob) -> tuple[DecomposeSettings, DecomposeOptions]:
+    """The settings of a decomposition, and how pieces are taken.
+
+    Where nothing is asked for, those of the project's other assets, so that it stays clear how new ones are decomposed.
+    """
+    plan = read_preparation_plan(project).decompose if request.method is None else ()
+    if len(plan) == 1 and not plan[0].only:
+        return plan[0].settings, {"hollow": plan[0].hollow, "by": plan[0].by}
+    settings = VhacdSettings() if request.method == "vhacd" else CoacdSettings()
+    return settings, {"hollow": False, "by": request.by}
 
 
 def _decompose_line(result: PreparationResult) -> JobLine:
@@ -62,7 +84,7 @@ def start_spans(session: Session) -> Job:
         found = project.spans().assets
         for asset, lines in found.items():
             progress.add_line(JobLine(asset=asset, status="done", text="; ".join(one.told for one in lines.values())))
-        return _describe_spans(sum(map(len, found.values())), len(found), len(report.lost))
+        return _describe_spans(found, len(report.lost))
 
     assets = project.assets()
     return session.jobs.start(
@@ -70,12 +92,15 @@ def start_spans(session: Session) -> Job:
     )
 
 
-def _describe_spans(hulls: int, assets: int, lost: int) -> str:
+def _describe_spans(found: Mapping[str, Mapping[str, SpanLine]], lost: int) -> str:
+    lines = [line for own in found.values() for line in own.values()]
+    whole = sum(not line.parts for line in lines)
     left = f" {pluralize(lost, 'asset')} could not be looked at." if lost else ""
-    if not hulls:
+    if not lines:
         return f"No hull likely spans parts.{left}"
-    spans = "likely span parts" if hulls > 1 else "likely spans parts"
-    return f"{pluralize(hulls, 'hull')} of {pluralize(assets, 'asset')} {spans}: you are asked about each.{left}"
+    spans = "likely span parts" if len(lines) > 1 else "likely spans parts"
+    asked = "you are asked about each" if not whole else f"no plane divides {whole}, you are asked about the others"
+    return f"{pluralize(len(lines), 'hull')} of {pluralize(len(found), 'asset')} {spans}: {asked}.{left}"
 
 
 def start_propagate(session: Session) -> Job:

@@ -84,15 +84,14 @@ def assess_project(
     return ProjectAssessment(found, state, program, basis, measures)
 
 
-def view_first_question(
-    project: Project, meshes: Mapping[str, SymbolicMesh], number: int
-) -> wire.AssessmentView | None:
-    """What is asked before anything is demonstrated; None where that is nothing.
+def view_first_question(project: Project, meshes: Mapping[str, SymbolicMesh], number: int) -> wire.AssessmentView:
+    """What is asked before anything is demonstrated, in an assessment of no asset.
 
     meshes: the assets that it may be about; number: of the learning run that was not needed.
     """
     question = choose_span_question(project, meshes)
-    return wire.AssessmentView(number=number, bar=BAR, question=_view_question(question, meshes)) if question else None
+    asked = _view_question(question, meshes) if question else None
+    return wire.AssessmentView(number=number, bar=BAR, question=asked)
 
 
 def read_review_state(

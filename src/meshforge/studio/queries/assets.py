@@ -167,12 +167,15 @@ def draw_rule_picture(
 
 
 def draw_split_picture(project: Project, mesh: SymbolicMesh, split: Split) -> bytes:
-    """A packet as `draw_rule_picture` makes it, of an asset with parts in the place of a hull, from a side on which the
-    parts can be seen."""
+    """A packet as `draw_rule_picture` makes it, of two pictures side by side: an asset with a hull, and with the parts
+    in its place, from a side on which these can be seen. The hull's name comes after those of the others."""
     divided, parts = split.divide(mesh)
     pose = compute_upright(project, mesh).pose
-    header = json.dumps({"names": [hull.name for hull in divided.hulls]})
-    return frame_packet(header.encode(), _to_png(rendering.render_revealing(divided, parts, pose, RULE_PICTURE_SIZE)))
+    names = [*(hull.name for hull in divided.hulls), split.hull]
+    before, after = rendering.render_division(mesh, split.hull, divided, parts, pose, RULE_PICTURE_SIZE)
+    renumbered = rendering.renumber(before, [names.index(hull.name) for hull in mesh.hulls])
+    header = json.dumps({"names": names})
+    return frame_packet(header.encode(), _to_png(np.hstack([renumbered, after])))
 
 
 def picture_digest(geometry: str, labels: Iterable[Label | None], orient: str) -> str:

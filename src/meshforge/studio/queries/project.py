@@ -15,7 +15,15 @@ from meshforge.rendering import UNSURE, label_color
 from meshforge.store import action_text
 from meshforge.studio.queries.assets import output_picture_digest, picture_digest
 from meshforge.studio.wire.asset import Fault
-from meshforge.studio.wire.family import AnswerView, Card, Next, ProjectView, RuleLine, VocabularyLabel
+from meshforge.studio.wire.family import (
+    AnswerView,
+    Card,
+    NewAssetsView,
+    Next,
+    ProjectView,
+    RuleLine,
+    VocabularyLabel,
+)
 from meshforge.studio.wire.jobs import Model, PropagationState
 from meshforge.studio.wire.program import OutcomeView
 from meshforge.studio.wire.signoff import AssessmentView
@@ -253,8 +261,9 @@ def build_project_view(
     problem: str | None,
     lost: tuple[str, ...],
     propagated: PropagationState | None = None,
+    new: NewAssetsView | None = None,
 ) -> ProjectView:
-    """The project as the page shows it. problem, lost, propagated: see the fields of `ProjectView`."""
+    """The project as the page shows it. problem, lost, propagated, new: see the fields of `ProjectView`."""
     settings, orient = project.settings, project.orientation
     return ProjectView(
         name=settings.name,
@@ -269,6 +278,7 @@ def build_project_view(
         templates=project.template_names(),
         carried=propagated,
         next=next_step,
+        new=new,
         problem=problem,
         lost=lost,
         left_out=project.found.left_out,
@@ -350,6 +360,7 @@ def build_card(
         corrections=status.corrections,
         sources=status.sources,
         prepared=status.prepared,
+        spans=dict(status.spans),
         picture=picture,
         edited_picture=output_picture_digest(picture, output) if output and picture else None,
         check=check,

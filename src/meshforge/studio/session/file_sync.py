@@ -13,7 +13,7 @@ from time import monotonic
 from meshforge.batch import SETTINGS, STATE, source_files
 from meshforge.common import MeshForgeError, relative_name
 from meshforge.project import Project
-from meshforge.store import Review
+from meshforge.store import Review, SpanLine
 from meshforge.studio.edits.base import LATER_FILE, LEARNED_FILE, PROGRAM_FILE, SINGLE_PARTS_FILE
 from meshforge.studio.learning.scheduler import LearningScheduler
 from meshforge.studio.pages import PageState
@@ -31,14 +31,17 @@ _LEARNING_FOLDERS = ("labels/", "demonstrations/", "prepared/", "templates/")
 _LEARNING_FILES = frozenset(("answers.json", "review.json", PROGRAM_FILE))
 
 SIGN_OFF_FILE = "signoff.json"
-_QUESTION_FILES = (LATER_FILE, SINGLE_PARTS_FILE, f"{STATE}/spans.json")
+PREPARATION_PLAN_FILE = "preparation.json"
+_SPANS_FILES = (SINGLE_PARTS_FILE, f"{STATE}/spans.json")
+_QUESTION_FILES = (LATER_FILE, *_SPANS_FILES)
 
 POLL_SECONDS = 1.5
 """Seconds between two polls; more where a poll itself takes long, so that it takes a small share of the time."""
 _SHARE = 10
 _WATCH_FOLDERS = ("labels", "demonstrations", "corrections", "prepared", "templates", f"edited/{STATE}/stamps")
 _WATCH_FILES = (
-    SETTINGS, "answers.json", PROGRAM_FILE, "review.json", SIGN_OFF_FILE, LEARNED_FILE, *_QUESTION_FILES,
+    SETTINGS, "answers.json", PROGRAM_FILE, "review.json", SIGN_OFF_FILE, LEARNED_FILE, PREPARATION_PLAN_FILE,
+    *_QUESTION_FILES,
 )  # fmt: skip
 
 FileStamps = dict[str, tuple[int, int]]
@@ -58,7 +61,7 @@ class FileSync:
         self._pages, self._learning, self._queue = pages, learning, queue
         self._stamps = read_stamps(project)
         self._reviews = project.reviews()
-        self._aside = _read_aside(project)
+        self._aside, self._spans = _read_aside(project), _read_spans(project)
 
     def update(self, names: Iterable[str]) -> None:
         """Refresh what depends on files that changed; names: paths from the project's folder."""
@@ -74,6 +77,8 @@ class FileSync:
         self._queue.add(changes.assets, later=changes.settings)
         if changes.reviews:
             self._queue.add(self._update_reviews())
+        if not names.isdisjoint(_SPANS_FILES):
+            self._queue.add(self._update_spans())
         if is_other and not changes.learning:
             self._learning.measure_reach()
         is_asked_otherwise = self._update_aside() if SIGN_OFF_FILE in names else False
@@ -121,6 +126,11 @@ class FileSync:
         self._reviews = now = self.project.reviews()
         return [asset for asset in before | now if before.get(asset) != now.get(asset)]
 
+    def _update_spans(self) -> list[str]:
+        """The assets of which other hulls likely span parts than before."""
+        before, self._spans = self._spans, _read_spans(self.project)
+        return [asset for asset in before | self._spans if before.get(asset) != self._spans.get(asset)]
+
     def _update_aside(self) -> bool:
         """Whether other assets are set aside than before; sign-offs themselves, which an assessment renews, change
         nothing that it is made of."""
@@ -133,6 +143,13 @@ def _read_aside(project: Project) -> tuple[str, ...]:
         return project.sign_offs().aside
     except MeshForgeError:  # the assessment says so
         return ()
+
+
+def _read_spans(project: Project) -> dict[str, dict[str, SpanLine]]:
+    try:
+        return project.spans().assets
+    except MeshForgeError:  # the cards say so
+        return {}
 
 
 def _view_program(project: Project, before: ProgramView) -> ProgramView:

@@ -31,9 +31,9 @@ class JobProgress:
 
     @property
     def job(self) -> Job:
-        """The job as it stands; of many lines those that failed first."""
+        """The job as it stands; of many lines those that failed first, then those of assets that were prepared."""
         with self._lock:
-            lines = sorted(self._lines, key=lambda line: line.status != "failed")[:MOST_LINES]
+            lines = sorted(self._lines, key=lambda line: (line.status != "failed", not line.before))[:MOST_LINES]
             return self._job.model_copy(update={"lines": tuple(lines)})
 
     def is_stopped(self) -> bool:
@@ -58,9 +58,11 @@ class JobProgress:
 
     @contextmanager
     def stage(self, total: int, what: str) -> Iterator[Callable[[], None]]:
-        """One of several parts, with so many things to do: gives a function that counts one more of them."""
+        """One of several parts, with so many things to do: gives a function that counts one more of them. what: says
+        so; where there is nothing to do, what was done last stays."""
         with self._lock:
-            self._job = self._job.model_copy(update={"done": 0, "total": total} if total else {})
+            if total:
+                self._job = self._job.model_copy(update={"done": 0, "total": total, "doing": what})
             self._send()
         yield self.advance
 

@@ -17,6 +17,7 @@ from meshforge.studio.label_changes import LabelChanges
 from meshforge.studio.output_checks import OutputChecks
 from meshforge.studio.output_measures import check_key
 from meshforge.studio.pages import PageState
+from meshforge.studio.queries.new_assets import NewAssetsQuery
 from meshforge.studio.queries.project import Lookups, build_card, build_project_view, choose_next_step
 from meshforge.studio.wire.family import Next, ProjectView
 from meshforge.studio.wire.jobs import Job
@@ -49,6 +50,7 @@ class Refresher:
         self._offers = offers
         self.queue = RefreshQueue(self.refresh, self.portion_size)
         self._names: dict[str, tuple[str, ...]] = {}
+        self._new_assets = NewAssetsQuery()
         self._read, self._next_report = 0, 0.0
         self._job: Job | None = None
 
@@ -94,17 +96,19 @@ class Refresher:
         has_program = bool(program.text) and not program.error
         lookups = Lookups(partial(suggest_first_demonstration, project), self._find_offers)
         propagated = self._label_changes.propagation_state(project, cards)
+        new, damage = self._new_assets.find(project, cards)
+        problem = status.problem or damage
         next_step = choose_next_step(
             cards,
             status.vocabulary,
             has_program,
             self._pages.outcome,
-            status.problem,
+            problem,
             lookups,
             propagated,
             self._pages.assessment,
         )
-        return build_project_view(project, cards, next_step, status.problem, status.lost, propagated)
+        return build_project_view(project, cards, next_step, problem, status.lost, propagated, new)
 
     def _find_offers(self) -> LabelOffers:
         try:

@@ -20,13 +20,17 @@ LOOK_SECONDS = 8.0
 """Seconds that assets are read for before a project is made of them; the studio reads the rest when it is open."""
 MOST_READ = 300
 """Assets that are read for that."""
+MOST_PARTS = 4
+"""Names of parts that are told."""
 
 
 @dataclass(frozen=True, slots=True)
 class _Look:
-    """What one asset holds. pieces: how many pieces and bodies can be decomposed; problem: why it cannot be read."""
+    """What one asset holds. pieces: how many pieces and bodies can be decomposed; parts: names of the parts of those
+    that have several; problem: why it cannot be read."""
 
     pieces: int = 0
+    parts: tuple[str, ...] = ()
     problem: str | None = None
 
 
@@ -48,6 +52,8 @@ def look_at_assets(workers: Workers, folder: Path, paths: Sequence[Path], name: 
         read=len(looks),
         pieces=sum(look.pieces for look in looks),
         bare=sum(look.pieces > 0 for look in looks),
+        divided=sum(bool(look.parts) for look in looks),
+        parts=tuple(dict.fromkeys(name for look in looks for name in look.parts))[:MOST_PARTS],
         broken=len(problems),
         problem=problems[0] if problems else None,
         project=str(suggest_project(name)),
@@ -92,7 +98,10 @@ def _is_ready() -> bool:
 
 def _look(path: Path) -> _Look:
     try:
-        return _Look(sum(not source.is_hopeless for source in find_sources(read(path))))
+        sources = [source for source in find_sources(read(path)) if not source.is_hopeless]
+        known = [source.surface.parts for source in sources if source.surface.parts and source.surface.parts.is_divided]
+        names = dict.fromkeys(parts.names[k] for parts in known for k in parts.numbers)
+        return _Look(len(sources), tuple(names)[:MOST_PARTS])
     except Exception as error:  # one asset never hides the others
         return _Look(problem=describe_error(error, str(path)).split("\n")[0])
 

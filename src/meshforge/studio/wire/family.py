@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import Literal
 
+from pydantic import Field
+
 from meshforge.studio.wire import Wire
 from meshforge.studio.wire.asset import Fault
 from meshforge.studio.wire.jobs import PropagationState
@@ -22,6 +24,7 @@ class Card(Wire):
     after: how many hulls the output has; after_labels: like `labels`, empty where they are not known; stale: what
     changed since the output was made; corrections: how many edits by hand.
     sources: how many pieces and bodies have no hulls and can be decomposed; prepared: what was done before the program.
+    spans: the hulls that likely hold more than one part, by name, in words, as found last.
     picture, edited_picture: the digest that the address of the thumbnail takes, null where there is none yet.
     check: the digest of the output and of its inputs, null where there is no output; faults: what checks found, null
     where it was not checked.
@@ -44,6 +47,7 @@ class Card(Wire):
     corrections: int = 0
     sources: int = 0
     prepared: tuple[str, ...] = ()
+    spans: dict[str, str] = Field(default_factory=dict)
     picture: str | None = None
     edited_picture: str | None = None
     check: str | None = None
@@ -84,12 +88,24 @@ class Next(Wire):
     asset: str | None = None
 
 
+class NewAssetsView(Wire):
+    """The assets that came after the others were prepared, so that a run prepares them first. ids: of all of them;
+    split: of how many hulls that span parts are looked for, and split where that is as sure as `sure`; unclear: why
+    they are not decomposed, null where it is clear how."""
+
+    ids: tuple[str, ...]
+    split: int = 0
+    sure: float | None = None
+    unclear: str | None = None
+
+
 class ProjectView(Wire):
     """The project. orient: the text of the directive, empty for none; orient_sentence: that in words.
 
     rules: what is demonstrated, by rule; templates: hull templates that actions can name; carried: the last propagation
-    of labels, null where there was none; problem: why the program cannot be applied; lost: ids that files are kept for
-    though there is no such asset; left_out: ids of assets that are kept, but not as part of the family.
+    of labels, null where there was none; new: assets that a run prepares first, null for none; problem: why the program
+    cannot be applied; lost: ids that files are kept for though there is no such asset; left_out: ids of assets that are
+    kept, but not as part of the family.
     """
 
     name: str
@@ -104,6 +120,7 @@ class ProjectView(Wire):
     templates: tuple[str, ...] = ()
     carried: PropagationState | None = None
     next: Next
+    new: NewAssetsView | None = None
     problem: str | None = None
     lost: tuple[str, ...] = ()
     left_out: tuple[str, ...] = ()

@@ -6,6 +6,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
+from meshforge.formats import DecomposeBy
 from meshforge.studio.wire import Wire
 
 JobKind = Literal[
@@ -19,15 +20,17 @@ LabelEditKind = Literal["propagate", "label-files", "label-names", "label-vlm"]
 
 
 class JobLine(Wire):
-    """What became of one asset in a job."""
+    """What became of one asset in a job. before: what was done to a new asset before the program, in sentences."""
 
     asset: str
     status: Literal["done", "edited", "unchanged", "failed", "skipped"]
     text: str = ""
+    before: tuple[str, ...] = ()
 
 
 class Job(Wire):
-    """Work that takes long. lines: what became of assets, those that failed first, at most 200.
+    """Work that takes long. done, total: of the things to do now; doing: what that is, empty where the title says it;
+    lines: what became of assets, at most 200: those that failed first, then those that were prepared before.
 
     message: its result in a sentence; out: the folder that was written, or of a download the name of the file.
     """
@@ -37,6 +40,7 @@ class Job(Wire):
     title: str
     done: int = 0
     total: int = 0
+    doing: str = ""
     state: Literal["running", "done", "failed", "cancelled"] = "running"
     message: str = ""
     lines: tuple[JobLine, ...] = ()
@@ -44,18 +48,23 @@ class Job(Wire):
 
 
 class ApplyJob(Wire):
-    """Run the program on all assets, or on some."""
+    """Run the program on all assets, or on some; those that are new are prepared before. split: whether hulls of these
+    that span parts are split, if the project's own were."""
 
     kind: Literal["apply"] = "apply"
     assets: tuple[str, ...] | None = None
+    split: bool = True
 
 
 class DecomposeJob(Wire):
-    """Make hulls for pieces and bodies that have none; method: the tool that makes them."""
+    """Make hulls for pieces and bodies that have none; method: the tool that makes them, null for what made those of
+    the project's other assets, else CoACD; by: of each piece as a whole, or of each of its parts by itself, where these
+    are known."""
 
     kind: Literal["decompose"] = "decompose"
     assets: tuple[str, ...]
-    method: Literal["coacd", "vhacd"] = "coacd"
+    method: Literal["coacd", "vhacd"] | None = None
+    by: DecomposeBy = "whole"
 
 
 class SpansJob(Wire):

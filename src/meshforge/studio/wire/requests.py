@@ -6,6 +6,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
+from meshforge.formats import DecomposeBy
 from meshforge.studio.wire import Wire
 from meshforge.studio.wire.jobs import Model
 
@@ -132,12 +133,14 @@ Method = Literal["coacd", "vhacd"]
 
 class ProjectOfFolder(Wire):
     """Make a project of the assets in a folder, which stay where they are. project: the folder to make; decompose: the
-    tool that makes hulls of what has none, null to leave it as it is."""
+    tool that makes hulls of what has none, null to leave it as it is; by: of each piece as a whole, or of each of its
+    parts by itself, where these are known."""
 
     kind: Literal["folder"] = "folder"
     folder: str
     project: str
     decompose: Method | None = None
+    by: DecomposeBy = "whole"
 
 
 class ProjectOfUpload(Wire):
@@ -146,6 +149,7 @@ class ProjectOfUpload(Wire):
     kind: Literal["upload"] = "upload"
     project: str
     decompose: Method | None = None
+    by: DecomposeBy = "whole"
 
 
 class ProjectOfFamily(Wire):

@@ -57,7 +57,8 @@ class AssetsFound(Wire):
 
     folder: where it lies; kinds: how many of which format, in words; assets: how many; read: how many of them were
     looked at, the first ones. Of these, pieces: how many pieces and bodies have no hulls and can be decomposed; bare:
-    how many assets have such pieces; broken: how many cannot be read; problem: why the first of them cannot be read;
+    how many assets have such pieces; divided: how many of these have a piece with several parts that are known; parts:
+    some names of these; broken: how many cannot be read; problem: why the first of them cannot be read;
     left_out: whether a project gets these not. project: the folder that is offered for the new project.
     """
 
@@ -67,6 +68,8 @@ class AssetsFound(Wire):
     read: int
     pieces: int = 0
     bare: int = 0
+    divided: int = 0
+    parts: tuple[str, ...] = ()
     broken: int = 0
     problem: str | None = None
     left_out: bool = False

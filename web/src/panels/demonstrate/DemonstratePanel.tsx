@@ -2,22 +2,21 @@
 import { Boxes, Slice, Undo2 } from "lucide-react";
 import { useEffect } from "react";
 import { startCut } from "../../commands/demonstrate";
-import { api } from "../../server/api";
 import { perform } from "../../store/edits";
 import { followGuesses } from "../../store/guesses";
+import { makeHulls, useIsDecomposing } from "../../store/jobs";
 import { loadLanguage } from "../../store/language";
 import { followPreview } from "../../store/preview";
 import { useProject } from "../../store/project";
 import { useAssetView } from "../../store/scenes";
-import { reportError } from "../../store/toasts";
 import { countText } from "../../store/words";
 import { setTool, useWorkspace } from "../../store/workspace";
 import { Button } from "../../ui/Button";
 import { Section } from "../../ui/Section";
 import css from "./demonstrate.module.css";
 import { DraftForm } from "./DraftForm";
-import { FindSpans } from "./FindSpans";
 import { FamilyRules } from "./FamilyRules";
+import { FindSpans } from "./FindSpans";
 import { Orientation } from "./Orientation";
 
 export function DemonstratePanel() {
@@ -78,14 +77,14 @@ function Split() {
 /** Pieces that are no hulls can be made into hulls. */
 function Decompose({ asset, pieces }: { asset: string; pieces: number }) {
   const sources = useProject((state) => state.cards[asset]?.sources ?? 0);
-  const busy = useProject((state) => state.jobs.some((job) => job.kind === "decompose" && job.state === "running"));
+  const busy = useIsDecomposing();
   if (!sources) return null;
   const what = pieces ? countText(pieces, "piece") : "geometry without hulls";
   return (
     <Button
       icon={Boxes}
       disabled={busy}
-      onClick={() => void api.startJob({ kind: "decompose", assets: [asset] }).catch(reportError)}
+      onClick={() => makeHulls([asset])}
       tip="Decompose geometry without hulls into convex hulls"
     >
       {busy ? "Making hulls…" : `Make hulls of ${what}`}

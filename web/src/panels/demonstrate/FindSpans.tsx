@@ -4,9 +4,11 @@ import { goToCard } from "../../commands/question";
 import { openQuestion } from "../../store/assessment";
 import { cancelJob, findSpans, useJob, whyNotFindSpans } from "../../store/jobs";
 import { useProject } from "../../store/project";
+import { capitalize } from "../../store/words";
 import { Button } from "../../ui/Button";
-import { Note, Section } from "../../ui/Section";
+import { Section } from "../../ui/Section";
 import type { Job } from "../../wire";
+import { JobLines, JobNote } from "../review/JobProgress";
 import css from "./demonstrate.module.css";
 
 export function FindSpans() {
@@ -22,7 +24,7 @@ function Running({ job }: { job: Job }) {
   const counts = job.done < job.total;
   return (
     <div className={css.buttons}>
-      <span role="status">{counts ? `Decomposing finely: ${job.done} of ${job.total}` : "Comparing all hulls…"}</span>
+      <span role="status">{counts ? `${capitalize(job.doing)}: ${job.done} of ${job.total}` : "Comparing all hulls…"}</span>
       <Button icon={Square} onClick={() => cancelJob(job.id)} aria-label="Stop looking for hulls that span parts">
         Stop
       </Button>
@@ -31,13 +33,12 @@ function Running({ job }: { job: Job }) {
   );
 }
 
-const MOODS = { running: "plain", done: "good", failed: "bad", cancelled: "warn" } as const;
-
 function Ready({ job }: { job: Job | null }) {
   const why = useProject(whyNotFindSpans);
   const isAsked = useProject((state) => openQuestion(state)?.kind === "span");
   return (
     <div className={css.spans}>
+      {job && <JobNote job={job} />}
       <div className={css.buttons}>
         <Button icon={Split} disabled={why !== null} onClick={() => void findSpans()} tip="Hulls of all assets that hold more than one part">
           Find hulls that span parts
@@ -49,7 +50,7 @@ function Ready({ job }: { job: Job | null }) {
         )}
       </div>
       {why !== null && <p className={css.hint}>{why}</p>}
-      {job && <Note mood={MOODS[job.state]}>{job.message}</Note>}
+      {job && <JobLines lines={job.lines} />}
     </div>
   );
 }

@@ -14,6 +14,7 @@ import { Button, IconButton } from "../../ui/Button";
 import { Choice } from "../../ui/fields";
 import { Note, Section } from "../../ui/Section";
 import type { Job, LabelSources, Model } from "../../wire";
+import { JobNote } from "../review/JobProgress";
 import css from "./getLabels.module.css";
 
 export function GetLabels() {
@@ -137,8 +138,7 @@ function PropagateReady({ job }: { job: Job | null }) {
   const text = why ?? (carried ? sinceThen(unused) : given);
   return (
     <SourceRow icon={Waypoints} title={PROPAGATE_TITLE} text={text} action={carry}>
-      {job?.state === "failed" && <Note mood="bad">{job.message}</Note>}
-      {job?.state === "cancelled" && <Note mood="warn">{job.message}</Note>}
+      {(job?.state === "failed" || job?.state === "cancelled") && <JobNote job={job} />}
       {carried?.next && <Best asset={carried.next} />}
     </SourceRow>
   );
@@ -189,7 +189,6 @@ const MODES = [
   { value: "balanced", label: "Balanced", name: "Two questions about each dozen hulls" },
   { value: "exact", label: "Exact", name: "One question about each view of every five hulls" },
 ] as const;
-const MOODS = { running: "plain", done: "good", failed: "bad", cancelled: "warn" } as const;
 type Mode = Model["mode"];
 
 /** What is chosen, and the forecast that was asked for: it is of its mode and its vocabulary only. */
@@ -266,8 +265,8 @@ function ModelReady({ model, asked, chosen, choose }: ModelReadyProps) {
         </div>
       )}
       {isKnown && <Note>{forecastJob.message}</Note>}
-      {isFor && forecastJob?.state === "failed" && <Note mood="bad">{forecastJob.message}</Note>}
-      {asked && !isKnown && <Note mood={MOODS[asked.state]}>{asked.message}</Note>}
+      {isFor && forecastJob?.state === "failed" && <JobNote job={forecastJob} />}
+      {asked && !isKnown && <JobNote job={asked} />}
     </SourceRow>
   );
 }

@@ -1,7 +1,8 @@
 // The picture of an asset as a rule meets it, with some of its hulls in a strong colour; fetched once for each program.
-import { useCallback, useEffect, useMemo, useState } from "react";
+import { useCallback, useMemo } from "react";
 import { IdPicture } from "../../pictures/IdPicture";
 import { decodePicture } from "../../pictures/pictureCache";
+import { useFetched } from "../../pictures/useFetched";
 import { api } from "../../server/api";
 import { useProject } from "../../store/project";
 import css from "./learn.module.css";
@@ -44,17 +45,8 @@ const NO_HULLS: readonly string[] = [];
 export function useRulePicture(asset: string, rule: number, show: readonly string[] = NO_HULLS): RulePictureView | "failed" | null {
   const version = useProject((state) => `${state.outcome?.number ?? 0} ${state.shapeRevisions[asset] ?? 0}`);
   const shown = show.slice(0, MOST_SHOWN).join("\n");
-  const key = `${asset} ${rule} ${version} ${shown}`;
-  const [got, setGot] = useState<{ key: string; picture: RulePictureView | "failed" } | null>(null);
-  useEffect(() => {
-    let wanted = true;
-    const take = (picture: RulePictureView | "failed") => wanted && setGot({ key, picture });
-    fetchView(asset, rule, version, shown ? shown.split("\n") : NO_HULLS).then(take, () => take("failed"));
-    return () => {
-      wanted = false;
-    };
-  }, [asset, rule, version, shown, key]);
-  return got?.key === key ? got.picture : null;
+  const fetch = useCallback(() => fetchView(asset, rule, version, shown ? shown.split("\n") : NO_HULLS), [asset, rule, version, shown]);
+  return useFetched(fetch);
 }
 
 /** An address holds no more names. */

@@ -3,7 +3,7 @@ import { CircleCheck, CircleQuestionMark, LoaderCircle } from "lucide-react";
 import { type ReactNode, useCallback, useEffect, useMemo, useRef, useState } from "react";
 import { showQuestion, showRepair } from "../../commands/learn";
 import { lookAtHeld, showAsked, takeCall, useCardCalls } from "../../commands/question";
-import { asReadings, openQuestion } from "../../store/assessment";
+import { asReadings, isJudging, openQuestion } from "../../store/assessment";
 import { useProject } from "../../store/project";
 import { countText } from "../../store/words";
 import { Button } from "../../ui/Button";
@@ -89,7 +89,7 @@ function Card({ asked: { own, review }, onSkip }: { asked: Asked; onSkip: (id: s
 /** What stands where the card would: it is being worked out, or nothing is left to ask. */
 function NoQuestion() {
   const assessment = useProject((state) => state.assessment);
-  const busy = useProject((state) => state.assessing && (state.learning || state.outcome?.program != null));
+  const busy = useProject(isJudging);
   if (busy) return <Line icon={<LoaderCircle size={15} aria-hidden className={css.spinning} />} text="Working out what to ask…" />;
   return assessment?.assets.length ? <Over assessment={assessment} /> : null;
 }

@@ -1,10 +1,11 @@
 // The question whether a hull that likely spans parts is to be split: its parts in colour, in the card and in the view.
 import { Check, X } from "lucide-react";
-import { useCallback, useEffect, useState } from "react";
+import { useCallback, useEffect } from "react";
 import { putOff, reply, showAsked } from "../../commands/question";
 import { IdPicture } from "../../pictures/IdPicture";
+import { useFetched } from "../../pictures/useFetched";
 import { api } from "../../server/api";
-import { groupParts, type PartGroup, showHullParts, useHullParts } from "../../store/hullParts";
+import { countSpans, groupParts, type PartGroup, showHullParts, useHullParts } from "../../store/hullParts";
 import { useProject } from "../../store/project";
 import { Swatch } from "../../ui/Section";
 import type { HullView, ReviewQuestionView } from "../../wire";
@@ -14,9 +15,10 @@ import { LaterReply, Reply, ShowReply } from "./Replies";
 
 export function SpanCard({ question }: { question: ReviewQuestionView }) {
   const { id, hulls } = question;
-  const { asset, hull } = hulls[0] ?? { asset: "", hull: "" };
+  const { asset, hull, place } = hulls[0] ?? { asset: "", hull: "", place: -1 };
   useEffect(() => showHullParts(asset, hull), [id, asset, hull]);
   const parts = useHullParts((state) => state.shown?.packet.header.parts) ?? NO_PARTS;
+  const rest = useProject(({ cards }) => countSpans(cards) - Number(hull in (cards[asset]?.spans ?? {})));
   const split = () => void reply(question, 0);
   const keep = () => void reply(question, 1);
   const later = () => void putOff(question);
@@ -26,7 +28,11 @@ export function SpanCard({ question }: { question: ReviewQuestionView }) {
     <section className={css.card} aria-labelledby="asked">
       <h3 id="asked">{question.text}</h3>
       <button type="button" className={css.look} onClick={show} aria-label={`Open ${question.asset} with the hull in its parts`}>
-        <PartsPicture id={id} asset={asset} hull={hull} parts={parts} />
+        <PartsPicture key={id} asset={asset} hull={hull} place={place} parts={parts} />
+        <span className={css.sides} aria-hidden>
+          <span>as it is</span>
+          <span>split</span>
+        </span>
       </button>
       <ul className={css.parts} aria-label="Parts">
         {groupParts(parts).map((group) => (
@@ -43,6 +49,7 @@ export function SpanCard({ question }: { question: ReviewQuestionView }) {
         <ShowReply onClick={doing(show)} />
         <LaterReply onClick={doing(later)} />
       </div>
+      {rest > 0 && <p className={css.dim}>{rest === 1 ? "1 more hull likely spans parts." : `${rest} more hulls likely span parts.`}</p>}
     </section>
   );
 }
@@ -66,45 +73,30 @@ function useLabelColors(): (label: string | null) => string {
   return useCallback((label) => vocabulary.find(({ name }) => name === label)?.color ?? "var(--hull-unlabelled)", [vocabulary]);
 }
 
-interface Place {
-  /** Of the question, so that parts that were found anew are fetched anew. */
-  id: string;
+interface PartsPictureProps {
   asset: string;
   hull: string;
+  /** Of the hull among those of the asset. */
+  place: number;
+  parts: readonly HullView[];
 }
 
-interface Picture {
-  readonly names: readonly string[];
-  readonly png: Blob;
-}
-
-/** The asset with the parts in the place of the hull, in the colours of their labels, all else pale. */
-function PartsPicture({ parts, ...place }: Place & { parts: readonly HullView[] }) {
-  const picture = usePartsPicture(place);
-  const colorOf = useLabelColors();
+/** The asset twice, with the hull and with the parts in its place, in the colours of their labels, all else pale. */
+function PartsPicture({ asset, hull, place, parts }: PartsPictureProps) {
+  const picture = useFetched(useCallback(() => api.partsPicture(asset, hull), [asset, hull]));
   const names = picture === "failed" ? undefined : picture?.names;
+  const colorOf = useLabelColors();
+  const own = useProject(({ cards, project }) => project.vocabulary[cards[asset]?.labels[place] ?? -1]?.color ?? "var(--text-dim)");
   const colors = useCallback(
     (position: number) => {
-      const part = parts.find(({ name }) => name === names?.[position]);
-      if (part) return colorOf(part.label);
-      return position < 0 ? "var(--hull-opaque)" : "var(--hull-pale)";
+      const name = names?.[position];
+      if (name === hull) return own;
+      const part = parts.find((one) => one.name === name);
+      return part ? colorOf(part.label) : position < 0 ? "var(--hull-opaque)" : "var(--hull-pale)";
     },
-    [parts, names, colorOf],
+    [parts, names, hull, own, colorOf],
   );
   if (picture === "failed") return <div className={css.missing}>No picture</div>;
   if (!picture) return <div className={css.missing} aria-hidden />;
   return <IdPicture png={picture.png} label="" colors={colors} className={css.partsPicture ?? ""} />;
-}
-
-function usePartsPicture({ id, asset, hull }: Place): Picture | "failed" | null {
-  const [got, setGot] = useState<{ id: string; picture: Picture | "failed" } | null>(null);
-  useEffect(() => {
-    let wanted = true;
-    const take = (picture: Picture | "failed") => wanted && setGot({ id, picture });
-    api.partsPicture(asset, hull).then(take, () => take("failed"));
-    return () => {
-      wanted = false;
-    };
-  }, [id, asset, hull]);
-  return got?.id === id ? got.picture : null;
 }

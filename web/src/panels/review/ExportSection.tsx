@@ -8,10 +8,10 @@ import { notify, reportError } from "../../store/toasts";
 import { countText } from "../../store/words";
 import { Button, IconButton } from "../../ui/Button";
 import { Choice } from "../../ui/fields";
-import { Note, Section } from "../../ui/Section";
+import { Section } from "../../ui/Section";
 import type { Job } from "../../wire";
 import { DownloadSection } from "./DownloadSection";
-import { JobLines, JobProgress } from "./JobProgress";
+import { JobLines, JobNote, JobProgress } from "./JobProgress";
 import css from "./review.module.css";
 
 type What = "signed" | "all";
@@ -65,11 +65,9 @@ function Form({ what, setWhat }: { what: What; setWhat: (what: What) => void }) 
 }
 
 function Outcome({ job }: { job: Job }) {
-  const moods = { done: "good", failed: "bad", cancelled: "warn", running: "plain" } as const;
-  const message = job.message || (job.state === "cancelled" ? "Stopped." : "Done.");
   return (
     <Section title="The last export">
-      <Note mood={moods[job.state]}>{message}</Note>
+      <JobNote job={job} />
       {job.out && <Where folder={job.out} />}
       <JobLines lines={job.lines} />
     </Section>

@@ -3,19 +3,26 @@ import { Square } from "lucide-react";
 import { useState } from "react";
 import { cancelJob } from "../../store/jobs";
 import { rateOf } from "../../store/reviews";
-import { countText, shortName } from "../../store/words";
+import { capitalize, countText, shortName } from "../../store/words";
 import { openAsset } from "../../store/workspace";
 import { Button } from "../../ui/Button";
+import { Note } from "../../ui/Section";
 import type { Job, JobLine } from "../../wire";
 import css from "./review.module.css";
 
-export function JobProgress({ job, unit }: { job: Job; unit: string }) {
+export function JobProgress(props: { job: Job; unit: string }) {
+  return <Part key={props.job.doing} {...props} />;
+}
+
+/** The part that is being done now, with a rate of its own. */
+function Part({ job, unit }: { job: Job; unit: string }) {
   const [first] = useState(() => ({ done: job.done, at: performance.now() }));
   const rate = rateOf(first, job.done, performance.now());
   return (
     <div className={css.job}>
       <div className={css.split}>
         <span role="status">
+          {job.doing && `${capitalize(job.doing)}: `}
           {job.done.toLocaleString("en-GB")} of {countText(job.total, unit)}
           {rate !== null && <span className={css.dim}> · {rate < 10 ? rate.toFixed(1) : Math.round(rate)} a second</span>}
         </span>
@@ -27,6 +34,11 @@ export function JobProgress({ job, unit }: { job: Job; unit: string }) {
     </div>
   );
 }
+
+const MOODS = { running: "plain", done: "good", failed: "bad", cancelled: "warn" } as const;
+
+/** How a job ended, in its own words. */
+export const JobNote = ({ job }: { job: Job }) => <Note mood={MOODS[job.state]}>{job.message}</Note>;
 
 const SIGNS: Readonly<Record<JobLine["status"], string>> = { done: "✓", edited: "✓", unchanged: "=", failed: "✗", skipped: "–" };
 
@@ -40,7 +52,12 @@ export function JobLines({ lines }: { lines: readonly JobLine[] }) {
           <button type="button" data-status={line.status} title={`Open ${line.asset}`} onClick={() => openAsset(line.asset)}>
             <span aria-hidden>{SIGNS[line.status]}</span>
             <strong>{shortName(line.asset)}</strong>
-            <span>{line.text || line.status}</span>
+            <span>
+              {line.text || line.status}
+              {line.before.map((text) => (
+                <small key={text}>{text}</small>
+              ))}
+            </span>
           </button>
         </li>
       ))}

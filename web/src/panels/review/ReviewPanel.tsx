@@ -3,18 +3,18 @@ import { Play } from "lucide-react";
 import { useMemo, useState } from "react";
 import { SignOff } from "../../family/Sureness";
 import { applyTo, useJob, whyNotApply } from "../../store/jobs";
+import { linesOfNew, newAssetsText, splitChoiceText, useSplitChoice } from "../../store/newAssets";
 import { useProject } from "../../store/project";
 import { groupCards, listOutdated } from "../../store/reviews";
 import { countText } from "../../store/words";
 import { useLayout } from "../../store/workspace";
 import { Button } from "../../ui/Button";
-import { Choice } from "../../ui/fields";
-import { Note } from "../../ui/Section";
-import type { Card } from "../../wire";
+import { Check, Choice } from "../../ui/fields";
+import type { Card, Job } from "../../wire";
 import { Questions } from "../questions/Questions";
 import { AssetReview } from "./AssetReview";
 import { ExportSection } from "./ExportSection";
-import { JobProgress } from "./JobProgress";
+import { JobLines, JobNote, JobProgress } from "./JobProgress";
 import { Results } from "./Results";
 import css from "./review.module.css";
 
@@ -52,11 +52,38 @@ function ApplySection() {
   return (
     <section className={css.apply} aria-label="Apply the program">
       {running ? <JobProgress job={job} unit="asset" /> : <Start />}
-      {!running && job && job.state !== "done" && (
-        <Note mood={job.state === "failed" ? "bad" : "warn"}>{job.message || "Stopped. Written outputs are kept."}</Note>
-      )}
+      {!running && <NewAssets />}
+      {!running && job && <Outcome job={job} />}
       <OutputCounts />
     </section>
+  );
+}
+
+/** Assets that a run prepares first, and whether it splits hulls of theirs. */
+function NewAssets() {
+  const found = useProject((state) => state.project.new);
+  const split = useSplitChoice((state) => state.split);
+  const choice = found && splitChoiceText(found);
+  if (!found) return null;
+  return (
+    <div className={css.newAssets}>
+      <p>{newAssetsText(found)}</p>
+      {choice && (
+        <Check checked={split} onChange={(is) => useSplitChoice.setState({ split: is })}>
+          {choice}
+        </Check>
+      )}
+    </div>
+  );
+}
+
+/** How the last run ended, and what was done to new assets before it. */
+function Outcome({ job }: { job: Job }) {
+  return (
+    <>
+      <JobNote job={job} />
+      <JobLines lines={linesOfNew(job)} />
+    </>
   );
 }
 
