@@ -34,11 +34,12 @@ Selections = tuple[frozenset[str], ...]
 class Bench:
     """What all desks of a task share: the true meshes of a family, their contacts known, and what was judged before.
 
-    samples: of different assets.
+    samples: of different assets; labelled: the meshes that a person labels by hand before the others, in order; where
+    they are none, it is those that are advised.
     """
 
-    def __init__(self, task: Task, samples: Iterable[Sample]) -> None:
-        self.task = task
+    def __init__(self, task: Task, samples: Iterable[Sample], labelled: Sequence[str] = ()) -> None:
+        self.task, self.labelled = task, tuple(labelled)
         self.samples: dict[str, Sample] = {sample.name: sample for sample in samples}
         assert all(sample.mesh.contacts is not None for sample in self.samples.values())
         self._judged: dict[tuple[str, str | None, bytes], str | None] = {}

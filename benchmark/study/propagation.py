@@ -22,17 +22,21 @@ class HandLabels:
 
 
 def begin_by_hand(bench: Bench, count: int) -> tuple[Desk, frozenset[str], HandLabels]:
-    """All meshes once as many are labelled by hand as `count`, each the one that is advised; the others have none yet
-    where it is 0.
+    """All meshes once as many are labelled by hand as `count`, each the one that is advised, or that the bench names;
+    the others have none yet where it is 0.
 
     With the names of those, and what a person did for that.
     """
     desk = Desk(bench, {name: mesh.with_labels(dict.fromkeys(mesh.index)) for name, mesh in bench.truth.meshes.items()})
     names, done, painted = list(desk.meshes), list[str](), HandLabels()
-    for _ in range(count):
-        (advised,) = bench.relatives.propagate(_labels_of(desk)).next_to_label()
-        done.append(names[advised])
-        desk, more = label_by_hand(desk, names[advised])
+    for place in range(count):
+        if bench.labelled:
+            name = bench.labelled[place]
+        else:
+            (advised,) = bench.relatives.propagate(_labels_of(desk)).next_to_label()
+            name = names[advised]
+        done.append(name)
+        desk, more = label_by_hand(desk, name)
         painted += more
     return desk, frozenset(done), painted
 
