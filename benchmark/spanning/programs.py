@@ -182,12 +182,13 @@ def list_goals(rows: Sequence[dict[str, Any]]) -> Iterator[Goal]:
 
 _NOTES = (
     f"Tasks of the difficulty *{LEVEL}*, one of each category, each with a family of 25 assets, signed off by one "
-    f"person of `signoff.md` (*{_CONDITION.name}*), whose figures these are: an asset is *right* if its rules select what the "
-    "reference selects under true labels, and the edited mesh meets the criterion; *possible*: the reference itself "
-    "meets it there under true labels. The goals of `signoff.md` are about shares of the possible; *of all assets* "
-    f"counts those too where no edit is right since hulls span. Sessions are broken off after {CAP:.0f} s.",
+    f"person of `signoff.md` (*{_CONDITION.name}*), whose figures these are: an asset is *right* if its rules select "
+    "what the reference selects under true labels, and the edited mesh meets the criterion; *possible*: the reference "
+    "itself meets it there under true labels. The goals of `signoff.md` are about shares of the possible; *of all "
+    "assets* counts those too where no edit is right since hulls span. Sessions are broken off after "
+    f"{CAP:.0f} s.",
     f"A person labels the fine pieces of {KNOWN} assets, and by these hulls are found, split and rebuilt on all 25, "
-    f"from a probability of {SURE[0]} on, as `prepare --sure {SURE[0]}` does. On each set the hulls of the same {KNOWN} "
-    "assets have labels by hand when the session begins; all other labels are propagated from these.",
+    f"from a probability of {SURE[0]} on, as `prepare --sure {SURE[0]}` does. On each set the hulls of the same "
+    f"{KNOWN} assets have labels by hand when the session begins; all other labels are propagated from these.",
     f"*{FINE}*: each connected solid decomposed by itself, as in `signoff.md`.",
 )
