@@ -14,7 +14,7 @@ from meshforge.batch import IN_PROCESS
 from meshforge.common import join_and
 from meshforge.geometry import CoacdSettings
 from meshforge.labels import HullSpan
-from meshforge.project import SURE_TO_SPAN, Project
+from meshforge.project import SPLIT_DEFAULTS, Project, SplitSettings
 from meshforge.rendering import color_hulls, make_contact_sheet, write_png
 from meshforge.rendering.canvas import Canvas
 from meshforge.rendering.hull_names import place_texts
@@ -35,7 +35,7 @@ def draw_spans(path: Path) -> None:
     with tempfile.TemporaryDirectory() as scratch:
         project = _create_project(Path(scratch))
         spans = project.list_spans(execution=IN_PROCESS).spans_of(CUP)
-        found = {span.hull: span for span in spans if span.chance >= SURE_TO_SPAN}
+        found = {span.hull: span for span in spans if span.chance >= SPLIT_DEFAULTS.sure}
         pictures, titles = (
             [_draw(project, found)],
             [f"as decomposed: {_count(project)}, of which {len(found)} span parts"],
@@ -44,7 +44,7 @@ def draw_spans(path: Path) -> None:
         pictures.append(_draw(project))
         titles.append(f"--split-spanning: {_count(project)}")
         project.unprepare(CUP)
-        list(project.rebuild_spanning([CUP], execution=IN_PROCESS))
+        list(project.split_spanning([CUP], SplitSettings(rebuild=True), execution=IN_PROCESS))
         pictures.append(_draw(project))
         titles.append(f"--rebuild-spanning: {_count(project)}")
         write_png(path, make_contact_sheet(pictures, columns=len(pictures), titles=titles))

@@ -12,7 +12,7 @@ import pytest
 from PIL import Image
 
 from meshforge.batch import IN_PROCESS
-from meshforge.project import Project
+from meshforge.project import Project, SplitSettings
 from meshforge.rendering import label_color
 from tests.e2e.hand import Hand, chromium, hand
 from tests.e2e.studio import ok, opened
@@ -135,7 +135,7 @@ def _count_pixels(file: Path, color: str) -> int:
 
 
 def _assert_split_as_by_command(project: Project, other: Project, asset: str) -> None:
-    results = list(other.split_spanning([asset], sure=0.5, execution=IN_PROCESS))
+    results = list(other.split_spanning([asset], SplitSettings(0.5), execution=IN_PROCESS))
     assert not any(result.problems for result in results)
     own, theirs = (one.layout.preparation(asset) / "hulls.obj" for one in (project, other))
     assert own.read_bytes() == theirs.read_bytes()

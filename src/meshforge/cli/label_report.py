@@ -41,6 +41,7 @@ _SOURCE_WORDS = {
     "name": "names",
     "propagated": "propagation",
     "consensus": "consensus",
+    "split": "splits of hulls",
     "vlm": "a model",
     "edit": "edits",
     "plugin": "plug-ins",

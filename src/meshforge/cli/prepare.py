@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import asdict, dataclass
-from functools import partial
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -16,7 +15,7 @@ from meshforge.cli.console import progress
 from meshforge.cli.terminal import print_json
 from meshforge.common import UsageError, describe_error, pluralize
 from meshforge.geometry import DecomposeSettings
-from meshforge.project import SURE_TO_SPAN, PreparationResult, Project, forget_plan
+from meshforge.project import SPLIT_DEFAULTS, PreparationResult, Project, SplitSettings, forget_plan
 
 
 @dataclass(frozen=True, slots=True)
@@ -77,9 +76,7 @@ def prepare(given: PrepareArguments) -> None:
         what = "--decompose METHOD, --split-spanning, --rebuild-spanning, --undo or --remove"
         raise UsageError(f"say what to do: {what}")
     if not spanning:
-        options.refuse_options(given.context, ("sure", "dry_run"), "--split-spanning or --rebuild-spanning")
-    if not given.split_spanning:
-        options.refuse_options(given.context, ("limits",), "--split-spanning")
+        options.refuse_options(given.context, ("sure", "dry_run", "limits"), "--split-spanning or --rebuild-spanning")
     if given.undo and not given.assets:
         raise UsageError("--undo of which asset?", remedy="Name it; --remove takes back everything, of all assets too.")
     project = Project.open(given.project)
@@ -113,13 +110,11 @@ def prepare(given: PrepareArguments) -> None:
 def _divide_spanning(project: Project, given: PrepareArguments) -> int:
     """Split hulls that span parts, or rebuild their bodies, and print what became of each asset; the exit code."""
     options.refuse_options(given.context, ("option", "only", "again", "hollow", "by"), "--decompose METHOD")
-    change: Callable[..., Iterator[PreparationResult]] = project.rebuild_spanning
-    if given.split_spanning:
-        change = partial(project.split_spanning, engine=given.limits)
-    results = change(
+    results = project.split_spanning(
         [options.asset_id(asset, project) for asset in given.assets] if given.assets else None,
-        sure=SURE_TO_SPAN if given.sure is None else given.sure,
+        SplitSettings(SPLIT_DEFAULTS.sure if given.sure is None else given.sure, given.rebuild_spanning),
         dry_run=given.dry_run,
+        engine=given.limits,
         execution=ExecutionOptions(workers=given.workers, timeout=given.timeout),
         stage=progress,
     )
@@ -156,16 +151,26 @@ def print_results(results: Iterable[PreparationResult], json: bool = False) -> i
 
 
 def _print_one(result: PreparationResult) -> None:
-    pieces = f"{pluralize(len(result.made), 'piece')} into {pluralize(len(result.hulls), 'hull')}"
-    typer.echo(f"{result.asset}: {pieces if result.made else 'taken back' if result.undone else 'nothing new'}")
+    typer.echo(f"{result.asset}: {_describe_change(result)}")
     for step in result.undone:
         typer.echo(f"    {step}")
-    for entry in result.made:
-        typer.echo(f"    {entry.what}: {entry.told}")
+    for entry in (*result.made, *result.planned):
+        is_named = entry.told.startswith((f"{entry.what} ", f"{entry.what},"))
+        typer.echo(f"    {entry.told}" if is_named else f"    {entry.what}: {entry.told}")
     for note in result.notes:
         typer.echo(f"    note: {note}")
     for problem in result.problems:
         typer.echo("    failed: " + problem.replace("\n", "\n    "))
+
+
+def _describe_change(result: PreparationResult) -> str:
+    """`2 pieces into 6 hulls`; what was taken back or is planned; or nothing new."""
+    entries = result.made or result.planned
+    if not entries:
+        return "taken back" if result.undone else "nothing new"
+    hulls = sum(len(entry.made) for entry in entries)
+    told = f"{pluralize(len(entries), 'piece')} into {pluralize(hulls, 'hull')}"
+    return told if result.made else f"nothing written; would turn {told}"
 
 
 def _select_assets(project: Project, assets: list[str] | None) -> tuple[str, ...]:

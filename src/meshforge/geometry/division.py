@@ -11,6 +11,7 @@ import numpy as np
 from meshforge.common import GeometryError
 from meshforge.geometry.arrays import Bools, Floats, Ints
 from meshforge.geometry.convex import FLATNESS, convex_hull, spans_volume
+from meshforge.geometry.piece_groups import merge_pieces
 from meshforge.geometry.shape import Polytope, Shape
 from meshforge.geometry.solids import cut, intersect, volume_of_union
 from meshforge.geometry.surface import planes_of
@@ -96,11 +97,16 @@ def divide(shape: Shape, pieces: Sequence[Polytope], chances: Floats) -> tuple[H
         return (HullPart(whole, _to_shares(held.volumes)),)
     inside = _share_out([part for part, _ in found], [part for part, _ in commons])
     thickness = FLATNESS * whole.aabb.diagonal
-    return tuple(
-        HullPart(tight, _to_shares(own.volumes))
+    tight = [
+        (shape, own.volumes)
         for (part, own), solids in zip(found, inside, strict=True)
         if solids
-        for tight in (enclose_closely(solids, thickness) or [part])
+        for shape in (enclose_closely(solids, thickness) or [part])
+    ]
+    kinds = np.array([int(volumes.argmax()) for _, volumes in tight])
+    joined = merge_pieces([shape for shape, _ in tight], kinds)
+    return tuple(
+        HullPart(one.shape, _to_shares(np.sum([tight[place][1] for place in one.members], axis=0))) for one in joined
     )
 
 

@@ -15,7 +15,14 @@ if TYPE_CHECKING:
     from meshforge.label_model.sides import correct_upright, find_doubtful_sides
     from meshforge.label_model.similar import find_similar
     from meshforge.label_model.spans import AssetPieces, SpanModel, SpanPosterior, piece_mesh
-    from meshforge.label_model.table import FamilyTable, Observations, evidence_of, metric_weights, reference_label
+    from meshforge.label_model.table import (
+        FamilyTable,
+        Observations,
+        evidence_beside_splits,
+        evidence_of,
+        metric_weights,
+        reference_label,
+    )
 else:
     __getattr__ = export_lazily(__name__)
 
@@ -38,6 +45,7 @@ __all__ = [
     "consensus_weights",
     "correct_upright",
     "cut_into_cells",
+    "evidence_beside_splits",
     "evidence_of",
     "find_doubtful_sides",
     "find_similar",

@@ -168,6 +168,12 @@ def evidence_of(label: Label | None) -> Label | None:
     return label
 
 
+def evidence_beside_splits(label: Label | None) -> Label | None:
+    """The same but for labels of parts of hulls that were split, which follow from others by the surface."""
+    known = evidence_of(label)
+    return None if known is None or known.source == "split" else known
+
+
 def reference_label(label: Label | None) -> str | None:
     """The label that others may be taken from: one that a person gave, or that came in a file and is not unsure."""
     if label is None or label.source not in GIVEN_SOURCES:

@@ -207,10 +207,13 @@ def can_fill_gap(current: Label | None, given: Label) -> bool:
 
 
 def can_replace_less_certain(current: Label | None, given: Label) -> bool:
-    """Whether a label may be replaced: an earlier one of that machine, or one that another was less sure of."""
+    """Whether a label may be replaced: an earlier one of that machine, or one that another was less sure of.
+
+    That of a part of a hull stays: the surface, or a person's split, says more than the shape of the part.
+    """
     if current is None or current.source == given.source:
         return True
-    return current.source not in symbolic.GIVEN_SOURCES and current.confidence < given.confidence
+    return current.source not in symbolic.GIVEN_SOURCES | {"split"} and current.confidence < given.confidence
 
 
 @dataclass(frozen=True, eq=False, slots=True)

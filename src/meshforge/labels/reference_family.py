@@ -10,7 +10,7 @@ from functools import cached_property
 from pathlib import Path
 
 from meshforge import batch
-from meshforge.label_model import AssetCells, AssetPieces, evidence_of, model_family
+from meshforge.label_model import AssetCells, AssetPieces, evidence_beside_splits, model_family
 from meshforge.label_model.describe import describe_mesh, digest_mesh
 from meshforge.labels.family_comparison import Stage
 from meshforge.labels.spans import FinePieces, SpanReport, decompose_surfaces, find_pieces, infer_spans, read_pieces
@@ -71,7 +71,7 @@ class ReferenceFamily:
         return {hull.name: label for hull, label in rows if label and not hull.annotation}
 
     def _speak(self, label: Label | None) -> Label | None:
-        known = evidence_of(label)
+        known = evidence_beside_splits(label)
         return known if known and known.name in self.words else None
 
 
@@ -87,7 +87,7 @@ def read_reference_family(
     meshes = {
         asset: mesh
         for asset, mesh in store.meshes_by_id(chosen)
-        if any(evidence_of(hull.annotation) for hull in mesh.hulls)
+        if any(evidence_beside_splits(hull.annotation) for hull in mesh.hulls)
     }
     if not meshes:
         return None
@@ -103,7 +103,8 @@ def read_reference_family(
 def choose_labelled(files: Mapping[str, LabelFile], most: int = MOST_COMPARED) -> list[str]:
     """The assets that new ones are compared with, in the order of the project."""
     said = {
-        asset: [label for own in file.labels.values() if (label := evidence_of(own))] for asset, file in files.items()
+        asset: [label for own in file.labels.values() if (label := evidence_beside_splits(own))]
+        for asset, file in files.items()
     }
     by_people = [asset for asset, labels in said.items() if any(one.source in HUMAN_SOURCES for one in labels)]
     others = [asset for asset, labels in said.items() if labels and asset not in set(by_people)]

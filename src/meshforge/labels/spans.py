@@ -23,7 +23,7 @@ from meshforge.label_model import (
     CellModel,
     SpanModel,
     SpanPosterior,
-    evidence_of,
+    evidence_beside_splits,
     piece_mesh,
 )
 from meshforge.labels.descriptor_cache import read_arrays, write_arrays
@@ -165,7 +165,7 @@ def find_spans(store: Store, execution: batch.ExecutionOptions, stage: Stage) ->
     Raises ProjectError where no hull has a label: nothing says what parts there are; and where no asset can be read.
     """
     meshes = dict(store.meshes_by_id())
-    if not any(evidence_of(hull.annotation) for mesh in meshes.values() for hull in mesh.hulls):
+    if not any(evidence_beside_splits(hull.annotation) for mesh in meshes.values() for hull in mesh.hulls):
         remedy = "Label the hulls of one or two assets first: meshforge label, or the studio."
         raise ProjectError(
             "no hull has a label, so nothing says what parts there are", where=str(store.folder), remedy=remedy
@@ -205,7 +205,7 @@ def infer_spans(
     known, pieces: assets with their labels, and the fine pieces of their surfaces, by the same names; lost: why others
     are not among them; measured, cells: what is known of the pieces and cells of some, which is not measured again.
     """
-    said = [evidence_of(hull.annotation) for mesh in known.values() for hull in mesh.hulls]
+    said = [evidence_beside_splits(hull.annotation) for mesh in known.values() for hull in mesh.hulls]
     by_surface: SpanPosterior | None = None
     by_cells: SpanPosterior | None = None
     if any(own.mesh.hulls for own in pieces.values()):

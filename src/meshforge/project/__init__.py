@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     )
     from meshforge.project.new_asset_result import NewAssetResult, assess_new_assets, describe_new
     from meshforge.project.new_assets import NewAsset, NewAssetOptions, list_new, prepare_aside
-    from meshforge.project.preparation_plan import forget_plan, read_preparation_plan
+    from meshforge.project.preparation_plan import SPLIT_DEFAULTS, SplitSettings, forget_plan, read_preparation_plan
     from meshforge.project.prepare import PreparationResult
     from meshforge.project.project import Project
     from meshforge.project.review import ProjectReview
@@ -25,15 +25,19 @@ if TYPE_CHECKING:
     from meshforge.project.run_report import add_standings, build_run_report, summarize_outputs
     from meshforge.project.sign_off_text import format_review, format_share, format_standing, format_status
     from meshforge.project.sign_offs import AssessmentBasis, digest_lesson, keep_assessment
-    from meshforge.project.span_questions import ask_about_spans, can_ask_about_spans, choose_span_question
+    from meshforge.project.span_questions import (
+        add_span_doubts,
+        ask_about_spans,
+        can_ask_about_spans,
+        choose_span_question,
+    )
     from meshforge.project.span_splits import Split
-    from meshforge.project.spans import SURE_TO_SPAN
     from meshforge.project.status import AssetStatus, Status
 else:
     __getattr__ = export_lazily(__name__)
 
 __all__ = [
-    "SURE_TO_SPAN",
+    "SPLIT_DEFAULTS",
     "AssessmentBasis",
     "AssetStatus",
     "FamilyMeshes",
@@ -45,7 +49,9 @@ __all__ = [
     "Project",
     "ProjectReview",
     "Split",
+    "SplitSettings",
     "Status",
+    "add_span_doubts",
     "add_standings",
     "ask_about_spans",
     "assess_new_assets",

@@ -16,31 +16,29 @@ from meshforge.labels.reference_family import MOST_COMPARED, choose_labelled
 from meshforge.project.review import ProjectReview
 from meshforge.project.run import pick_evenly
 from meshforge.signoff import AssetConfidence, Doubt, ReviewState, assess_asset
-from meshforge.store import Store
+from meshforge.store import Store, describe_parts
 from meshforge.symbolic import Label, LabelFile
 from meshforge.synthesis import LearningOutcome
 
 _DIGITS = 3
-_MOST_DOUBTS = 3
 
 
 @dataclass(frozen=True, slots=True)
 class HullSplit:
-    """A hull that was split. chance: that it spans parts; told: in words; parts: the label of each by its name."""
+    """A hull that was split. chance: that it spans parts, None where it was only made anew with its body; told: in
+    words; parts: the label of each by its name."""
 
     hull: str
-    chance: float
+    chance: float | None
     told: str
     parts: Mapping[str, Label]
 
     def __str__(self) -> str:
-        """`base holds wall and handle, 94%: split in 3, wall (99%) and 2 handle (97%)`; of a label the least sure."""
-        names = dict.fromkeys(label.name for label in self.parts.values())
-        return f"{self.told}: split in {len(self.parts)}, {' and '.join(map(self._describe_label, names))}"
-
-    def _describe_label(self, name: str) -> str:
-        sure = [label.confidence for label in self.parts.values() if label.name == name]
-        return f"{f'{len(sure)} ' if len(sure) > 1 else ''}{name} ({min(sure):.0%})"
+        """`base holds wall and handle, 94%: split in 3, wall (99%), 2 handle (97% to 98%)`."""
+        if not self.parts:
+            return f"{self.told}: none left"
+        parts = describe_parts((label.name, label.confidence) for label in self.parts.values())
+        return f"{self.told}: split in {len(self.parts)}, {parts}"
 
 
 def parts_of(splits: Iterable[HullSplit]) -> dict[str, Label]:
@@ -77,7 +75,8 @@ class NewAssetResult:
     @property
     def split_doubts(self) -> tuple[Doubt, ...]:
         """Those about which hulls span parts: whether one that was split does not, or one that was left does."""
-        splits = [Doubt("label", str(one), (one.hull,), share=1 - one.chance) for one in self.splits]
+        told = [(one, one.chance) for one in self.splits]
+        splits = [Doubt("label", str(one), (one.hull,), share=1 - chance) for one, chance in told if chance is not None]
         return (*splits, *(Doubt("label", f"{one}: not split", (one.hull,), share=one.chance) for one in self.spanning))
 
     @property
@@ -102,7 +101,7 @@ class NewAssetResult:
             "split": [
                 {
                     "hull": one.hull,
-                    "chance": round(one.chance, _DIGITS),
+                    "chance": None if one.chance is None else round(one.chance, _DIGITS),
                     "into": [
                         {"hull": name, "label": label.name, "confidence": label.confidence}
                         for name, label in one.parts.items()
@@ -155,7 +154,7 @@ def assess_new_assets(
     for job, one in zip(new, batch.execute(partial(_assess, task), new, execution), strict=True):
         if isinstance(one, batch.WorkerFailure):
             one = _describe_failure(one.why)
-        found[job.id] = _add_splits(job.id, one, results[job.id])
+        found[job.id] = replace(one.with_doubts(results[job.id].split_doubts), asset=job.id)
     return found
 
 
@@ -180,10 +179,3 @@ def _assess(task: _Task, job: batch.AssetJob) -> AssetConfidence:
 
 def _describe_failure(why: str) -> AssetConfidence:
     return AssetConfidence(NEW, 0.0, (Doubt("alarm", f"it could not be looked at: {why}", share=1.0),))
-
-
-def _add_splits(asset: str, found: AssetConfidence, result: NewAssetResult) -> AssetConfidence:
-    own = result.split_doubts
-    probability = min(found.probability, 1 - max((one.share for one in own), default=0.0))
-    doubts = sorted([*found.doubts, *own], key=lambda one: -one.share)[:_MOST_DOUBTS]
-    return AssetConfidence(asset, probability, tuple(doubts))

@@ -21,7 +21,7 @@ from meshforge.labels.family_comparison import Stage
 from meshforge.labels.merge import LabelWriter, can_fill_gap
 from meshforge.project.new_asset_memory import NewAssetFolder, digest_basis
 from meshforge.project.new_asset_result import HullSplit, NewAssetResult, parts_of
-from meshforge.project.preparation_plan import PreparationPlan, extend_plan, find_new_assets
+from meshforge.project.preparation_plan import PreparationPlan, SplitSettings, extend_plan, find_new_assets
 from meshforge.project.prepare import exchange_preparation
 from meshforge.project.span_search import plan_splits
 from meshforge.store import Store, hull_digests
@@ -175,7 +175,7 @@ def _keep_aside(home: NewAssetFolder, basis: str, found: _WorkerOutcome) -> NewA
 
 def _make_task(store: Store, assets: Sequence[NewAsset], options: NewAssetOptions) -> _Task:
     """What is the same for all assets; the project's labelled ones are read, but for those that are new themselves."""
-    spans = any(one.plan.sure is not None for one in assets)
+    spans = any(one.plan.split for one in assets)
     own = {path: asset for asset, path in store.found.ids.items()}
     without = {own[one.path] for one in assets if one.path in own}
     family = None
@@ -202,8 +202,8 @@ def _prepare(task: _Task, work: NewAsset) -> _WorkerOutcome | str:
         labels = read_labels(work.labels) if work.labels and work.labels.exists() else LabelFile()
         mesh = _build_mesh(source, after, labels, task.contact)
         found = _SplitOutcome(after)
-        if work.plan.sure is not None and mesh.hulls:
-            found = _split(task, source, after, mesh, work.plan.sure)
+        if work.plan.split and mesh.hulls:
+            found = _split(task, source, after, mesh, work.plan.split)
             if found.splits:
                 mesh = _build_mesh(source, found.preparation, labels, task.contact).with_labels(parts_of(found.splits))
         guesses = task.family.infer_labels(mesh) if task.guess and task.family and mesh.hulls else {}
@@ -247,23 +247,22 @@ class _SplitOutcome:
     notes: tuple[str, ...] = ()
 
 
-def _split(task: _Task, source: Asset, before: batch.Preparation, mesh: SymbolicMesh, sure: float) -> _SplitOutcome:
+def _split(
+    task: _Task, source: Asset, before: batch.Preparation, mesh: SymbolicMesh, how: SplitSettings
+) -> _SplitOutcome:
     """Look for hulls that span parts, and split those that surely do where that is asked for."""
     if task.family is None:
         return _SplitOutcome(before, notes=(_NO_LABELS,))
     report = task.family.find_spans(source, mesh)
     bare = report.bare.get(NEW, ())
     notes = (f"no surface says whether {join_names(bare)} span parts",) if bare else ()
-    plan = plan_splits(report, NEW, sure)
-    spans = {span.hull: span for span in report.spans_of(NEW)}
-    divided = [spans[one.hull] for one in plan.splits] if task.split else []
-    likely = {span.hull for span in (*plan.unsure, *plan.whole)} | {one.hull for one in plan.splits}
-    left = tuple(span for name, span in spans.items() if name in likely and span not in divided)
-    if not divided:
-        return _SplitOutcome(before, (), left, notes)
+    plan = plan_splits(report, NEW, how)
+    if not task.split or not plan.splits:
+        likely = {span.hull for span in (*plan.spanning, *plan.unsure)}
+        return _SplitOutcome(before, (), tuple(span for span in report.spans_of(NEW) if span.hull in likely), notes)
     after, labels = plan.divide(source, before)
     splits = tuple(
-        HullSplit(span.hull, span.chance, str(span), {name: labels[name] for name in entry.made})
-        for span, entry in zip(divided, after.steps[-1].replaced, strict=True)
+        HullSplit(one.hull, plan.chance_of(one.hull), one.span.told, {name: labels[name] for name in entry.made})
+        for one, entry in zip(plan.splits, after.steps[-1].replaced, strict=True)
     )
-    return _SplitOutcome(after, splits, left, notes)
+    return _SplitOutcome(after, splits, (*plan.unsure, *plan.whole), notes)

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Collection, Mapping
-from dataclasses import dataclass, fields
+from dataclasses import asdict, dataclass, fields
 from typing import Any, get_args
 
 from meshforge import batch
@@ -31,22 +31,35 @@ class DecompositionPlan:
 
 
 @dataclass(frozen=True, slots=True)
+class SplitSettings:
+    """How hulls that span parts are split. sure: the probability from which that is done; rebuild: whether all hulls of
+    their bodies that stand for its surface are made anew, each of one part."""
+
+    sure: float = 0.9
+    rebuild: bool = False
+
+
+SPLIT_DEFAULTS = SplitSettings()
+
+
+@dataclass(frozen=True, slots=True)
 class PreparationPlan:
     """How new assets of a family are prepared.
 
-    decompose: in this order, as all assets were that have been decomposed; sure: the probability from which hulls that
-    span parts are split, None where they are not looked for; unclear: a sentence where assets were decomposed in
-    several ways, so that new ones are not.
+    decompose: in this order, as all assets were that have been decomposed; split: how hulls that span parts are, None
+    where they are not looked for; unclear: a sentence where assets were decomposed in several ways, so that new ones
+    are not.
     """
 
     decompose: tuple[DecompositionPlan, ...] = ()
-    sure: float | None = None
+    split: SplitSettings | None = None
     unclear: str | None = None
 
 
 def read_preparation_plan(store: Store) -> PreparationPlan:
     """What a project says about new assets. Raises ProjectError where its file is damaged."""
     kept = _read(store)
+    split = None if kept.sure is None else SplitSettings(kept.sure, kept.rebuild)
     ways = dict[str, list[str]]()
     for asset in store.layout.ids_with_preparation():
         if asset not in store.found.ids:
@@ -61,13 +74,13 @@ def read_preparation_plan(store: Store) -> PreparationPlan:
     if len(ways) > 1:
         some = "; ".join(f"{_describe_way(way)}: {join_names(assets, _EXAMPLES)}" for way, assets in ways.items())
         problem = f"the assets were decomposed in {len(ways)} ways, so new ones are not decomposed ({some})"
-        return PreparationPlan(sure=kept.sure, unclear=problem)
+        return PreparationPlan(split=split, unclear=problem)
     lines = next(iter(ways), "").splitlines()
     plans = [_parse_plan(json.loads(line)) for line in lines]
     if None in plans:
         problem = "the assets were decomposed by another version, with other options, so new ones are not decomposed"
-        return PreparationPlan(sure=kept.sure, unclear=problem)
-    return PreparationPlan(tuple(plan for plan in plans if plan), kept.sure)
+        return PreparationPlan(split=split, unclear=problem)
+    return PreparationPlan(tuple(plan for plan in plans if plan), split)
 
 
 def _describe_way(way: str) -> str:
@@ -105,10 +118,10 @@ def keep_decomposed(store: Store, assets: Collection[str]) -> None:
         _change(store, {"decomposed": store.assets()})
 
 
-def keep_split(store: Store, assets: Collection[str], sure: float) -> None:
-    """Keep that hulls of these assets were split from a probability on, where they are all of the project."""
+def keep_split(store: Store, assets: Collection[str], how: SplitSettings) -> None:
+    """Keep how hulls of these assets were split, where they are all of the project."""
     if set(store.assets()) <= set(assets):
-        _change(store, {"split": store.assets(), "sure": sure})
+        _change(store, {"split": store.assets(), **asdict(how)})
 
 
 def extend_plan(store: Store, assets: Collection[str], *, decomposed: bool, split: bool) -> None:
@@ -145,7 +158,7 @@ def find_new_assets(store: Store) -> tuple[dict[str, PreparationPlan], str | Non
         return {}, None
     plan = read_preparation_plan(store)
     found = {
-        asset: PreparationPlan(plan.decompose if asset in whole else (), plan.sure if asset in split else None)
+        asset: PreparationPlan(plan.decompose if asset in whole else (), plan.split if asset in split else None)
         for asset in store.assets()
         if asset in whole or asset in split
     }

@@ -29,7 +29,8 @@ class PreparationResult:
     """What became of one asset.
 
     made: the pieces that got hulls now; notes: what that means for labels and demonstrations, and what was given up;
-    problems: why a piece, or the whole asset, could not be prepared; undone: what was taken back, in words.
+    problems: why a piece, or the whole asset, could not be prepared; undone: what was taken back, in words; planned:
+    what `made` would be, where nothing was to be written.
     """
 
     asset: str
@@ -37,6 +38,7 @@ class PreparationResult:
     notes: tuple[str, ...] = ()
     problems: tuple[str, ...] = ()
     undone: tuple[str, ...] = ()
+    planned: tuple[batch.Replacement, ...] = ()
 
     @property
     def hulls(self) -> tuple[str, ...]:
@@ -132,8 +134,8 @@ def exchange_preparation(
 ) -> list[str]:
     """Write a preparation in the place of the one of a known digest. Raises ProjectError where that is another now.
 
-    labels: of new hulls by name, as what made them knows them; they are marked as propagated, but where a person gave
-    the hull that is split the same label.
+    labels: of new hulls by name, as what made them knows them; where a person gave the hull that is split the same
+    label, theirs is taken.
     """
     with store.lock():
         if batch.record_digest(store.layout.preparation(asset)) != seen:
@@ -178,7 +180,7 @@ def _exchange(store: Store, asset: str, after: batch.Preparation, labels: Mappin
     were = journal.read_labels_text(store, asset)
     restored = journal.restore_labels_text(were, change.undone) if is_undo else None
     known, doubts = journal.find_labels_before(store, asset, change.undone, mesh) if is_undo else ({}, [])
-    known |= {name: replace(label, source="propagated") for name, label in labels.items()}
+    known |= labels
     follow = label_new_hulls(store, asset, old, mesh, known)
     between = journal.LabelsText(follow.format(keep_old=True)) if follow else were
     final = restored or (journal.LabelsText(follow.format(keep_old=False)) if follow else were)

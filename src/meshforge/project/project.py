@@ -15,7 +15,6 @@ from meshforge.project import (
     new_assets,
     overview,
     prepare,
-    rebuild,
     rename,
     run,
     sign_offs,
@@ -68,7 +67,6 @@ class Project(LabelStore):
     split = prepare.split
     unprepare = prepare.unprepare
     split_spanning = spans.split_spanning
-    rebuild_spanning = rebuild.rebuild_spanning
     list_spans = spans.list_spans
     prepare_new = new_assets.prepare_new
     find_split = span_splits.find_split

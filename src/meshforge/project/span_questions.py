@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping
 from dataclasses import replace
 
 from meshforge.common import ProjectError
 from meshforge.project.span_splits import likely_spans, mark_as_one_part, read_spans, split_as_found
 from meshforge.project.split_examples import has_split_examples, propose_lookalikes
-from meshforge.signoff import Assessment, HullPlace, ReviewChoice, ReviewQuestion
+from meshforge.signoff import Assessment, Doubt, HullPlace, ReviewChoice, ReviewQuestion
 from meshforge.signoff.prices import YES_OR_NO
 from meshforge.signoff.question import ONE_PART, SPLIT, identify
-from meshforge.store import SpanLine, SpanPart, Store, hull_digests
+from meshforge.store import SpanLine, Store, hull_digests
 from meshforge.symbolic import SymbolicMesh
 
 
@@ -28,6 +28,21 @@ def ask_about_spans(
     if question is None or (other and has_program and other.worth >= question.worth):
         return found
     return replace(found, question=question)
+
+
+def add_span_doubts(
+    store: Store, meshes: Mapping[str, SymbolicMesh], found: Assessment, seen: Collection[str]
+) -> Assessment:
+    """The same, where an edit is right at most as probably as that no hull of the asset spans parts.
+
+    meshes: those of the family, by id; seen: assets of which a person saw what the edit makes of them.
+    """
+    files, assets = read_spans(store), dict(found.assets)
+    for asset in sorted({asset for file in files for asset in file.assets} & meshes.keys() & assets.keys() - set(seen)):
+        likely = likely_spans(files, asset, hull_digests(meshes[asset]))
+        doubts = [Doubt("label", line.told, (hull,), share=line.chance) for hull, line in likely.items()]
+        assets[asset] = assets[asset].with_doubts(doubts)
+    return replace(found, assets=assets)
 
 
 def can_ask_about_spans(store: Store) -> bool:
@@ -60,20 +75,10 @@ def _list_questions(store: Store, meshes: Mapping[str, SymbolicMesh]) -> Iterato
 
 def _ask(asset: str, hull: str, span: SpanLine) -> ReviewQuestion:
     text = f"{hull} of {asset} {span.told.removeprefix(f'{hull} ')}: split {'as that was' if span.like else 'so'}?"
-    choices = (ReviewChoice(f"{SPLIT}: {_describe_parts(span.parts)}"), ReviewChoice(ONE_PART))
+    choices = (ReviewChoice(f"{SPLIT}: {span.parts_told}"), ReviewChoice(ONE_PART))
     place = HullPlace(asset, hull)
     draft = ReviewQuestion("", "span", text, YES_OR_NO, span.chance, asset, hulls=(place,), choices=choices)
     return identify(draft, [span.geometry])
-
-
-def _describe_parts(parts: Sequence[SpanPart]) -> str:
-    """`10 wall (75% to 92%), handle (93%)`."""
-    shares = {label: [part.share for part in parts if part.label == label] for label in (part.label for part in parts)}
-    words = []
-    for label, own in shares.items():
-        ends = dict.fromkeys(f"{share:.0%}" for share in (min(own), max(own)))
-        words.append(f"{len(own)} {label} ({' to '.join(ends)})" if len(own) > 1 else f"{label} ({own[0]:.0%})")
-    return ", ".join(words)
 
 
 def answer_span(store: Store, question: ReviewQuestion, choice: ReviewChoice) -> None:

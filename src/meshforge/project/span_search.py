@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
 from types import MappingProxyType
+from typing import Any
 
 from meshforge import batch
 from meshforge.common import ProjectError, describe_error
@@ -15,6 +16,7 @@ from meshforge.formats import read
 from meshforge.labels import NEW, HullSpan, LabelledPart, ReferenceFamily, SpanReport, find_spans, read_reference_family
 from meshforge.labels.family_comparison import Stage
 from meshforge.labels.spans import pieces_file
+from meshforge.project.preparation_plan import SplitSettings
 from meshforge.project.span_splits import Split, make_splits
 from meshforge.store import SpanLine, SpanPart, Store, hull_digests
 from meshforge.store.meshes import AssetFiles
@@ -25,31 +27,55 @@ LIKELY = 0.5
 MOST_TOGETHER = 300
 """Assets of a project that are compared all with all; of more, each with the labelled ones alone."""
 _DIGITS = 3
+_TOLD = 3  # hulls that a note names
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class SplitPlan:
-    """Which hulls of an asset are to be split. unsure: hulls that likely span parts, but not surely enough; whole:
-    those that no plane divides; single: those that a person said to be one part."""
+    """Which hulls of an asset are to be split.
 
-    sure: float
+    splits: what is made of hulls; spanning: hulls that surely span parts; unsure: those that likely do, but not surely
+    enough; whole: sure ones of which nothing can be made; single: those that a person said to be one part; rebuilt: the
+    bodies of which all hulls are made anew.
+    """
+
+    how: SplitSettings
     splits: tuple[Split, ...] = ()
+    spanning: tuple[HullSpan, ...] = ()
     unsure: tuple[HullSpan, ...] = ()
     whole: tuple[HullSpan, ...] = ()
     single: tuple[HullSpan, ...] = ()
+    rebuilt: tuple[str, ...] = ()
 
     @property
     def notes(self) -> list[str]:
         """On hulls that stay as they are."""
+        cannot = "no surface to rebuild it by" if self.how.rebuild else "no plane divides it"
         return [
             *(f"{span}: left as it is, since a person said that it is one part" for span in self.single),
-            *(f"{span}: left as it is, below {self.sure:.0%}" for span in self.unsure),
-            *(f"{span}: no plane divides it; split it by hand: meshforge split" for span in self.whole),
+            *self._tell_unsure(),
+            *(f"{span}: {cannot}; split it by hand: meshforge split" for span in self.whole),
         ]
+
+    def _tell_unsure(self) -> list[str]:
+        if not self.unsure:
+            return []
+        more = len(self.unsure) - _TOLD
+        named = "; ".join(map(str, self.unsure[:_TOLD])) + (f"; and {more} more" if more > 0 else "")
+        return [f"below {self.how.sure:.0%}, left for meshforge review to ask about: {named}"]
+
+    def chance_of(self, hull: str) -> float | None:
+        """The probability for which a hull is split; None where it is only made anew with its body."""
+        return next((span.chance for span in self.spanning if span.hull == hull), None)
 
     def divide(self, source: Asset, before: batch.Preparation) -> tuple[batch.Preparation, dict[str, Label]]:
         """A preparation with the step that splits them, and the label of each part by its name."""
-        return make_splits(source, before, self.splits, {"sure": self.sure})
+        return make_splits(source, before, self.splits, self.settings)
+
+    @property
+    def settings(self) -> dict[str, Any]:
+        """Of the step, besides the probabilities."""
+        return {"sure": self.how.sure} | ({"rebuilt": list(self.rebuilt)} if self.rebuilt else {})
 
 
 def list_likely(report: SpanReport, asset: str, least: float = LIKELY) -> dict[str, Split]:
@@ -64,40 +90,55 @@ def list_likely(report: SpanReport, asset: str, least: float = LIKELY) -> dict[s
     return found
 
 
-def make_split(span: HullSpan, geometry: str, parts: Sequence[LabelledPart]) -> Split:
-    """A hull with the parts that take its place. geometry: its digest."""
+def make_split(span: HullSpan, geometry: str, parts: Sequence[LabelledPart], told: str | None = None) -> Split:
+    """A hull with the parts that take its place. geometry: its digest; told: why, None for that it spans parts."""
     rows = tuple(SpanPart(label=label, share=round(share, _DIGITS)) for _, label, share in parts)
-    line = SpanLine(geometry=geometry, chance=round(span.chance, _DIGITS), told=str(span), parts=rows)
+    line = SpanLine(geometry=geometry, chance=round(span.chance, _DIGITS), told=told or str(span), parts=rows)
     return Split(span.hull, line, tuple(part.shape for part, _, _ in parts))
 
 
 def plan_splits(
-    report: SpanReport, asset: str, sure: float, single: Mapping[str, str] = MappingProxyType({})
+    report: SpanReport, asset: str, how: SplitSettings, single: Mapping[str, str] = MappingProxyType({})
 ) -> SplitPlan:
-    """How the hulls of an asset that span parts with a probability of at least `sure` are split.
+    """How the hulls of an asset that span parts with a probability of at least `how.sure` are split.
 
     single: the digests of the hulls that a person said to be one part, by name.
     """
-    return _plan_likely(report, asset, sure, single, list_likely(report, asset, min(sure, LIKELY)))
+    return _plan_likely(report, asset, how, single, list_likely(report, asset, min(how.sure, LIKELY)))
 
 
 def _plan_likely(
-    report: SpanReport, asset: str, sure: float, single: Mapping[str, str], likely: Mapping[str, Split]
+    report: SpanReport, asset: str, how: SplitSettings, single: Mapping[str, str], likely: Mapping[str, Split]
 ) -> SplitPlan:
-    splits, unsure, whole, left = list[Split](), list[HullSpan](), list[HullSpan](), list[HullSpan]()
-    for span in report.spans_of(asset):
-        one = likely.get(span.hull)
-        if one is None:
-            continue
-        if single.get(span.hull) == one.span.geometry:
-            left.append(span)
-        elif span.chance < sure:
-            unsure.append(span)
-        elif one.shapes:
-            splits.append(one)
-        else:
-            whole.append(span)
-    return SplitPlan(sure, tuple(splits), tuple(unsure), tuple(whole), tuple(left))
+    spans = [span for span in report.spans_of(asset) if span.hull in likely]
+    left = tuple(span for span in spans if single.get(span.hull) == likely[span.hull].span.geometry)
+    asked = [span for span in spans if span not in left]
+    sure = tuple(span for span in asked if span.chance >= how.sure)
+    plan = SplitPlan(how, (), sure, tuple(span for span in asked if span not in sure), (), left)
+    if how.rebuild:
+        return _rebuild(report, asset, plan)
+    splits = tuple(likely[span.hull] for span in sure if likely[span.hull].shapes)
+    return replace(plan, splits=splits, whole=tuple(span for span in sure if not likely[span.hull].shapes))
+
+
+def _rebuild(report: SpanReport, asset: str, plan: SplitPlan) -> SplitPlan:
+    """The plan with all hulls made anew, part by part, of each body of which a hull surely spans parts."""
+    mesh = report.meshes[asset]
+    digests, spans = hull_digests(mesh), {span.hull: span for span in report.spans_of(asset)}
+    bodies = dict.fromkeys(mesh.hull_of(span.hull).body for span in plan.spanning)
+    made = {body: rows for body in bodies if (rows := report.rebuild(asset, body))}
+    splits = list[Split]()
+    for rows in made.values():
+        for hull, parts in rows.items():
+            told = None if spans[hull] in plan.spanning else f"{hull}, made anew with its body"
+            splits.append(make_split(spans[hull], digests[hull], parts, told))
+    return replace(
+        plan,
+        splits=tuple(splits),
+        unsure=tuple(span for span in plan.unsure if mesh.hull_of(span.hull).body not in made),
+        whole=tuple(span for span in plan.spanning if mesh.hull_of(span.hull).body not in made),
+        rebuilt=tuple(made),
+    )
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -114,13 +155,13 @@ class AssetSpans:
 def search_spans(
     store: Store,
     assets: Sequence[str],
-    sure: float,
+    how: SplitSettings,
     execution: batch.ExecutionOptions,
     stage: Stage,
 ) -> Iterator[tuple[str, AssetSpans | str]]:
     """What was found of each asset, or why it could not be looked at. Raises ProjectError where no hull has a label."""
     if len(store.assets()) <= MOST_TOGETHER:
-        yield from _search_together(store, assets, sure, execution, stage)
+        yield from _search_together(store, assets, how, execution, stage)
         return
     family = read_reference_family(store, execution, stage)
     if family is None:
@@ -131,7 +172,7 @@ def search_spans(
     work = [_Work(asset, files, pieces_file(store, asset)) for asset, files in rows]
     with stage(len(work), "looking for hulls that span parts") as advance:
         single = store.single_parts().assets
-        found = batch.execute(partial(_search_one, family, sure, single), work, replace(execution, progress=advance))
+        found = batch.execute(partial(_search_one, family, how, single), work, replace(execution, progress=advance))
         for asset, one in zip(assets, found, strict=True):
             yield asset, one.why if isinstance(one, batch.WorkerFailure) else one
 
@@ -139,7 +180,7 @@ def search_spans(
 def _search_together(
     store: Store,
     assets: Iterable[str],
-    sure: float,
+    how: SplitSettings,
     execution: batch.ExecutionOptions,
     stage: Stage,
 ) -> Iterator[tuple[str, AssetSpans | str]]:
@@ -149,14 +190,16 @@ def _search_together(
         if asset in report.lost or asset not in report.meshes:
             yield asset, report.lost.get(asset, "it cannot be read")
         else:
-            yield asset, _describe(report, asset, sure, single.get(asset, {}), digest)
+            yield asset, _describe(report, asset, how, single.get(asset, {}), digest)
 
 
-def _describe(report: SpanReport, asset: str, sure: float, single: Mapping[str, str], seen: str | None) -> AssetSpans:
+def _describe(
+    report: SpanReport, asset: str, how: SplitSettings, single: Mapping[str, str], seen: str | None
+) -> AssetSpans:
     bare = tuple(f"{name} stands for no surface: left as it is" for name in report.bare.get(asset, ()))
-    found = list_likely(report, asset, min(sure, LIKELY))
+    found = list_likely(report, asset, min(how.sure, LIKELY))
     likely = {hull: one for hull, one in found.items() if one.span.chance >= LIKELY}
-    return AssetSpans(_plan_likely(report, asset, sure, single, found), bare, likely, seen)
+    return AssetSpans(_plan_likely(report, asset, how, single, found), bare, likely, seen)
 
 
 @dataclass(frozen=True, slots=True)
@@ -169,13 +212,13 @@ class _Work:
 
 
 def _search_one(
-    family: ReferenceFamily, sure: float, single: Mapping[str, Mapping[str, str]], work: _Work
+    family: ReferenceFamily, how: SplitSettings, single: Mapping[str, Mapping[str, str]], work: _Work
 ) -> AssetSpans | str:
     """What a worker finds of an asset, or why it failed."""
     try:
         seen = batch.record_digest(work.files.preparation)
         own = family.without(work.asset)
         report = own.find_spans(read(work.files.path), work.files.read_mesh(), work.pieces)
-        return _describe(report, NEW, sure, single.get(work.asset, {}), seen)
+        return _describe(report, NEW, how, single.get(work.asset, {}), seen)
     except Exception as error:  # one asset never stops the others
         return describe_error(error, str(work.files.path))

@@ -10,7 +10,7 @@ from typing import Any
 
 from meshforge import batch
 from meshforge.batch.preparation.record import free_names
-from meshforge.common import ProjectError, pluralize
+from meshforge.common import ProjectError
 from meshforge.formats import read
 from meshforge.geometry import Polytope
 from meshforge.labels.descriptor_cache import read_arrays, write_arrays
@@ -31,18 +31,18 @@ class Split:
     shapes: tuple[Polytope, ...]
 
     def __str__(self) -> str:
-        """`base holds wall and handle, 94%: into 2 parts, wall (98%), handle (93%)`."""
-        parts = self.span.parts
-        if not parts:
-            return f"{self.span.told}: its place is others'"
-        return f"{self.span.told}: into {pluralize(len(parts), 'part')}, {', '.join(map(str, parts))}"
+        """`base holds wall and handle, 94%: split in 3, 2 wall (97% to 98%), handle (93%)`."""
+        count = len(self.span.parts)
+        return (
+            f"{self.span.told}: split in {count}, {self.span.parts_told}" if count else f"{self.span.told}: none left"
+        )
 
     def divide(self, mesh: SymbolicMesh) -> tuple[SymbolicMesh, tuple[str, ...]]:
         """A mesh to look at, with the parts in the place of the hull, each with its label; and their names."""
         whole = mesh.hull_of(self.hull)
         names = free_names(self.hull, len(self.shapes), mesh.index)
         parts = [
-            Hull(name, whole.body, shape, Label(part.label, part.share, "propagated"), self.hull)
+            Hull(name, whole.body, shape, Label(part.label, part.share, "split"), self.hull)
             for name, shape, part in zip(names, self.shapes, self.span.parts, strict=True)
         ]
         others = (one for hull in mesh.hulls for one in (parts if hull is whole else [hull]))
@@ -76,7 +76,7 @@ def make_splits(
     chances = {one.hull: one.span.chance for one in splits}
     after = batch.divide_hulls(source, before, divisions, {**settings, "chances": chances})
     labels = {
-        name: Label(part.label, part.share, "propagated")
+        name: Label(part.label, part.share, "split")
         for entry, one in zip(after.steps[-1].replaced, splits, strict=True)
         for name, part in zip(entry.made, one.span.parts, strict=True)
     }

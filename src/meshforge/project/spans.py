@@ -13,44 +13,41 @@ from meshforge.engines import find_engine
 from meshforge.formats import read
 from meshforge.labels import SpanReport, find_spans
 from meshforge.labels.family_comparison import Stage, ignore_stage
-from meshforge.project.preparation_plan import keep_split
+from meshforge.project.preparation_plan import SPLIT_DEFAULTS, SplitSettings, keep_split
 from meshforge.project.prepare import PreparationResult
 from meshforge.project.span_search import AssetSpans, list_likely, search_spans
 from meshforge.project.span_splits import Split, keep_shapes, write_splits
 from meshforge.project.split_limits import describe_limits
 from meshforge.store import SpanLine, SpansFile, Store
 
-SURE_TO_SPAN = 0.9
-"""The probability from which a hull is split unless another is asked for."""
-
 
 def split_spanning(
     store: Store,
     assets: Iterable[str] | None = None,
+    how: SplitSettings = SPLIT_DEFAULTS,
     *,
-    sure: float = SURE_TO_SPAN,
     dry_run: bool = False,
     engine: str | None = None,
     execution: batch.ExecutionOptions = batch.EXECUTION_DEFAULTS,
     stage: Stage = ignore_stage,
     write_block: Callable[[str], AbstractContextManager[object]] = nullcontext,
 ) -> Iterator[PreparationResult]:
-    """Split the hulls that span parts with a probability of at least `sure`, one step an asset, and label their parts.
+    """Split hulls that span parts with a probability of at least `how.sure`, one step an asset, and label their parts.
 
-    Hulls that a person said to be one part stay as they are.
+    Hulls that a person said to be one part stay as they are, but where they are made anew with their body.
     assets: which may be split, all when None; all of the project are compared. dry_run: nothing is written but what was
-    found, for the status and the review, and `notes` say what would be done, and which limits of an engine, by default
-    of those that read the file, the hulls would exceed then. What `unprepare` takes back brings the hulls, their labels
-    and selections back.
+    found, for the status and the review; `planned` is what would be done. `notes` say which limits of an engine, by
+    default of those that read the file, the hulls exceed then. What `unprepare` takes back brings the hulls, their
+    labels and selections back.
     Raises UsageError for a probability that is none and for an unknown engine, ProjectError where no hull has a label
     or no asset can be read.
     """
-    ids = choose_assets(store, assets, sure)
+    ids = choose_assets(store, assets, how.sure)
     if engine is not None:
         find_engine(engine)
     likely = dict(store.last_spans().assets)
     try:
-        for asset, found in search_spans(store, ids, sure, execution, stage):
+        for asset, found in search_spans(store, ids, how, execution, stage):
             if isinstance(found, str):
                 yield PreparationResult(asset, problems=(found,))
                 continue
@@ -64,7 +61,7 @@ def split_spanning(
     finally:
         _write_likely(store, likely)
     if not dry_run:
-        keep_split(store, ids, sure)
+        keep_split(store, ids, how)
 
 
 def choose_assets(store: Store, assets: Iterable[str] | None, sure: float) -> tuple[str, ...]:
@@ -86,10 +83,11 @@ def _split_one(store: Store, asset: str, found: AssetSpans, dry_run: bool, engin
     if not plan.splits:
         return PreparationResult(asset, notes=notes)
     source, before = read(store.path(asset)), store.preparation(asset)
-    limits = describe_limits(source, before, plan.divide(source, before)[0], engine)
+    after, _ = plan.divide(source, before)
+    limits = describe_limits(source, before, after, engine)
     if dry_run:
-        return PreparationResult(asset, notes=(*(f"would split {one}" for one in plan.splits), *notes, *limits))
-    result = write_splits(store, asset, plan.splits, {"sure": plan.sure}, found.seen)
+        return PreparationResult(asset, notes=(*notes, *limits), planned=after.steps[-1].replaced)
+    result = write_splits(store, asset, plan.splits, plan.settings, found.seen)
     return replace(result, notes=(*result.notes, *notes, *limits))
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any, Literal
 
@@ -12,6 +12,9 @@ BAR = 0.95
 """The probability from which on an asset is signed off without being looked at."""
 NO_LOOK = "nobody has looked at a result of this program yet"
 """The doubt of all edits by a program of which no result was looked at."""
+
+MOST_DOUBTS = 6
+"""Doubts of an asset that are named."""
 
 _DIGITS = 4
 
@@ -43,6 +46,13 @@ class AssetConfidence:
     asset: str
     probability: float
     doubts: tuple[Doubt, ...] = ()
+
+    def with_doubts(self, more: Iterable[Doubt]) -> AssetConfidence:
+        """The same with further doubts: it is at most as probable as that the weightiest of them is none."""
+        more = list(more)
+        probability = min([self.probability, *(1 - one.share for one in more)])
+        doubts = sorted([*self.doubts, *more], key=lambda one: -one.share)[:MOST_DOUBTS]
+        return AssetConfidence(self.asset, probability, tuple(doubts))
 
     def to_json(self) -> dict[str, Any]:
         return {"probability": round(self.probability, _DIGITS), "doubts": [doubt.to_json() for doubt in self.doubts]}

@@ -13,7 +13,7 @@ import numpy as np
 from meshforge.geometry import Floats
 from meshforge.label_model import FamilyPosterior
 from meshforge.language import EXTREMITY, Program, show
-from meshforge.signoff.assessment import NO_LOOK, AssetConfidence, Doubt, DoubtKind
+from meshforge.signoff.assessment import MOST_DOUBTS, NO_LOOK, AssetConfidence, Doubt, DoubtKind
 from meshforge.signoff.confidence import NO_EDIT, AssetEvidence
 from meshforge.signoff.question import ReviewState
 from meshforge.signoff.readings import RuleReadings, compare_readings
@@ -23,7 +23,6 @@ from meshforge.synthesis import Reading
 
 SURE_OF_DEMONSTRATED = 0.999
 _WORTH_TELLING = 0.01  # the probability that an edit is wrong for one reason, from which on it is told
-_MOST_DOUBTS = 6
 _PROGRAM_RIGHT, _RESULT_RIGHT, _RESULT_WRONG = 2.5, 1.3, 2.2
 """What speaks for a program as such [nats], and how each result that was found right, or wrong, changes that: no other
 is at the bar before one was looked at, and each wrong one takes about two more that are right."""
@@ -126,7 +125,7 @@ class FamilyTrial:
             return AssetConfidence(trial.asset, NO_EDIT, (self._doubt_of_error(place),))
         doubts = [*self._reading_doubts(place), *self._label_doubts(place), *self._odd_doubts(place)]
         doubts += self._program_doubts
-        weightiest = sorted(doubts, key=lambda one: -one.share)[:_MOST_DOUBTS]
+        weightiest = sorted(doubts, key=lambda one: -one.share)[:MOST_DOUBTS]
         return AssetConfidence(trial.asset, evidence.probability, tuple(weightiest))
 
     def _doubt_of_error(self, place: int) -> Doubt:

@@ -45,7 +45,7 @@ if TYPE_CHECKING:
         toml_value,
     )
     from meshforge.store.sign_off import AssessmentFile, ConfidenceLine, SignOff, SignOffFile, find_changes
-    from meshforge.store.spans import SinglePartsFile, SpanLine, SpanPart, SpansFile
+    from meshforge.store.spans import SinglePartsFile, SpanLine, SpanPart, SpansFile, describe_parts
     from meshforge.store.store import Store
 else:
     __getattr__ = export_lazily(__name__)
@@ -82,6 +82,7 @@ __all__ = [
     "action_text_without_each",
     "add_assets",
     "create_folder",
+    "describe_parts",
     "edit_settings",
     "find_assets",
     "find_changes",

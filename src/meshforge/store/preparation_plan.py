@@ -11,12 +11,13 @@ from meshforge.store.layout import JsonFile, Layout, read_json, write_json
 class PreparationPlanFile(JsonFile):
     """preparation.json. decomposed, split: the ids of the assets that were there when pieces of all were decomposed
     last, and when hulls of all that span parts were split last; None where that was never done. sure: the probability
-    from which they were split.
+    from which they were split; rebuild: whether all hulls of their bodies were made anew.
     """
 
     decomposed: tuple[str, ...] | None = None
     split: tuple[str, ...] | None = None
     sure: float | None = None
+    rebuild: bool = False
 
 
 def forget_assets(layout: Layout, assets: Collection[str]) -> None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 
 from pydantic import Field
 
@@ -15,10 +15,6 @@ class SpanPart(JsonFile):
     label: str
     share: float
 
-    def __str__(self) -> str:
-        """`handle (93%)`."""
-        return f"{self.label} ({self.share:.0%})"
-
 
 class SpanLine(JsonFile):
     """One hull that likely spans parts. geometry: the digest of the hull as it was; told: in words; parts: what a split
@@ -30,6 +26,11 @@ class SpanLine(JsonFile):
     told: str
     parts: tuple[SpanPart, ...] = ()
     like: str | None = None
+
+    @property
+    def parts_told(self) -> str:
+        """The parts in words."""
+        return describe_parts((part.label, part.share) for part in self.parts)
 
 
 class SpansFile(JsonFile):
@@ -65,3 +66,15 @@ class SinglePartsFile(JsonFile):
         """The same, and one hull more."""
         rows = {**self.assets, asset: dict(sorted({**self.assets.get(asset, {}), hull: geometry}.items()))}
         return self.model_copy(update={"assets": dict(sorted(rows.items()))})
+
+
+def describe_parts(parts: Iterable[tuple[str, float]]) -> str:
+    """Labels of parts with their shares, or how sure they are: `10 wall (75% to 92%), handle (93%)`."""
+    shares = dict[str, list[float]]()
+    for label, share in parts:
+        shares.setdefault(label, []).append(share)
+    words = []
+    for label, own in shares.items():
+        ends = dict.fromkeys(f"{share:.0%}" for share in (min(own), max(own)))
+        words.append(f"{f'{len(own)} ' if len(own) > 1 else ''}{label} ({' to '.join(ends)})")
+    return ", ".join(words)

@@ -8,7 +8,7 @@ from typing import Any, Literal, get_args
 from meshforge.geometry import Aabb, Floats, Ints, Pose, Shape
 from meshforge.symbolic.trimesh_export import make_trimesh
 
-LabelSource = Literal["vlm", "propagated", "consensus", "name", "file", "user", "repair", "edit", "plugin"]
+LabelSource = Literal["vlm", "propagated", "consensus", "split", "name", "file", "user", "repair", "edit", "plugin"]
 LABEL_SOURCES: tuple[str, ...] = get_args(LabelSource)
 HUMAN_SOURCES = frozenset({"user", "repair"})
 INFERRED_SOURCES = frozenset({"propagated", "consensus"})

@@ -10,7 +10,7 @@ import pytest
 
 from meshforge.batch import IN_PROCESS
 from meshforge.formats import load
-from meshforge.project import Project
+from meshforge.project import Project, SplitSettings
 from tests.unit.batch.families import tree
 from tests.unit.cli.in_process import Run, runner
 from tests.unit.project.stools import PARTS, boxes, coarse, write_stool
@@ -29,7 +29,7 @@ def made(tmp_path_factory: pytest.TempPathFactory) -> Path:
         project = Project.create(folder / "p", [folder / "assets"], vocabulary=("seat", "leg"))
         names = [hull.name for hull in project.mesh("a.urdf").hulls]
         project.set_labels("a.urdf", dict(zip(names, PARTS, strict=True)))
-        list(project.split_spanning(sure=0.7, execution=IN_PROCESS))
+        list(project.split_spanning(how=SplitSettings(0.7), execution=IN_PROCESS))
         (folder / "p/program.mf").write_text(PROGRAM)
     return folder
 

@@ -31,11 +31,11 @@ def _stools(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
 def test_dry_run_then_split_then_undo(run: Run) -> None:
     told = run("prepare", "p", "--split-spanning", "--sure", "0.7", "--dry-run", "--workers", "1")
     assert told.code == 0
-    assert "c.urdf: nothing new\n    note: would split base/h0 holds seat and leg, " in told.out
+    assert "c.urdf: nothing written; would turn 1 piece into 2 hulls\n    base/h0 holds seat and leg, " in told.out
     assert "a.urdf: nothing new\n" in told.out
     told = run("prepare", "p", "--split-spanning", "--sure", "0.7", "--workers", "1")
     assert told.code == 0
-    assert "c.urdf: 1 piece into 2 hulls\n    base/h0: base/h0 holds seat and leg, " in told.out
+    assert "c.urdf: 1 piece into 2 hulls\n    base/h0 holds seat and leg, " in told.out
     told = run("status", "p")
     assert "base/h0 divided into 2 hulls" in told.out
     told = run("prepare", "p", "c.urdf", "--undo")

@@ -15,6 +15,7 @@ from meshforge.project import (
     NewAssetOptions,
     NewAssetResult,
     Project,
+    SplitSettings,
     new_assets,
     prepare_aside,
     read_preparation_plan,
@@ -40,7 +41,7 @@ def made(tmp_path_factory: pytest.TempPathFactory) -> Path:
         for name in ("a.urdf", "b.urdf"):
             names = [hull.name for hull in project.mesh(name).hulls]
             project.set_labels(name, dict(zip(names, PARTS, strict=True)))
-        list(project.split_spanning(sure=0.7, execution=IN_PROCESS))
+        list(project.split_spanning(how=SplitSettings(0.7), execution=IN_PROCESS))
     return folder
 
 
@@ -67,12 +68,12 @@ def test_a_new_hull_that_spans_parts_is_split_and_all_is_labelled(folder: Path) 
     found = prepare(folder)
     assert (tree(folder / "new"), tree(folder / "p")) == before, "neither the project nor the source is written"
     (split,) = found["c.urdf"].splits
-    assert split.hull == "base/h0" and split.chance > 0.7
+    assert split.hull == "base/h0" and split.chance is not None and split.chance > 0.7
     assert {label.name for label in split.parts.values()} == {"seat", "leg"}
     assert str(split).startswith(f"base/h0 holds seat and leg, {split.chance:.0%}: split in 2, ")
     labels = read_labels(folder / "aside/labels/c.urdf.json").labels
     assert [label.name for label in labels.values()].count("seat") == 1 and len(labels) == 5
-    assert {label.source for label in labels.values()} == {"propagated"}, "no guess passes for a fact"
+    assert {label.source for label in labels.values()} == {"propagated", "split"}, "no guess passes for a fact"
     kept = read_preparation(folder / "aside/prepared/c.urdf")
     assert kept is not None and [step.do for step in kept.steps] == ["divide"]
     parts = boxes(0.18, 0.4)[:2]
@@ -81,7 +82,9 @@ def test_a_new_hull_that_spans_parts_is_split_and_all_is_labelled(folder: Path) 
 
 def test_what_was_guessed_is_no_surer_than_the_guess(folder: Path) -> None:
     found = prepare(folder)["c.urdf"]
-    least = min(found.splits[0].chance, *(label.confidence for label in found.splits[0].parts.values()))
+    chance = found.splits[0].chance
+    assert chance is not None
+    least = min(chance, *(label.confidence for label in found.splits[0].parts.values()))
     least = min(least, *(label.confidence for label in found.guesses.values()))
     assert found.probability == pytest.approx(least) and found.probability < 1
     left = prepare(folder, split=False)["c.urdf"]
@@ -154,6 +157,20 @@ def test_labels_that_a_new_asset_has_stay(folder: Path) -> None:
     assert read_labels(work.labels).labels["base/h1"] == Label("seat", 1.0, "file")
 
 
+def test_new_assets_are_rebuilt_where_those_of_the_project_were(folder: Path) -> None:
+    list(Project.open(folder / "p").split_spanning(how=SplitSettings(0.7, rebuild=True), execution=IN_PROCESS))
+    found = prepare(folder)["c.urdf"]
+    assert [one.hull for one in found.splits] == [f"base/h{k}" for k in range(4)]
+    spanning, *others = found.splits
+    assert spanning.chance is not None and {one.chance for one in others} == {None}
+    assert str(others[0]).startswith("base/h1, made anew with its body: split in 1, leg (")
+    assert found.spanning == () and found.probability > 0.5, "no hull is in doubt for being made anew"
+    labels = read_labels(folder / "aside/labels/c.urdf.json").labels
+    assert sorted(label.name for label in labels.values()) == sorted(PARTS)
+    kept = read_preparation(folder / "aside/prepared/c.urdf")
+    assert kept is not None and kept.steps[0].settings["rebuilt"] == ["base"]
+
+
 def test_an_asset_that_cannot_be_read_does_not_stop_the_others(folder: Path) -> None:
     (folder / "new/c.urdf").write_text("<robot")
     found = prepare(folder)
@@ -185,7 +202,7 @@ def test_what_comes_later_to_a_project_is_kept_in_it_and_undone(folder: Path) ->
     assert len(found.splits) == 1
     mesh = project.mesh("c.urdf")
     assert sorted(hull.label or "" for hull in mesh.hulls) == sorted(PARTS)
-    assert {hull.source for hull in mesh.hulls} == {"propagated"}
+    assert {hull.source for hull in mesh.hulls} == {"propagated", "split"}
     project.unprepare("c.urdf")
     assert list(project.prepare_new()) == [], "what was taken back is not done again"
     assert [hull.name for hull in project.mesh("c.urdf").hulls] == ["base/h0", "base/h1", "base/h2", "base/h3"]

@@ -44,7 +44,7 @@ def add(project: Project, name: str) -> Project:
 
 def test_nothing_is_planned_where_nothing_was_prepared(project: Project) -> None:
     plan = read_preparation_plan(project)
-    assert (plan.decompose, plan.sure, plan.unclear) == ((), None, None)
+    assert (plan.decompose, plan.split, plan.unclear) == ((), None, None)
     assert find_new_assets(add(project, "c")) == ({}, None)
 
 

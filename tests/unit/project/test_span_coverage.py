@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from meshforge.project import SplitSettings
 from tests.surface_cover import merge_solids, sample_lost
 from tests.unit.project.stools import boxes, coarse, create_stools
 
@@ -21,11 +22,11 @@ def test_a_missing_hull_is_a_gap() -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("way", ["split_spanning", "rebuild_spanning"])
-def test_stools_have_no_gap_where_hulls_that_span_parts_were(tmp_path: Path, way: str) -> None:
+@pytest.mark.parametrize("rebuild", [False, True])
+def test_stools_have_no_gap_where_hulls_that_span_parts_were(tmp_path: Path, rebuild: bool) -> None:
     project = create_stools(tmp_path, SIZES, spanning="c")
     parts = boxes(*SIZES["c"])
-    assert list(getattr(project, way)(["c.urdf"], sure=0.5))
+    assert list(project.split_spanning(["c.urdf"], SplitSettings(0.5, rebuild)))
     after = [hull.shape for hull in project.mesh("c.urdf").hulls]
     before = coarse(parts)
     assert len(after) > len(before)

@@ -11,7 +11,7 @@ import pytest
 from meshforge.batch import IN_PROCESS
 from meshforge.common import ProjectError, StoppedError
 from meshforge.labels import SpanReport
-from meshforge.project import Project, ProjectReview, ask_about_spans, choose_span_question
+from meshforge.project import Project, ProjectReview, add_span_doubts, ask_about_spans, choose_span_question
 from meshforge.signoff import Assessment, AssetConfidence, ReviewQuestion, ReviewReply
 from meshforge.store import SpanPart, SpansFile
 from tests.unit.project.stools import create_stools
@@ -200,6 +200,18 @@ def test_before_there_is_a_program_it_is_asked_first_then_by_what_an_answer_is_w
     assert kind(own.gain / 2, has_program=True, aside=frozenset({C, D})) == "group"
     nothing = ask_about_spans(project, meshes, replace(Assessment({}), question=None), has_program=True)
     assert nothing.question == own
+
+
+def test_an_edit_is_no_surer_than_that_no_hull_spans_parts(project: Project) -> None:
+    meshes = dict(project.meshes_by_id())
+    sure = Assessment({name: AssetConfidence(name, 0.99) for name in meshes})
+    found = add_span_doubts(project, meshes, sure, {D})
+    chance = project.last_spans().assets[C][HULL].chance
+    assert found.assets[C].probability == pytest.approx(1 - chance) and C in found.held
+    assert [doubt.text for doubt in found.assets[C].doubts] == [project.last_spans().assets[C][HULL].told]
+    assert {found.assets[name].probability for name in meshes if name != C} == {0.99}, "a person saw that of d"
+    project.mark_as_one_part(C, HULL)
+    assert add_span_doubts(project, meshes, sure, ()).assets[C].probability == 0.99
 
 
 @pytest.mark.slow

@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+import json
 import shutil
 from pathlib import Path
 
@@ -9,7 +10,8 @@ import pytest
 from meshforge.batch import IN_PROCESS
 from meshforge.common import ProjectError, UsageError
 from meshforge.geometry import overlap_volume, volume_of_union
-from meshforge.project import PreparationResult, Project, span_search
+from meshforge.project import PreparationResult, Project, SplitSettings, span_search
+from meshforge.symbolic import Label
 from tests.unit.project.stools import PARTS, boxes, coarse, write_stool
 
 SURE = 0.7  # two labelled assets do not make it surer
@@ -36,9 +38,11 @@ def project(made: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Proj
     return Project.open(tmp_path / "p")
 
 
-def split(project: Project, *assets: str, **more: object) -> list[PreparationResult]:
-    more = {"sure": SURE, **more}
-    return list(project.split_spanning(assets or None, execution=IN_PROCESS, **more))  # type: ignore[arg-type]
+def split(
+    project: Project, *assets: str, sure: float = SURE, rebuild: bool = False, **more: object
+) -> list[PreparationResult]:
+    how = SplitSettings(sure, rebuild)
+    return list(project.split_spanning(assets or None, how, execution=IN_PROCESS, **more))  # type: ignore[arg-type]
 
 
 def files(project: Project) -> dict[str, bytes]:
@@ -56,7 +60,7 @@ def test_a_hull_that_spans_parts_is_split_and_its_parts_are_labelled(project: Pr
     mesh = project.mesh("c.urdf")
     parts = [hull for hull in mesh.hulls if hull.name in results[2].hulls]
     assert {hull.label for hull in parts} == {"seat", "leg"}
-    assert {hull.source for hull in parts} == {"propagated"}
+    assert {hull.source for hull in parts} == {"split"}
     own = boxes(0.18, 0.38)[:2]
     assert volume_of_union([part.shape for part in parts]) == pytest.approx(sum(one.volume for one in own), rel=1e-3), (
         "tight around seat and leg: what was between them is free"
@@ -90,8 +94,8 @@ def test_a_dry_run_says_what_would_be_split_and_keeps_what_it_found(project: Pro
     results = split(project, dry_run=True)
     assert files(project) == before
     assert list(project.spans().assets) == ["c.urdf"], "for the status and the review"
-    assert [bool(result.notes) for result in results] == [False, False, True]
-    assert results[2].notes[0].startswith("would split ")
+    assert [len(result.planned) for result in results] == [0, 0, 1]
+    assert [len(entry.made) for entry in results[2].planned] == [2]
     assert not any(result.made for result in results)
 
 
@@ -99,7 +103,7 @@ def test_the_same_parts_whatever_the_number_of_workers_and_once_more_nothing(pro
     shutil.copytree(tmp_path / "p", tmp_path / "q")
     split(project)
     other = Project.open(tmp_path / "q")
-    list(other.split_spanning(sure=SURE))
+    list(other.split_spanning(how=SplitSettings(SURE)))
     assert files(project)["prepared/c.urdf/hulls.obj"] == files(other)["prepared/c.urdf/hulls.obj"]
     assert [result.made for result in split(project)] == [(), (), ()], "parts are of one label each"
 
@@ -145,7 +149,7 @@ def test_a_hull_that_spans_parts_is_split_where_no_asset_has_a_surface(tmp_path:
     assert [len(result.made) for result in results] == [0, 0, 1], "hulls of one part stay"
     assert results[2].made[0].what == spanning.name and not results[2].notes
     made = [hull for hull in project.mesh("c.urdf").hulls if hull.name in results[2].hulls]
-    assert {hull.label for hull in made} == {"seat", "leg"} and {hull.source for hull in made} == {"propagated"}
+    assert {hull.label for hull in made} == {"seat", "leg"} and {hull.source for hull in made} == {"split"}
     union = volume_of_union([spanning.shape, *(hull.shape for hull in made)])
     assert union == pytest.approx(spanning.volume), "parts lie within the hull"
     for solid, label in zip(boxes(0.18, 0.38), ("seat", "leg"), strict=False):
@@ -180,12 +184,12 @@ def test_a_broken_asset_does_not_stop_the_others(project: Project, tmp_path: Pat
 
 
 def test_in_a_large_family_each_asset_is_looked_at_by_itself(project: Project, monkeypatch: pytest.MonkeyPatch) -> None:
-    together = [result.notes for result in split(project, dry_run=True)]
+    together = [result.planned for result in split(project, dry_run=True)]
     monkeypatch.setattr(span_search, "MOST_TOGETHER", 0)
     monkeypatch.setattr(span_search, "find_spans", None)
     alone = split(project, dry_run=True)
-    assert [bool(result.notes) for result in alone] == [bool(notes) for notes in together] == [False, False, True]
-    assert alone[2].notes[0].startswith("would split base/h0 holds seat and leg, ")
+    assert [len(result.planned) for result in alone] == [len(planned) for planned in together] == [0, 0, 1]
+    assert alone[2].planned[0].told.startswith("base/h0 holds seat and leg, ")
     results = split(project)
     assert [len(result.made) for result in results] == [0, 0, 1]
     assert {project.mesh("c.urdf").hull_of(name).label for name in results[2].hulls} == {"seat", "leg"}
@@ -197,9 +201,20 @@ def test_in_a_large_family_each_asset_is_looked_at_by_itself(project: Project, m
         split(project)
 
 
-def rebuild(project: Project, *assets: str, **more: object) -> list[PreparationResult]:
-    more = {"sure": SURE, **more}
-    return list(project.rebuild_spanning(assets or None, execution=IN_PROCESS, **more))  # type: ignore[arg-type]
+def test_propagation_leaves_what_the_surface_says_of_parts(project: Project) -> None:
+    made = split(project)[2].hulls
+    before = project.mesh("c.urdf")
+    project.set_labels("c.urdf", dict.fromkeys(made))
+    project.set_labels("c.urdf", dict.fromkeys(made, "leg"), source="split", confidence=0.3)
+    project.propagate_labels()
+    after = project.mesh("c.urdf")
+    assert all(after.hull_of(name).annotation == Label("leg", 0.3, "split") for name in made)
+    others = [hull.name for hull in before.hulls if hull.name not in made]
+    assert all(after.hull_of(name).source == "propagated" for name in others)
+
+
+def rebuild(project: Project, *assets: str, dry_run: bool = False) -> list[PreparationResult]:
+    return split(project, *assets, rebuild=True, dry_run=dry_run)
 
 
 def test_a_body_is_rebuilt_part_by_part_and_taken_back_to_the_last_byte(project: Project) -> None:
@@ -211,13 +226,16 @@ def test_a_body_is_rebuilt_part_by_part_and_taken_back_to_the_last_byte(project:
     assert sorted(str(hull.label) for hull in mesh.hulls) == sorted(PARTS), "one hull a part"
     assert sorted(hull.volume for hull in mesh.hulls) == pytest.approx(sorted(part.volume for part in parts), rel=1e-3)
     project.unprepare("c.urdf")
-    assert files(project) == before
+    after = files(project)
+    assert json.loads(after.pop("preparation.json"))["rebuild"] is True, "what is to be done to new assets stays"
+    assert after == before
 
 
 def test_rebuilding_says_first_what_it_would_do_and_leaves_what_a_person_said_is_one_part(project: Project) -> None:
     before = files(project)
     (result,) = rebuild(project, "c.urdf", dry_run=True)
-    assert result.notes[0].startswith("would rebuild base: ") and result.notes[0].endswith("4 hulls into 5")
+    assert (len(result.planned), sum(len(entry.made) for entry in result.planned)) == (4, 5)
+    assert result.planned[1].told.startswith("base/h1, made anew with its body: "), "it spans no parts"
     assert files(project) == before
     project.mark_as_one_part("c.urdf", project.mesh("c.urdf").hulls[0].name)
     assert rebuild(project, "c.urdf")[0].made == ()
@@ -228,4 +246,4 @@ def test_labels_that_a_person_gave_stay_a_persons_when_a_body_is_rebuilt(project
     project.set_labels("c.urdf", {legs[0].name: "leg"})
     rebuild(project, "c.urdf")
     sources = {hull.name.split("#")[0]: hull.source for hull in project.mesh("c.urdf").hulls}
-    assert sources[legs[0].name] == "user" and sources[legs[1].name] == "propagated"
+    assert sources[legs[0].name] == "user" and sources[legs[1].name] == "split"

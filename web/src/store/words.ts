@@ -34,6 +34,7 @@ const SOURCES: Readonly<Record<string, string>> = {
   repair: "by you",
   propagated: "propagated",
   consensus: "by consensus",
+  split: "from a split",
   vlm: "by a model",
   edit: "by an edit",
   plugin: "by a plug-in",
