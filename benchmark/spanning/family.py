@@ -110,9 +110,16 @@ def split_hulls(sample: Sample, parts: Parts) -> Sample:
             rows.append(row)
         for number, shape in enumerate(parts.get(place, ())):
             share = shares(shape, sample.asset.parts, sample.asset.pose)
-            hulls.append(Hull(f"{hull.name}_{number}", hull.body, shape, Label(next(iter(share)), 1.0, "file")))
+            hulls.append(
+                Hull(name_part(sample, place, number), hull.body, shape, Label(next(iter(share)), 1.0, "file"))
+            )
             rows.append(share)
     return Sample(sample.name, sample.asset, sample.setting, SymbolicMesh(tuple(hulls)), tuple(rows))
+
+
+def name_part(sample: Sample, hull: int, number: int) -> str:
+    """What `split_hulls` calls a part of a hull."""
+    return f"{sample.mesh.hulls[hull].name}_{number}"
 
 
 def replace_hulls(sample: Sample, shapes: Sequence[Polytope]) -> Sample:

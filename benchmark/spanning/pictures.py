@@ -10,7 +10,7 @@ from benchmark.assets import Sample
 from benchmark.assets.pictures import upright
 from benchmark.report import Result
 from benchmark.spanning.course import SplitHull, parts_of, split_some
-from benchmark.spanning.family import BY_PIECES, split_hulls
+from benchmark.spanning.family import BY_PIECES, name_part, split_hulls
 from benchmark.spanning.sets import find_sample
 from meshforge.rendering import draw_before_after, make_contact_sheet, write_png
 from meshforge.symbolic import SymbolicMesh
@@ -66,9 +66,8 @@ def _split(row: Mapping[str, Any]) -> tuple[Sample, SymbolicMesh]:
 
 def _labels_of(sample: Sample, rows: Sequence[SplitHull]) -> dict[str, str]:
     """The propagated labels of the parts of split hulls, by name."""
-    names = [hull.name for hull in sample.mesh.hulls]
     return {
-        f"{names[row.number]}_{number}": part.label
+        name_part(sample, row.number, number): part.label
         for row in rows
         if row.is_split()
         for number, part in enumerate(row.parts)

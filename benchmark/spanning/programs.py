@@ -3,9 +3,10 @@ meshes whose solids were decomposed one by one."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import asdict
 from functools import partial
+from types import MappingProxyType
 from typing import Any
 
 import numpy as np
@@ -25,12 +26,18 @@ from benchmark.signoff.outcomes import (
 )
 from benchmark.signoff.queue import CAP, DONE, Review, sign_off
 from benchmark.spanning.course import SURE, warm_cache
-from benchmark.spanning.family import BY_PIECES, KNOWN, choose_known, open_family, replace_hulls, split_hulls
+from benchmark.spanning.family import BY_PIECES, KNOWN, choose_known, name_part, open_family, replace_hulls, split_hulls
 from benchmark.study import REPORTED, Bench
 from benchmark.study.condition import PROPAGATED
+from benchmark.study.desk import Start
 from benchmark.tasks import Task, task, tasks
+from meshforge.geometry import HullPart
 from meshforge.label_model import SpanPosterior
+from meshforge.symbolic import Label
 
+PartLabels = Mapping[str, Label]
+"""Labels of parts of split hulls, by name."""
+NO_LABELS: PartLabels = MappingProxyType({})
 FINE = SEPARATE[-1]
 """The set that is compared with."""
 AS_IT_IS, SPLIT, REBUILT = "as it is", "split", "rebuilt"
@@ -93,45 +100,61 @@ def sign_set(name: str, setting: str) -> list[dict[str, Any]]:
     """A task signed off on a set, whose hulls that span are left, split and rebuilt; the fine set is left as it is."""
     one = task(name)
     if setting == FINE:
-        meshes = {AS_IT_IS: samples(one.category, False, (FINE,))}
+        meshes = {AS_IT_IS: [(sample, NO_LABELS) for sample in samples(one.category, False, (FINE,))]}
     else:
         family = open_family(one.category, setting)
         posterior = family.infer(BY_PIECES)
         places = list(enumerate(family.samples))
         meshes = {
-            AS_IT_IS: family.samples,
-            SPLIT: tuple(split_sample(sample, posterior, place) for place, sample in places),
-            REBUILT: tuple(rebuild_sample(sample, posterior, place) for place, sample in places),
+            AS_IT_IS: [(sample, NO_LABELS) for sample in family.samples],
+            SPLIT: [split_sample(sample, posterior, place) for place, sample in places],
+            REBUILT: [rebuild_sample(sample, posterior, place) for place, sample in places],
         }
     return [
         {
             "set": setting,
             "spanning": spanning,
-            "hulls": sum(len(sample.mesh.hulls) for sample in rows),
+            "hulls": sum(len(sample.mesh.hulls) for sample, _ in rows),
             "review": asdict(sign_off(open_bench(one, rows), _CONDITION, REPORTED[0])),
         }
         for spanning, rows in meshes.items()
     ]
 
 
-def open_bench(one: Task, rows: Sequence[Sample]) -> Bench:
-    """A task with a family of which those assets are labelled by hand by whose labels hulls that span are found."""
-    return Bench(one, rows, [rows[place].name for place in sorted(choose_known(len(rows)))])
+def open_bench(one: Task, rows: Sequence[tuple[Sample, PartLabels]]) -> Bench:
+    """A task with a family of which those assets are labelled by hand by whose labels hulls that span are found.
+
+    rows: the meshes, with the labels that parts of split hulls have from the split.
+    """
+    known = tuple(rows[place][0].name for place in sorted(choose_known(len(rows))))
+    return Bench(one, [sample for sample, _ in rows], Start(known, {sample.name: labels for sample, labels in rows}))
 
 
-def split_sample(sample: Sample, posterior: SpanPosterior, place: int) -> Sample:
-    """The mesh with the hulls split that likely span, all hulls with their true labels."""
+def split_sample(sample: Sample, posterior: SpanPosterior, place: int) -> tuple[Sample, PartLabels]:
+    """The mesh with the hulls split that likely span, all hulls with their true labels; and those of the parts."""
     likely = np.flatnonzero(posterior.chances_of(place) >= SURE[0]).tolist()
-    divided = {hull: posterior.divide(place, hull) for hull in likely}
-    return split_hulls(sample, {hull: [part.shape for part in some] for hull, some in divided.items() if len(some) > 1})
+    made = {hull: parts for hull in likely if len(parts := posterior.divide(place, hull)) > 1}
+    split = split_hulls(sample, {hull: [part.shape for part in parts] for hull, parts in made.items()})
+    parts_by_name = {
+        name_part(sample, hull, number): part for hull, parts in made.items() for number, part in enumerate(parts)
+    }
+    return split, {name: _label_of(part, posterior) for name, part in parts_by_name.items()}
 
 
-def rebuild_sample(sample: Sample, posterior: SpanPosterior, place: int) -> Sample:
-    """The mesh with all hulls rebuilt part by part where one likely spans, all hulls with their true labels."""
+def rebuild_sample(sample: Sample, posterior: SpanPosterior, place: int) -> tuple[Sample, PartLabels]:
+    """The mesh with all hulls rebuilt part by part where one likely spans, all hulls with their true labels; and those
+    of the new hulls."""
     if posterior.chances_of(place).max() < SURE[0]:
-        return sample
-    made = posterior.rebuild(place, np.arange(len(sample.mesh.hulls)))
-    return replace_hulls(sample, [part.shape for _, part in made])
+        return sample, NO_LABELS
+    made = [part for _, part in posterior.rebuild(place, np.arange(len(sample.mesh.hulls)))]
+    rebuilt = replace_hulls(sample, [part.shape for part in made])
+    rows = zip(rebuilt.mesh.hulls, made, strict=True)
+    return rebuilt, {hull.name: _label_of(part, posterior) for hull, part in rows}
+
+
+def _label_of(part: HullPart, posterior: SpanPosterior) -> Label:
+    """The label of a part as `prepare` writes it."""
+    return Label(posterior.labels[part.kind], round(float(part.shares[part.kind]), 3), "split")
 
 
 def _reviews_of(rows: Sequence[dict[str, Any]], setting: str, spanning: str) -> list[Review]:
@@ -189,6 +212,7 @@ _NOTES = (
     f"{CAP:.0f} s.",
     f"A person labels the fine pieces of {KNOWN} assets, and by these hulls are found, split and rebuilt on all 25, "
     f"from a probability of {SURE[0]} on, as `prepare --sure {SURE[0]}` does. On each set the hulls of the same "
-    f"{KNOWN} assets have labels by hand when the session begins; all other labels are propagated from these.",
+    f"{KNOWN} assets have labels by hand when the session begins; parts and new hulls have those that `prepare` gives, "
+    "and all other labels are propagated from those by hand.",
     f"*{FINE}*: each connected solid decomposed by itself, as in `signoff.md`.",
 )

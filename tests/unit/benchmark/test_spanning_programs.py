@@ -26,6 +26,7 @@ from benchmark.spanning.programs import (
 from benchmark.study.propagation import begin_by_hand
 from benchmark.tasks import task
 from meshforge.geometry import Floats, HullPart, Ints, cut
+from meshforge.symbolic import Label
 
 
 @dataclass
@@ -34,6 +35,7 @@ class Halves:
 
     sample: Sample
     chances: Floats
+    labels: tuple[str, ...] = ("base", "wall")
 
     def chances_of(self, place: int) -> Floats:
         return self.chances
@@ -41,7 +43,7 @@ class Halves:
     def divide(self, place: int, hull: int) -> tuple[HullPart, ...]:
         whole = self.sample.decomposition.hulls[hull]
         halves = cut(whole, whole.centroid, np.array([1.0, 0.0, 0.0]))
-        return tuple(HullPart(half, np.array([1.0])) for half in halves if half is not None)
+        return tuple(HullPart(half, np.array([0.3, 0.7])) for half in halves if half is not None)
 
     def rebuild(self, place: int, hulls: Ints) -> tuple[tuple[int, HullPart], ...]:
         return tuple((hull, part) for hull in hulls.tolist() for part in self.divide(place, hull))
@@ -56,7 +58,9 @@ def test_the_hulls_that_likely_span_are_split_and_no_other(sample: Sample) -> No
     chances = np.full(len(sample.mesh.hulls), 0.4)
     chances[1] = 0.6
     posterior: Any = Halves(sample, chances)
-    split = split_sample(sample, posterior, 0)
+    split, labels = split_sample(sample, posterior, 0)
+    assert list(labels) == [f"{sample.mesh.hulls[1].name}_{k}" for k in range(2)]
+    assert {(one.name, one.confidence, one.source) for one in labels.values()} == {("wall", 0.7, "split")}
     names = [hull.name for hull in sample.mesh.hulls]
     wanted = [name for name in names if name != names[1]] + [f"{names[1]}_0", f"{names[1]}_1"]
     assert sorted(hull.name for hull in split.mesh.hulls) == sorted(wanted)
@@ -65,19 +69,26 @@ def test_the_hulls_that_likely_span_are_split_and_no_other(sample: Sample) -> No
 def test_all_hulls_are_rebuilt_where_one_likely_spans_else_none(sample: Sample) -> None:
     chances = np.full(len(sample.mesh.hulls), 0.4)
     posterior: Any = Halves(sample, chances)
-    assert rebuild_sample(sample, posterior, 0) is sample
+    assert rebuild_sample(sample, posterior, 0) == (sample, {})
     chances[1] = 0.6
-    rebuilt = rebuild_sample(sample, posterior, 0)
+    rebuilt, labels = rebuild_sample(sample, posterior, 0)
+    assert list(labels) == [hull.name for hull in rebuilt.mesh.hulls]
     assert len(rebuilt.mesh.hulls) == 2 * len(sample.mesh.hulls)
     rows = zip(rebuilt.mesh.hulls, rebuilt.shares, strict=True)
     assert all(hull.label == max(row, key=row.__getitem__) for hull, row in rows)
 
 
-def test_a_session_begins_with_the_assets_labelled_by_which_hulls_were_split() -> None:
+def test_a_session_begins_with_labels_by_hand_of_the_known_assets_and_those_of_split_parts() -> None:
     rows = samples("cup", False, ("coarse",))[:6]
-    bench = open_bench(task("cup-medium"), rows)
+    known = [rows[place].name for place in choose_known(6)]
+    split = next(row for row in rows if row.name not in known)
+    part = split.mesh.hulls[0].name
+    told = Label("handle", 0.6, "split")
+    bench = open_bench(task("cup-medium"), [(row, {part: told} if row is split else {}) for row in rows])
     desk, by_hand, _ = begin_by_hand(bench, 3)
-    assert by_hand == {rows[place].name for place in choose_known(6)}
+    assert by_hand == set(known)
+    assert desk.meshes[split.name].hull_of(part).annotation == told
+    assert all(hull.source == "propagated" for hull in desk.meshes[split.name].hulls if hull.name != part)
     for name in by_hand:
         pairs = zip(desk.meshes[name].hulls, bench.truth.meshes[name].hulls, strict=True)
         assert all(hull.label == true.label and hull.source == "user" for hull, true in pairs)
