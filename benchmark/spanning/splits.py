@@ -3,7 +3,7 @@ are then."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Collection, Iterator, Sequence
 from dataclasses import dataclass
 
 from benchmark.assets import MERGED, SEPARATE, samples
@@ -30,7 +30,10 @@ PURITIES = (
     "volume kept",
     "pure hulls split",
 )
-_COUNT_COLUMNS = ("set", "category", "hulls", "rebuilt", "after the split", "next finer", "its hulls", "ratio")
+SIZES = ("set", "category", "hulls", "rebuilt", "after the split", "next finer", "its hulls", "ratio")
+
+CountHulls = Callable[[str, str, Collection[str]], int]
+"""How many hulls some assets of a category have where each solid is decomposed by itself, in a setting."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,7 +70,7 @@ class Purity:
 def measure(tell: Tell, quick: bool) -> Result:
     """Split the hulls that span in all families."""
     families = split_families(tell, quick)
-    counts = tuple(_count_hulls(families))
+    counts = tuple(list_sizes(families, count_generated))
     return Result(
         "splits",
         "Hulls that span parts: split",
@@ -76,7 +79,7 @@ def measure(tell: Tell, quick: bool) -> Result:
                 Table(f"Split from a probability of {sure} on", PURITIES, tuple(list_purities(families, sure)))
                 for sure in SURE
             ),
-            Table("Hulls in all, all assets that nobody labelled", _COUNT_COLUMNS, counts),
+            Table("Hulls in all, all assets that nobody labelled", SIZES, counts),
         ),
         tuple(_list_goals(families, counts)),
         _NOTES,
@@ -134,14 +137,14 @@ def list_purities(families: Sequence[SplitFamily], sure: float) -> Iterator[tupl
                 yield setting, labelled, category or "all", spanning, *cells, split
 
 
-def _count_hulls(families: Sequence[SplitFamily]) -> Iterator[tuple[Cell, ...]]:
-    """By the labels of pieces."""
-    for setting in MERGED:
+def list_sizes(families: Sequence[SplitFamily], count: CountHulls) -> Iterator[tuple[Cell, ...]]:
+    """Rows of `SIZES`, by the labels of pieces."""
+    for setting in sets_of(families):
         total = [0, 0, 0, 0]
         for category in categories_of(families):
             rows = hulls_of(families, setting, BY_PIECES, category)
             after = sum(len(row.parts_at()) for row in rows)
-            name, finer = next_finer(category, len(rows), {row.asset for row in rows})
+            name, finer = next_finer(category, len(rows), {row.asset for row in rows}, count)
             rebuilt = _count_rebuilt(families, setting, category, rows)
             total = [a + b for a, b in zip(total, (len(rows), rebuilt, after, finer), strict=True)]
             yield setting, category, len(rows), rebuilt, after, name, finer, after / finer
@@ -157,13 +160,18 @@ def _count_rebuilt(families: Sequence[SplitFamily], setting: str, category: str,
     return sum(made.values()) + sum(row.asset not in made for row in rows)
 
 
-def next_finer(category: str, hulls: int, assets: set[str]) -> tuple[str, int]:
+def next_finer(category: str, hulls: int, assets: set[str], count: CountHulls) -> tuple[str, int]:
     """The coarsest separate decomposition that has more hulls than there are, else the finest; and its hulls."""
     for setting in SEPARATE:
-        count = sum(len(row.mesh.hulls) for row in samples(category, False, (setting,)) if row.asset.name in assets)
-        if count > hulls:
+        finer = count(category, setting, assets)
+        if finer > hulls:
             break
-    return setting, count
+    return setting, finer
+
+
+def count_generated(category: str, setting: str, assets: Collection[str]) -> int:
+    """The hulls of some generated assets where each solid is decomposed by itself."""
+    return sum(len(row.mesh.hulls) for row in samples(category, False, (setting,)) if row.asset.name in assets)
 
 
 def _list_goals(families: Sequence[SplitFamily], counts: Sequence[tuple[Cell, ...]]) -> Iterator[Goal]:

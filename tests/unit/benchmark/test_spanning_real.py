@@ -14,9 +14,9 @@ from benchmark.real.whole import REAL, list_hidden, list_whole, whole_sample
 from benchmark.spanning.course import SplitFamily, SplitHull, SplitPart
 from benchmark.spanning.detection import categories_of, list_counts
 from benchmark.spanning.family import BY_PIECES, label_truly, make_pieces
-from benchmark.spanning.real_assets import judge_fine_asset, measure
+from benchmark.spanning.real_assets import SeparateMeshes, judge_separate, measure
 from benchmark.spanning.sets import list_names, list_tasks, surface_of
-from benchmark.spanning.splits import purity_of
+from benchmark.spanning.splits import list_sizes, purity_of
 from meshforge.common import AssetError
 from tests.corpus_path import corpus
 
@@ -63,6 +63,13 @@ def test_families_without_a_hull_that_spans_do_not_count_in_the_mean_purity() ->
     assert counts == {"cups": (1, 1, 1), "chairs": (1, 0, 0), "all": (2, 1, 1)}
 
 
+def test_hulls_are_compared_with_the_next_finer_decomposition_of_the_same_assets() -> None:
+    counts = {"coarse": 1, "medium": 4, "fine": 9}
+    hulls = {("cups", asset, setting): count for asset in ("mug", "other") for setting, count in counts.items()}
+    rows = list(list_sizes([made("cups", SPLIT)], SeparateMeshes(hulls, {}).count))
+    assert rows[0] == (REAL, "cups", 1, 1, 2, "medium", 4, 0.5)
+
+
 @pytest.mark.slow
 def test_a_real_chair_is_decomposed_as_a_whole_in_the_frame_of_its_file() -> None:
     corpus()
@@ -84,6 +91,8 @@ def test_a_real_chair_is_decomposed_as_a_whole_in_the_frame_of_its_file() -> Non
 @pytest.mark.slow
 def test_the_reference_is_tried_on_each_task_where_solids_are_decomposed_one_by_one() -> None:
     corpus()
-    rows = dict(judge_fine_asset("chairs", "kaykit-stool"))
+    made = judge_separate("chairs", "kaykit-stool")
+    rows = dict(made["fine"])
     assert list(rows) == [f"real-chairs-{level}" for level in ("easy", "medium", "hard")]
     assert any(why is None for why in rows.values())
+    assert made["hulls"]["coarse"] <= made["hulls"]["medium"] < made["hulls"]["fine"]
