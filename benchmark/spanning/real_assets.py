@@ -6,7 +6,8 @@ from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from benchmark.assets import SEPARATE
+from benchmark.assets import SEPARATE, Sample
+from benchmark.assets.decomposition import volumes_in_parts
 from benchmark.journal import run_units
 from benchmark.real.family import families as list_families
 from benchmark.real.family import family
@@ -14,7 +15,7 @@ from benchmark.real.samples import make_sample
 from benchmark.real.tasks import tasks_of
 from benchmark.real.whole import REAL, THRESHOLD, list_hidden, list_whole
 from benchmark.report import Cell, Goal, Result, Table, Tell
-from benchmark.spanning.course import SURE, SplitFamily, split_some
+from benchmark.spanning.course import SURE, SplitFamily, SplitHull, SplitPart, split_some
 from benchmark.spanning.detection import (
     ABOUT_LABELS,
     CALIBRATIONS,
@@ -25,11 +26,12 @@ from benchmark.spanning.detection import (
     list_counts,
 )
 from benchmark.spanning.edits import FAILURES, SHARES, edits_of, list_failures, list_shares, share_right
-from benchmark.spanning.family import BY_PIECES, KNOWN
+from benchmark.spanning.family import BY_PIECES, KNOWN, Parts, divide_truly, is_spanning, label_truly, open_family
 from benchmark.spanning.splits import (
     MOST_SPLIT,
     PURITIES,
     SIZES,
+    Purity,
     list_gains,
     list_purities,
     list_sizes,
@@ -43,6 +45,7 @@ PRECISION, RECALL, PURITY, RIGHT = 0.9, 0.8, 0.88, 0.8
 """To reach: of hulls that span found, purity of these after the split, and the share of edits that do then."""
 _QUICK = "cups"
 _FINE = SEPARATE[-1]
+_LABELS = ("family", "labels of fine pieces right", "purity after the split", "by true labels of pieces")
 
 
 def measure(tell: Tell, quick: bool) -> Result:
@@ -69,6 +72,7 @@ def measure(tell: Tell, quick: bool) -> Result:
             ),
             Table("Edits of the reference", (*SHARES, f"the {_FINE} set"), tuple(_list_shares(families, separate))),
             Table("What fails on rebuilt meshes", FAILURES, tuple(list_failures(families))),
+            Table("What is due to labels", _LABELS, tuple(_list_labels(names, families, tell))),
             Table("Hulls in all, all assets that nobody labelled", SIZES, sizes),
         ),
         tuple(_list_goals(families, sizes)),
@@ -112,6 +116,38 @@ def judge_separate(name: str, asset: str) -> dict[str, Any]:
     return {"hulls": {setting: len(one.mesh.hulls) for setting, one in made.items() if one}, "fine": fine}
 
 
+def _list_labels(names: Sequence[str], families: Sequence[SplitFamily], tell: Tell) -> Iterator[tuple[Cell, ...]]:
+    found = run_units("spanning-labels", judge_labels, [(name,) for name in names], tell)
+    for name, (right, truly) in zip(names, found, strict=True):
+        yield name, right, purity_of(families, REAL, BY_PIECES, name).after, truly
+
+
+def judge_labels(name: str) -> tuple[float, float]:
+    """Of a real family that nobody labelled: the share of fine pieces, by volume, whose likeliest label is right, mean
+    of assets; and the purity where all hulls that span are split by true labels of pieces."""
+    one = open_family(name, REAL)
+    posterior = one.infer(BY_PIECES)
+    right, hulls = list[float](), list[SplitHull]()
+    for place, sample in one.unknown:
+        pieces = one.pieces[place]
+        told = [posterior.labels[kind] for kind in posterior.chances[place].argmax(axis=1).tolist()]
+        rows = zip(pieces, told, label_truly(pieces, sample.asset), strict=True)
+        same = sum(piece.volume for piece, label, true in rows if label == true)
+        right.append(same / sum(piece.volume for piece in pieces))
+        hulls += _split_truly(sample, divide_truly(sample, pieces))
+    return sum(right) / len(right), Purity.of(hulls).after
+
+
+def _split_truly(sample: Sample, parts: Parts) -> Iterator[SplitHull]:
+    """The hulls of an asset that span, each with given parts."""
+    asset = sample.asset
+    for number, (hull, share) in enumerate(zip(sample.decomposition.hulls, sample.shares, strict=True)):
+        if is_spanning(share):
+            made = [volumes_in_parts(part, asset.parts, asset.pose) for part in parts.get(number, ())]
+            volumes = volumes_in_parts(hull, asset.parts, asset.pose)
+            yield SplitHull(asset.name, number, 1.0, True, volumes, tuple(SplitPart([], "", one) for one in made), 0.0)
+
+
 def _list_shares(families: Sequence[SplitFamily], separate: SeparateMeshes) -> Iterator[tuple[Cell, ...]]:
     for row in list_shares(families):
         category = None if row[2] == "all" else str(row[2])
@@ -150,6 +186,8 @@ _NOTES = (
     "volume in these. *All*: the mean of the families that have spanning hulls.",
     f"{KNOWN} assets of a family are labelled, one of each third, drawn with a fixed seed; families have 8 to 14. "
     "Nothing is tuned on these assets.",
+    "*Labels of fine pieces right*: by volume, mean of assets. *By true labels of pieces*: the purity where each hull "
+    "that spans is split by the true labels of its fine pieces, so what the geometry allows.",
     f"*The {_FINE} set*: the same tasks on the same assets where each solid is decomposed by itself, finely. The "
     "reference fails there too where that merges parts. *Next finer*: of the three such sets (coarse, medium, "
     "fine) the first that has more hulls than the set, family by family.",
