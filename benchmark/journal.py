@@ -38,7 +38,9 @@ def digest(module: str) -> str:
 @cache
 def digest_protocol(part: str) -> str:
     """A digest of the meshes, the tasks and their criteria that a part is about."""
-    return _digest(("benchmark/criteria/*.py", *_REAL) if part in ("real", "real_families") else _PROTOCOL)
+    return _digest(
+        ("benchmark/criteria/*.py", *_REAL) if part in ("real", "real_families", "real_assets") else _PROTOCOL
+    )
 
 
 def list_sources(module: str) -> list[str]:

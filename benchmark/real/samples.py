@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import json
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cache, lru_cache
 from pathlib import Path
@@ -90,9 +90,14 @@ def make_sample(one: Family, name: str, setting: str) -> Sample | None:
     if setting == AS_IS and (lacking := find_bare(hulls, asset)):
         parts = tuple(part for part in asset.parts if part.name not in lacking)
         asset = replace(asset, parts=parts, sites=sites_of(one.name, parts))
+    return label_hulls(asset, setting, hulls)
+
+
+def label_hulls(asset: Asset, setting: str, hulls: Sequence[Hull]) -> Sample:
+    """Hulls of an asset with their true labels; setting: what they were made by."""
     told = tuple(shares(_polytope(hull), asset.parts, asset.pose) for hull in hulls)
     named = [replace(h, annotation=Label(next(iter(row)), 1.0, "file")) for h, row in zip(hulls, told, strict=True)]
-    return Sample(f"{name}_{setting}", asset, setting, SymbolicMesh(tuple(named)), told)
+    return Sample(f"{asset.name}_{setting}", asset, setting, SymbolicMesh(tuple(named)), told)
 
 
 def why_absent(source: Source) -> str | None:
@@ -154,8 +159,14 @@ def _decompose(real: RealAsset, settings: CoacdSettings) -> list[Hull]:
     for row in real.solids:
         bodies.setdefault(row.patch.body, []).append(row)
     made = [(body, hull) for body, rows in bodies.items() for hull in _decompose_body(rows, settings)]
-    made.sort(key=lambda row: tuple(row[1].centroid.round(4)))  # tells nothing of parts
-    rounded = [(body, np.round(real.asset.pose.apply(hull.vertices), DIGITS)) for body, hull in made]
+    return name_hulls(made, real.asset.pose)
+
+
+def name_hulls(made: Iterable[tuple[str, Polytope]], pose: Pose) -> list[Hull]:
+    """Hulls with their bodies, upright, as hulls of a file, in an order that tells nothing of parts; pose: of the
+    asset."""
+    made = sorted(made, key=lambda row: tuple(row[1].centroid.round(4)))
+    rounded = [(body, np.round(pose.apply(hull.vertices), DIGITS)) for body, hull in made]
     placed = [row for row in rounded if spans_volume(row[1])]  # slivers have none once they are rounded
     width = len(str(max(len(placed) - 1, 0)))
     return [Hull(f"hull_{k:0{width}}", body, convex_hull(points), None) for k, (body, points) in enumerate(placed)]

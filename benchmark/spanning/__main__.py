@@ -1,5 +1,6 @@
 """Fits the weights of the probability that a hull spans parts (`fit`), or says which hulls of some categories are
-missed or falsely found (`look CATEGORY ...`), on the calibration assets unless `--test` is given."""
+missed or falsely found (`look CATEGORY ...`), on the calibration assets unless `--test` is given; real
+families have none."""
 
 from __future__ import annotations
 
@@ -7,7 +8,9 @@ import argparse
 import sys
 from collections.abc import Iterator
 
-from benchmark.assets import CATEGORIES
+from benchmark.assets import CATEGORIES, MERGED
+from benchmark.real.family import families
+from benchmark.real.whole import REAL
 from benchmark.spanning.course import SURE, SplitFamily, SplitHull, split_some
 from benchmark.spanning.detection import Detection
 from benchmark.spanning.fit import fit
@@ -16,19 +19,26 @@ from benchmark.spanning.splits import Purity
 
 def main() -> None:
     """Do what is asked for."""
+    known = (*CATEGORIES, *families())
     parser = argparse.ArgumentParser(prog="python -m benchmark.spanning", description=__doc__)
     parser.add_argument("what", choices=("fit", "look"))
-    parser.add_argument("categories", nargs="*", metavar="CATEGORY", help=f"of {', '.join(CATEGORIES)}; default: all")
+    parser.add_argument(
+        "categories", nargs="*", metavar="CATEGORY", help=f"of {', '.join(known)}; default: the first {len(CATEGORIES)}"
+    )
     parser.add_argument("--test", action="store_true", help="look at the test assets, not at those to tune on")
     given = parser.parse_args()
-    if unknown := [name for name in given.categories if name not in CATEGORIES]:
-        parser.error(f"there is no category {unknown[0]}, only {', '.join(CATEGORIES)}")
+    if unknown := [name for name in given.categories if name not in known]:
+        parser.error(f"there is no category {unknown[0]}, only {', '.join(known)}")
+    if not given.test and (real := [name for name in given.categories if name not in CATEGORIES]):
+        parser.error(f"{real[0]} has no assets to tune on: give --test to look at it")
     if given.what == "fit":
         fit(_tell)
         return
-    for family in split_some(given.categories or CATEGORIES, _tell, not given.test):
-        for line in describe_family(family):
-            print(line)
+    for name in given.categories or CATEGORIES:
+        sets = MERGED if name in CATEGORIES else (REAL,)
+        for family in split_some([name], _tell, not given.test, sets):
+            for line in describe_family(family):
+                print(line)
 
 
 def describe_family(family: SplitFamily) -> Iterator[str]:

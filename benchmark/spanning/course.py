@@ -5,12 +5,11 @@ from __future__ import annotations
 import time
 from collections.abc import Iterator, Sequence
 from dataclasses import asdict, dataclass
-from functools import cache
 from typing import Any
 
 import numpy as np
 
-from benchmark.assets import CATEGORIES, MERGED, Sample, samples
+from benchmark.assets import CATEGORIES, MERGED, Sample
 from benchmark.assets.decomposition import volumes_in_parts
 from benchmark.evaluation.sessions import QUICK
 from benchmark.journal import run_units
@@ -27,7 +26,7 @@ from benchmark.spanning.family import (
     replace_hulls,
     split_hulls,
 )
-from benchmark.tasks import Task, tasks
+from benchmark.spanning.sets import find_sample, list_names, list_tasks
 from meshforge.geometry import HullPart, convex_hull
 from meshforge.label_model import SpanPosterior
 
@@ -109,30 +108,32 @@ def split_families(tell: Tell, quick: bool, calibration: bool = False) -> list[S
     return split_some(categories, tell, calibration)
 
 
-def split_some(categories: Sequence[str], tell: Tell, calibration: bool = False) -> list[SplitFamily]:
-    """The families of some categories in both settings and in all ways to know labels."""
-    warm_cache(categories, tell, calibration)
+def split_some(
+    categories: Sequence[str], tell: Tell, calibration: bool = False, sets: Sequence[str] = MERGED
+) -> list[SplitFamily]:
+    """The families of some categories in some sets, by default both of generated assets, and in all ways to know
+    labels."""
+    warm_cache(categories, tell, calibration, sets)
     units = [
-        (category, setting, calibration, labelled) for category in categories for setting in MERGED for labelled in WAYS
+        (category, setting, calibration, labelled) for category in categories for setting in sets for labelled in WAYS
     ]
     return [SplitFamily.of_json(row) for row in run_units("spanning", split_family, units, tell)]
 
 
-def warm_cache(categories: Sequence[str], tell: Tell, calibration: bool) -> None:
+def warm_cache(categories: Sequence[str], tell: Tell, calibration: bool, sets: Sequence[str] = MERGED) -> None:
     """Decompose all assets of some categories finely, asset by asset, so that families find them in the cache."""
     units = [
-        (category, setting, calibration, sample.name)
+        (category, setting, calibration, name)
         for category in categories
-        for setting in MERGED
-        for sample in samples(category, calibration, (setting,))
+        for setting in sets
+        for name in list_names(category, setting, calibration)
     ]
     run_units("spanning-pieces", count_pieces, units, tell)
 
 
 def count_pieces(category: str, setting: str, calibration: bool, name: str) -> int:
     """How many fine pieces an asset has; they are in the cache from then on."""
-    (sample,) = (one for one in samples(category, calibration, (setting,)) if one.name == name)
-    return len(make_pieces(sample))
+    return len(make_pieces(find_sample(category, setting, name, calibration)))
 
 
 def split_family(category: str, setting: str, calibration: bool, labelled: str) -> dict[str, Any]:
@@ -187,7 +188,7 @@ def parts_of(rows: Sequence[SplitHull], sure: float = SURE[0]) -> Parts:
 def _edit_asset(
     family: SpanFamily, place: int, sample: Sample, rows: Sequence[SplitHull], rebuilt: Sample
 ) -> Iterator[Edit]:
-    concerned = [task for task in _tasks_of(sample.asset.category) if task.impure(sample)]
+    concerned = [task for task in list_tasks(sample.asset.category, sample.setting) if task.impure(sample)]
     if not concerned:
         return
     split = split_hulls(sample, parts_of(rows))
@@ -195,8 +196,3 @@ def _edit_asset(
     for task in concerned:
         why = [task.failure(one, task.run(task.program, one.mesh)) for one in (sample, split, truly, rebuilt)]
         yield Edit(task.name, sample.name, *why)
-
-
-@cache
-def _tasks_of(category: str) -> tuple[Task, ...]:
-    return tuple(task for task in tasks() if task.category == category)

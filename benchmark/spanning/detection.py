@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
-from benchmark.assets import CATEGORIES, MERGED
+from benchmark.assets import MERGED
 from benchmark.report import Cell, Goal, Result, Table, Tell
 from benchmark.signoff.calibration import calibrate
 from benchmark.spanning.course import SURE, SplitFamily, SplitHull, split_families
@@ -21,8 +21,8 @@ ABOUT_LABELS = {
     NO_SURFACE: "likewise, and nobody knows the surface: hulls are judged by look-alikes of their cells",
 }
 """What each kind of labels is."""
-_COLUMNS = ("set", "labels", "category", "hulls", "spanning", "found", "precision", "recall")
-_CALIBRATION = ("set", "labels", "calibration error", "Brier score", "of the share alone", "area under the ROC curve")
+COUNTS = ("set", "labels", "category", "hulls", "spanning", "found", "precision", "recall")
+CALIBRATIONS = ("set", "labels", "calibration error", "Brier score", "of the share alone", "area under the ROC curve")
 
 
 @dataclass(frozen=True, slots=True)
@@ -58,12 +58,12 @@ def measure(tell: Tell, quick: bool) -> Result:
         "detection",
         "Hulls that span parts: found",
         (
-            Table(f"Found at a probability of at least {SURE[0]}", _COLUMNS, tuple(_list_counts(families))),
-            Table("What the probabilities are worth", _CALIBRATION, tuple(_list_calibrations(families))),
+            Table(f"Found at a probability of at least {SURE[0]}", COUNTS, tuple(list_counts(families))),
+            Table("What the probabilities are worth", CALIBRATIONS, tuple(list_calibrations(families))),
         ),
         tuple(_list_goals(families)),
         NOTES,
-        tuple(_list_assets(families)),
+        tuple(list_counted(families)),
     )
 
 
@@ -81,12 +81,17 @@ def hulls_of(
 
 def categories_of(families: Sequence[SplitFamily]) -> list[str]:
     """The categories that there are families of, in order."""
-    there = {one.category for one in families}
-    return [name for name in CATEGORIES if name in there]
+    return list(dict.fromkeys(one.category for one in families))
 
 
-def _list_counts(families: Sequence[SplitFamily]) -> Iterator[tuple[Cell, ...]]:
-    for setting in MERGED:
+def sets_of(families: Sequence[SplitFamily]) -> list[str]:
+    """The sets that there are families of, in order."""
+    return list(dict.fromkeys(one.setting for one in families))
+
+
+def list_counts(families: Sequence[SplitFamily]) -> Iterator[tuple[Cell, ...]]:
+    """Rows of `COUNTS`."""
+    for setting in sets_of(families):
         for labelled in WAYS:
             for category in (*categories_of(families), None):
                 found = Detection.of(hulls_of(families, setting, labelled, category))
@@ -94,8 +99,9 @@ def _list_counts(families: Sequence[SplitFamily]) -> Iterator[tuple[Cell, ...]]:
                 yield setting, labelled, category or "all", *counts, found.precision, found.recall
 
 
-def _list_calibrations(families: Sequence[SplitFamily]) -> Iterator[tuple[Cell, ...]]:
-    for setting in MERGED:
+def list_calibrations(families: Sequence[SplitFamily]) -> Iterator[tuple[Cell, ...]]:
+    """Rows of `CALIBRATIONS`."""
+    for setting in sets_of(families):
         for labelled in WAYS:
             found = calibrate([(row.chance, row.spans) for row in hulls_of(families, setting, labelled)])
             yield setting, labelled, found.error, found.brier, found.constant, found.order
@@ -112,7 +118,8 @@ def _list_goals(families: Sequence[SplitFamily]) -> Iterator[Goal]:
         yield Goal(f"{setting}, no surface: hulls that span found, recall", "at least", recall, found.recall)
 
 
-def _list_assets(families: Sequence[SplitFamily]) -> Iterator[dict[str, Cell]]:
+def list_counted(families: Sequence[SplitFamily]) -> Iterator[dict[str, Cell]]:
+    """What was found of each asset."""
     for one in families:
         for asset in dict.fromkeys(hull.asset for hull in one.hulls):
             found = Detection.of([hull for hull in one.hulls if hull.asset == asset])

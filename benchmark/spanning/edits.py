@@ -7,15 +7,14 @@ from collections import Counter
 from collections.abc import Iterator, Sequence
 from dataclasses import asdict
 
-from benchmark.assets import MERGED
 from benchmark.report import Cell, Goal, Result, Table, Tell
 from benchmark.spanning.course import Edit, SplitFamily, split_families
-from benchmark.spanning.detection import ABOUT_LABELS, categories_of
+from benchmark.spanning.detection import ABOUT_LABELS, categories_of, sets_of
 from benchmark.spanning.family import BY_PIECES, LABELLED
 
 TO_REACH = {"union": 0.9, "welded": 0.8}
 """Share of edits that meet the criterion."""
-_COLUMNS = (
+SHARES = (
     "set",
     "labels",
     "category",
@@ -25,7 +24,7 @@ _COLUMNS = (
     "after it by true labels of pieces",
     "rebuilt",
 )
-_FAILURES = ("set", "labels", "task", "what fails on rebuilt meshes", "edits", "of these after the split")
+FAILURES = ("set", "labels", "task", "what fails on rebuilt meshes", "edits", "of these after the split")
 
 
 def measure(tell: Tell, quick: bool) -> Result:
@@ -35,13 +34,13 @@ def measure(tell: Tell, quick: bool) -> Result:
         "edits",
         "Hulls that span parts: edits",
         (
-            Table("Edits of the reference, labels by the surface", _COLUMNS, tuple(_list_shares(families))),
-            Table("What fails on rebuilt meshes", _FAILURES, tuple(_list_failures(families))),
+            Table("Edits of the reference, labels by the surface", SHARES, tuple(list_shares(families))),
+            Table("What fails on rebuilt meshes", FAILURES, tuple(list_failures(families))),
         ),
         tuple(
-            Goal(f"{name}: edits that meet the criterion {told}", "at least", wanted, _share_right(found, what))
+            Goal(f"{name}: edits that meet the criterion {told}", "at least", wanted, share_right(found, what))
             for name, wanted in TO_REACH.items()
-            if (found := _edits_of(families, name, BY_PIECES))
+            if (found := edits_of(families, name, BY_PIECES))
             for what, told in (("split", "after the split"), ("rebuilt", "on rebuilt meshes"))
         ),
         _NOTES,
@@ -49,7 +48,8 @@ def measure(tell: Tell, quick: bool) -> Result:
     )
 
 
-def _edits_of(families: Sequence[SplitFamily], setting: str, labelled: str, category: str | None = None) -> list[Edit]:
+def edits_of(families: Sequence[SplitFamily], setting: str, labelled: str, category: str | None = None) -> list[Edit]:
+    """The edits of a set, by default of all categories."""
     return [
         edit
         for one in families
@@ -58,23 +58,26 @@ def _edits_of(families: Sequence[SplitFamily], setting: str, labelled: str, cate
     ]
 
 
-def _share_right(rows: Sequence[Edit], what: str) -> float:
+def share_right(rows: Sequence[Edit], what: str) -> float:
+    """The share of edits that meet the criterion on meshes of a kind: a field of `Edit`."""
     return sum(getattr(row, what) is None for row in rows) / len(rows)
 
 
-def _list_shares(families: Sequence[SplitFamily]) -> Iterator[tuple[Cell, ...]]:
-    for setting in MERGED:
+def list_shares(families: Sequence[SplitFamily]) -> Iterator[tuple[Cell, ...]]:
+    """Rows of `SHARES`."""
+    for setting in sets_of(families):
         for labelled in LABELLED:
             for category in (*categories_of(families), None):
-                rows = _edits_of(families, setting, labelled, category)
+                rows = edits_of(families, setting, labelled, category)
                 if rows:
-                    shares = (_share_right(rows, what) for what in ("before", "split", "truly", "rebuilt"))
+                    shares = (share_right(rows, what) for what in ("before", "split", "truly", "rebuilt"))
                     yield setting, labelled, category or "all", len(rows), *shares
 
 
-def _list_failures(families: Sequence[SplitFamily]) -> Iterator[tuple[Cell, ...]]:
-    for setting in MERGED:
-        rows = _edits_of(families, setting, BY_PIECES)
+def list_failures(families: Sequence[SplitFamily]) -> Iterator[tuple[Cell, ...]]:
+    """Rows of `FAILURES`."""
+    for setting in sets_of(families):
+        rows = edits_of(families, setting, BY_PIECES)
         rebuilt = Counter((row.task, row.rebuilt.split(":")[0]) for row in rows if row.rebuilt)
         both = Counter((row.task, row.rebuilt.split(":")[0]) for row in rows if row.rebuilt and row.split)
         for (task, what), count in sorted(rebuilt.items()):

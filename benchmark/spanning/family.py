@@ -9,13 +9,13 @@ from functools import cached_property
 
 import numpy as np
 
-from benchmark.assets import Asset, Sample, samples
-from benchmark.assets.decomposition import shares, solids_of
+from benchmark.assets import Asset, Sample
+from benchmark.assets.decomposition import shares
+from benchmark.spanning.sets import list_samples, surface_of
 from benchmark.tasks.task import PURE
-from meshforge.geometry import Floats, Ints, Polytope, cache_folder, decompose_finely, divide
+from meshforge.geometry import Polytope, cache_folder, decompose_finely, divide
 from meshforge.label_model import AssetCells, CellModel, SpanModel, SpanPosterior, piece_mesh
 from meshforge.symbolic import Hull, Label, SymbolicMesh
-from script.samples.pieces import triangles
 
 KNOWN = 3
 """Assets of a family that a person labelled."""
@@ -32,7 +32,7 @@ Parts = Mapping[int, Sequence[Polytope]]
 
 @dataclass(frozen=True, eq=False)
 class SpanFamily:
-    """The assets of a category in one of the settings `MERGED`.
+    """The assets of a category in one of the sets.
 
     pieces: the fine pieces of the surface of each asset, in the frame of its file; known: the assets that a person
     labelled.
@@ -75,7 +75,7 @@ class SpanFamily:
 
 def open_family(category: str, setting: str, calibration: bool = False) -> SpanFamily:
     """A family with its fine pieces, which are made anew where the cache of decompositions has them not."""
-    rows = samples(category, calibration, (setting,))
+    rows = list_samples(category, setting, calibration)
     return SpanFamily(rows, tuple(make_pieces(sample) for sample in rows), choose_known(len(rows)))
 
 
@@ -88,13 +88,6 @@ def choose_known(count: int) -> frozenset[int]:
 def make_pieces(sample: Sample, cached: bool = True) -> tuple[Polytope, ...]:
     """The fine pieces of the surface of an asset."""
     return decompose_finely(*surface_of(sample), cache=cache_folder() if cached else None)
-
-
-def surface_of(sample: Sample) -> tuple[Floats, Ints]:
-    """Vertices (n, 3) [m] and triangles (m, 3) of what the mesh was decomposed from, in the frame of its file."""
-    (solid,) = solids_of(sample.asset, sample.setting)
-    points, faces = triangles(solid)
-    return np.round(sample.asset.pose.apply(points), 7), faces
 
 
 def is_spanning(share: Mapping[str, float]) -> bool:
@@ -117,9 +110,16 @@ def split_hulls(sample: Sample, parts: Parts) -> Sample:
             rows.append(row)
         for number, shape in enumerate(parts.get(place, ())):
             share = shares(shape, sample.asset.parts, sample.asset.pose)
-            hulls.append(Hull(f"{hull.name}_{number}", hull.body, shape, Label(next(iter(share)), 1.0, "file")))
+            hulls.append(
+                Hull(name_part(sample, place, number), hull.body, shape, Label(next(iter(share)), 1.0, "file"))
+            )
             rows.append(share)
     return Sample(sample.name, sample.asset, sample.setting, SymbolicMesh(tuple(hulls)), tuple(rows))
+
+
+def name_part(sample: Sample, hull: int, number: int) -> str:
+    """What `split_hulls` calls a part of a hull."""
+    return f"{sample.mesh.hulls[hull].name}_{number}"
 
 
 def replace_hulls(sample: Sample, shapes: Sequence[Polytope]) -> Sample:

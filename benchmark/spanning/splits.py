@@ -3,21 +3,22 @@ are then."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Collection, Iterator, Sequence
 from dataclasses import dataclass
 
 from benchmark.assets import MERGED, SEPARATE, samples
 from benchmark.report import Cell, Goal, Result, Table, Tell
 from benchmark.spanning.course import SURE, SplitFamily, SplitHull, split_families
-from benchmark.spanning.detection import ABOUT_LABELS, categories_of, hulls_of
+from benchmark.spanning.detection import ABOUT_LABELS, categories_of, hulls_of, sets_of
 from benchmark.spanning.family import BY_PIECES, NO_SURFACE, WAYS
 
 TO_REACH = {"union": 0.97, "welded": 0.9}
 """Purity to reach, by the surface."""
 TO_REACH_WITHOUT = 0.85
 """The same of hulls that stand for no surface."""
-_MOST_SPLIT, _MOST_SPLIT_WITHOUT = 0.01, 0.02
-_COLUMNS = (
+MOST_SPLIT, _MOST_SPLIT_WITHOUT = 0.01, 0.02
+"""The share of the pure hulls that may be split, with a surface and without."""
+PURITIES = (
     "set",
     "labels",
     "category",
@@ -29,7 +30,10 @@ _COLUMNS = (
     "volume kept",
     "pure hulls split",
 )
-_COUNT_COLUMNS = ("set", "category", "hulls", "rebuilt", "after the split", "next finer", "its hulls", "ratio")
+SIZES = ("set", "category", "hulls", "rebuilt", "after the split", "next finer", "its hulls", "ratio")
+
+CountHulls = Callable[[str, str, Collection[str]], int]
+"""How many hulls some assets of a category have where each solid is decomposed by itself, in a setting."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,20 +70,20 @@ class Purity:
 def measure(tell: Tell, quick: bool) -> Result:
     """Split the hulls that span in all families."""
     families = split_families(tell, quick)
-    counts = tuple(_count_hulls(families))
+    counts = tuple(list_sizes(families, count_generated))
     return Result(
         "splits",
         "Hulls that span parts: split",
         (
             *(
-                Table(f"Split from a probability of {sure} on", _COLUMNS, tuple(_list_purities(families, sure)))
+                Table(f"Split from a probability of {sure} on", PURITIES, tuple(list_purities(families, sure)))
                 for sure in SURE
             ),
-            Table("Hulls in all, all assets that nobody labelled", _COUNT_COLUMNS, counts),
+            Table("Hulls in all, all assets that nobody labelled", SIZES, counts),
         ),
         tuple(_list_goals(families, counts)),
         _NOTES,
-        tuple(_list_assets(families)),
+        tuple(list_gains(families)),
     )
 
 
@@ -95,11 +99,11 @@ def _ratio(pairs: Sequence[tuple[float, float]]) -> float:
 def purity_of(
     families: Sequence[SplitFamily], setting: str, labelled: str, category: str | None = None, sure: float = SURE[0]
 ) -> Purity:
-    """The purity of the spanning hulls of a set; of all categories the mean, since some are much larger than others."""
+    """The purity of the spanning hulls of a set; of all categories that have such hulls the mean, since some are much
+    larger than others."""
     names = [category] if category else categories_of(families)
-    found = [
-        Purity.of([row for row in hulls_of(families, setting, labelled, name) if row.spans], sure) for name in names
-    ]
+    spanning = [[row for row in hulls_of(families, setting, labelled, name) if row.spans] for name in names]
+    found = [Purity.of(rows, sure) for rows in spanning if rows] or [Purity.of([])]
 
     def mean(values: Iterator[float]) -> float:
         return sum(values) / len(found)
@@ -121,8 +125,9 @@ def share_of_pure_split(
     return sum(row.is_split(sure) for row in pure) / max(len(pure), 1)
 
 
-def _list_purities(families: Sequence[SplitFamily], sure: float) -> Iterator[tuple[Cell, ...]]:
-    for setting in MERGED:
+def list_purities(families: Sequence[SplitFamily], sure: float) -> Iterator[tuple[Cell, ...]]:
+    """Rows of `PURITIES`: hulls are split from a probability on."""
+    for setting in sets_of(families):
         for labelled in WAYS:
             for category in (*categories_of(families), None):
                 spanning = sum(row.spans for row in hulls_of(families, setting, labelled, category))
@@ -132,14 +137,14 @@ def _list_purities(families: Sequence[SplitFamily], sure: float) -> Iterator[tup
                 yield setting, labelled, category or "all", spanning, *cells, split
 
 
-def _count_hulls(families: Sequence[SplitFamily]) -> Iterator[tuple[Cell, ...]]:
-    """By the labels of pieces."""
-    for setting in MERGED:
+def list_sizes(families: Sequence[SplitFamily], count: CountHulls) -> Iterator[tuple[Cell, ...]]:
+    """Rows of `SIZES`, by the labels of pieces."""
+    for setting in sets_of(families):
         total = [0, 0, 0, 0]
         for category in categories_of(families):
             rows = hulls_of(families, setting, BY_PIECES, category)
             after = sum(len(row.parts_at()) for row in rows)
-            name, finer = next_finer(category, len(rows), {row.asset for row in rows})
+            name, finer = next_finer(category, len(rows), {row.asset for row in rows}, count)
             rebuilt = _count_rebuilt(families, setting, category, rows)
             total = [a + b for a, b in zip(total, (len(rows), rebuilt, after, finer), strict=True)]
             yield setting, category, len(rows), rebuilt, after, name, finer, after / finer
@@ -155,13 +160,18 @@ def _count_rebuilt(families: Sequence[SplitFamily], setting: str, category: str,
     return sum(made.values()) + sum(row.asset not in made for row in rows)
 
 
-def next_finer(category: str, hulls: int, assets: set[str]) -> tuple[str, int]:
+def next_finer(category: str, hulls: int, assets: set[str], count: CountHulls) -> tuple[str, int]:
     """The coarsest separate decomposition that has more hulls than there are, else the finest; and its hulls."""
     for setting in SEPARATE:
-        count = sum(len(row.mesh.hulls) for row in samples(category, False, (setting,)) if row.asset.name in assets)
-        if count > hulls:
+        finer = count(category, setting, assets)
+        if finer > hulls:
             break
-    return setting, count
+    return setting, finer
+
+
+def count_generated(category: str, setting: str, assets: Collection[str]) -> int:
+    """The hulls of some generated assets where each solid is decomposed by itself."""
+    return sum(len(row.mesh.hulls) for row in samples(category, False, (setting,)) if row.asset.name in assets)
 
 
 def _list_goals(families: Sequence[SplitFamily], counts: Sequence[tuple[Cell, ...]]) -> Iterator[Goal]:
@@ -170,7 +180,7 @@ def _list_goals(families: Sequence[SplitFamily], counts: Sequence[tuple[Cell, ..
         split = share_of_pure_split(families, setting, BY_PIECES)
         ratio = next(float(row[-1]) for row in counts if row[:2] == (setting, "all"))
         yield Goal(f"{setting}: purity of spanning hulls after the split", "at least", wanted, after)
-        yield Goal(f"{setting}: share of the pure hulls that is split", "at most", _MOST_SPLIT, split)
+        yield Goal(f"{setting}: share of the pure hulls that is split", "at most", MOST_SPLIT, split)
         yield Goal(f"{setting}: hulls afterwards as a ratio to the next finer decomposition", "at most", 1.0, ratio)
     for setting in MERGED:
         after = purity_of(families, setting, NO_SURFACE).after
@@ -180,7 +190,7 @@ def _list_goals(families: Sequence[SplitFamily], counts: Sequence[tuple[Cell, ..
         yield Goal(f"{name}: share of the pure hulls split from {SURE[1]} on", "at most", _MOST_SPLIT_WITHOUT, split)
 
 
-def _list_assets(families: Sequence[SplitFamily]) -> Iterator[dict[str, Cell]]:
+def list_gains(families: Sequence[SplitFamily]) -> Iterator[dict[str, Cell]]:
     """The assets that have spanning hulls, with the purity of these."""
     for one in families:
         for asset in dict.fromkeys(hull.asset for hull in one.hulls if hull.spans):

@@ -31,14 +31,26 @@ Selections = tuple[frozenset[str], ...]
 """What each rule selects on a mesh, by hull names."""
 
 
+@dataclass(frozen=True)
+class Start:
+    """What there is of labels before a person labels anything.
+
+    by_hand: the meshes that a person labels before all others, in order; none for those that are advised; parts: the
+    labels of parts of hulls that were split, by mesh and hull.
+    """
+
+    by_hand: tuple[str, ...] = ()
+    parts: Mapping[str, Mapping[str, Label]] = field(default_factory=dict)
+
+
 class Bench:
     """What all desks of a task share: the true meshes of a family, their contacts known, and what was judged before.
 
-    samples: of different assets.
+    samples: of different assets; start: of sessions with propagated labels.
     """
 
-    def __init__(self, task: Task, samples: Iterable[Sample]) -> None:
-        self.task = task
+    def __init__(self, task: Task, samples: Iterable[Sample], start: Start | None = None) -> None:
+        self.task, self.start = task, start or Start()
         self.samples: dict[str, Sample] = {sample.name: sample for sample in samples}
         assert all(sample.mesh.contacts is not None for sample in self.samples.values())
         self._judged: dict[tuple[str, str | None, bytes], str | None] = {}

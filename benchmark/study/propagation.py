@@ -22,17 +22,28 @@ class HandLabels:
 
 
 def begin_by_hand(bench: Bench, count: int) -> tuple[Desk, frozenset[str], HandLabels]:
-    """All meshes once as many are labelled by hand as `count`, each the one that is advised; the others have none yet
-    where it is 0.
+    """All meshes once as many are labelled by hand as `count`, each the one that is advised, or that the bench
+    names; the others have no more than parts of split hulls have yet where it is 0.
 
     With the names of those, and what a person did for that.
     """
-    desk = Desk(bench, {name: mesh.with_labels(dict.fromkeys(mesh.index)) for name, mesh in bench.truth.meshes.items()})
+    start = bench.start
+    desk = Desk(
+        bench,
+        {
+            name: mesh.with_labels({**dict.fromkeys(mesh.index), **start.parts.get(name, {})})
+            for name, mesh in bench.truth.meshes.items()
+        },
+    )
     names, done, painted = list(desk.meshes), list[str](), HandLabels()
-    for _ in range(count):
-        (advised,) = bench.relatives.propagate(_labels_of(desk)).next_to_label()
-        done.append(names[advised])
-        desk, more = label_by_hand(desk, names[advised])
+    for place in range(count):
+        if start.by_hand:
+            name = start.by_hand[place]
+        else:
+            (advised,) = bench.relatives.propagate(_labels_of(desk)).next_to_label()
+            name = names[advised]
+        done.append(name)
+        desk, more = label_by_hand(desk, name)
         painted += more
     return desk, frozenset(done), painted
 
@@ -61,6 +72,10 @@ def _labels_of(desk: Desk) -> list[str | None]:
 
 
 def _with(mesh: SymbolicMesh, found: list[Label | None]) -> SymbolicMesh:
-    """The mesh with labels that were found, where nobody gave one."""
+    """The mesh with labels that were found, where nobody gave one, and no split did."""
     rows = zip(mesh.hulls, found, strict=True)
-    return mesh.with_labels({hull.name: label for hull, label in rows if reference_label(hull.annotation) is None})
+    return mesh.with_labels({hull.name: label for hull, label in rows if not _is_kept(hull.annotation)})
+
+
+def _is_kept(label: Label | None) -> bool:
+    return reference_label(label) is not None or (label is not None and label.source == "split")

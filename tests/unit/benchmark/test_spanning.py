@@ -9,8 +9,9 @@ from benchmark.assets import samples
 from benchmark.assets.decomposition import volumes_in_parts
 from benchmark.spanning.course import SplitHull, SplitPart, parts_of
 from benchmark.spanning.detection import Detection
-from benchmark.spanning.family import choose_known, is_spanning, split_hulls, surface_of
+from benchmark.spanning.family import choose_known, is_spanning, split_hulls
 from benchmark.spanning.pictures import choose_assets
+from benchmark.spanning.sets import surface_of
 from benchmark.spanning.splits import Purity
 from meshforge.geometry import Polytope, cut, volume_inside
 

@@ -1,0 +1,118 @@
+"""Programs learned on meshes whose hulls that span are split: which hulls are, who labels first, what is compared."""
+
+from __future__ import annotations
+
+from dataclasses import asdict, dataclass
+from typing import Any
+
+import numpy as np
+import pytest
+
+from benchmark.assets import Sample, samples
+from benchmark.signoff.point import Point
+from benchmark.signoff.queue import Review
+from benchmark.spanning.family import choose_known, is_spanning
+from benchmark.spanning.programs import (
+    AS_IT_IS,
+    FINE,
+    REBUILT,
+    SPLIT,
+    list_chosen,
+    list_goals,
+    open_bench,
+    rebuild_sample,
+    split_sample,
+)
+from benchmark.study.propagation import begin_by_hand
+from benchmark.tasks import task
+from meshforge.geometry import Floats, HullPart, Ints, cut
+from meshforge.symbolic import Label
+
+
+@dataclass
+class Halves:
+    """What stands for a posterior: some hulls of an asset likely span, and are cut in two along X."""
+
+    sample: Sample
+    chances: Floats
+    labels: tuple[str, ...] = ("base", "wall")
+
+    def chances_of(self, place: int) -> Floats:
+        return self.chances
+
+    def divide(self, place: int, hull: int) -> tuple[HullPart, ...]:
+        whole = self.sample.decomposition.hulls[hull]
+        halves = cut(whole, whole.centroid, np.array([1.0, 0.0, 0.0]))
+        return tuple(HullPart(half, np.array([0.3, 0.7])) for half in halves if half is not None)
+
+    def rebuild(self, place: int, hulls: Ints) -> tuple[tuple[int, HullPart], ...]:
+        return tuple((hull, part) for hull in hulls.tolist() for part in self.divide(place, hull))
+
+
+@pytest.fixture(scope="module")
+def sample() -> Sample:
+    return next(one for one in samples("cup", True, ("union",)) if any(map(is_spanning, one.shares)))
+
+
+def test_the_hulls_that_likely_span_are_split_and_no_other(sample: Sample) -> None:
+    chances = np.full(len(sample.mesh.hulls), 0.4)
+    chances[1] = 0.6
+    posterior: Any = Halves(sample, chances)
+    split, labels = split_sample(sample, posterior, 0)
+    assert list(labels) == [f"{sample.mesh.hulls[1].name}_{k}" for k in range(2)]
+    assert {(one.name, one.confidence, one.source) for one in labels.values()} == {("wall", 0.7, "split")}
+    names = [hull.name for hull in sample.mesh.hulls]
+    wanted = [name for name in names if name != names[1]] + [f"{names[1]}_0", f"{names[1]}_1"]
+    assert sorted(hull.name for hull in split.mesh.hulls) == sorted(wanted)
+
+
+def test_all_hulls_are_rebuilt_where_one_likely_spans_else_none(sample: Sample) -> None:
+    chances = np.full(len(sample.mesh.hulls), 0.4)
+    posterior: Any = Halves(sample, chances)
+    assert rebuild_sample(sample, posterior, 0) == (sample, {})
+    chances[1] = 0.6
+    rebuilt, labels = rebuild_sample(sample, posterior, 0)
+    assert list(labels) == [hull.name for hull in rebuilt.mesh.hulls]
+    assert len(rebuilt.mesh.hulls) == 2 * len(sample.mesh.hulls)
+    rows = zip(rebuilt.mesh.hulls, rebuilt.shares, strict=True)
+    assert all(hull.label == max(row, key=row.__getitem__) for hull, row in rows)
+
+
+def test_a_session_begins_with_labels_by_hand_of_the_known_assets_and_those_of_split_parts() -> None:
+    rows = samples("cup", False, ("coarse",))[:6]
+    known = [rows[place].name for place in choose_known(6)]
+    split = next(row for row in rows if row.name not in known)
+    part = split.mesh.hulls[0].name
+    told = Label("handle", 0.6, "split")
+    bench = open_bench(task("cup-medium"), [(row, {part: told} if row is split else {}) for row in rows])
+    desk, by_hand, _ = begin_by_hand(bench, 3)
+    assert by_hand == set(known)
+    assert desk.meshes[split.name].hull_of(part).annotation == told
+    assert all(hull.source == "propagated" for hull in desk.meshes[split.name].hulls if hull.name != part)
+    for name in by_hand:
+        pairs = zip(desk.meshes[name].hulls, bench.truth.meshes[name].hulls, strict=True)
+        assert all(hull.label == true.label and hull.source == "user" for hull, true in pairs)
+
+
+def test_one_task_of_each_category_is_learned() -> None:
+    chosen = list_chosen()
+    assert len({one.category for one in chosen}) == len(chosen) == 8
+
+
+def row(setting: str, spanning: str, possible: int, right: int) -> dict[str, Any]:
+    review = Review("cup-medium", "", 0, setting, 25, possible, points=[Point(9.0, right, 25, 0, 0, right)])
+    return {"set": setting, "spanning": spanning, "hulls": 1, "review": asdict(review)}
+
+
+def test_goals_are_how_far_right_edits_are_below_those_on_the_fine_set() -> None:
+    rows = [row(FINE, AS_IT_IS, 25, 25)]
+    rows += [row(setting, AS_IT_IS, 5, 1) for setting in ("union", "welded")]
+    rows += [row(setting, SPLIT, 20, 20) for setting in ("union", "welded")]
+    rows += [row(setting, REBUILT, 25, 24) for setting in ("union", "welded")]
+    found = {goal.what: goal for goal in list_goals(rows)}
+    told = "right and signed off, {}, below the fine set, %"
+    split = found[f"union, split: {told.format('of all assets')}"]
+    assert split.measured == pytest.approx(20) and not split.reached
+    assert found[f"union, split: {told.format('of the possible')}"].measured == pytest.approx(0)
+    rebuilt = found[f"welded, rebuilt: {told.format('of all assets')}"]
+    assert rebuilt.measured == pytest.approx(4) and rebuilt.reached

@@ -1,0 +1,98 @@
+"""Real assets decomposed as a whole: their hulls, the surface that these stand for, and what is left out."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from benchmark.pages import page_of
+from benchmark.real.family import families, family
+from benchmark.real.samples import make_sample
+from benchmark.real.whole import REAL, list_hidden, list_whole, whole_sample
+from benchmark.spanning.course import SplitFamily, SplitHull, SplitPart
+from benchmark.spanning.detection import categories_of, list_counts
+from benchmark.spanning.family import BY_PIECES, label_truly, make_pieces
+from benchmark.spanning.real_assets import SeparateMeshes, judge_separate, measure
+from benchmark.spanning.sets import list_names, list_tasks, surface_of
+from benchmark.spanning.splits import list_sizes, purity_of
+from meshforge.common import AssetError
+from tests.corpus_path import corpus
+
+SPLIT = SplitHull(
+    "mug",
+    0,
+    0.8,
+    True,
+    {"wall": 3.0, "handle": 1.0},
+    tuple(SplitPart([], label, {label: volume}) for label, volume in (("wall", 3.0), ("handle", 0.6))),
+    0.0,
+)
+PURE = SplitHull("stool", 0, 0.1, False, {"leg": 1.0}, (), 0.0)
+
+
+def made(category: str, *hulls: SplitHull) -> SplitFamily:
+    return SplitFamily(category, REAL, BY_PIECES, hulls, (), {}, 0.0)
+
+
+def test_without_the_corpus_one_message_says_what_to_set(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    monkeypatch.setenv("MESHFORGE_CORPUS", str(tmp_path / "nowhere"))
+    with pytest.raises(AssetError, match=r"real_assets: not run: no corpus is here\n.*MESHFORGE_CORPUS"):
+        measure(lambda line: None, True)
+
+
+def test_the_part_is_on_the_page_of_hulls_that_span() -> None:
+    assert page_of("real_assets").name == page_of("programs").name == "spanning"
+
+
+def test_assets_that_show_nothing_are_left_out_and_named() -> None:
+    for name in families():
+        assert sorted([*list_whole(name), *list_hidden(name)]) == sorted(family(name).names)
+    assert [name for name in families() if list_hidden(name)] == ["cups"]
+    assert list_names("cups", REAL) == list(list_whole("cups"))
+    assert [task.difficulty for task in list_tasks("cups", REAL)] == ["easy", "medium", "hard"]
+
+
+def test_families_without_a_hull_that_spans_do_not_count_in_the_mean_purity() -> None:
+    rows = [made("cups", SPLIT), made("chairs", PURE)]
+    assert categories_of(rows) == ["cups", "chairs"]
+    assert purity_of(rows, REAL, BY_PIECES).before == pytest.approx(3 / 4)
+    assert purity_of(rows, REAL, BY_PIECES).kept == pytest.approx(3.6 / 4)
+    counts = {row[2]: row[3:6] for row in list_counts(rows) if row[1] == BY_PIECES}
+    assert counts == {"cups": (1, 1, 1), "chairs": (1, 0, 0), "all": (2, 1, 1)}
+
+
+def test_hulls_are_compared_with_the_next_finer_decomposition_of_the_same_assets() -> None:
+    counts = {"coarse": 1, "medium": 4, "fine": 9}
+    hulls = {("cups", asset, setting): count for asset in ("mug", "other") for setting, count in counts.items()}
+    rows = list(list_sizes([made("cups", SPLIT)], SeparateMeshes(hulls, {}).count))
+    assert rows[0] == (REAL, "cups", 1, 1, 2, "medium", 4, 0.5)
+
+
+@pytest.mark.slow
+def test_a_real_chair_is_decomposed_as_a_whole_in_the_frame_of_its_file() -> None:
+    corpus()
+    sample = whole_sample("chairs", "kaykit-armchair")
+    separate = make_sample(family("chairs"), "kaykit-armchair", "coarse")
+    assert separate
+    corners, other = (np.concatenate([h.vertices for h in one.mesh.hulls]) for one in (sample, separate))
+    points, faces = surface_of(sample)
+    for low_or_high in ("min", "max"):
+        of_file = getattr(points, low_or_high)(axis=0)
+        assert np.allclose(getattr(corners, low_or_high)(axis=0), of_file, atol=2e-3)
+        assert np.allclose(getattr(other, low_or_high)(axis=0), of_file, atol=2e-3)
+    assert faces.max() < len(points)
+    assert sum(purity < 0.9 for purity in sample.purities) > sum(purity < 0.9 for purity in separate.purities)
+    pieces = make_pieces(sample)
+    assert set(label_truly(pieces, sample.asset)) == {part.label for part in sample.asset.parts}
+
+
+@pytest.mark.slow
+def test_the_reference_is_tried_on_each_task_where_solids_are_decomposed_one_by_one() -> None:
+    corpus()
+    made = judge_separate("chairs", "kaykit-stool")
+    rows = dict(made["fine"])
+    assert list(rows) == [f"real-chairs-{level}" for level in ("easy", "medium", "hard")]
+    assert any(why is None for why in rows.values())
+    assert made["hulls"]["coarse"] <= made["hulls"]["medium"] < made["hulls"]["fine"]
