@@ -24,7 +24,7 @@ _LEAST_DRAWN = 0.002  # and how often a hull spans parts
 _DRAWS = 512  # of the labels of all pieces
 _MOST = 0.8  # how much a label is believed that a piece takes from the hull that it lies in
 _ALL = 0.85  # of a piece, from which a hull has nearly all of it
-_SLIVER = 1e-3  # of the volume of all pieces of a rebuild: smaller ones go with a neighbour where that adds little
+_SLIVER = 3e-3  # of the volume of all pieces of a rebuild: smaller ones go with a neighbour where that adds little
 _WITHIN = 0.5  # of a piece's volume that the hull must have
 
 
