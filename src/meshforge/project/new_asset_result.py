@@ -16,7 +16,7 @@ from meshforge.labels.reference_family import MOST_COMPARED, choose_labelled
 from meshforge.project.review import ProjectReview
 from meshforge.project.run import pick_evenly
 from meshforge.signoff import AssetConfidence, Doubt, ReviewState, assess_asset
-from meshforge.store import Store, describe_parts
+from meshforge.store import MOST_TOLD, Store, describe_parts
 from meshforge.symbolic import Label, LabelFile
 from meshforge.synthesis import LearningOutcome
 
@@ -89,7 +89,7 @@ class NewAssetResult:
             name, least = min(self.guesses.items(), key=lambda row: row[1].confidence)
             rows.append(
                 f"{pluralize(len(self.guesses), 'label')} by likeness to the family; "
-                f"least sure: {name} is {least.name}, {least.confidence:.0%}"
+                f"least sure: {name} is {least.name}, {min(least.confidence, MOST_TOLD):.0%}"
             )
         return (*rows, *self.notes)
 

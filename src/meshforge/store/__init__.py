@@ -45,12 +45,13 @@ if TYPE_CHECKING:
         toml_value,
     )
     from meshforge.store.sign_off import AssessmentFile, ConfidenceLine, SignOff, SignOffFile, find_changes
-    from meshforge.store.spans import SinglePartsFile, SpanLine, SpanPart, SpansFile, describe_parts
+    from meshforge.store.spans import MOST_TOLD, SinglePartsFile, SpanLine, SpanPart, SpansFile, describe_parts
     from meshforge.store.store import Store
 else:
     __getattr__ = export_lazily(__name__)
 
 __all__ = [
+    "MOST_TOLD",
     "AnswerLine",
     "AnswersFile",
     "AssessmentFile",

@@ -9,6 +9,9 @@ from pydantic import Field
 from meshforge.geometry import PieceEngine
 from meshforge.store.layout import JsonFile
 
+MOST_TOLD = 0.99
+"""What is told of a label that follows from others, at most: 100% reads as certain."""
+
 
 class SpanPart(JsonFile):
     """One part of a hull. label: its likeliest; share: of that label in what the part stands for."""
@@ -78,6 +81,6 @@ def describe_parts(parts: Iterable[tuple[str, float]]) -> str:
         shares.setdefault(label, []).append(share)
     words = []
     for label, own in shares.items():
-        ends = dict.fromkeys(f"{share:.0%}" for share in (min(own), max(own)))
+        ends = dict.fromkeys(f"{min(share, MOST_TOLD):.0%}" for share in (min(own), max(own)))
         words.append(f"{f'{len(own)} ' if len(own) > 1 else ''}{label} ({' to '.join(ends)})")
     return ", ".join(words)

@@ -114,7 +114,15 @@ def test_select_and_render_show_the_project_s_asset_with_its_labels(run: Run, pr
 
 def test_prepare_as_json_has_a_line_for_each_asset(run: Run, project: str) -> None:
     row, stand = run("prepare", project, *VOXELS, "--json").lines
-    assert row == {"asset": "row.obj", "made": [], "notes": [], "problems": [], "undone": [], "hulls": []}
+    assert row == {
+        "asset": "row.obj",
+        "made": [],
+        "notes": [],
+        "problems": [],
+        "undone": [],
+        "planned": [],
+        "hulls": [],
+    }
     assert [entry["what"] for entry in stand["made"]] == ["frame/body", "cover"]
     assert stand["hulls"] == [name for entry in stand["made"] for name in entry["made"]]
 
