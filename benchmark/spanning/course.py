@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Iterator, Sequence
-from dataclasses import asdict, dataclass
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import asdict, dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -27,7 +27,8 @@ from benchmark.spanning.family import (
     split_hulls,
 )
 from benchmark.spanning.sets import find_sample, list_names, list_tasks
-from meshforge.geometry import HullPart, convex_hull
+from benchmark.tasks import Task
+from meshforge.geometry import HullPart, Polytope, convex_hull
 from meshforge.label_model import SpanPosterior
 
 SURE = (0.5, 0.9)
@@ -114,10 +115,8 @@ def split_some(
     """The families of some categories in some sets, by default both of generated assets, and in all ways to know
     labels."""
     warm_cache(categories, tell, calibration, sets)
-    units = [
-        (category, setting, calibration, labelled) for category in categories for setting in sets for labelled in WAYS
-    ]
-    return [SplitFamily.of_json(row) for row in run_units("spanning", split_family, units, tell)]
+    units = [(category, setting, calibration) for category in categories for setting in sets]
+    return [SplitFamily.of_json(row) for rows in run_units("spanning", split_family, units, tell) for row in rows]
 
 
 def warm_cache(categories: Sequence[str], tell: Tell, calibration: bool, sets: Sequence[str] = MERGED) -> None:
@@ -136,9 +135,17 @@ def count_pieces(category: str, setting: str, calibration: bool, name: str) -> i
     return len(make_pieces(find_sample(category, setting, name, calibration)))
 
 
-def split_family(category: str, setting: str, calibration: bool, labelled: str) -> dict[str, Any]:
-    """What becomes of a family: a `SplitFamily` as JSON."""
+def split_family(category: str, setting: str, calibration: bool) -> list[dict[str, Any]]:
+    """What becomes of a family in all ways to know labels, each a `SplitFamily` as JSON."""
     family = open_family(category, setting, calibration)
+    fixed = {place: _edit_truly(sample, family.pieces[place]) for place, sample in family.unknown}
+    return [asdict(_split_labelled(family, category, setting, labelled, fixed)) for labelled in WAYS]
+
+
+def _split_labelled(
+    family: SpanFamily, category: str, setting: str, labelled: str, fixed: Mapping[int, Sequence[Edit]]
+) -> SplitFamily:
+    """The same for one way. fixed: what edits of each asset do that no way changes, by its number."""
     started = time.process_time()
     posterior = family.infer(labelled)
     seconds = time.process_time() - started
@@ -151,8 +158,8 @@ def split_family(category: str, setting: str, calibration: bool, labelled: str) 
             rebuilt = replace_hulls(sample, [part.shape for _, part in made])
             counts[sample.asset.name] = len(made)
         hulls += rows
-        edits += _edit_asset(family, place, sample, rows, rebuilt) if labelled != NO_SURFACE else ()
-    return asdict(SplitFamily(category, setting, labelled, tuple(hulls), tuple(edits), counts, seconds))
+        edits += _edit_asset(fixed[place], sample, rows, rebuilt) if labelled != NO_SURFACE else ()
+    return SplitFamily(category, setting, labelled, tuple(hulls), tuple(edits), counts, seconds)
 
 
 def _split_asset(sample: Sample, posterior: SpanPosterior, place: int) -> Iterator[SplitHull]:
@@ -185,14 +192,24 @@ def parts_of(rows: Sequence[SplitHull], sure: float = SURE[0]) -> Parts:
     }
 
 
-def _edit_asset(
-    family: SpanFamily, place: int, sample: Sample, rows: Sequence[SplitHull], rebuilt: Sample
-) -> Iterator[Edit]:
-    concerned = [task for task in list_tasks(sample.asset.category, sample.setting) if task.impure(sample)]
-    if not concerned:
-        return
-    split = split_hulls(sample, parts_of(rows))
-    truly = split_hulls(sample, divide_truly(sample, family.pieces[place]))
-    for task in concerned:
-        why = [task.failure(one, task.run(task.program, one.mesh)) for one in (sample, split, truly, rebuilt)]
-        yield Edit(task.name, sample.name, *why)
+def _edit_truly(sample: Sample, pieces: Sequence[Polytope]) -> list[Edit]:
+    """What the edits of an asset do before any split, and after one by true labels of its pieces."""
+    concerned = _list_concerned(sample)
+    truly = split_hulls(sample, divide_truly(sample, pieces)) if concerned else sample
+    return [Edit(task.name, sample.name, _try(task, sample), None, _try(task, truly), None) for task in concerned]
+
+
+def _edit_asset(fixed: Sequence[Edit], sample: Sample, rows: Sequence[SplitHull], rebuilt: Sample) -> Iterator[Edit]:
+    split = split_hulls(sample, parts_of(rows)) if fixed else sample
+    for edit, task in zip(fixed, _list_concerned(sample), strict=True):
+        yield replace(edit, split=_try(task, split), rebuilt=_try(task, rebuilt))
+
+
+def _list_concerned(sample: Sample) -> list[Task]:
+    """The tasks that are about hulls of an asset which span parts."""
+    return [task for task in list_tasks(sample.asset.category, sample.setting) if task.impure(sample)]
+
+
+def _try(task: Task, sample: Sample) -> str | None:
+    """Why the reference program fails on a mesh; None: it does not."""
+    return task.failure(sample, task.run(task.program, sample.mesh))

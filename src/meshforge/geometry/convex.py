@@ -244,6 +244,11 @@ def hull_by_manifold(points: Floats) -> HullIndices | None:
     return np.array([index[row] for row in _bytes_of_rows(vertices)]), faces
 
 
+def measure_hull(points: Floats) -> float:
+    """The volume [m^3] of the hull of points (n, 3), to what manifold3d leaves out: fast, and not verified."""
+    return float(manifold3d.Manifold.hull_points(points - points.mean(axis=0)).volume())
+
+
 def _bytes_of_rows(points: Floats) -> list[bytes]:
     """The bytes of each of points (n, 3)."""
     return np.ascontiguousarray(points).view("V24").ravel().tolist()

@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 import heapq
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 
 from meshforge.geometry.arrays import Aabb, Ints
-from meshforge.geometry.convex import FLATNESS, convex_hull
+from meshforge.geometry.convex import FLATNESS, convex_hull, measure_hull
+from meshforge.geometry.proximity import close_pairs
 from meshforge.geometry.shape import Polytope
 from meshforge.geometry.solids import overlap_volume, volume_of_union
 
@@ -53,22 +54,33 @@ class _Merger:
         rows = zip(pieces, self._kinds.tolist(), strict=True)
         self.groups = {k: PieceGroup(piece, (k,), kind, (piece,)) for k, (piece, kind) in enumerate(rows)}
         diagonal = Aabb.union(piece.aabb for piece in pieces).diagonal if pieces else 0.0
-        self._near = _NEAR * diagonal
         self._thickness = FLATNESS * diagonal
+        self._touching: dict[int, set[int]] = {k: set() for k in self.groups}
+        for a, b in close_pairs(pieces, _NEAR * diagonal) if pieces else ():
+            self._touching[a].add(b)
+            self._touching[b].add(a)
         self._queue: list[tuple[float, int, int, PieceGroup]] = []
         self._taken = dict[int, float]()
 
     def run(self) -> None:
         for place in list(self.groups):
-            self._propose(place, [other for other in self.groups if other < place])
+            self._propose(place, [other for other in self._touching[place] if other < place])
         while self._queue:
             _, one, other, group = heapq.heappop(self._queue)
-            if one not in self.groups or other not in self.groups:
-                continue
-            del self.groups[one], self.groups[other]
-            place = len(self._taken)
-            self.groups[place] = group
-            self._propose(place, [k for k in self.groups if k != place])
+            if one in self.groups and other in self.groups:
+                place = len(self._taken)
+                self._replace((one, other), place, group)
+                self._propose(place, self._touching[place])
+
+    def _replace(self, old: tuple[int, int], place: int, group: PieceGroup) -> None:
+        """Put a group in the place of two."""
+        touching = set[int]().union(*(self._touching.pop(k) for k in old)).difference(old)
+        for k in old:
+            del self.groups[k]
+        self.groups[place], self._touching[place] = group, touching
+        for other in touching:
+            self._touching[other].difference_update(old)
+            self._touching[other].add(place)
 
     def join_slivers(self, least: float) -> None:
         """Join groups below a volume to the neighbour of any kind whose hull grows least, by at most that volume."""
@@ -76,29 +88,27 @@ class _Merger:
             own = self.groups[place]
             if own.volume >= least:
                 break
-            near = [k for k, one in self.groups.items() if k != place and _is_near(own.shape, one.shape, self._near)]
-            hulls = [(k, self._enclose(k, place)) for k in near]
+            hulls = [(k, self._enclose(k, place)) for k in sorted(self._touching[place])]
             found = [(shape.volume - self.groups[k].shape.volume, k, shape) for k, shape in hulls]
             grown, other, shape = min(found, key=lambda row: row[:2], default=(np.inf, -1, own.shape))
             if grown <= least:
-                self.groups[other] = _unite(self.groups[other], own, shape)
-                del self.groups[place]
+                self._replace((other, place), other, _unite(self.groups[other], own, shape))
 
-    def _propose(self, place: int, others: Sequence[int]) -> None:
+    def _propose(self, place: int, others: Iterable[int]) -> None:
         own = self.groups[place]
         self._taken[place] = self._overlap_others(own.shape, own.kind)
-        for other in others:
-            group = self.groups[other]
-            if group.kind == own.kind and _is_near(own.shape, group.shape, self._near):
-                found = self._join(other, place)
-                if found is not None:
-                    heapq.heappush(self._queue, (found[0], other, place, found[1]))
+        for other in sorted(others):
+            found = self._join(other, place) if self.groups[other].kind == own.kind else None
+            if found is not None:
+                heapq.heappush(self._queue, (found[0], other, place, found[1]))
 
     def _join(self, one: int, other: int) -> tuple[float, PieceGroup] | None:
         """The share of the hull around two groups that nothing fills, and the hull; None where they stay apart."""
-        shape, a, b = self._enclose(one, other), self.groups[one], self.groups[other]
-        if shape.volume - a.volume - b.volume > _WASTE * shape.volume:
+        a, b = self.groups[one], self.groups[other]
+        points = np.concatenate([a.shape.vertices, b.shape.vertices])
+        if (1 - _WASTE) * measure_hull(points) > a.volume + b.volume:
             return None
+        shape = self._enclose(one, other)
         waste = 1 - volume_of_union((*a.pieces, *b.pieces)) / shape.volume
         had = self._taken[one] + self._taken[other]
         if waste > _WASTE or self._overlap_others(shape, a.kind) - had > _TAKEN * shape.volume:
@@ -119,8 +129,3 @@ class _Merger:
 def _unite(a: PieceGroup, b: PieceGroup, shape: Polytope) -> PieceGroup:
     """Two groups as one of the kind of the first."""
     return PieceGroup(shape, tuple(sorted(a.members + b.members)), a.kind, (*a.pieces, *b.pieces))
-
-
-def _is_near(a: Polytope, b: Polytope, reach: float) -> bool:
-    low, high = np.maximum(a.aabb.min, b.aabb.min), np.minimum(a.aabb.max, b.aabb.max)
-    return bool((low - high <= reach).all())
