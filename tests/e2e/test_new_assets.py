@@ -44,7 +44,7 @@ def test_a_run_splits_hulls_of_new_assets_says_which_and_undo_takes_it_back(proj
         lines = person.page.get_by_role("list", name="Results by asset").get_by_role("listitem")
         texts = lines.all_inner_texts()
         assert [text.split()[1] for text in texts] == ["c.urdf", "d.urdf"]
-        assert all("base/h0 holds seat and leg, " in text and ": split in " in text for text in texts)
+        assert all("base/h0 holds seat and leg, " in text and ": into " in text for text in texts)
         assert not person.page.get_by_text("are new").count()
         by_command = Project.open(tmp_path / "by_command")
         list(by_command.prepare_new())
