@@ -51,7 +51,7 @@ def test_a_run_splits_hulls_of_new_assets_says_which_and_undo_takes_it_back(proj
         for asset in ("c.urdf", "d.urdf"):
             assert [hull.label for hull in project.mesh(asset).hulls] == [h.label for h in by_command.mesh(asset).hulls]
             stamp = read_stamp(project.layout.edited, asset)
-            assert stamp and any("split in " in note for note in stamp.notes)
+            assert stamp and any("%: into " in note for note in stamp.notes)
         person.press("Control+z")
         person.page.wait_for_function("() => !document.querySelector('[aria-label^=\"Undo: \"]')")
         assert not project.layout.ids_with_preparation() and not project.layout.labels("c.urdf").exists()
