@@ -56,6 +56,13 @@ def test_a_gap_between_two_kinds_sets_them_apart(first: Polytope, gap: float) ->
         assert part.shape.volume == pytest.approx(first.volume, rel=1e-6), "tight around what lies in it"
 
 
+def test_a_small_thin_sheet_stays_covered() -> None:
+    sheets = [box((x, 0, 0), (1e-5, half, half)) for x, half in ((-1, 1), (0, 0.3), (1, 1))]
+    parts = divide(around(sheets), sheets, np.eye(2)[[0, 1, 0]])
+    sides = sorted(float(part.shape.aabb.size[1]) for part in parts)
+    assert sides == pytest.approx([0.6, 2.0, 2.0], abs=1e-3)
+
+
 @settings(max_examples=30, deadline=None)
 @given(st.lists(boxes, min_size=1, max_size=4))
 def test_one_kind_is_not_divided(pieces: list[Polytope]) -> None:

@@ -19,7 +19,6 @@ from meshforge.geometry.surface import planes_of
 _POINTS = 1500  # that stand for what lies in a shape
 _LEAST_POINTS = 4  # of each piece
 _LEAST = 0.01  # of the shape's volume: a smaller part is a sliver, and stays with its neighbour
-_NOTICED = 1e-4  # of the same: a smaller part that fits no neighbour is left out
 _PURE = 0.98  # of what lies in a part that is of one kind: it is not divided
 _GAIN = 0.002  # of what lies in the shape that a plane must set right
 _NOTHING = 1e-9  # of what lies in a part: rounding
@@ -107,9 +106,7 @@ def divide(shape: Shape, pieces: Sequence[Polytope], chances: Floats) -> tuple[H
     kinds = np.array([int(volumes.argmax()) for _, volumes in tight])
     joined = merge_pieces([shape for shape, _ in tight], kinds, _LEAST * whole.volume)
     return tuple(
-        HullPart(one.shape, _to_shares(np.sum([tight[place][1] for place in one.members], axis=0)))
-        for one in joined
-        if one.shape.volume >= _NOTICED * whole.volume
+        HullPart(one.shape, _to_shares(np.sum([tight[place][1] for place in one.members], axis=0))) for one in joined
     )
 
 

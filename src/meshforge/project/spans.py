@@ -3,8 +3,7 @@ for the questions of a review."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping
-from contextlib import AbstractContextManager, nullcontext
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
 
 from meshforge import batch
@@ -30,7 +29,6 @@ def split_spanning(
     engine: str | None = None,
     execution: batch.ExecutionOptions = batch.EXECUTION_DEFAULTS,
     stage: Stage = ignore_stage,
-    write_block: Callable[[str], AbstractContextManager[object]] = nullcontext,
 ) -> Iterator[PreparationResult]:
     """Split hulls that span parts with a probability of at least `how.sure`, one step an asset, and label their parts.
 
@@ -53,8 +51,7 @@ def split_spanning(
                 continue
             likely[asset] = _keep_shapes(store, asset, found.likely)
             try:
-                with nullcontext() if dry_run else write_block(asset):
-                    result = _split_one(store, asset, found, dry_run, engine)
+                result = _split_one(store, asset, found, dry_run, engine)
             except MeshForgeError as error:
                 result = PreparationResult(asset, problems=(error.message,))
             yield result
