@@ -997,13 +997,14 @@ export interface Next {
 }
 /**
  * The assets that came after the others were prepared, so that a run prepares them first. ids: of all of them;
- * split: of how many hulls that span parts are looked for, and split where that is as sure as `sure`; unclear: why
- * they are not decomposed, null where it is clear how.
+ * split: of how many hulls that span parts are looked for, and split where that is as sure as `sure`; rebuild: whether
+ * all hulls of their bodies are made anew then; unclear: why they are not decomposed, null where it is clear how.
  */
 export interface NewAssetsView {
   ids: string[];
   split: number;
   sure: number | null;
+  rebuild: boolean;
   unclear: string | null;
 }
 /**

@@ -166,8 +166,8 @@ def _print_one(result: PreparationResult) -> None:
     for step in result.undone:
         typer.echo(f"    {step}")
     entries = result.made or result.planned
-    anew = [entry for entry in entries if entry.told.startswith(f"{entry.what}, {MADE_ANEW}")]
-    for entry in (entry for entry in entries if entry not in anew):
+    anew = [entry for entry in entries if entry.with_body]
+    for entry in (entry for entry in entries if not entry.with_body):
         is_named = entry.told.startswith(f"{entry.what} ")
         typer.echo(f"    {entry.told}" if is_named else f"    {entry.what}: {entry.told}")
     if anew:

@@ -97,11 +97,12 @@ def list_likely(report: SpanReport, asset: str, least: float = LIKELY) -> dict[s
     return found
 
 
-def make_split(span: HullSpan, geometry: str, parts: Sequence[LabelledPart], told: str | None = None) -> Split:
-    """A hull with the parts that take its place. geometry: its digest; told: why, None for that it spans parts."""
+def make_split(span: HullSpan, geometry: str, parts: Sequence[LabelledPart], with_body: bool = False) -> Split:
+    """A hull with the parts that take its place. geometry: its digest; with_body: whether it spans no parts itself."""
     rows = tuple(SpanPart(label=label, share=round(share, _DIGITS)) for _, label, share in parts)
-    line = SpanLine(geometry=geometry, chance=round(span.chance, _DIGITS), told=told or str(span), parts=rows)
-    return Split(span.hull, line, tuple(part.shape for part, _, _ in parts))
+    told = f"{span.hull}, {MADE_ANEW}" if with_body else str(span)
+    line = SpanLine(geometry=geometry, chance=round(span.chance, _DIGITS), told=told, parts=rows)
+    return Split(span.hull, line, tuple(part.shape for part, _, _ in parts), with_body)
 
 
 def plan_splits(
@@ -138,8 +139,7 @@ def _rebuild(report: SpanReport, asset: str, plan: SplitPlan) -> SplitPlan:
     splits = list[Split]()
     for rows in made.values():
         for hull, parts in rows.items():
-            told = None if hull in named else f"{hull}, {MADE_ANEW}"
-            splits.append(make_split(spans[hull], digests[hull], parts, told))
+            splits.append(make_split(spans[hull], digests[hull], parts, with_body=hull not in named))
     return replace(
         plan,
         splits=tuple(splits),

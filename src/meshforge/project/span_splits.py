@@ -24,11 +24,13 @@ _FIND = "Find them again: meshforge prepare PROJECT --split-spanning --dry-run"
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Split:
-    """A hull that spans parts, and what takes its place. shapes: the parts, in the order of `span.parts`."""
+    """A hull that spans parts, or one that is made anew with its body, and what takes its place. shapes: the parts, in
+    the order of `span.parts`."""
 
     hull: str
     span: SpanLine
     shapes: tuple[Polytope, ...]
+    with_body: bool = False
 
     def __str__(self) -> str:
         """`base holds wall and handle, 94%: into 2 wall (97% to 98%), handle (93%)`."""
@@ -69,7 +71,7 @@ def make_splits(
     source: the asset as it was read; settings: of the step, besides the probabilities. Raises GeometryError: no such
     hull.
     """
-    divisions = [batch.HullDivision(one.hull, one.span.chance, one.shapes, str(one)) for one in splits]
+    divisions = [batch.HullDivision(one.hull, one.span.chance, one.shapes, str(one), one.with_body) for one in splits]
     chances = {one.hull: one.span.chance for one in splits}
     after = batch.divide_hulls(source, before, divisions, {**settings, "chances": chances})
     labels = {

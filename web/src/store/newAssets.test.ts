@@ -2,7 +2,7 @@ import { describe, expect, it } from "vitest";
 import type { Job } from "../wire";
 import { linesOfNew, newAssetsText, splitChoiceText } from "./newAssets";
 
-const none = { ids: [], split: 0, sure: null, unclear: null };
+const none = { ids: [], split: 0, sure: null, rebuild: false, unclear: null };
 
 describe("new assets", () => {
   it("are named where it is one, and counted otherwise", () => {
@@ -17,7 +17,9 @@ describe("new assets", () => {
 
   it("offer a choice only where hulls are looked at", () => {
     expect(splitChoiceText({ ...none, ids: ["a"] })).toBeNull();
-    expect(splitChoiceText({ ...none, ids: ["a"], split: 1, sure: 0.9 })).toBe("Split their hulls that span parts, from 90% on");
+    const one = { ...none, ids: ["a"], split: 1, sure: 0.9 };
+    expect(splitChoiceText(one)).toBe("Split their hulls that span parts, from 90% on");
+    expect(splitChoiceText({ ...one, rebuild: true })).toBe("Make bodies anew of which hulls span parts, from 90% on");
   });
 
   it("are the lines of a run that say what was done before", () => {

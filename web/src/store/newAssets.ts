@@ -15,8 +15,10 @@ export function newAssetsText({ ids, unclear }: NewAssetsView): string | null {
 }
 
 /** The choice whether hulls are split, in words; null where no hull would be looked at. */
-export function splitChoiceText({ split, sure }: NewAssetsView): string | null {
-  return split && sure !== null ? `Split their hulls that span parts, from ${percentText(sure)} on` : null;
+export function splitChoiceText({ split, sure, rebuild }: NewAssetsView): string | null {
+  if (!split || sure === null) return null;
+  const doing = rebuild ? "Make bodies anew of which hulls span parts" : "Split their hulls that span parts";
+  return `${doing}, from ${percentText(sure)} on`;
 }
 
 /** What became of new assets in a run. */

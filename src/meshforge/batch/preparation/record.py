@@ -27,7 +27,8 @@ class Replacement:
     """One piece and the hulls that stand in its place.
 
     what: the name of the piece, or of the body; source: the digest of its geometry, by which a change is noticed;
-    made: the digest of each hull by its name; told: how well they fit, for people.
+    made: the digest of each hull by its name; told: how well they fit, for people; with_body: whether it is replaced
+    only because all hulls of its body are.
     """
 
     what: str
@@ -35,6 +36,7 @@ class Replacement:
     source: str
     made: dict[str, str]
     told: str = ""
+    with_body: bool = False
 
 
 @dataclass(frozen=True, slots=True)

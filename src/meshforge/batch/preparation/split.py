@@ -74,12 +74,14 @@ def split_hull(
 
 @dataclass(frozen=True, eq=False, slots=True)
 class HullDivision:
-    """A hull that spans parts. chance: of that; parts: convex, within the hull; told: in words."""
+    """A hull that spans parts, or, with_body, one that does not and is made anew with all hulls of its body. chance: of
+    that it spans parts; parts: convex; told: in words."""
 
     hull: str
     chance: float
     parts: tuple[Polytope, ...]
     told: str
+    with_body: bool = False
 
 
 def divide_hulls(
@@ -98,7 +100,8 @@ def divide_hulls(
             raise GeometryError(f"there is no hull {one.hull!r}", where=str(asset.path))
         names = record.free_names(one.hull, len(one.parts), taken)
         made = dict(zip(names, map(record.hull_digest, one.parts), strict=True))
-        entries.append(record.Replacement(one.hull, "hull", digest(geoms[one.hull].shape), made, one.told))
+        geometry = digest(geoms[one.hull].shape)
+        entries.append(record.Replacement(one.hull, "hull", geometry, made, one.told, one.with_body))
         taken |= made.keys()
     fine = FINE_SETTINGS[settings.get("pieces", "coacd")]
     step = record.PreparationStep("divide", dict(settings), software_versions(fine), tuple(entries))

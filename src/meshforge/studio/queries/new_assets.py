@@ -35,6 +35,9 @@ def _find(project: Project) -> tuple[NewAssetsView | None, str | None]:
         return None, error.message
     if not new and not unclear:
         return None, None
-    sure = [one.plan.split.sure for one in new if one.plan.split]
+    splits = [one.plan.split for one in new if one.plan.split]
     ids = tuple(one.id for one in new)
-    return NewAssetsView(ids=ids, split=len(sure), sure=next(iter(sure), None), unclear=unclear), None
+    if not splits:
+        return NewAssetsView(ids=ids, unclear=unclear), None
+    how = splits[0]
+    return NewAssetsView(ids=ids, split=len(splits), sure=how.sure, rebuild=how.rebuild, unclear=unclear), None

@@ -90,12 +90,13 @@ class Next(Wire):
 
 class NewAssetsView(Wire):
     """The assets that came after the others were prepared, so that a run prepares them first. ids: of all of them;
-    split: of how many hulls that span parts are looked for, and split where that is as sure as `sure`; unclear: why
-    they are not decomposed, null where it is clear how."""
+    split: of how many hulls that span parts are looked for, and split where that is as sure as `sure`; rebuild: whether
+    all hulls of their bodies are made anew then; unclear: why they are not decomposed, null where it is clear how."""
 
     ids: tuple[str, ...]
     split: int = 0
     sure: float | None = None
+    rebuild: bool = False
     unclear: str | None = None
 
 
