@@ -6,6 +6,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
+from itertools import chain
 
 import numpy as np
 
@@ -14,7 +15,7 @@ from benchmark.assets.decomposition import shares
 from benchmark.spanning.sets import list_samples, surface_of
 from benchmark.tasks.task import PURE
 from meshforge.geometry import Polytope, cache_folder, decompose_finely, divide
-from meshforge.label_model import AssetCells, CellModel, SpanModel, SpanPosterior, piece_mesh
+from meshforge.label_model import AssetCells, AssetPieces, CellModel, SpanModel, SpanPosterior, piece_mesh
 from meshforge.symbolic import Hull, Label, SymbolicMesh
 
 KNOWN = 3
@@ -34,20 +35,25 @@ Parts = Mapping[int, Sequence[Polytope]]
 class SpanFamily:
     """The assets of a category in one of the sets.
 
-    pieces: the fine pieces of the surface of each asset, in the frame of its file; known: the assets that a person
-    labelled.
+    regions: the fine pieces of the surface of each asset, by region, in the frame of its file; known: the assets that a
+    person labelled.
     """
 
     samples: tuple[Sample, ...]
-    pieces: tuple[tuple[Polytope, ...], ...] = field(repr=False)
+    regions: tuple[tuple[tuple[Polytope, ...], ...], ...] = field(repr=False)
     known: frozenset[int]
+
+    @cached_property
+    def pieces(self) -> tuple[tuple[Polytope, ...], ...]:
+        """The fine pieces of each asset, in the order of its regions."""
+        return tuple(tuple(chain.from_iterable(regions)) for regions in self.regions)
 
     @cached_property
     def model(self) -> SpanModel:
         """The model of the family, which knows shapes and no label."""
         meshes = [_without_labels(sample.mesh) for sample in self.samples]
-        rows = zip(meshes, self.pieces, strict=True)
-        return SpanModel(meshes, [piece_mesh({mesh.hulls[0].body: pieces}, mesh) for mesh, pieces in rows])
+        rows = zip(meshes, self.regions, strict=True)
+        return SpanModel([AssetPieces(mesh, piece_mesh({mesh.hulls[0].body: own}, mesh)) for mesh, own in rows])
 
     @cached_property
     def cells(self) -> CellModel:
@@ -85,8 +91,8 @@ def choose_known(count: int) -> frozenset[int]:
     return frozenset(int(rng.choice(third)) for third in np.array_split(np.arange(count), KNOWN))
 
 
-def make_pieces(sample: Sample, cached: bool = True) -> tuple[Polytope, ...]:
-    """The fine pieces of the surface of an asset."""
+def make_pieces(sample: Sample, cached: bool = True) -> tuple[tuple[Polytope, ...], ...]:
+    """The fine pieces of the surface of an asset, by region."""
     return decompose_finely(*surface_of(sample), cache=cache_folder() if cached else None)
 
 

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from meshforge.label_model.posterior import FamilyModel, FamilyPosterior, infer_labels, model_family
     from meshforge.label_model.sides import correct_upright, find_doubtful_sides
     from meshforge.label_model.similar import find_similar
-    from meshforge.label_model.spans import WHOLE, AssetPieces, SpanModel, SpanPosterior, piece_mesh
+    from meshforge.label_model.spans import WHOLE, AssetPieces, SpanModel, SpanPosterior, SurfacePieces, piece_mesh
     from meshforge.label_model.table import (
         FamilyTable,
         Observations,
@@ -43,6 +43,7 @@ __all__ = [
     "ShapeDescriptor",
     "SpanModel",
     "SpanPosterior",
+    "SurfacePieces",
     "consensus_weights",
     "correct_upright",
     "cut_into_cells",

@@ -1,5 +1,5 @@
-"""The probability that a hull holds more than one part: from fine pieces of the surface that hulls stand for, whose
-labels are inferred as those of hulls are."""
+"""The probability that a hull holds more than one part: from fine pieces of the surface that hulls stand for, and the
+regions that these are of, whose labels are inferred as those of hulls are."""
 
 from __future__ import annotations
 
@@ -8,12 +8,13 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache, cached_property
 from importlib.resources import files
+from itertools import islice
 from typing import Any
 
 import numpy as np
 
-from meshforge.geometry import Floats, HullPart, Ints, Polytope, divide, merge_pieces, overlap_volume
-from meshforge.label_model.posterior import model_family
+from meshforge.geometry import Floats, HullPart, Ints, Polytope, convex_hull, divide, merge_pieces, overlap_volume
+from meshforge.label_model.posterior import FamilyPosterior, model_family
 from meshforge.symbolic import Hull, Label, SymbolicMesh
 
 WEIGHTS_FILE = "spans.json"
@@ -26,6 +27,9 @@ _MOST = 0.8  # how much a label is believed that a piece takes from the hull tha
 _ALL = 0.85  # of a piece, from which a hull has nearly all of it
 _SLIVER = 3e-3  # of the volume of all pieces of a rebuild: smaller ones go with a neighbour where that adds little
 _WITHIN = 0.5  # of a piece's volume that the hull must have
+_THICKNESS = 1e-4  # of the asset's size, that a flat region gets
+_LEAST_CHANCE = 1e-3  # of a label, where chances of pieces and regions are multiplied
+_SHARPNESS = 0.6  # exponent of both, since they have much of their evidence in common
 
 
 @cache
@@ -39,9 +43,18 @@ def span_weights(key: str = "weights") -> Floats:
     return found
 
 
-def piece_mesh(pieces: Mapping[str, Sequence[Polytope]], mesh: SymbolicMesh) -> SymbolicMesh:
-    """The fine pieces of an asset, by body, as a mesh that lies as its own does."""
-    hulls = (Hull(f"{body}/{k}", body, piece) for body, own in pieces.items() for k, piece in enumerate(own))
+SurfacePieces = Mapping[str, Sequence[Sequence[Polytope]]]
+"""The fine pieces of the surfaces of an asset, by body and then by region, as `decompose_finely` gives these."""
+
+
+def piece_mesh(pieces: SurfacePieces, mesh: SymbolicMesh) -> SymbolicMesh:
+    """The fine pieces of an asset as a mesh that lies as its own does; the parent of each is its region."""
+    hulls = (
+        Hull(f"{body}/{region}/{k}", body, piece, parent=f"{body}/{region}")
+        for body, regions in pieces.items()
+        for region, own in enumerate(regions)
+        for k, piece in enumerate(own)
+    )
     return SymbolicMesh(tuple(hulls), mesh.asset, mesh.epsilon, mesh.scale)
 
 
@@ -68,6 +81,44 @@ class AssetPieces:
                 found[hull, piece] = overlap_volume(one.shape, other.shape)
         return found
 
+    @cached_property
+    def volumes(self) -> Floats:
+        """Of the pieces (pieces,) [m^3]."""
+        return np.array([piece.shape.volume for piece in self.pieces.hulls])
+
+    @cached_property
+    def region_of(self) -> Ints:
+        """The number of the region of each piece (pieces,), in the order in which they come."""
+        numbers = {name: number for number, name in enumerate(dict.fromkeys(h.parent for h in self.pieces.hulls))}
+        return np.array([numbers[piece.parent] for piece in self.pieces.hulls], dtype=np.int64)
+
+    @cached_property
+    def regions(self) -> SymbolicMesh:
+        """The regions as a mesh: the convex hull of the pieces of each."""
+        points = [piece.vertices for piece in self.pieces.hulls]
+        thickness = _THICKNESS * self.pieces.diagonal if points else 0.0
+        found = list[Hull]()
+        for number in range(self.region_of.max(initial=-1) + 1):
+            own = np.flatnonzero(self.region_of == number).tolist()
+            first = self.pieces.hulls[own[0]]
+            shape = convex_hull(np.concatenate([points[place] for place in own]), name=first.name, thicken=thickness)
+            found.append(Hull(str(first.parent), first.body, shape))
+        return self.pieces.with_hulls(found)
+
+    def collect_labels(self, labels: Sequence[Label | None]) -> list[Label | None]:
+        """What labels of pieces say about each region: the label of more than half of it, believed by that share."""
+        found = list[Label | None]()
+        for number in range(len(self.regions.hulls)):
+            own = self.region_of == number
+            said: dict[str, float] = {}
+            for place in np.flatnonzero(own).tolist():
+                if label := labels[place]:
+                    said[label.name] = said.get(label.name, 0.0) + label.confidence * float(self.volumes[place])
+            best = max(said, key=lambda name: said[name], default=None)
+            share = said[best] / float(self.volumes[own].sum()) if best else 0.0
+            found.append(Label(best, min(share, 1.0), "file") if best and share > 0.5 else None)
+        return found
+
     def pieces_of(self, hull: int) -> Ints:
         """The pieces that a hull stands for: those that it meets, but for what another hull has nearly all of."""
         held = self.common / np.array([max(piece.shape.volume, 1e-300) for piece in self.pieces.hulls])
@@ -89,9 +140,10 @@ class AssetPieces:
 class SpanModel:
     """Assets of one kind, each with its hulls and the fine pieces of its surface."""
 
-    def __init__(self, meshes: Sequence[SymbolicMesh], pieces: Sequence[SymbolicMesh]) -> None:
-        self.assets = [AssetPieces(mesh, own) for mesh, own in zip(meshes, pieces, strict=True)]
-        self._family = model_family(pieces)
+    def __init__(self, assets: Sequence[AssetPieces]) -> None:
+        self.assets = assets
+        self._pieces = model_family([asset.pieces for asset in assets])
+        self._regions = model_family([asset.regions for asset in assets])
 
     def infer(
         self,
@@ -101,14 +153,31 @@ class SpanModel:
     ) -> SpanPosterior:
         """What labels say: of the hulls of all meshes in order, None for an unlabelled one; piece_labels: of all pieces
         in order, where they are known; weights: (3,), None for those that ship."""
-        sizes = np.cumsum([0, *(len(asset.mesh.hulls) for asset in self.assets)])
-        rows = [labels[a:b] for a, b in zip(sizes[:-1].tolist(), sizes[1:].tolist(), strict=True)]
-        said = [label for asset, own in zip(self.assets, rows, strict=True) for label in asset.take_labels(own)]
+        rows = _deal(labels, [len(asset.mesh.hulls) for asset in self.assets])
+        said = [asset.take_labels(own) for asset, own in zip(self.assets, rows, strict=True)]
         if piece_labels is not None:
-            said = [known or label for known, label in zip(piece_labels, said, strict=True)]
-        found = self._family.infer(said)
-        chances = [found.chances_of(mesh) for mesh in range(len(self.assets))]
-        return SpanPosterior(self.assets, found.seen.labels, chances, span_weights() if weights is None else weights)
+            known = _deal(piece_labels, list(map(len, said)))
+            said = [[one or other for one, other in zip(*both, strict=True)] for both in zip(known, said, strict=True)]
+        of_pieces = self._pieces.infer([label for own in said for label in own])
+        of_regions = self._regions.infer(
+            [label for asset, own in zip(self.assets, said, strict=True) for label in asset.collect_labels(own)]
+        )
+        chances = [self._weigh(mesh, of_pieces, of_regions) for mesh in range(len(self.assets))]
+        weights = span_weights() if weights is None else weights
+        return SpanPosterior(self.assets, of_pieces.seen.labels, chances, weights)
+
+    def _weigh(self, mesh: int, of_pieces: FamilyPosterior, of_regions: FamilyPosterior) -> Floats:
+        """The probability of each label for the pieces of a mesh (pieces, labels), by what is inferred of them, and of
+        the region of each: the less of the asset a region has, the likelier it is of one part."""
+        asset, chances = self.assets[mesh], of_pieces.chances_of(mesh)
+        if not chances.size or not of_regions.seen.labels:
+            return chances
+        known = np.zeros((len(asset.regions.hulls), chances.shape[1]))
+        known[:, [of_pieces.seen.labels.index(label) for label in of_regions.seen.labels]] = of_regions.chances_of(mesh)
+        both = (np.maximum(chances, _LEAST_CHANCE) * np.maximum(known[asset.region_of], _LEAST_CHANCE)) ** _SHARPNESS
+        share = np.bincount(asset.region_of, weights=asset.volumes)[asset.region_of] / asset.volumes.sum()
+        found: Floats = share[:, None] * chances + (1 - share)[:, None] * _scale(both, both.sum(axis=1))
+        return found
 
 
 @dataclass(frozen=True, eq=False)
@@ -174,6 +243,12 @@ class SpanPosterior:
             shares = volumes[members] @ chances[members] / volumes[members].sum()
             found.append((int(hulls[common[:, members].sum(axis=1).argmax()]), HullPart(group.shape, shares)))
         return tuple(found)
+
+
+def _deal(items: Sequence[Label | None], counts: Sequence[int]) -> list[list[Label | None]]:
+    """Items by asset, of which each has so many."""
+    rest = iter(items)
+    return [list(islice(rest, count)) for count in counts]
 
 
 def _logit(shares: Any) -> Any:

@@ -38,7 +38,7 @@ class ReferenceFamily:
     def digest(self) -> str:
         """Equal for families that say the same about a new asset."""
         rows = [[digest_mesh(one).hex(), str(one.labels)] for one in self.meshes.values()]
-        fine = [digest_mesh(one.pieces).hex() for one in self.pieces.values()]
+        fine = [[digest_mesh(one.pieces).hex(), one.region_of.tolist()] for one in self.pieces.values()]
         return batch.text_digest(json.dumps([rows, fine, self.words, self.engine]))
 
     @cached_property
@@ -106,7 +106,7 @@ def read_reference_family(
     pieces = {asset: AssetPieces(meshes[asset], own.mesh) for asset, own in found.items()}
     for one in pieces.values():
         assert one.common is not None  # measured here, so that no worker does it again; likewise below
-    for mesh in (*meshes.values(), *(own.mesh for own in found.values())):
+    for mesh in (*meshes.values(), *(mesh for own in pieces.values() for mesh in (own.pieces, own.regions))):
         describe_mesh(mesh)
     return ReferenceFamily(meshes, pieces, store.vocabulary, engine)
 

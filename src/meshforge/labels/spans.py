@@ -23,6 +23,7 @@ from meshforge.label_model import (
     CellModel,
     SpanModel,
     SpanPosterior,
+    SurfacePieces,
     evidence_beside_splits,
     piece_mesh,
 )
@@ -32,6 +33,7 @@ from meshforge.labels.hull_arrays import HULL_ARRAYS, pack_hulls, unpack_hulls
 from meshforge.store import Store
 from meshforge.symbolic import HUMAN_SOURCES, Surface, SymbolicMesh
 
+_LAYOUT = 2  # of the file of pieces: by body, and by region from 2 on
 _SHOWN = 0.1  # of what a hull stands for: labels of smaller shares are not named
 
 
@@ -147,7 +149,7 @@ class FinePieces:
     unseen: frozenset[str] = frozenset()
 
     @staticmethod
-    def of(found: Mapping[str, Sequence[Polytope]], mesh: SymbolicMesh) -> FinePieces:
+    def of(found: SurfacePieces, mesh: SymbolicMesh) -> FinePieces:
         """Those found by body, of all bodies that have a surface."""
         return FinePieces(piece_mesh(found, mesh), frozenset(hull.body for hull in mesh.hulls) - found.keys())
 
@@ -218,16 +220,15 @@ def infer_spans(
     by_surface: SpanPosterior | None = None
     by_cells: SpanPosterior | None = None
     if any(own.mesh.hulls for own in pieces.values()):
-        model = SpanModel(list(known.values()), [pieces[asset].mesh for asset in known])
-        model.assets = [measured.get(asset, own) for asset, own in zip(known, model.assets, strict=True)]
-        by_surface = model.infer(said)
+        assets = [measured.get(asset) or AssetPieces(mesh, pieces[asset].mesh) for asset, mesh in known.items()]
+        by_surface = SpanModel(assets).infer(said)
     if any(own.unseen for own in pieces.values()):
         by_cells = CellModel([cells.get(asset) or AssetCells(mesh) for asset, mesh in known.items()]).infer(said)
     unseen = {asset: own.unseen for asset, own in pieces.items()}
     return SpanReport(known, by_surface, by_cells, unseen, lost)
 
 
-def _find_pieces(work: _Work) -> dict[str, list[Polytope]] | str:
+def _find_pieces(work: _Work) -> SurfacePieces | str:
     """The fine pieces of an asset by body, kept where they were found already; or why there are none."""
     try:
         return read_pieces(batch.find_surfaces(read(work.path)), work.kept, work.engine)
@@ -240,25 +241,27 @@ def pieces_file(store: Store, asset: str) -> Path:
     return store.layout.sketches / "fine" / f"{asset}.npz"
 
 
-def read_pieces(
-    surfaces: Mapping[str, Surface], kept: Path, engine: PieceEngine = "coacd"
-) -> dict[str, list[Polytope]]:
-    """The fine pieces of surfaces by body, from a file where they were kept, else kept there."""
+def read_pieces(surfaces: Mapping[str, Surface], kept: Path, engine: PieceEngine = "coacd") -> SurfacePieces:
+    """The fine pieces of surfaces, from a file where they were kept, else kept there."""
     key = _digest(surfaces, engine)
     known = read_arrays(kept, key, *HULL_ARRAYS)
     if known is not None:
-        return {body: [] for body in surfaces} | unpack_hulls(*known)
-    found = decompose_surfaces(surfaces, engine)
-    write_arrays(kept, key, pack_hulls(found))
-    return found
+        found: dict[str, list[list[Polytope]]] = {body: [] for body in surfaces}
+        for name, own in unpack_hulls(*known).items():
+            found[name.partition("/")[2]].append(own)
+        return found
+    made = decompose_surfaces(surfaces, engine)
+    named = {f"{region}/{body}": own for body, regions in made.items() for region, own in enumerate(regions)}
+    write_arrays(kept, key, pack_hulls(named))
+    return made
 
 
-def decompose_surfaces(surfaces: Mapping[str, Surface], engine: PieceEngine = "coacd") -> dict[str, list[Polytope]]:
+def decompose_surfaces(surfaces: Mapping[str, Surface], engine: PieceEngine = "coacd") -> SurfacePieces:
     """The fine pieces of surfaces by body, as `batch.find_surfaces` gives these."""
-    found = dict[str, list[Polytope]]()
+    found = dict[str, Sequence[Sequence[Polytope]]]()
     for body, surface in surfaces.items():
         try:
-            found[body] = list(decompose_finely(surface.vertices, surface.faces, engine, cache=cache_folder()))
+            found[body] = decompose_finely(surface.vertices, surface.faces, engine, cache=cache_folder())
         except MeshForgeError:  # flat, or without an area: its hulls stand for nothing
             found[body] = []
     return found
@@ -266,7 +269,7 @@ def decompose_surfaces(surfaces: Mapping[str, Surface], engine: PieceEngine = "c
 
 def _digest(surfaces: Mapping[str, Surface], engine: PieceEngine) -> str:
     """A digest of all that fine pieces are made from."""
-    basis = [engine, FINE_SETTINGS[engine].as_dict(), batch.software_version()]
+    basis = [_LAYOUT, engine, FINE_SETTINGS[engine].as_dict(), batch.software_version()]
     state = hashlib.blake2b(json.dumps(basis).encode(), digest_size=16)
     for body, surface in surfaces.items():
         state.update(body.encode())

@@ -114,7 +114,7 @@ def engines(monkeypatch: pytest.MonkeyPatch) -> list[str]:
     """The engine of each surface whose fine pieces are made."""
     used = list[str]()
 
-    def note(vertices: Floats, faces: Ints, engine: PieceEngine, *, cache: Path) -> tuple[Polytope, ...]:
+    def note(vertices: Floats, faces: Ints, engine: PieceEngine, *, cache: Path) -> tuple[tuple[Polytope, ...], ...]:
         used.append(engine)
         return decompose_finely(vertices, faces, engine, cache=cache)
 

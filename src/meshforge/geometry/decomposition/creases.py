@@ -42,17 +42,14 @@ class Creases:
 
 def find_creases(vertices: Floats, faces: Ints) -> Creases:
     """The creases of welded vertices (n, 3) [m] and faces (m, 3)."""
+    faces = drop_degenerate(vertices, faces)
     corners = vertices[faces]
-    normal = cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    areas = np.linalg.norm(normal, axis=1)
-    proper = areas > 1e-12 * max(float(areas.max(initial=0.0)), np.finfo(float).tiny)
-    corners, faces, areas = corners[proper], faces[proper], areas[proper] / 2
-    normal = normal[proper] / (2 * areas[:, None])
+    normal, areas = _find_normals(corners)
     pairs = neighbour_faces(faces)
     diagonal = float(np.linalg.norm(np.ptp(vertices, axis=0)))
     rows = [
         *_find_patches(vertices, faces, normal, areas, pairs),
-        *_find_loops(vertices, faces, corners, normal, pairs),
+        *_find_loops(vertices, faces, corners, pairs),
     ]
     return Creases(
         np.array([row[0] for row in rows]).reshape(-1, _SAMPLES, 3),
@@ -61,6 +58,30 @@ def find_creases(vertices: Floats, faces: Ints) -> Creases:
         np.array([row[3] for row in rows], dtype=np.bool_),
         diagonal,
     )
+
+
+def drop_degenerate(vertices: Floats, faces: Ints) -> Ints:
+    """Those of some faces (m, 3) that have an area."""
+    corners = vertices[faces]
+    areas = np.linalg.norm(cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1)
+    proper: Ints = faces[areas > 1e-12 * max(float(areas.max(initial=0.0)), np.finfo(float).tiny)]
+    return proper
+
+
+def find_concave(corners: Floats, pairs: Ints) -> Bools:
+    """Whether the surface turns inward between each of some pairs (k, 2) of triangles, of corners (m, 3, 3)."""
+    normal, _ = _find_normals(corners)
+    one, other = normal[pairs[:, 0]], normal[pairs[:, 1]]
+    away = corners[pairs[:, 1]].mean(axis=1) - corners[pairs[:, 0]].mean(axis=1)
+    found: Bools = (np.einsum("ij,ij->i", one, away) > 0) & (np.linalg.norm(cross(one, other), axis=1) > _CONCAVE)
+    return found
+
+
+def _find_normals(corners: Floats) -> tuple[Floats, Floats]:
+    """The normals (m, 3) and areas (m,) [m^2] of triangles with corners (m, 3, 3)."""
+    normal = cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    areas = np.linalg.norm(normal, axis=1) / 2
+    return normal / (2 * areas[:, None]), areas
 
 
 _Row = tuple[Floats, float, Floats, bool]
@@ -82,12 +103,10 @@ def _find_patches(vertices: Floats, faces: Ints, normal: Floats, areas: Floats, 
     return found
 
 
-def _find_loops(vertices: Floats, faces: Ints, corners: Floats, normal: Floats, pairs: Ints) -> list[_Row]:
+def _find_loops(vertices: Floats, faces: Ints, corners: Floats, pairs: Ints) -> list[_Row]:
     if not len(pairs):
         return []
-    away = corners[pairs[:, 1]].mean(axis=1) - corners[pairs[:, 0]].mean(axis=1)
-    turn = np.linalg.norm(cross(normal[pairs[:, 0]], normal[pairs[:, 1]]), axis=1)
-    concave = pairs[(np.einsum("ij,ij->i", normal[pairs[:, 0]], away) > 0) & (turn > _CONCAVE)]
+    concave = pairs[find_concave(corners, pairs)]
     shared = (np.intersect1d(faces[a], faces[b])[:2] for a, b in concave.tolist())
     edges = np.array([both for both in shared if len(both) == 2], dtype=np.int64).reshape(-1, 2)
     if not len(edges):

@@ -1,5 +1,5 @@
 """Fine convex pieces of a surface, none of which reaches over a part boundary that the surface shows: each connected
-solid decomposed by itself, its pieces cut at creases."""
+solid decomposed by itself, its pieces cut at creases; by the region of the surface that they are of."""
 
 from __future__ import annotations
 
@@ -18,6 +18,7 @@ from meshforge.geometry.arrays import Floats, Ints
 from meshforge.geometry.convex import FLATNESS, convex_hull, principal_extents
 from meshforge.geometry.decomposition.creases import cut_at_creases, find_creases
 from meshforge.geometry.decomposition.engines import CoacdSettings, DecomposeSettings, VhacdSettings
+from meshforge.geometry.decomposition.regions import group_by_region
 from meshforge.geometry.decomposition.run import cache_key, decompose, read_entry, write_entry
 from meshforge.geometry.decomposition.triangles import TriangleMesh, clean_triangles, is_sheet, sheet_hulls
 from meshforge.geometry.shape import Polytope, volume_and_centroid
@@ -36,8 +37,8 @@ _MOST = 80  # components that are decomposed, the largest
 
 def decompose_finely(
     vertices: Floats, faces: Ints, engine: PieceEngine = "coacd", *, cache: Path | None = None
-) -> tuple[Polytope, ...]:
-    """Fine convex pieces of vertices (n, 3) [m] and faces (m, 3), the same for the same input.
+) -> tuple[tuple[Polytope, ...], ...]:
+    """Fine convex pieces of vertices (n, 3) [m] and faces (m, 3), by region, the same for the same input.
 
     engine: which makes them; cache: a folder for the pieces and for results of the engine, None keeps none.
     Raises GeometryError: nothing that has an area, a coordinate that is not finite.
@@ -45,13 +46,13 @@ def decompose_finely(
     mesh, settings = clean_triangles(vertices, faces), FINE_SETTINGS[engine]
     key = _cache_key(mesh, settings)
     if cache and (known := read_entry(cache, key)) is not None:
-        return tuple(Polytope(*piece) for piece in known)
+        return group_by_region([Polytope(*piece) for piece in known], mesh.vertices, mesh.faces)
     failed: list[GeometryError] = []
     pieces = _decompose_mesh(mesh, settings, cache, failed)
     if cache and not failed:  # an engine that was killed may not be the next time
         with suppress(OSError):  # a cache that cannot be written costs time alone
             write_entry(cache, key, [(piece.vertices, piece.faces) for piece in pieces])
-    return pieces
+    return group_by_region(pieces, mesh.vertices, mesh.faces)
 
 
 def _cache_key(mesh: TriangleMesh, settings: DecomposeSettings) -> str:
