@@ -26,6 +26,7 @@ from meshforge.symbolic import Hull, Label, SymbolicMesh
 
 CELLS = 32
 """Cells that a hull is cut into, where it is not too thin."""
+_LEAST_REST = 0.005  # a share of other labels is at least this, for its logarithm
 _LEAST = 0.15  # of a cell's width that must lie on each side of a plane which cuts it
 _NEAR_WORTH, _PICTURE_WORTH = 3.0, 0.5  # of what is close to a cell, and of the picture of the whole, beside hulls
 _NEAREST = 40  # cells of labelled hulls that are looked at
@@ -112,6 +113,11 @@ class AssetCells(AssetPieces):
         return found
 
     @cached_property
+    def region_of(self) -> Ints:
+        """Each cell is a region by itself: nothing shows which are of one part."""
+        return np.arange(len(self.owner))
+
+    @cached_property
     def surroundings(self) -> Floats:
         """What is around each cell (cells, columns), as `describe_surroundings` has it of hulls."""
         if not self.mesh.hulls:
@@ -187,10 +193,12 @@ class CellPosterior(SpanPosterior):
         return np.minimum(super().chances_of(mesh), _MOST_SURE)
 
     def collect_evidence(self, mesh: int) -> Floats:
-        """What the probability is made from (hulls, 5): one, what cells say (2), the logarithm of its volume by the
-        mean of the hulls of the asset, and how many hulls it touches."""
+        """What the probability is made from (hulls, 5): one, and the logit of how often a hull spans parts where labels
+        are drawn; the logit of the share of other labels by the likeliest label of each cell; the logarithm of the
+        hull's volume by the mean of the hulls of the asset, and how many hulls it touches."""
         own = self.assets[mesh].mesh
+        rest = np.clip(1 - self.main_shares(mesh), _LEAST_REST, 1 - _LEAST_REST)
         volumes = np.maximum([hull.volume for hull in own.hulls], np.finfo(float).tiny)
         touching = np.bincount(np.array(sorted(own.contacts), np.int64).ravel(), minlength=len(own.hulls))
         size = np.log(volumes / volumes.mean()) if len(volumes) else volumes
-        return np.column_stack([super().collect_evidence(mesh), size, touching])
+        return np.column_stack([super().collect_evidence(mesh), np.log(rest / (1 - rest)), size, touching])

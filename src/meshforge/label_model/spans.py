@@ -9,7 +9,6 @@ from dataclasses import dataclass
 from functools import cache, cached_property
 from importlib.resources import files
 from itertools import islice
-from typing import Any
 
 import numpy as np
 
@@ -20,8 +19,7 @@ from meshforge.symbolic import Hull, Label, SymbolicMesh
 WEIGHTS_FILE = "spans.json"
 WHOLE = 0.9
 """A hull of which one label has this share, by volume of what it stands for, is of one part."""
-_LEAST_REST = 0.005  # a share of other labels is at least this, for its logarithm
-_LEAST_DRAWN = 0.002  # and how often a hull spans parts
+_LEAST_DRAWN = 0.002  # how often a hull spans parts is at least this, for its logarithm
 _DRAWS = 512  # of the labels of all pieces
 _MOST = 0.8  # how much a label is believed that a piece takes from the hull that it lies in
 _ALL = 0.85  # of a piece, from which a hull has nearly all of it
@@ -34,9 +32,8 @@ _SHARPNESS = 0.6  # exponent of both, since they have much of their evidence in 
 
 @cache
 def span_weights(key: str = "weights") -> Floats:
-    """The weights of the evidence: (3,) of one, and of the logits of the share of other labels and of how often a hull
-    spans parts where labels are drawn; key: "weights" of hulls that stand for a surface, "cells" of others, by the
-    evidence of `CellPosterior`."""
+    """The weights of the evidence: (2,) of one, and of the logit of how often a hull spans parts where labels are
+    drawn; key: "weights" of hulls that stand for a surface, "cells" of others, by the evidence of `CellPosterior`."""
     read = json.loads(files("meshforge.label_model").joinpath(WEIGHTS_FILE).read_text("utf-8"))
     found = np.array(read[key], dtype=float)
     found.flags.writeable = False
@@ -152,7 +149,7 @@ class SpanModel:
         weights: Floats | None = None,
     ) -> SpanPosterior:
         """What labels say: of the hulls of all meshes in order, None for an unlabelled one; piece_labels: of all pieces
-        in order, where they are known; weights: (3,), None for those that ship."""
+        in order, where they are known; weights: (2,), None for those that ship."""
         rows = _deal(labels, [len(asset.mesh.hulls) for asset in self.assets])
         said = [asset.take_labels(own) for asset, own in zip(self.assets, rows, strict=True)]
         if piece_labels is not None:
@@ -198,6 +195,15 @@ class SpanPosterior:
         common = self.assets[mesh].common
         return _scale(common @ self.chances[mesh], common.sum(axis=1))
 
+    def main_shares(self, mesh: int) -> Floats:
+        """The share (hulls,) of the label that has most of each hull, where each piece has its likeliest label."""
+        common, chances = self.assets[mesh].common, self.chances[mesh]
+        if not chances.size:
+            return np.ones(len(common))
+        likeliest = np.eye(chances.shape[1])[chances.argmax(axis=1)]
+        found: Floats = _scale(common @ likeliest, common.sum(axis=1)).max(axis=1)
+        return found
+
     def chances_of(self, mesh: int) -> Floats:
         """The probability that each hull (hulls,) holds more than one label; 0 where it stands for nothing."""
         evidence = self.collect_evidence(mesh)
@@ -205,15 +211,12 @@ class SpanPosterior:
         return np.where(self.assets[mesh].common.sum(axis=1) > 0, found, 0.0)
 
     def collect_evidence(self, mesh: int) -> Floats:
-        """What the probability is made from (hulls, 3), as `span_weights` has it."""
-        common, chances = self.assets[mesh].common, self.chances[mesh]
-        if not chances.size:
-            return np.tile(np.array([1.0, -5.0, -6.0]), (len(common), 1))
-        held = common.sum(axis=1)
-        likeliest = np.eye(chances.shape[1])[chances.argmax(axis=1)]
-        rest = np.clip(1 - _scale(common @ likeliest, held).max(axis=1), _LEAST_REST, 1 - _LEAST_REST)
-        drawn = np.clip(_draw_spans(_scale(common, held), chances), _LEAST_DRAWN, 1 - _LEAST_DRAWN)
-        return np.column_stack([np.ones(len(rest)), _logit(rest) - _logit(1 - WHOLE), _logit(drawn)])
+        """What the probability is made from (hulls, 2), as `span_weights` has it."""
+        asset, chances = self.assets[mesh], self.chances[mesh]
+        shares = _scale(asset.common, asset.common.sum(axis=1))
+        drawn = _draw_spans(shares, chances, asset.region_of) if chances.size else np.zeros(len(shares))
+        drawn = np.clip(drawn, _LEAST_DRAWN, 1 - _LEAST_DRAWN)
+        return np.column_stack([np.ones(len(drawn)), np.log(drawn / (1 - drawn))])
 
     def divide(self, mesh: int, hull: int) -> tuple[HullPart, ...]:
         """The parts that a hull is divided into; one alone where it is not to be divided."""
@@ -251,15 +254,11 @@ def _deal(items: Sequence[Label | None], counts: Sequence[int]) -> list[list[Lab
     return [list(islice(rest, count)) for count in counts]
 
 
-def _logit(shares: Any) -> Any:
-    return np.log(shares / (1 - shares))
-
-
-def _draw_spans(shares: Floats, chances: Floats) -> Floats:
-    """How often no label has `WHOLE` of a hull (hulls,), where labels of pieces are drawn one by one by their
-    probabilities (pieces, labels); shares: (hulls, pieces) of what a hull stands for."""
+def _draw_spans(shares: Floats, chances: Floats, region_of: Ints) -> Floats:
+    """How often no label has `WHOLE` of a hull (hulls,), where labels of pieces are drawn by their probabilities
+    (pieces, labels), together for those of one region; shares: (hulls, pieces) of what a hull stands for."""
     ends = np.cumsum(chances, axis=1)
-    drawn = np.random.default_rng(0).random((_DRAWS, len(chances)))
+    drawn = np.random.default_rng(0).random((_DRAWS, region_of.max(initial=-1) + 1))[:, region_of]
     codes = (drawn[:, :, None] * ends[None, :, -1:] > ends[None]).sum(axis=2)
     most = np.zeros((len(shares), _DRAWS))
     for label in range(chances.shape[1]):
