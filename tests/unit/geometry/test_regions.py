@@ -4,31 +4,29 @@ from __future__ import annotations
 
 from itertools import chain
 
-import manifold3d
 import numpy as np
 import pytest
+from manifold3d import Manifold
 
 from meshforge.geometry import Floats, Ints, Polytope, decompose_finely
 from meshforge.geometry.decomposition.creases import drop_degenerate
 from meshforge.geometry.decomposition.regions import find_regions, group_by_region
 
-Solid = manifold3d.Manifold
 
-
-def block(size: tuple[float, float, float], middle: tuple[float, float, float]) -> Solid:
-    return Solid.cube(size, True).translate(middle)
+def block(size: tuple[float, float, float], middle: tuple[float, float, float]) -> Manifold:
+    return Manifold.cube(size, True).translate(middle)
 
 
 PLATE = block((0.6, 0.6, 0.05), (0, 0, 0))
 POST = block((0.1, 0.1, 0.4), (0.1, 0, 0.2))
 
 
-def surface(solid: Solid) -> tuple[Floats, Ints]:
+def surface(solid: Manifold) -> tuple[Floats, Ints]:
     mesh = solid.to_mesh()
     return np.asarray(mesh.vert_properties)[:, :3].astype(float), np.asarray(mesh.tri_verts).astype(np.int64)
 
 
-def count(solid: Solid) -> int:
+def count(solid: Manifold) -> int:
     vertices, faces = surface(solid)
     return len(np.unique(find_regions(vertices, drop_degenerate(vertices, faces))))
 
@@ -37,7 +35,7 @@ def count(solid: Solid) -> int:
     ("solid", "regions"),
     [
         (PLATE, 1),
-        (Solid.sphere(0.3, 48), 1),
+        (Manifold.sphere(0.3, 48), 1),
         (PLATE + POST, 2),
         (PLATE + POST + POST.translate((-0.2, 0, 0)), 3),
         (PLATE - POST.translate((0, 0, -0.1)), 1),
@@ -54,7 +52,7 @@ def count(solid: Solid) -> int:
         "a flush wall",
     ],
 )
-def test_a_region_ends_at_concave_edges(solid: Solid, regions: int) -> None:
+def test_a_region_ends_at_concave_edges(solid: Manifold, regions: int) -> None:
     assert count(solid) == regions
 
 
@@ -66,7 +64,7 @@ def test_pieces_are_grouped_by_the_region_they_are_of() -> None:
 
 
 def test_solids_apart_are_regions_apart_and_no_piece_is_lost() -> None:
-    both = Solid.compose([PLATE + POST, block((0.2, 0.2, 0.2), (1, 0, 0))])
+    both = Manifold.compose([PLATE + POST, block((0.2, 0.2, 0.2), (1, 0, 0))])
     vertices, faces = surface(both)
     pieces = list(chain(*decompose_finely(vertices, faces)))
     found = group_by_region(pieces, vertices, faces)

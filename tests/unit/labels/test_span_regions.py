@@ -22,7 +22,9 @@ def stool(width: float, height: float, slices: int = 1, regions: bool = True) ->
 def slice_leg(leg: Polytope, height: float, slices: int) -> list[Polytope]:
     found = list[Polytope]()
     for k in range(1, slices):
-        below, leg = cut(leg, np.array([0, 0, height * (k / slices) ** 3]), np.array([0.0, 0.0, 1.0]))
+        below, above = cut(leg, np.array([0, 0, height * (k / slices) ** 3]), np.array([0.0, 0.0, 1.0]))
+        assert below and above
+        leg = above
         found.append(below)
     return [*found, leg]
 
