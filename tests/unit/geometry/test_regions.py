@@ -18,6 +18,7 @@ def block(size: tuple[float, float, float], middle: tuple[float, float, float]) 
 
 
 PLATE = block((0.6, 0.6, 0.05), (0, 0, 0))
+ROUND = Manifold.cylinder(0.4, 0.2, 0.2, 48)
 POST = block((0.1, 0.1, 0.4), (0.1, 0, 0.2))
 
 
@@ -35,7 +36,7 @@ def count(solid: Manifold) -> int:
     ("solid", "regions"),
     [
         (PLATE, 1),
-        (Manifold.sphere(0.3, 48), 1),
+        (ROUND, 1),
         (PLATE + POST, 2),
         (PLATE + POST + POST.translate((-0.2, 0, 0)), 3),
         (PLATE - POST.translate((0, 0, -0.1)), 1),
@@ -44,7 +45,7 @@ def count(solid: Manifold) -> int:
     ],
     ids=[
         "a box",
-        "a sphere",
+        "a round rod",
         "a post on a plate",
         "two posts",
         "a hole",

@@ -60,7 +60,7 @@ def answer(project: Project, choice: int | None, later: bool = False) -> ReviewQ
 def test_it_is_asked_what_a_hull_holds_how_sure_that_is_and_which_parts_it_would_have(project: Project) -> None:
     question = ask(project)
     assert question.kind == "span" and question.hulls == ((question.asset, HULL),)
-    assert question.text.startswith(f"{HULL} of {question.asset} holds seat and leg, 8")
+    assert question.text.startswith(f"{HULL} of {question.asset} holds seat and leg, 9")
     assert question.text.endswith("%: split so?")
     assert [choice.text.split(" (")[0] for choice in question.choices] == ["split so: leg", "no, it is one part"]
     assert "seat (" in question.choices[0].text
