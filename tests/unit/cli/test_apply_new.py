@@ -125,7 +125,7 @@ def test_what_is_less_sure_than_asked_is_held_and_reported(run: Run) -> None:
     assert "held       c.urdf: " in told.out and "% sure; " in told.out
     told = run("apply", "p", "new", "--out", "out", "--workers", "1", "--sure", "0.5", "--json", "--report", "r.html")
     line = json.loads(told.out)
-    assert 0.5 <= line["probability"] <= line["split"][0]["chance"]
+    assert 0.5 <= line["probability"] <= line["split"][0]["chance"] + 0.001, "the chance has three digits"
     assert any("%: into " in doubt["text"] for doubt in line["doubts"])
     assert "%: into " in Path("r.html").read_text()
 
