@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import os
+import signal
 import traceback
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
 
+_SECONDS = 120  # that the work may take; it would hang for ever where a lock was held while forking
 needs_fork = pytest.mark.skipif(not hasattr(os, "fork"), reason="this system cannot fork")
 
 
@@ -35,6 +37,7 @@ def _survives(work: Callable[[], object], rename: int, calls: tuple[str, ...]) -
 
 
 def _work_and_die(work: Callable[[], object], renames: int, calls: tuple[str, ...]) -> None:
+    signal.alarm(_SECONDS)
     done = 0
 
     def count(real: Callable[..., object]) -> Callable[..., object]:
