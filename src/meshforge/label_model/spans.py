@@ -118,7 +118,7 @@ class AssetPieces:
 
     def pieces_of(self, hull: int) -> Ints:
         """The pieces that a hull stands for: those that it meets, but for what another hull has nearly all of."""
-        held = self.common / np.array([max(piece.shape.volume, 1e-300) for piece in self.pieces.hulls])
+        held = self.common / np.maximum(self.volumes, 1e-300)
         others = np.delete(held, hull, axis=0).max(axis=0, initial=0.0)
         found: Ints = np.flatnonzero((held[hull] > 0) & ((others < _ALL) | (held[hull] >= others)))
         return found
@@ -232,8 +232,7 @@ class SpanPosterior:
         """
         asset, chances = self.assets[mesh], self.chances[mesh]
         pieces = [piece.shape.tessellate() for piece in asset.pieces.hulls]
-        volumes = np.array([piece.volume for piece in pieces])
-        common = asset.common[hulls]
+        volumes, common = asset.volumes, asset.common[hulls]
         own = np.flatnonzero(common.sum(axis=0) >= _WITHIN * volumes)
         if not own.size:
             return ()
