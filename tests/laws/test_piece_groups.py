@@ -10,7 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from meshforge.geometry import Box, Floats, Ints, Polytope, Pose, convex_hull, merge_pieces, volume_of_union
-from meshforge.geometry.solids import list_hulls_within
+from meshforge.geometry.interior import Interior
 
 sizes = st.floats(0.05, 0.5).map(lambda x: round(x, 3))
 places = st.floats(-1, 1).map(lambda x: round(x, 3))
@@ -72,7 +72,7 @@ def test_no_pieces_are_no_groups() -> None:
 @settings(max_examples=25, deadline=None)
 @given(boxes, boxes)
 def test_what_a_shape_has_of_a_solid_is_held_and_nothing_beyond(solid: Polytope, shape: Polytope) -> None:
-    found = list_hulls_within([shape], solid.vertices, solid.faces)
+    found = Interior(solid.vertices, solid.faces).list_hulls([shape])
     common = volume_of_union([solid]) + shape.volume - volume_of_union([solid, shape])
     assert sum(one.volume for one in found) >= common * (1 - 1e-3) - 1e-9
     if found:
@@ -84,14 +84,14 @@ def test_two_legs_in_one_shape_are_two_pieces_and_the_gap_is_free() -> None:
     legs = [box((x, 0, 0), (0.1, 0.1, 0.5)) for x in (-0.4, 0.4)]
     vertices, faces = _stack(legs)
     around = convex_hull(np.concatenate([leg.vertices for leg in legs]))
-    found = list_hulls_within([around], vertices, faces)
+    found = Interior(vertices, faces).list_hulls([around])
     assert [one.volume for one in found] == pytest.approx([leg.volume for leg in legs])
 
 
 def test_where_triangles_enclose_nothing_shapes_stay_as_they_are() -> None:
     shape = box((0, 0, 0), (0.1, 0.1, 0.1))
     flat = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0]])
-    assert list_hulls_within([shape], flat, np.array([[0, 1, 2]])) == [shape]
+    assert Interior(flat, np.array([[0, 1, 2]])).list_hulls([shape]) == [shape]
 
 
 def _stack(solids: list[Polytope]) -> tuple[Floats, Ints]:

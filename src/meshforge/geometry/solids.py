@@ -12,14 +12,12 @@ import manifold3d
 import numpy as np
 
 from meshforge.common import GeometryError
-from meshforge.geometry.arrays import Aabb, Floats, Ints
+from meshforge.geometry.arrays import Aabb, Floats
 from meshforge.geometry.convex import convex_hull, spans_volume
 from meshforge.geometry.round_shapes import Capsule, Cylinder, Ellipsoid, Sphere
 from meshforge.geometry.shape import Box, Polytope, Shape
 
 _SEGMENTS = 96  # segments of a round primitive; the surface is off by about 0.1% of the radius then
-_FILLED = 0.98  # of a shape, from which a solid fills it
-_CRUMB = 1e-4  # of a shape: a smaller piece of a solid in it is none
 
 
 def overlap_volume(a: Shape, b: Shape) -> float:
@@ -48,7 +46,7 @@ def to_manifold(shape: Shape, bounds: Aabb) -> Any:
     match shape:
         case Polytope() | Box():
             hull = shape.tessellate()
-            return _manifold_of_hull(_scale(hull.vertices, bounds), hull)
+            return _manifold_of_hull(scale_points(hull.vertices, bounds), hull)
         case Sphere() | Ellipsoid() | Cylinder() | Capsule():
             fine = _tessellate(shape)
             grown = np.cbrt(shape.volume / fine.volume())  # of equal volume, it errs to both sides of the surface
@@ -58,7 +56,7 @@ def to_manifold(shape: Shape, bounds: Aabb) -> Any:
             raise TypeError(f"no solid of a shape of kind {shape.kind}")
 
 
-def _scale(vertices: Floats, bounds: Aabb) -> Floats:
+def scale_points(vertices: Floats, bounds: Aabb) -> Floats:
     """Vertices (n, 3) where `bounds` has a diagonal of one about the origin."""
     found: Floats = (vertices - bounds.center) / bounds.diagonal
     return found
@@ -261,28 +259,3 @@ def section(shape: Polytope, point: Floats, normal: Floats) -> tuple[float, floa
     except QhullError:  # a line
         return 0.0, 0.0
     return float(outline.volume), float(outline.area)
-
-
-def list_hulls_within(shapes: Sequence[Polytope], vertices: Floats, faces: Ints) -> list[Polytope]:
-    """The convex hulls of what shapes have of a solid, one of each connected piece; shapes that it nearly fills stay.
-
-    vertices: (n, 3) [m] and faces (m, 3) of the solid; where they enclose none, all shapes stay as they are.
-    """
-    used, corners = np.unique(faces, return_inverse=True)
-    bounds = Aabb.of_points(vertices[used])
-    mesh = manifold3d.Mesh64(_scale(vertices[used], bounds), corners.reshape(-1, 3).astype(np.uint64))
-    solid = manifold3d.Manifold(mesh)
-    if solid.status() != manifold3d.Error.NoError or solid.volume() <= 0:
-        return list(shapes)
-    found = list[Polytope]()
-    for shape in shapes:
-        whole = to_manifold(shape, bounds)
-        filled = solid ^ whole
-        if filled.volume() >= _FILLED * whole.volume():
-            found.append(shape)
-            continue
-        for part in filled.decompose():
-            points = np.asarray(part.to_mesh64().vert_properties, dtype=np.float64)[:, :3]
-            if part.volume() > _CRUMB * whole.volume() and len(points) > 3 and spans_volume(points):
-                found.append(convex_hull(points * bounds.diagonal + bounds.center, name="a piece of a solid"))
-    return found

@@ -226,9 +226,9 @@ class SpanPosterior:
         return divide(asset.mesh.hulls[hull].shape, pieces, self.chances[mesh][own])
 
     def rebuild(self, mesh: int, hulls: Ints) -> tuple[tuple[int, HullPart], ...]:
-        """New hulls for what some hulls (n,) stand for together: fine pieces of one label, joined where a convex hull
-        around them adds little; each with the old hull that has most of it. Pieces of which no half is in hulls are
-        left out.
+        """New hulls for what some hulls (n,) stand for together: fine pieces of one label and region, joined where a
+        convex hull around them adds little; each with the old hull that has most of it. Pieces of which no half is in
+        hulls are left out.
         """
         asset, chances = self.assets[mesh], self.chances[mesh]
         pieces = [piece.shape.tessellate() for piece in asset.pieces.hulls]
@@ -236,9 +236,9 @@ class SpanPosterior:
         own = np.flatnonzero(common.sum(axis=0) >= _WITHIN * volumes)
         if not own.size:
             return ()
-        groups = merge_pieces(
-            [pieces[place] for place in own.tolist()], chances[own].argmax(axis=1), _SLIVER * float(volumes[own].sum())
-        )
+        labels = chances[own].argmax(axis=1)
+        kinds = asset.region_of[own] * chances.shape[1] + labels
+        groups = merge_pieces([pieces[place] for place in own.tolist()], kinds, _SLIVER * float(volumes[own].sum()))
         found = list[tuple[int, HullPart]]()
         for group in groups:
             members = own[list(group.members)]

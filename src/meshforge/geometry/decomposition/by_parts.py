@@ -167,13 +167,14 @@ def _share_settings(
     counts = _share_count(most, np.array([np.linalg.norm(sizes[k]) for k in numbers]))
     if 0 < most < len(numbers):
         note(f"{pluralize(len(numbers), 'part')} cannot share {pluralize(most, 'hull')}: each part gets one")
-    return {k: _settings_of(settings, sizes[k], whole, own) for k, own in zip(numbers, counts, strict=True)}
+    return {k: scale_settings(settings, sizes[k], whole, own) for k, own in zip(numbers, counts, strict=True)}
 
 
-def _settings_of(
+def scale_settings(
     settings: engines.DecomposeSettings, size: Floats, whole: Floats, most: int
 ) -> engines.DecomposeSettings:
-    """The settings of a part of some extents (3,) [m] of a whole of others; most: its share of the hulls."""
+    """The settings of a part of some extents (3,) [m] of a whole of others, so that they mean for it what they mean for
+    the whole; most: its share of the hulls."""
     if isinstance(settings, engines.CoacdSettings):
         ratio = float(whole.max() / size.max()) if size.max() > 0 and not settings.real_metric else 1.0
         threshold = settings.threshold if ratio == 1.0 else float(np.clip(settings.threshold * ratio, _LOW, _HIGH))

@@ -3,6 +3,7 @@ around it; and pieces cut along their planes."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -10,6 +11,7 @@ import numpy as np
 from meshforge.common import GeometryError
 from meshforge.geometry import connectivity
 from meshforge.geometry.arrays import Bools, Floats, Ints, cross
+from meshforge.geometry.interior import Interior
 from meshforge.geometry.shape import Polytope
 from meshforge.geometry.solids import cut, section
 from meshforge.geometry.surface import heights_above, neighbour_faces, sample_surface
@@ -21,8 +23,15 @@ _PATCHES, _LOOPS = 200, 60  # that are looked at, the largest
 _SAMPLES = 48  # points that stand for a patch or a loop
 _COVER = {"patch": 0.4, "loop": 0.5}  # of a section that a patch, or of its outline that a loop has, to end a part
 _DEEP = 2e-3  # of the surface's diagonal: a cut that takes less off is none
+_ABOVE = 1e-5  # of the surface's diagonal: cuts are so far outside of a patch
 _LEAST = 0.01  # of a piece's volume: as above
-_DEPTH = 6  # cuts through one piece, one after the other
+_LITTLE = 0.05  # of what the surface encloses of a piece, below which what a half has of it must be compact
+_LOOSE = 3.0  # times what the surface encloses, that the hulls of compact pieces have at most
+_CRUMB = 1e-4  # of a piece, that is enclosed: with less it is not cut
+_FILLED = 0.93  # of the hulls of what is enclosed of a piece: one that is fuller need not be cut to be tighter
+_GAIN = 0.05  # of what is enclosed of a piece, that a cut must take off these hulls
+_TRIES = 12  # creases that are tried, those of most cover
+_DEPTH = 8  # cuts through one piece, one after the other
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -30,13 +39,15 @@ class Creases:
     """Planes where parts may end.
 
     points: (p, s, 3) [m] that stand for each patch or loop; sizes: (p,) its area [m^2] or length [m]; normals: (p, 3);
-    loops: (p,) whether it is a loop; diagonal: of the surface [m].
+    loops: (p,) whether it is a loop; planes: (p,) the number of the plane, which patches may share; diagonal: of the
+    surface [m].
     """
 
     points: Floats
     sizes: Floats
     normals: Floats
     loops: Bools
+    planes: Ints
     diagonal: float
 
 
@@ -51,13 +62,21 @@ def find_creases(vertices: Floats, faces: Ints) -> Creases:
         *_find_patches(vertices, faces, normal, areas, pairs),
         *_find_loops(vertices, faces, corners, pairs),
     ]
-    return Creases(
-        np.array([row[0] for row in rows]).reshape(-1, _SAMPLES, 3),
-        np.array([row[1] for row in rows]),
-        np.array([row[2] for row in rows]).reshape(-1, 3),
-        np.array([row[3] for row in rows], dtype=np.bool_),
-        diagonal,
-    )
+    points = np.array([row[0] for row in rows]).reshape(-1, _SAMPLES, 3)
+    normals = np.array([row[2] for row in rows]).reshape(-1, 3)
+    loops = np.array([row[3] for row in rows], dtype=np.bool_)
+    planes = _number_planes(points.mean(axis=1), normals, loops, _DEEP / 2 * diagonal)
+    return Creases(points, np.array([row[1] for row in rows]), normals, loops, planes, diagonal)
+
+
+def _number_planes(middles: Floats, normals: Floats, loops: Bools, near: float) -> Ints:
+    """The number (p,) of the plane of each crease about a middle (p, 3) across a normal (p, 3); patches whose middles
+    are at most `near` [m] from each other's planes share one."""
+    away = np.abs(np.einsum("ijk,jk->ij", middles[:, None] - middles[None], normals))
+    same = (np.maximum(away, away.T) <= near) & (np.abs(normals @ normals.T) >= _LEVEL) & ~(loops | loops[:, None])
+    one, other = np.nonzero(same)
+    found: Ints = connectivity.component_roots(one, other, len(middles))
+    return found
 
 
 def drop_degenerate(vertices: Floats, faces: Ints) -> Ints:
@@ -143,43 +162,84 @@ def _spread(sizes: Floats) -> Ints:
     return places
 
 
-def cut_at_creases(piece: Polytope, creases: Creases) -> list[Polytope]:
-    """The convex parts of a piece between the creases that go through it."""
-    return _cut(piece, creases, _DEPTH)
+def cut_at_creases(piece: Polytope, creases: Creases, interior: Interior) -> list[Polytope]:
+    """The convex parts of a piece between the creases that go through it, none mostly outside of the surface."""
+    return _cut(piece, creases, interior, _DEPTH)
 
 
-def _cut(piece: Polytope, creases: Creases, depth: int) -> list[Polytope]:
-    best = _choose(piece, creases) if depth and len(creases.sizes) else None
+def _cut(piece: Polytope, creases: Creases, interior: Interior, depth: int) -> list[Polytope]:
+    best = _choose(piece, creases, interior) if depth and len(creases.sizes) else None
     if best is None:
         return [piece]
-    return [half for part in best for half in _cut(part, creases, depth - 1)]
+    return [half for part in best for half in _cut(part, creases, interior, depth - 1)]
 
 
-def _choose(piece: Polytope, creases: Creases) -> tuple[Polytope, Polytope] | None:
+def _choose(piece: Polytope, creases: Creases, interior: Interior) -> tuple[Polytope, Polytope] | None:
     """The two halves of a piece at the crease that has most of its section there, None where none has enough."""
+    volume = interior.measure(piece)
+    if volume <= _CRUMB * piece.volume:
+        return None
     deep = _DEEP * creases.diagonal
     inside = _is_inside(creases.points.reshape(-1, 3), piece, deep / 4).reshape(creases.points.shape[:2])
-    share = inside.mean(axis=1)
+    within = inside.mean(axis=1) * creases.sizes
+    total = np.bincount(creases.planes, weights=within)
     covers = list[tuple[float, int]]()
-    for place in np.flatnonzero(share > 0).tolist():
+    for place in np.flatnonzero(within > 0).tolist():
         at, across = creases.points[place][inside[place]].mean(axis=0), creases.normals[place]
         heights = (piece.vertices - at) @ across
         if min(float(heights.max()), float(-heights.min())) < deep:
             continue
         area, perimeter = section(piece, at, across)
         kind, whole = ("loop", perimeter) if creases.loops[place] else ("patch", area)
-        cover = float(share[place]) * float(creases.sizes[place]) / max(whole, np.finfo(float).tiny)
-        if cover >= _COVER[kind]:
-            covers.append((-min(cover, 1.0), place))
-    for _, place in sorted(covers):
-        at = creases.points[place][inside[place]].mean(axis=0)
-        try:
-            below, above = cut(piece, at, creases.normals[place])
-        except GeometryError:
+        cover = float(total[creases.planes[place]]) / max(whole, np.finfo(float).tiny)
+        covers.append((-min(cover / _COVER[kind], 2.0), place))
+    halves = ((-less >= 1, _cut_along(piece, creases, inside, place)) for less, place in sorted(covers)[:_TRIES])
+    left = list[tuple[Polytope, Polytope]]()
+    for ends, both in halves:
+        if both is None or min(half.volume for half in both) < _LEAST * piece.volume:
             continue
-        if below and above and min(below.volume, above.volume) >= _LEAST * piece.volume:
-            return below, above
-    return None
+        if ends and _leaves_compact(*both, interior):
+            return both
+        left.append(both)
+    return _choose_tightest(piece, volume, left, interior)
+
+
+def _cut_along(piece: Polytope, creases: Creases, inside: Bools, place: int) -> tuple[Polytope, Polytope] | None:
+    """The two halves of a piece at one crease; None where one is none. What lies below a patch is in one of them."""
+    across = creases.normals[place]
+    at = creases.points[place][inside[place]].mean(axis=0) + _ABOVE * creases.diagonal * across
+    try:
+        below, above = cut(piece, at, across)
+    except GeometryError:
+        return None
+    return (below, above) if below and above else None
+
+
+def _choose_tightest(
+    piece: Polytope, volume: float, halves: Sequence[tuple[Polytope, Polytope]], interior: Interior
+) -> tuple[Polytope, Polytope] | None:
+    """The halves of which the hulls are smallest, where the interior, of which a piece has a volume [m^3], fills little
+    of the hulls around that."""
+    whole = _measure_hulls([piece], interior) if halves else 0.0
+    if volume >= _FILLED * whole:
+        return None
+    sums = [_measure_hulls(both, interior) for both in halves]
+    best = int(np.argmin(sums))
+    return halves[best] if whole - sums[best] >= _GAIN * volume else None
+
+
+def _measure_hulls(shapes: Sequence[Polytope], interior: Interior) -> float:
+    """The volume [m^3] of the hulls of what shapes have of the interior."""
+    return sum(hull.volume for hull in interior.list_hulls(shapes))
+
+
+def _leaves_compact(below: Polytope, above: Polytope, interior: Interior) -> bool:
+    """Whether a half that has little of the interior has that in compact pieces: a stub of a part, not a shaving."""
+    volumes = [interior.measure(half) for half in (below, above)]
+    little = int(volumes[1] < volumes[0])
+    if volumes[little] >= _LITTLE * sum(volumes):
+        return True
+    return _measure_hulls([(below, above)[little]], interior) <= _LOOSE * volumes[little]
 
 
 def _is_inside(points: Floats, piece: Polytope, margin: float) -> Bools:

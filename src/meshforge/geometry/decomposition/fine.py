@@ -4,7 +4,7 @@ solid decomposed by itself, its pieces cut at creases; by the region of the surf
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from importlib.metadata import version
 from pathlib import Path
@@ -16,21 +16,24 @@ from meshforge.common import GeometryError
 from meshforge.geometry import connectivity
 from meshforge.geometry.arrays import Floats, Ints
 from meshforge.geometry.convex import FLATNESS, convex_hull, principal_extents
-from meshforge.geometry.decomposition.creases import cut_at_creases, find_creases
+from meshforge.geometry.decomposition.by_parts import scale_settings
+from meshforge.geometry.decomposition.creases import Creases, cut_at_creases, find_creases
 from meshforge.geometry.decomposition.engines import CoacdSettings, DecomposeSettings, VhacdSettings
-from meshforge.geometry.decomposition.regions import group_by_region
+from meshforge.geometry.decomposition.regions import group_by_region, list_region_solids
 from meshforge.geometry.decomposition.run import cache_key, decompose, read_entry, write_entry
 from meshforge.geometry.decomposition.triangles import TriangleMesh, clean_triangles, is_sheet, sheet_hulls
+from meshforge.geometry.interior import Interior
 from meshforge.geometry.shape import Polytope, volume_and_centroid
-from meshforge.geometry.solids import list_hulls_within
+from meshforge.geometry.solids import volume_of_union
 
 FINE = CoacdSettings(threshold=0.05, resolution=500, mcts_iterations=20, mcts_nodes=10, mcts_max_depth=2)
 """CoACD's settings for fine pieces: those of its authors, but for a shorter search, for time."""
 PieceEngine = Literal["coacd", "vhacd"]
 FINE_SETTINGS: Mapping[PieceEngine, DecomposeSettings] = {"coacd": FINE, "vhacd": VhacdSettings(resolution=100_000)}
 """The settings for fine pieces of each engine; V-HACD's are those of its authors, with fewer voxels, for time."""
-_VERSION = 1  # of what is made of an engine's pieces; another one after any change, so that the cache forgets
+_VERSION = 3  # of what is made of an engine's pieces; another one after any change, so that the cache forgets
 _CONVEX = 0.995  # of the volume of its convex hull: such a solid is one piece
+_COMPLETE = 0.97  # of a solid's volume, that pieces of its regions must make up
 _SMALL = 0.03  # of the surface's diagonal: a smaller component is one piece
 _MOST = 80  # components that are decomposed, the largest
 
@@ -57,7 +60,7 @@ def decompose_finely(
 
 def _cache_key(mesh: TriangleMesh, settings: DecomposeSettings) -> str:
     """A digest of geometry, settings, and the versions of all that makes the pieces."""
-    text = f"pieces {_VERSION} {version('manifold3d')} {cache_key(mesh, settings)}"
+    text = f"fine pieces {_VERSION} {version('manifold3d')} {cache_key(mesh, settings)}"
     return hashlib.blake2b(text.encode(), digest_size=20).hexdigest()
 
 
@@ -71,9 +74,12 @@ def _decompose_mesh(
     least = max(_SMALL * mesh.diagonal, sorted(sizes, reverse=True)[_MOST - 1] if len(sizes) >= _MOST else 0.0)
     pieces: list[Polytope] = []
     for solid, size in zip(solids, sizes, strict=True):
-        found = _decompose_solid(mesh.vertices, solid, settings if size >= least else None, cache, failed)
-        parts = [part for piece in found for part in cut_at_creases(piece, creases)]
-        pieces += list_hulls_within(parts, mesh.vertices, solid) if len(parts) > 1 else parts
+        own = settings if size >= least else None
+        found = _decompose_regions(mesh.vertices, solid, own, cache, failed, creases) if own else []
+        if not found:
+            whole = _decompose_solid(mesh.vertices, solid, own, cache, failed)
+            found = _cut_pieces(whole, creases, Interior(mesh.vertices, solid))
+        pieces += found
     if not pieces:
         raise GeometryError("the surface has no piece that spans an area")
     return tuple(pieces)
@@ -98,6 +104,33 @@ def _find_solids(vertices: Floats, faces: Ints) -> list[Ints]:
 def _is_within(vertices: Floats, inner: Ints, outer: Ints) -> bool:
     a, b = vertices[inner].reshape(-1, 3), vertices[outer].reshape(-1, 3)
     return bool((a.min(axis=0) >= b.min(axis=0)).all() and (a.max(axis=0) <= b.max(axis=0)).all())
+
+
+def _decompose_regions(
+    vertices: Floats,
+    faces: Ints,
+    settings: DecomposeSettings,
+    cache: Path | None,
+    failed: list[GeometryError],
+    creases: Creases,
+) -> list[Polytope]:
+    """The pieces of a solid, region by region, so that none reaches over a concave edge between two; nothing where that
+    does not make up the solid, or an engine failed."""
+    whole, size = Interior(vertices, faces), np.ptp(vertices[faces], axis=(0, 1))
+    found, before = list[Polytope](), len(failed)
+    for region in list_region_solids(vertices, faces):
+        own = scale_settings(settings, np.ptp(region.vertices[region.faces], axis=(0, 1)), size, -1)
+        pieces = _decompose_solid(region.vertices, region.faces, own, cache, failed)
+        interior = whole if region.open_edges else Interior(region.vertices, region.faces)
+        found += _cut_pieces(interior.list_hulls(pieces), creases, interior)
+    made_up = len(failed) == before and volume_of_union(found) >= _COMPLETE * volume_and_centroid(vertices, faces)[0]
+    return found if made_up else []
+
+
+def _cut_pieces(pieces: Sequence[Polytope], creases: Creases, interior: Interior) -> list[Polytope]:
+    """Pieces cut at creases, and drawn tight around what the interior has of their parts."""
+    parts = [part for piece in pieces for part in cut_at_creases(piece, creases, interior)]
+    return interior.list_hulls(parts) if len(parts) > 1 else parts
 
 
 def _decompose_solid(

@@ -7,13 +7,18 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from meshforge.common import GeometryError
 from meshforge.geometry import connectivity
 from meshforge.geometry.arrays import Floats, Ints
 from meshforge.geometry.decomposition.creases import drop_degenerate, find_concave
-from meshforge.geometry.shape import Polytope
-from meshforge.geometry.surface import neighbour_faces, sample_surface
+from meshforge.geometry.decomposition.parts import SurfaceParts, join_small_parts
+from meshforge.geometry.decomposition.triangles import TriangleMesh, cap_holes, clean_triangles
+from meshforge.geometry.interior import Interior
+from meshforge.geometry.shape import Polytope, volume_and_centroid
+from meshforge.geometry.surface import is_closed, neighbour_faces, sample_surface
 
 _POINTS, _OWN_POINTS = 20_000, 400  # that stand for the surface, and for that of a piece
+_ROUGH = 0.3  # of the size of a hole between regions: how uneven its rim may be
 _NEAR = 0.01  # of the surface's diagonal, within which a point of a piece lies on the surface
 
 
@@ -22,6 +27,30 @@ def find_regions(vertices: Floats, faces: Ints) -> Ints:
     pairs = neighbour_faces(faces)
     concave = find_concave(vertices[faces], pairs)
     return connectivity.component_roots(pairs[~concave, 0], pairs[~concave, 1], len(faces))
+
+
+def list_region_solids(vertices: Floats, faces: Ints) -> list[TriangleMesh]:
+    """What the regions of a solid, of welded vertices (n, 3) [m] and faces (m, 3), enclose of it: each with the holes
+    closed where it meets others, as far as these lie about in planes. Nothing where one region encloses all, or the
+    solid is open.
+    """
+    proper = drop_degenerate(vertices, faces)
+    numbers, regions = np.unique(find_regions(vertices, proper), return_inverse=True)
+    if len(numbers) == 1 or not is_closed(faces):
+        return []
+    joined = join_small_parts(vertices, proper, SurfaceParts(regions, tuple(map(str, numbers.tolist()))))
+    interior, found = Interior(vertices, faces), list[TriangleMesh]()
+    for number in joined.numbers:
+        try:
+            mesh, _ = cap_holes(clean_triangles(vertices, proper[joined.of_face == number]), _ROUGH)
+        except GeometryError:  # flat: it encloses nothing
+            continue
+        if mesh.open_edges:
+            found.append(mesh)
+        elif volume_and_centroid(mesh.vertices, mesh.faces)[0] > 0:  # else it bounds a hollow of another
+            corners, triangles = interior.clip(mesh.vertices, mesh.faces)
+            found += [TriangleMesh(corners, triangles, 0)] if len(triangles) else []
+    return found if len(found) > 1 else []
 
 
 def group_by_region(pieces: Sequence[Polytope], vertices: Floats, faces: Ints) -> tuple[tuple[Polytope, ...], ...]:

@@ -1,0 +1,71 @@
+"""What a surface encloses, by manifold3d: how much of it shapes have, and the convex hulls of that."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import manifold3d
+import numpy as np
+
+from meshforge.geometry.arrays import Aabb, Floats, Ints
+from meshforge.geometry.convex import convex_hull, spans_volume
+from meshforge.geometry.shape import Polytope
+from meshforge.geometry.solids import scale_points, to_manifold
+
+_FILLED = 0.98  # of a shape, from which a solid fills it
+_CRUMB = 1e-4  # of a shape: a smaller piece of a solid in it is none
+
+
+class Interior:
+    """What a surface of vertices (n, 3) [m] and faces (m, 3) encloses; everything where it encloses nothing."""
+
+    def __init__(self, vertices: Floats, faces: Ints) -> None:
+        self._bounds = Aabb.of_points(vertices[np.unique(faces)])
+        solid = _manifold_of_surface(vertices, faces, self._bounds)
+        is_solid = solid.status() == manifold3d.Error.NoError and solid.volume() > 0
+        self._solid: Any = solid if is_solid else None
+
+    def measure(self, shape: Polytope) -> float:
+        """The volume [m^3] that a shape has of it."""
+        if self._solid is None:
+            return shape.volume
+        return float((self._solid ^ to_manifold(shape, self._bounds)).volume()) * self._bounds.diagonal**3
+
+    def clip(self, vertices: Floats, faces: Ints) -> tuple[Floats, Ints]:
+        """The surface of what another one, of vertices (n, 3) [m] and faces (m, 3), encloses of it; that one as it is
+        where nearly all of what it encloses is within."""
+        other = _manifold_of_surface(vertices, faces, self._bounds)
+        if self._solid is None or other.status() != manifold3d.Error.NoError:
+            return vertices, faces
+        common = self._solid ^ other
+        if common.volume() >= _FILLED * other.volume():
+            return vertices, faces
+        mesh = common.to_mesh64()
+        corners = np.asarray(mesh.vert_properties, dtype=np.float64)[:, :3] * self._bounds.diagonal
+        return corners + self._bounds.center, np.asarray(mesh.tri_verts).astype(np.int64)
+
+    def list_hulls(self, shapes: Sequence[Polytope]) -> list[Polytope]:
+        """The convex hulls of what shapes have of it, one of each connected piece; shapes that it nearly fills stay."""
+        if self._solid is None:
+            return list(shapes)
+        found = list[Polytope]()
+        for shape in shapes:
+            whole = to_manifold(shape, self._bounds)
+            filled = self._solid ^ whole
+            if filled.volume() >= _FILLED * whole.volume():
+                found.append(shape)
+                continue
+            for part in filled.decompose():
+                points = np.asarray(part.to_mesh64().vert_properties, dtype=np.float64)[:, :3]
+                if part.volume() > _CRUMB * whole.volume() and len(points) > 3 and spans_volume(points):
+                    center, size = self._bounds.center, self._bounds.diagonal
+                    found.append(convex_hull(points * size + center, name="a piece of a solid"))
+        return found
+
+
+def _manifold_of_surface(vertices: Floats, faces: Ints, bounds: Aabb) -> Any:
+    """What vertices (n, 3) and faces (m, 3) enclose; its status tells whether that is a solid."""
+    used, corners = np.unique(faces, return_inverse=True)
+    mesh = manifold3d.Mesh64(scale_points(vertices[used], bounds), corners.reshape(-1, 3).astype(np.uint64))
+    return manifold3d.Manifold(mesh)
