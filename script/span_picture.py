@@ -14,7 +14,7 @@ from meshforge.batch import IN_PROCESS
 from meshforge.common import join_and
 from meshforge.geometry import CoacdSettings
 from meshforge.labels import HullSpan
-from meshforge.project import Project, SplitSettings
+from meshforge.project import SPLIT_DEFAULTS, Project, SplitSettings
 from meshforge.rendering import color_hulls, make_contact_sheet, write_png
 from meshforge.rendering.canvas import Canvas
 from meshforge.rendering.hull_names import place_texts
@@ -26,7 +26,6 @@ CUP = "coarse_mug/model.urdf"
 """The cup that is decomposed anew: CoACD merges both ends of its handle with the wall, and the wall with the base."""
 LABELLED = ("mug/model.urdf", "square_mug/model.urdf")
 """The cups whose hulls have labels."""
-_SURE = 0.7
 _SIZE = (560, 460)
 _COARSE = CoacdSettings(threshold=0.2)
 
@@ -36,18 +35,18 @@ def draw_spans(path: Path) -> None:
     with tempfile.TemporaryDirectory() as scratch:
         project = create_project(Path(scratch))
         spans = project.list_spans(execution=IN_PROCESS).spans_of(CUP)
-        found = {span.hull: span for span in spans if span.chance >= _SURE}
+        found = {span.hull: span for span in spans if span.chance >= SPLIT_DEFAULTS.sure}
         pictures, titles = (
             [_draw(project, found)],
             [f"as decomposed: {_count(project)}, of which {len(found)} span parts"],
         )
-        list(project.split_spanning([CUP], SplitSettings(_SURE), execution=IN_PROCESS))
+        list(project.split_spanning([CUP], execution=IN_PROCESS))
         pictures.append(_draw(project))
-        titles.append(f"--split-spanning --sure {_SURE}: {_count(project)}")
+        titles.append(f"--split-spanning: {_count(project)}")
         project.unprepare(CUP)
-        list(project.split_spanning([CUP], SplitSettings(_SURE, rebuild=True), execution=IN_PROCESS))
+        list(project.split_spanning([CUP], SplitSettings(rebuild=True), execution=IN_PROCESS))
         pictures.append(_draw(project))
-        titles.append(f"--rebuild-spanning --sure {_SURE}: {_count(project)}")
+        titles.append(f"--rebuild-spanning: {_count(project)}")
         write_png(path, make_contact_sheet(pictures, columns=len(pictures), titles=titles))
 
 
