@@ -39,7 +39,7 @@ def merge_pieces(pieces: Sequence[Polytope], kinds: Ints, sliver: float = 0.0) -
     """Join pieces that touch, are of one kind (n,), and whose convex hull adds at most 15%, the least first.
 
     Each piece is in one group. A group of one is the piece as it is. In the order of the first member. sliver: [m^3] a
-    smaller group is then joined to one of any kind, whose hull grows by no more than that.
+    smaller group is then joined to one of any kind, whose hull grows by no more than that beside what the group fills.
     """
     merger = _Merger(pieces, kinds)
     merger.run()
@@ -83,7 +83,8 @@ class _Merger:
             self._touching[other].add(place)
 
     def join_slivers(self, least: float) -> None:
-        """Join groups below a volume to the neighbour of any kind whose hull grows least, by at most that volume."""
+        """Join groups below a volume to the neighbour of any kind whose hull grows least, by at most that volume beside
+        their own."""
         for place in sorted(self.groups, key=lambda k: (self.groups[k].volume, k)):
             own = self.groups[place]
             if own.volume >= least:
@@ -91,7 +92,7 @@ class _Merger:
             hulls = [(k, self._enclose(k, place)) for k in sorted(self._touching[place])]
             found = [(shape.volume - self.groups[k].shape.volume, k, shape) for k, shape in hulls]
             grown, other, shape = min(found, key=lambda row: row[:2], default=(np.inf, -1, own.shape))
-            if grown <= least:
+            if grown <= least + own.volume:
                 self._replace((other, place), other, _unite(self.groups[other], own, shape))
 
     def _propose(self, place: int, others: Iterable[int]) -> None:
