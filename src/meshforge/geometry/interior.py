@@ -12,6 +12,7 @@ from meshforge.geometry.arrays import Aabb, Floats, Ints
 from meshforge.geometry.convex import convex_hull, spans_volume
 from meshforge.geometry.shape import Polytope
 from meshforge.geometry.solids import scale_points, to_manifold
+from meshforge.geometry.surface import has_border
 
 _FILLED = 0.98  # of a shape, from which a solid fills it
 _CRUMB = 1e-4  # of a shape: a smaller piece of a solid in it is none
@@ -22,9 +23,8 @@ class Interior:
 
     def __init__(self, vertices: Floats, faces: Ints) -> None:
         self._bounds = Aabb.of_points(vertices[np.unique(faces)])
-        solid = _manifold_of_surface(vertices, faces, self._bounds)
-        is_solid = solid.status() == manifold3d.Error.NoError and solid.volume() > 0
-        self._solid: Any = solid if is_solid else None
+        solid = _find_solid(vertices, faces, self._bounds)
+        self._solid = solid if solid is not None and solid.volume() > 0 else None
 
     def measure(self, shape: Polytope) -> float:
         """The volume [m^3] that a shape has of it."""
@@ -35,8 +35,8 @@ class Interior:
     def clip(self, vertices: Floats, faces: Ints) -> tuple[Floats, Ints]:
         """The surface of what another one, of vertices (n, 3) [m] and faces (m, 3), encloses of it; that one as it is
         where nearly all of what it encloses is within."""
-        other = _manifold_of_surface(vertices, faces, self._bounds)
-        if self._solid is None or other.status() != manifold3d.Error.NoError:
+        other = _find_solid(vertices, faces, self._bounds)
+        if self._solid is None or other is None:
             return vertices, faces
         common = self._solid ^ other
         if common.volume() >= _FILLED * other.volume():
@@ -64,8 +64,15 @@ class Interior:
         return found
 
 
-def _manifold_of_surface(vertices: Floats, faces: Ints, bounds: Aabb) -> Any:
-    """What vertices (n, 3) and faces (m, 3) enclose; its status tells whether that is a solid."""
+def _find_solid(vertices: Floats, faces: Ints, bounds: Aabb) -> Any | None:
+    """What vertices (n, 3) [m] and faces (m, 3) enclose, in the coordinates of `to_manifold`; None where that is
+    no solid.
+
+    manifold3d 3.5.4 refuses most surfaces with a border, and crashes on some.
+    """
+    if has_border(faces):
+        return None
     used, corners = np.unique(faces, return_inverse=True)
     mesh = manifold3d.Mesh64(scale_points(vertices[used], bounds), corners.reshape(-1, 3).astype(np.uint64))
-    return manifold3d.Manifold(mesh)
+    solid = manifold3d.Manifold(mesh)
+    return solid if solid.status() == manifold3d.Error.NoError else None

@@ -22,10 +22,20 @@ def is_closed(faces: Ints) -> bool:
     """Whether every edge of faces (m, 3) lies in exactly two of them, once in each sense."""
     if len(faces) == 0:
         return False
-    start, end = faces.ravel(), faces[:, [1, 2, 0]].ravel()
-    count = int(faces.max()) + 1
-    along, against = np.sort(start * count + end), np.sort(end * count + start)
+    along, against = _number_edges(faces)
     return bool((along[1:] > along[:-1]).all() and (along == against).all())
+
+
+def has_border(faces: Ints) -> bool:
+    """Whether an edge of faces (m, 3) lies in more of them in one sense than in the other."""
+    return not np.array_equal(*_number_edges(faces))
+
+
+def _number_edges(faces: Ints) -> tuple[Ints, Ints]:
+    """A number for each edge of faces (m, 3) in its sense (3m,), and one in the other, each in order."""
+    start, end = faces.ravel(), faces[:, [1, 2, 0]].ravel()
+    count = int(faces.max(initial=0)) + 1
+    return np.sort(start * count + end), np.sort(end * count + start)
 
 
 def is_convex_hull(vertices: Floats, faces: Ints, tolerance: float) -> bool:
