@@ -33,7 +33,7 @@ from meshforge.labels.hull_arrays import HULL_ARRAYS, pack_hulls, unpack_hulls
 from meshforge.store import Store
 from meshforge.symbolic import HUMAN_SOURCES, Surface, SymbolicMesh
 
-_LAYOUT = 2  # of the file of pieces: by body, and by region from 2 on
+_LAYOUT = 3  # of kept pieces: by body and region from 2 on, each region decomposed alone from 3 on
 _SHOWN = 0.1  # of what a hull stands for: labels of smaller shares are not named
 
 
