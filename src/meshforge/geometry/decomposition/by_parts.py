@@ -17,13 +17,19 @@ from meshforge.geometry.convex import convex_hull
 from meshforge.geometry.decomposition import engines
 from meshforge.geometry.decomposition.parts import SurfaceParts, join_small_parts
 from meshforge.geometry.decomposition.run import UNCONTROLLED, decompose
-from meshforge.geometry.decomposition.triangles import cap_holes, clean_triangles, is_line, is_sheet, sheet_hulls
+from meshforge.geometry.decomposition.triangles import (
+    ROUGH_RIM,
+    cap_holes,
+    clean_triangles,
+    is_line,
+    is_sheet,
+    sheet_hulls,
+)
 from meshforge.geometry.shape import Polytope
 from meshforge.geometry.solids import intersect
 from meshforge.geometry.surface import rises_above
 
 _WITHIN = 1e-6  # of the size: a hull that rises above the hull of its part by less is within it
-_ROUGH = 0.3  # of the size of a hole that a cut leaves: how uneven its rim may be, along triangles or around a curve
 _LEAST_VOXELS = 10_000  # of a part, for V-HACD, unless the whole is to have fewer
 _LOW, _HIGH = 0.01, 1.0  # the limits of CoACD's threshold
 
@@ -110,7 +116,7 @@ class _PartRun:
         """A part with the holes closed that its cut from the rest leaves, whose rims are only about planar."""
         if not self._close or is_sheet(points):
             return points, triangles
-        mesh, _ = cap_holes(clean_triangles(points, triangles), _ROUGH)
+        mesh, _ = cap_holes(clean_triangles(points, triangles), ROUGH_RIM)
         return (points, triangles) if mesh.open_edges else (mesh.vertices, mesh.faces)
 
     def _run(self, points: Floats, triangles: Ints, name: str, settings: engines.DecomposeSettings) -> list[Polytope]:

@@ -12,13 +12,12 @@ from meshforge.geometry import connectivity
 from meshforge.geometry.arrays import Floats, Ints
 from meshforge.geometry.decomposition.creases import drop_degenerate, find_concave
 from meshforge.geometry.decomposition.parts import SurfaceParts, join_small_parts
-from meshforge.geometry.decomposition.triangles import TriangleMesh, cap_holes, clean_triangles
+from meshforge.geometry.decomposition.triangles import ROUGH_RIM, TriangleMesh, cap_holes, clean_triangles
 from meshforge.geometry.interior import Interior
 from meshforge.geometry.shape import Polytope, volume_and_centroid
 from meshforge.geometry.surface import is_closed, neighbour_faces, sample_surface
 
 _POINTS, _OWN_POINTS = 20_000, 400  # that stand for the surface, and for that of a piece
-_ROUGH = 0.3  # of the size of a hole between regions: how uneven its rim may be
 _NEAR = 0.01  # of the surface's diagonal, within which a point of a piece lies on the surface
 
 
@@ -42,7 +41,7 @@ def list_region_solids(vertices: Floats, faces: Ints) -> list[TriangleMesh]:
     interior, found = Interior(vertices, faces), list[TriangleMesh]()
     for number in joined.numbers:
         try:
-            mesh, _ = cap_holes(clean_triangles(vertices, proper[joined.of_face == number]), _ROUGH)
+            mesh, _ = cap_holes(clean_triangles(vertices, proper[joined.of_face == number]), ROUGH_RIM)
         except GeometryError:  # flat: it encloses nothing
             continue
         if mesh.open_edges:

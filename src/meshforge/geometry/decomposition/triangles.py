@@ -21,6 +21,8 @@ from meshforge.geometry.shape import Box, Polytope, volume_and_centroid
 from meshforge.geometry.solids import intersect
 from meshforge.geometry.surface import is_closed
 
+ROUGH_RIM = 0.3
+"""Of the size of a hole between two parts: how uneven its rim may be, along triangles or around a curve."""
 _FLAT = 1e-7  # an extent below this share of the largest spans no volume
 _LEVEL = 1e-3  # a hole is planar when it is level within this share of the mesh's diagonal
 _THICK = 0.1  # of the length: thick enough for voxels and cuts, thin enough to count as a sheet
