@@ -176,8 +176,9 @@ class Expert:
 
 def _asks_another(last: dict[str, Any] | None, hello: dict[str, Any]) -> bool:
     """Whether all is worked out, and something else is asked than before."""
-    over = not hello["learning"] and not hello["assessing"] and hello["outcome"] is not None
-    return over and open_question(hello) != last
+    over = not hello["learning"] and not hello["assessing"]
+    known = (hello["outcome"] or {}).get("question") or (hello["outcome"] and hello["assessment"] is not None)
+    return bool(over and known) and open_question(hello) != last
 
 
 def open_question(hello: dict[str, Any]) -> dict[str, Any] | None:

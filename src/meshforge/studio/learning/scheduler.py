@@ -50,14 +50,14 @@ class LearningScheduler:
 
     def restart(self) -> None:
         """Start a learning run, in place of the one that is under way."""
-        number = self._stop()
-        if not self._can_learn():
+        learns = self._can_learn()
+        number = self._stop(assessing=learns)
+        if not learns:
             self._pages.set_outcome(None, learning=False)
             self.measure_reach()
             self.assess()
             return
         self._pages.set_outcome(self._pages.outcome, learning=True)
-        self._pages.set_assessment(None, assessing=True)
         with self._lock:
             if number == self._number:
                 self._timer = Timer(RESTART_DELAY, self._begin, [number])
@@ -119,14 +119,15 @@ class LearningScheduler:
         self._stop()
         self._learner.close()
 
-    def _stop(self) -> int:
+    def _stop(self, assessing: bool = False) -> int:
+        """Stop what is under way. assessing: edits will be judged anew, so that no page sees an end in between."""
         with self._lock:
             self._number += 1
             if self._timer:
                 self._timer.cancel()
             number = self._number
         self._learner.interrupt()
-        self._pages.set_assessment(None, assessing=False)
+        self._pages.set_assessment(None, assessing)
         return number
 
     def _begin(self, number: int) -> None:
