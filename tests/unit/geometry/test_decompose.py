@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from meshforge.common import GeometryError, UsageError
-from meshforge.geometry import Floats, Ints, is_convex
+from meshforge.geometry import Floats, Ints, Polytope, is_convex
 from meshforge.geometry.decomposition import engines
 from meshforge.geometry.decomposition.engines import (
     CoacdSettings,
@@ -18,7 +18,15 @@ from meshforge.geometry.decomposition.engines import (
     EngineControl,
     VhacdSettings,
 )
-from meshforge.geometry.decomposition.run import cache_folder, cache_key, decompose, read_entry, write_entry
+from meshforge.geometry.decomposition.run import (
+    cache_folder,
+    cache_key,
+    decompose,
+    decompose_solids,
+    read_entry,
+    read_solid,
+    write_entry,
+)
 from meshforge.geometry.decomposition.triangles import clean_triangles
 
 QUICK = CoacdSettings(resolution=200, mcts_iterations=20, mcts_nodes=8)
@@ -125,6 +133,49 @@ def test_an_engine_that_ends_without_a_result_is_an_error(monkeypatch: pytest.Mo
     fake_engine(monkeypatch, tmp_path, "")
     with pytest.raises(GeometryError, match=r"vhacd crashed \(exit code 0: no message\)"):
         decompose(*CUBE, COARSE)
+
+
+_CRASH_ON_A_CUBE = """
+import os, sys
+from meshforge.geometry.decomposition import worker
+
+def run(vertices, faces, settings):
+    return os.abort() if len(vertices) == 8 else known(vertices, faces, settings)
+
+known, worker._run_coacd = worker._run_coacd, run
+worker.main(*sys.argv[1:])
+"""
+
+
+def test_each_of_several_solids_is_decomposed_as_it_is_alone(tmp_path: Path) -> None:
+    solids = [
+        read_solid(*L_SHAPE, QUICK, close=False),
+        read_solid(*CUBE, COARSE, close=False),
+        read_solid(L_SHAPE[0] * [1, 1, 2], L_SHAPE[1], QUICK, close=False),
+        read_solid(*L_SHAPE, QUICK, close=False),
+    ]
+    decompose(*CUBE, COARSE, cache=tmp_path)
+    alone = [decompose(mesh.vertices, mesh.faces, settings) for mesh, settings in solids]
+    for cache in (None, tmp_path, tmp_path):
+        together = decompose_solids(solids, cache)
+        assert [_contents(found) for found in together] == [_contents(found) for found in alone]
+    assert decompose_solids([], tmp_path) == []
+
+
+def test_a_crash_on_one_of_several_solids_leaves_the_others(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    solids = [read_solid(*shape, QUICK, close=False) for shape in (CUBE, L_SHAPE, CUBE, L_SHAPE, CUBE)]
+    alone = decompose(*L_SHAPE, QUICK)
+    fake_engine(monkeypatch, tmp_path, _CRASH_ON_A_CUBE)
+    found = decompose_solids(solids, tmp_path / "cache")
+    assert [isinstance(one, GeometryError) for one in found] == [True, False, True, False, True]
+    assert all(_contents(one) == _contents(alone) for one in found[1::2])
+    assert "crashed (exit code -6" in str(found[2])
+    assert len(list((tmp_path / "cache").rglob("*.npz"))) == 1
+
+
+def _contents(found: list[Polytope] | GeometryError) -> list[bytes]:
+    assert not isinstance(found, GeometryError)
+    return [hull.vertices.tobytes() for hull in found]
 
 
 def hanging_engine(folder: Path) -> str:

@@ -20,9 +20,10 @@ engine.wait()
 
 @pytest.mark.skipif(sys.platform != "linux", reason="only Linux ends a process with the one that started it")
 def test_an_engine_ends_with_the_process_that_started_it(tmp_path: Path) -> None:
-    pipe = tmp_path / "mesh.npz"
+    pipe = tmp_path / worker.MESH.format(0)
     os.mkfifo(pipe)
-    words = [sys.executable, "-c", _CALLER, worker.__file__, str(pipe), str(tmp_path / "out.npz"), "{}"]
+    (tmp_path / worker.JOBS).write_text('[{"engine": "coacd"}]')
+    words = [sys.executable, "-c", _CALLER, worker.__file__, str(tmp_path), "0"]
     with subprocess.Popen(words, stdout=subprocess.PIPE, text=True) as caller:
         assert caller.stdout
         engine = int(caller.stdout.readline())

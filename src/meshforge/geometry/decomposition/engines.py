@@ -13,7 +13,7 @@ import sys
 import tempfile
 import threading
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import asdict, dataclass, field, fields
 from multiprocessing import parent_process
 from pathlib import Path
@@ -25,6 +25,7 @@ from meshforge.common import GeometryError, UsageError
 from meshforge.geometry.arrays import Floats, Ints
 from meshforge.geometry.decomposition import worker
 from meshforge.geometry.decomposition.triangles import TriangleMesh
+from meshforge.geometry.decomposition.worker import JOBS, MESH, PIECES
 
 
 def _option(default: Any, help: str, low: float | None = None, high: float | None = None, *choices: str) -> Any:
@@ -129,23 +130,34 @@ class EngineControl:
     timeout: float | None = None
 
 
-def run_engine(mesh: TriangleMesh, settings: DecomposeSettings, control: EngineControl) -> list[EnginePiece]:
-    """The pieces that the engine makes of the mesh.
+EngineJob = tuple[TriangleMesh, DecomposeSettings]
+"""A mesh, and how to decompose it."""
 
-    Raises GeometryError: the engine crashed or took too long; DecompositionCancelledError.
+
+def run_engine(jobs: Sequence[EngineJob], control: EngineControl) -> list[list[EnginePiece] | GeometryError]:
+    """The pieces that engines make of meshes, one after the other in one process, or why there are none: an engine
+    crashed. After a crash another process goes on with the next mesh, so each result is what it is alone.
+
+    Raises GeometryError: the engines took too long; DecompositionCancelledError.
     """
-    with tempfile.TemporaryDirectory(prefix="meshforge-") as folder:
-        source, target = Path(folder, "mesh.npz"), Path(folder, "pieces.npz")
-        np.savez(source, vertices=mesh.vertices, faces=mesh.faces)
-        job = json.dumps({"engine": settings.engine, **settings.as_dict()})
-        command = [sys.executable, "-P", worker.__file__, str(source), str(target), job]
-        log = Path(folder, "errors.txt")
-        with log.open("wb") as errors:
-            code = _supervise(command, errors.fileno(), control)
-        if code != 0 or not target.exists():
-            remedy = "Try other settings (preprocess_mode, threshold), the other engine, or fix the mesh."
-            raise GeometryError(f"{settings.engine} crashed ({_last_message(log, code)})", remedy=remedy)
-        return unpack_pieces(target.read_bytes())
+    with tempfile.TemporaryDirectory(prefix="meshforge-") as name:
+        folder, found = Path(name), list[list[EnginePiece] | GeometryError]()
+        for number, (mesh, _) in enumerate(jobs):
+            np.savez(folder / MESH.format(number), vertices=mesh.vertices, faces=mesh.faces)
+        rows = [{"engine": settings.engine, **settings.as_dict()} for _, settings in jobs]
+        (folder / JOBS).write_text(json.dumps(rows))
+        log = folder / "errors.txt"
+        while len(found) < len(jobs):
+            command = [sys.executable, "-P", worker.__file__, name, str(len(found))]
+            with log.open("wb") as errors:
+                code = _supervise(command, errors.fileno(), control)
+            while (result := folder / PIECES.format(len(found))).exists():
+                found.append(unpack_pieces(result.read_bytes()))
+            if len(found) < len(jobs):
+                problem = f"{jobs[len(found)][1].engine} crashed ({_last_message(log, code)})"
+                remedy = "Try other settings (preprocess_mode, threshold), the other engine, or fix the mesh."
+                found.append(GeometryError(problem, remedy=remedy))
+    return found
 
 
 def _supervise(command: list[str], errors: int, control: EngineControl) -> int:

@@ -6,7 +6,10 @@ from __future__ import annotations
 import hashlib
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
+from dataclasses import dataclass
+from functools import partial
 from importlib.metadata import version
+from itertools import chain, islice
 from pathlib import Path
 from typing import Literal
 
@@ -18,9 +21,21 @@ from meshforge.geometry.arrays import Floats, Ints
 from meshforge.geometry.convex import FLATNESS, convex_hull, principal_extents
 from meshforge.geometry.decomposition.by_parts import scale_settings
 from meshforge.geometry.decomposition.creases import Creases, cut_at_creases, find_creases
-from meshforge.geometry.decomposition.engines import CoacdSettings, DecomposeSettings, VhacdSettings
+from meshforge.geometry.decomposition.engines import (
+    CoacdSettings,
+    DecomposeSettings,
+    EngineJob,
+    VhacdSettings,
+)
 from meshforge.geometry.decomposition.regions import group_by_region, list_region_solids
-from meshforge.geometry.decomposition.run import cache_key, decompose, read_entry, write_entry
+from meshforge.geometry.decomposition.run import (
+    cache_key,
+    decompose,
+    decompose_solids,
+    read_entry,
+    read_solid,
+    write_entry,
+)
 from meshforge.geometry.decomposition.triangles import TriangleMesh, clean_triangles, is_sheet, sheet_hulls
 from meshforge.geometry.interior import Interior
 from meshforge.geometry.shape import Polytope, volume_and_centroid
@@ -36,6 +51,7 @@ _CONVEX = 0.995  # of the volume of its convex hull: such a solid is one piece
 _COMPLETE = 0.97  # of a solid's volume, that pieces of its regions must make up
 _SMALL = 0.03  # of the surface's diagonal: a smaller component is one piece
 _MOST = 80  # components that are decomposed, the largest
+_NAME = "a piece of the surface"
 
 
 def decompose_finely(
@@ -50,8 +66,7 @@ def decompose_finely(
     key = _cache_key(mesh, settings)
     if cache and (known := read_entry(cache, key)) is not None:
         return group_by_region([Polytope(*piece) for piece in known], mesh.vertices, mesh.faces)
-    failed: list[GeometryError] = []
-    pieces = _decompose_mesh(mesh, settings, cache, failed)
+    pieces, failed = _decompose_mesh(mesh, settings, cache)
     if cache and not failed:  # an engine that was killed may not be the next time
         with suppress(OSError):  # a cache that cannot be written costs time alone
             write_entry(cache, key, [(piece.vertices, piece.faces) for piece in pieces])
@@ -64,25 +79,53 @@ def _cache_key(mesh: TriangleMesh, settings: DecomposeSettings) -> str:
     return hashlib.blake2b(text.encode(), digest_size=20).hexdigest()
 
 
+@dataclass(frozen=True, eq=False, slots=True)
+class _Solid:
+    """Vertices (n, 3) [m] and faces (m, 3), and how these are decomposed; settings: None where they are one piece."""
+
+    vertices: Floats
+    faces: Ints
+    settings: DecomposeSettings | None
+    is_open: bool = False
+
+
+_Result = list[Polytope] | GeometryError
+"""The pieces of a solid, or why an engine made none."""
+
+
 def _decompose_mesh(
-    mesh: TriangleMesh, settings: DecomposeSettings, cache: Path | None, failed: list[GeometryError]
-) -> tuple[Polytope, ...]:
-    """The pieces of a mesh. failed: gets why an engine failed on a solid."""
+    mesh: TriangleMesh, settings: DecomposeSettings, cache: Path | None
+) -> tuple[list[Polytope], list[GeometryError]]:
+    """The pieces of a mesh, of each solid region by region, so that none reaches over a concave edge between two; of
+    the solid as a whole where those do not make it up. Also why an engine failed on any."""
     creases = find_creases(mesh.vertices, mesh.faces)
+    solids = _list_solids(mesh, settings)
+    regions = [_list_regions(solid) for solid in solids]
+    made = _decompose_groups([own or [solid] for solid, own in zip(solids, regions, strict=True)], cache)
+    found = [
+        _join_regions(solid, own, rows, creases) if own else _cut_whole(solid, rows[0], creases)
+        for solid, own, rows in zip(solids, regions, made, strict=True)
+    ]
+    again = [place for place, pieces in enumerate(found) if pieces is None]
+    wholes = _decompose_groups([[solids[place]] for place in again], cache)
+    for place, rows in zip(again, wholes, strict=True):
+        found[place] = _cut_whole(solids[place], rows[0], creases)
+    failed = [row for rows in (*made, *wholes) for row in rows if isinstance(row, GeometryError)]
+    pieces = [piece for own in found if own for piece in own]
+    if not pieces:
+        raise GeometryError("the surface has no piece that spans an area")
+    return pieces, failed
+
+
+def _list_solids(mesh: TriangleMesh, settings: DecomposeSettings) -> list[_Solid]:
+    """The solids of a mesh, small ones and all but the largest of many as one piece each."""
     solids = _find_solids(mesh.vertices, mesh.faces)
     sizes = [float(np.linalg.norm(np.ptp(mesh.vertices[solid], axis=(0, 1)))) for solid in solids]
     least = max(_SMALL * mesh.diagonal, sorted(sizes, reverse=True)[_MOST - 1] if len(sizes) >= _MOST else 0.0)
-    pieces: list[Polytope] = []
-    for solid, size in zip(solids, sizes, strict=True):
-        own = settings if size >= least else None
-        found = _decompose_regions(mesh.vertices, solid, own, cache, failed, creases) if own else []
-        if not found:
-            whole = _decompose_solid(mesh.vertices, solid, own, cache, failed)
-            found = _cut_pieces(whole, creases, Interior(mesh.vertices, solid))
-        pieces += found
-    if not pieces:
-        raise GeometryError("the surface has no piece that spans an area")
-    return tuple(pieces)
+    return [
+        _Solid(mesh.vertices, solid, settings if size >= least else None)
+        for solid, size in zip(solids, sizes, strict=True)
+    ]
 
 
 def _find_solids(vertices: Floats, faces: Ints) -> list[Ints]:
@@ -106,25 +149,36 @@ def _is_within(vertices: Floats, inner: Ints, outer: Ints) -> bool:
     return bool((a.min(axis=0) >= b.min(axis=0)).all() and (a.max(axis=0) <= b.max(axis=0)).all())
 
 
-def _decompose_regions(
-    vertices: Floats,
-    faces: Ints,
-    settings: DecomposeSettings,
-    cache: Path | None,
-    failed: list[GeometryError],
-    creases: Creases,
-) -> list[Polytope]:
-    """The pieces of a solid, region by region, so that none reaches over a concave edge between two; nothing where that
-    does not make up the solid, or an engine failed."""
-    whole, size = Interior(vertices, faces), np.ptp(vertices[faces], axis=(0, 1))
-    found, before = list[Polytope](), len(failed)
-    for region in list_region_solids(vertices, faces):
-        own = scale_settings(settings, np.ptp(region.vertices[region.faces], axis=(0, 1)), size, -1)
-        pieces = _decompose_solid(region.vertices, region.faces, own, cache, failed)
-        interior = whole if region.open_edges else Interior(region.vertices, region.faces)
+def _list_regions(solid: _Solid) -> list[_Solid]:
+    """The solids of the regions of one; none where it is one piece, or one region encloses all."""
+    if solid.settings is None:
+        return []
+    size = np.ptp(solid.vertices[solid.faces], axis=(0, 1))
+    found = list[_Solid]()
+    for region in list_region_solids(solid.vertices, solid.faces):
+        own = scale_settings(solid.settings, np.ptp(region.vertices[region.faces], axis=(0, 1)), size, -1)
+        found.append(_Solid(region.vertices, region.faces, own, region.open_edges > 0))
+    return found
+
+
+def _join_regions(
+    solid: _Solid, regions: Sequence[_Solid], made: Sequence[_Result], creases: Creases
+) -> list[Polytope] | None:
+    """The pieces of the regions of a solid, cut; None where they do not make it up, or an engine failed on one."""
+    whole, found = Interior(solid.vertices, solid.faces), list[Polytope]()
+    for region, pieces in zip(regions, made, strict=True):
+        if isinstance(pieces, GeometryError):
+            return None
+        interior = whole if region.is_open else Interior(region.vertices, region.faces)
         found += _cut_pieces(interior.list_hulls(pieces), creases, interior)
-    made_up = len(failed) == before and volume_of_union(found) >= _COMPLETE * volume_and_centroid(vertices, faces)[0]
-    return found if made_up else []
+    made_up = volume_of_union(found) >= _COMPLETE * volume_and_centroid(solid.vertices, solid.faces)[0]
+    return found if made_up else None
+
+
+def _cut_whole(solid: _Solid, made: _Result, creases: Creases) -> list[Polytope]:
+    """The pieces of a solid, cut; those of its convex hull where an engine failed."""
+    pieces = [_hull_of(solid)] if isinstance(made, GeometryError) else made
+    return _cut_pieces(pieces, creases, Interior(solid.vertices, solid.faces))
 
 
 def _cut_pieces(pieces: Sequence[Polytope], creases: Creases, interior: Interior) -> list[Polytope]:
@@ -133,29 +187,38 @@ def _cut_pieces(pieces: Sequence[Polytope], creases: Creases, interior: Interior
     return interior.list_hulls(parts) if len(parts) > 1 else parts
 
 
-def _decompose_solid(
-    vertices: Floats,
-    faces: Ints,
-    settings: DecomposeSettings | None,
-    cache: Path | None,
-    failed: list[GeometryError],
-) -> list[Polytope]:
-    """The pieces of one solid; its convex hull where no engine takes it, and where there are no settings."""
-    points = vertices[np.unique(faces)]
+def _decompose_groups(groups: Sequence[Sequence[_Solid]], cache: Path | None) -> list[list[_Result]]:
+    """The pieces of each solid of each group; engines take all that need one together."""
+    solids = list(chain(*groups))
+    found, asked = dict[int, _Result](), dict[int, EngineJob]()
+    for place, solid in enumerate(solids):
+        try:
+            known = _find_pieces(solid, cache)
+            if known is not None or solid.settings is None:
+                found[place] = known or []
+            else:
+                asked[place] = read_solid(solid.vertices, solid.faces, solid.settings, close=True)
+        except GeometryError as error:
+            found[place] = error
+    found |= zip(asked, decompose_solids(list(asked.values()), cache), strict=True)
+    rows = (found[place] for place in range(len(solids)))
+    return [list(islice(rows, len(group))) for group in groups]
+
+
+def _find_pieces(solid: _Solid, cache: Path | None) -> list[Polytope] | None:
+    """The pieces of a solid that has no area, is convex, flat, or one piece in any case; None of another."""
+    points = solid.vertices[np.unique(solid.faces)]
     if len(points) < 3 or principal_extents(points)[2][1] <= 0:
         return []
-    thickness = FLATNESS * float(np.linalg.norm(np.ptp(points, axis=0)))
-    hull = convex_hull(points, name="a piece of the surface", thicken=thickness)
-    if settings is None or volume_and_centroid(vertices, faces)[0] >= _CONVEX * hull.volume:
+    hull, settings = _hull_of(solid), solid.settings
+    if settings is None or volume_and_centroid(solid.vertices, solid.faces)[0] >= _CONVEX * hull.volume:
         return [hull]
+    if not is_sheet(points):
+        return None
+    run = partial(decompose, settings=settings, close=True, cache=cache)
+    return sheet_hulls(solid.vertices, solid.faces, run, _NAME)
 
-    def run(corners: Floats, triangles: Ints) -> list[Polytope]:
-        return decompose(corners, triangles, settings, close=True, cache=cache)
 
-    try:
-        if is_sheet(vertices[faces].reshape(-1, 3)):
-            return sheet_hulls(vertices, faces, run, "a piece of the surface")
-        return run(vertices, faces)
-    except GeometryError as error:
-        failed.append(error)
-        return [hull]
+def _hull_of(solid: _Solid) -> Polytope:
+    points = solid.vertices[np.unique(solid.faces)]
+    return convex_hull(points, name=_NAME, thicken=FLATNESS * float(np.linalg.norm(np.ptp(points, axis=0))))

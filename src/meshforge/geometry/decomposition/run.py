@@ -9,7 +9,7 @@ import hashlib
 import json
 import os
 import zipfile
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from importlib.metadata import version
 from pathlib import Path
 from typing import Any
@@ -42,38 +42,59 @@ def decompose(
     Raises GeometryError: a mesh that cannot be decomposed, an engine that crashed or took too long;
     DecompositionCancelledError: `control` stopped it.
     """
-    settings = settings or engines.CoacdSettings()
+    mesh = read_solid(vertices, faces, settings or engines.CoacdSettings(), close, note)
+    (hulls,) = decompose_solids([mesh], cache, note, control)
+    if isinstance(hulls, GeometryError):
+        raise hulls
+    return hulls
+
+
+def read_solid(
+    vertices: Any,
+    faces: Any,
+    settings: engines.DecomposeSettings,
+    close: bool,
+    note: Callable[[str], None] = lambda _: None,
+) -> engines.EngineJob:
+    """A mesh as an engine takes it. Raises GeometryError: one that cannot be decomposed."""
     mesh = clean_triangles(vertices, faces)
     if close:
         mesh, holes = cap_holes(mesh)
         if holes:
             note(f"{pluralize(holes, 'planar hole')} closed, so that it counts as solid")
     _check_openness(mesh, settings, note)
-    pieces = _run_cached(mesh, settings, cache, note, lambda: engines.run_engine(mesh, settings, control))
-    hulls = _make_hulls(pieces, mesh.diagonal, note)
-    if not hulls:
-        raise GeometryError(f"{settings.engine} made no hull", remedy="Try a finer resolution, or the other engine.")
-    return hulls
+    return mesh, settings
 
 
-def _run_cached(
-    mesh: TriangleMesh,
-    settings: engines.DecomposeSettings,
+def decompose_solids(
+    solids: Sequence[engines.EngineJob],
     cache: Path | None,
-    note: Callable[[str], None],
-    make: Callable[[], list[engines.EnginePiece]],
-) -> list[engines.EnginePiece]:
-    if cache is None:
-        return make()
-    key = cache_key(mesh, settings)
-    if (known := read_entry(cache, key)) is not None:
-        return known
-    pieces = make()
+    note: Callable[[str], None] = lambda _: None,
+    control: engines.EngineControl = UNCONTROLLED,
+) -> list[list[Polytope] | GeometryError]:
+    """The convex hulls of each of some meshes, or why there are none; see `decompose`."""
+    kept = [read_entry(cache, cache_key(*solid)) if cache else None for solid in solids]
+    new = [number for number, pieces in enumerate(kept) if pieces is None]
+    made = dict(zip(new, engines.run_engine([solids[number] for number in new], control) if new else (), strict=True))
+    found = list[list[Polytope] | GeometryError]()
+    for number, (mesh, settings) in enumerate(solids):
+        pieces = made[number] if number in made else kept[number] or []
+        try:
+            if isinstance(pieces, GeometryError):
+                raise pieces
+            if cache and number in made:
+                _keep(cache, cache_key(mesh, settings), pieces, note)
+            found.append(_make_hulls(pieces, mesh.diagonal, settings.engine, note))
+        except GeometryError as error:
+            found.append(error)
+    return found
+
+
+def _keep(cache: Path, key: str, pieces: list[engines.EnginePiece], note: Callable[[str], None]) -> None:
     try:
         write_entry(cache, key, pieces)
     except OSError as error:
         note(f"the result could not be kept in {cache}: {error.strerror or error}")
-    return pieces
 
 
 def _check_openness(mesh: TriangleMesh, settings: engines.DecomposeSettings, note: Callable[[str], None]) -> None:
@@ -86,8 +107,13 @@ def _check_openness(mesh: TriangleMesh, settings: engines.DecomposeSettings, not
     note(f"{problem}: the engine closes it by voxels, so its hulls may be thicker than the surface, or fill it")
 
 
-def _make_hulls(pieces: list[engines.EnginePiece], diagonal: float, note: Callable[[str], None]) -> list[Polytope]:
-    """The convex hull of each piece: sheets get a thickness, needles and crumbs without an area are dropped."""
+def _make_hulls(
+    pieces: list[engines.EnginePiece], diagonal: float, engine: str, note: Callable[[str], None]
+) -> list[Polytope]:
+    """The convex hull of each piece: sheets get a thickness, needles and crumbs without an area are dropped.
+
+    Raises GeometryError where no hull is left.
+    """
     thickness = FLATNESS * diagonal
     hulls, dropped = [], 0
     for k, (points, _) in enumerate(pieces):
@@ -97,6 +123,8 @@ def _make_hulls(pieces: list[engines.EnginePiece], diagonal: float, note: Callab
         hulls.append(convex_hull(points, name=f"piece {k}", thicken=thickness))
     if dropped:
         note(f"{dropped} of {len(pieces)} pieces were thinner than {thickness:.2g} m in two directions: left out")
+    if not hulls:
+        raise GeometryError(f"{engine} made no hull", remedy="Try a finer resolution, or the other engine.")
     return hulls
 
 

@@ -1,7 +1,7 @@
-"""The process that runs an engine: reads triangles, writes pieces, and may crash without harm to anyone else.
+"""The process that runs engines: reads triangles, writes pieces, and may crash without harm to anyone else.
 
-Run by path, so that it loads nothing but numpy and the engine. Arguments: input .npz, output .npz, settings as
-JSON.
+Run by path, so that it loads nothing but numpy and the engine. Arguments: a folder with meshes and their settings, and
+the number of the first one to decompose.
 """
 
 from __future__ import annotations
@@ -10,24 +10,32 @@ import ctypes
 import json
 import signal
 import sys
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 
+JOBS, MESH, PIECES = "jobs.json", "mesh-{}.npz", "pieces-{}.npz"
+"""The files of the folder: the settings of all meshes, and by number each mesh and what was made of it."""
 
-def main(source: str, target: str, job: str) -> None:
-    """Decompose the triangles in `source` and write the pieces to `target`."""
+
+def main(folder: str, first: str) -> None:
+    """Decompose the meshes of a folder from a number on; the pieces of each are written whole or not at all."""
     _die_with_parent()
-    mesh = np.load(source, allow_pickle=False)
-    settings: dict[str, Any] = json.loads(job)
-    engine = {"coacd": _run_coacd, "vhacd": _run_vhacd}[settings.pop("engine")]
-    pieces = [(np.asarray(v, float), np.asarray(f)) for v, f in engine(mesh["vertices"], mesh["faces"], settings)]
-    np.savez(
-        target,
-        vertices=np.concatenate([v for v, _ in pieces] or [np.zeros((0, 3))]),
-        faces=np.concatenate([f for _, f in pieces] or [np.zeros((0, 3), np.int64)]),
-        counts=np.array([[len(v), len(f)] for v, f in pieces], dtype=np.int64).reshape(-1, 2),
-    )
+    jobs: list[dict[str, Any]] = json.loads(Path(folder, JOBS).read_text())
+    for number in range(int(first), len(jobs)):
+        mesh = np.load(Path(folder, MESH.format(number)), allow_pickle=False)
+        settings = jobs[number]
+        engine = {"coacd": _run_coacd, "vhacd": _run_vhacd}[settings.pop("engine")]
+        pieces = [(np.asarray(v, float), np.asarray(f)) for v, f in engine(mesh["vertices"], mesh["faces"], settings)]
+        partial = Path(folder, "partial.npz")
+        np.savez(
+            partial,
+            vertices=np.concatenate([v for v, _ in pieces] or [np.zeros((0, 3))]),
+            faces=np.concatenate([f for _, f in pieces] or [np.zeros((0, 3))]),
+            counts=np.array([[len(v), len(f)] for v, f in pieces], dtype=np.int64).reshape(-1, 2),
+        )
+        partial.replace(Path(folder, PIECES.format(number)))
 
 
 def _run_coacd(vertices: Any, faces: Any, settings: dict[str, Any]) -> Any:
