@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache, cached_property, lru_cache
 
 import numpy as np
@@ -25,6 +25,7 @@ _DIGITS = 3
 _FREE_ODDS = 1.5  # odds of what was said from which on another label must be surer [nats]
 _ALIKE = 0.6  # probability of each of two labels on hulls called the other, together, from which they look alike
 _BOTH = 0.1  # of the meshes that have the rarer of them, those that may have both
+_TINY = 1e-12
 _REMEMBERED = 2000  # meshes whose other sides are not described again
 
 
@@ -46,6 +47,17 @@ class FamilyPosterior:
             nothing = np.zeros((len(table.owner), 0))
             return FamilyPosterior(table, seen, nothing, nothing)
         return FamilyPosterior(table, seen, *infer_chances(table, seen))
+
+    def doubt_splits(self) -> FamilyPosterior:
+        """The same, with the label of a part of a split hull no surer than the split was, or than what is said of other
+        hulls makes it.
+
+        Labels of such parts follow from one inference over the family: where it errs, they agree in their error.
+        """
+        if not self.seen.split.any():
+            return self
+        others = infer_chances(self.table, self.seen.without_splits())[0]
+        return replace(self, chances=_bound_splits(self.seen, self.chances, others))
 
     def chances_of(self, mesh: int) -> Floats:
         """Those of the hulls of one mesh, in their order."""
@@ -147,6 +159,18 @@ class FamilyPosterior:
             found.append(int(first_greatest(gains)))
             covered = np.maximum(covered, stands[found[-1]])
         return [int(open_meshes[place]) for place in found]
+
+
+def _bound_splits(seen: Observations, chances: Floats, others: Floats) -> Floats:
+    """Chances (n, labels) with those of what splits said at most what splits had, or others (n, labels) have."""
+    bounded, rows = chances.copy(), np.flatnonzero(seen.split)
+    codes = seen.codes[rows]
+    said, most = chances[rows, codes], np.maximum(seen.confidence[rows], others[rows, codes])
+    less = said > most
+    rows, codes, said, most = rows[less], codes[less], said[less], most[less]
+    bounded[rows] *= ((1 - most) / np.maximum(1 - said, _TINY))[:, None]
+    bounded[rows, codes] = most
+    return bounded
 
 
 class FamilyModel:

@@ -160,6 +160,16 @@ class Observations:
         found: Bools = self.codes != NO_LABEL
         return found
 
+    @property
+    def split(self) -> Bools:
+        """Whether what is said follows from the split of a hull (n,)."""
+        found: Bools = self.known & (self.sources == LABEL_SOURCES.index("split"))
+        return found
+
+    def without_splits(self) -> Observations:
+        """The same, where nothing is said of parts of split hulls."""
+        return replace(self, codes=np.where(self.split, NO_LABEL, self.codes))
+
 
 def evidence_of(label: Label | None) -> Label | None:
     """What a label says that was not inferred from other labels: that which it replaced, where it was."""

@@ -28,7 +28,7 @@ from meshforge.signoff.question import (
     identify,
 )
 from meshforge.signoff.readings import ReadingSplit, split_readings
-from meshforge.signoff.slips import ask_about_nearest, ask_about_slip
+from meshforge.signoff.slips import ask_about_kept_label, ask_about_nearest, ask_about_slip
 from meshforge.signoff.trial import Trial
 from meshforge.synthesis import (
     Ambiguous,
@@ -64,7 +64,7 @@ def review_family(
         unknown = {name: AssetConfidence(name, 0.0, (_doubt_of(outcome),)) for name in state.meshes}
         return Assessment(unknown, bar, seen, state.aside, _question_before(state, outcome))
     looked_at = seen | frozenset(state.demos)
-    posterior = family.infer([hull.annotation for mesh in state.meshes.values() for hull in mesh.hulls])
+    posterior = family.infer([hull.annotation for mesh in state.meshes.values() for hull in mesh.hulls]).doubt_splits()
     trial = FamilyTrial.of(state, outcome.program, outcome.readings, posterior, alarms)
     assets = {one.asset: trial.confidence_of(place) for place, one in enumerate(trial.trials)}
     found = Assessment(assets, bar, looked_at, state.aside)
@@ -81,7 +81,7 @@ def assess_asset(
     """How probable the edit of one asset of a family is; the arguments are those of `review_family`."""
     if not isinstance(outcome, Found | Ambiguous):
         return AssetConfidence(asset, 0.0, (_doubt_of(outcome),))
-    posterior = family.infer([hull.annotation for mesh in state.meshes.values() for hull in mesh.hulls])
+    posterior = family.infer([hull.annotation for mesh in state.meshes.values() for hull in mesh.hulls]).doubt_splits()
     trial = FamilyTrial.of(state, outcome.program, outcome.readings, posterior, _NO_ALARMS)
     return trial.confidence_of(trial.places[asset])
 
@@ -118,6 +118,8 @@ def _question_before(state: ReviewState, outcome: LearningOutcome | None) -> Rev
             )
             if question.id not in state.later:
                 return question
+        kept = (ask_about_kept_label(state, repair, everyone) for repair in outcome.repairs)
+        return next((slip for slip in kept if slip and slip.id not in state.later), None)
     if isinstance(outcome, NoProgram):
         if outcome.suggested:
             question = _ask_orientation(outcome.suggested, state, everyone)

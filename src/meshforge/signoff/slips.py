@@ -14,8 +14,8 @@ from meshforge.language import Program, show
 from meshforge.signoff.prices import YES_OR_NO
 from meshforge.signoff.question import HullPlace, ReviewChoice, ReviewQuestion, ReviewState, identify
 from meshforge.signoff.trial import Trial, select_by
-from meshforge.symbolic import mask_of
-from meshforge.synthesis import Answer, Example, Nearest, Options, Slip, find_slip
+from meshforge.symbolic import HUMAN_SOURCES, mask_of
+from meshforge.synthesis import Answer, Example, Nearest, Options, Repair, Slip, find_slip
 from meshforge.synthesis.slips import MOST_SLIPS
 
 BY_MISTAKE, ON_PURPOSE = "yes, by mistake", "no, on purpose"
@@ -117,6 +117,21 @@ def ask_about_nearest(state: ReviewState, nearest: Nearest, everyone: float) -> 
     text = f"{_describe(nearest.extra, nearest.missing)} rule {nearest.rule} could be {show(nearest.extractor)}"
     place = nearest.asset, nearest.rule
     return _ask(state, place, nearest.extra, nearest.missing, text, _FITS_BARELY * everyone)
+
+
+def ask_about_kept_label(state: ReviewState, repair: Repair, everyone: float) -> ReviewQuestion | None:
+    """The question where a person kept the label that would have to be another one for what was shown and said: what
+    was shown or said of that hull may be the slip."""
+    hull, asset = repair.correction.hull, repair.correction.asset
+    shown = _read_selection(state, asset, repair.rule)
+    kept = state.meshes[asset].hull_of(hull).source in HUMAN_SOURCES if asset in state.meshes else False
+    if shown is None or asset in state.mended or not kept:
+        return None
+    missing, extra = ((), (hull,)) if hull in shown else ((hull,), ())
+    if _is_used_later(state, asset, repair.rule, missing):
+        return None
+    text = f"{hull} is {repair.correction.was}, and rule {repair.rule} {'selects it' if extra else 'leaves it out'}"
+    return _ask(state, (asset, repair.rule), missing, extra, text, _FITS_BARELY * everyone)
 
 
 def _describe(missing: Sequence[str], extra: Sequence[str]) -> str:

@@ -8,12 +8,12 @@ import pytest
 
 from meshforge.label_model import model_family
 from meshforge.language import Attach, Delete, Geo, Is, Rule, Union
-from meshforge.signoff import Assessment, ReviewQuestion, ReviewReply, ReviewState, apply_reply
+from meshforge.signoff import Assessment, ReviewQuestion, ReviewReply, ReviewState, apply_reply, review_family
 from meshforge.signoff.reply import list_answers
-from meshforge.signoff.slips import BY_MISTAKE, ON_PURPOSE, ask_about_nearest, find_slips
+from meshforge.signoff.slips import BY_MISTAKE, ON_PURPOSE, ask_about_kept_label, ask_about_nearest, find_slips
 from meshforge.signoff.trial import try_program
-from meshforge.symbolic import SymbolicMesh
-from meshforge.synthesis import Answer, Demonstration, Nearest, Step
+from meshforge.symbolic import Label, SymbolicMesh
+from meshforge.synthesis import Answer, Demonstration, LabelCorrection, Nearest, NeedsRepair, Repair, Step
 from tests.unit.signoff.test_review import FRAME, legs_of, review, shown, tables
 
 FORGOTTEN = "leg2_low"
@@ -180,3 +180,49 @@ def test_an_answer_that_was_meant_so_is_kept() -> None:
     after = apply_reply(state, question, ReviewReply(question.id, 1))
     assert after.answers == state.answers
     assert ask_about_slip(after) is None
+
+
+def keep_label(state: ReviewState, hull: str) -> tuple[ReviewState, NeedsRepair]:
+    """A person keeps a label that learning would change, since they said that the hull is selected too."""
+    mesh = state.meshes["t1"]
+    kept = mesh.with_labels({hull: Label(mesh.hull_of(hull).label or "", source="repair")})
+    after = replace(state, meshes={**state.meshes, "t1": kept})
+    repair = Repair(LabelCorrection("t1", hull, kept.hull_of(hull).label, "panel"), 1, 0.6, "it looks like one")
+    outcome = NeedsRepair(rules=(), readings=(), tried=(), seconds={}, repairs=(repair,))
+    family = model_family(list(after.meshes.values()))
+    question = review_family(after, outcome, family).question
+    assert question is not None and question.kind == "repair"
+    return apply_reply(after, question, ReviewReply(question.id, 1)), outcome
+
+
+def test_where_a_label_is_kept_that_nothing_fits_the_selection_is_asked_about() -> None:
+    _, state = show_without()
+    said = Answer(1, "t1", legs_of("t1") | {"handle0"})
+    state, outcome = keep_label(replace(state, answers=(said,)), "handle0")
+    question = review_family(state, outcome, model_family(list(state.meshes.values()))).question
+    assert question is not None
+    assert question.text == "handle0 is handle, and rule 1 selects it: was it selected on t1 by mistake?"
+    after = apply_reply(state, question, ReviewReply(question.id, 0))
+    assert after.answers == (Answer(1, "t1", legs_of("t1")),)
+    on_purpose = apply_reply(state, question, ReviewReply(question.id, 1))
+    assert on_purpose.answers == (said,)
+    assert review_family(on_purpose, outcome, model_family(list(state.meshes.values()))).question is None
+
+
+def test_a_hull_that_was_left_out_though_its_label_is_kept_is_asked_about() -> None:
+    _, state = show_without()
+    state, outcome = keep_label(replace(state, answers=(Answer(1, "t1", legs_of("t1") - {FORGOTTEN}),)), FORGOTTEN)
+    question = ask_about_kept_label(state, outcome.repairs[0], 6.0)
+    assert question is not None
+    assert question.text == f"{FORGOTTEN} is leg, and rule 1 leaves it out: was it left out on t1 by mistake?"
+
+
+def test_nothing_is_asked_of_a_label_that_nobody_gave_or_where_nothing_was_said() -> None:
+    _, state = show_without()
+    repair = Repair(LabelCorrection("t1", "handle0", "handle", "leg"), 1, 0.6, "it looks like one")
+    answered = replace(state, answers=(Answer(1, "t1", legs_of("t1") | {"handle0"}),))
+    assert ask_about_kept_label(answered, repair, 6.0) is None
+    silent, outcome = keep_label(state, "handle0")
+    assert ask_about_kept_label(silent, outcome.repairs[0], 6.0) is None
+    gone = replace(silent, meshes={"t0": state.meshes["t0"]})
+    assert ask_about_kept_label(gone, outcome.repairs[0], 6.0) is None
