@@ -21,7 +21,10 @@ ABOUT_LABELS = {
     NO_SURFACE: "likewise, and nobody knows the surface: hulls are judged by look-alikes of their cells",
 }
 """What each kind of labels is."""
+PROBABILITIES = (0.5, 0.6, 0.7, 0.8, 0.85, 0.9, 0.95)
+"""From which on hulls are counted as found, in the table that compares these."""
 COUNTS = ("set", "labels", "category", "hulls", "spanning", "found", "precision", "recall")
+BY_PROBABILITY = ("set", "probability", "found", "precision", "recall", "share of the pure hulls")
 CALIBRATIONS = ("set", "labels", "calibration error", "Brier score", "of the share alone", "area under the ROC curve")
 
 
@@ -59,12 +62,27 @@ def measure(tell: Tell, quick: bool) -> Result:
         "Hulls that span parts: found",
         (
             Table(f"Found at a probability of at least {SURE[0]}", COUNTS, tuple(list_counts(families))),
+            Table(
+                "Found from other probabilities on, labels of pieces",
+                BY_PROBABILITY,
+                tuple(list_by_probability(families)),
+            ),
             Table("What the probabilities are worth", CALIBRATIONS, tuple(list_calibrations(families))),
         ),
         tuple(_list_goals(families)),
         NOTES,
         tuple(list_counted(families)),
     )
+
+
+def list_by_probability(families: Sequence[SplitFamily]) -> Iterator[tuple[Cell, ...]]:
+    """Rows of `BY_PROBABILITY`."""
+    for setting in sets_of(families):
+        rows = hulls_of(families, setting, BY_PIECES)
+        for sure in PROBABILITIES if rows else ():
+            one = Detection.of(rows, sure)
+            pure = (one.found - one.right) / max(one.hulls - one.spanning, 1)
+            yield setting, sure, one.found, one.precision, one.recall, pure
 
 
 def hulls_of(

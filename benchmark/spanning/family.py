@@ -91,9 +91,9 @@ def choose_known(count: int) -> frozenset[int]:
     return frozenset(int(rng.choice(third)) for third in np.array_split(np.arange(count), KNOWN))
 
 
-def make_pieces(sample: Sample, cached: bool = True) -> tuple[tuple[Polytope, ...], ...]:
+def make_pieces(sample: Sample) -> tuple[tuple[Polytope, ...], ...]:
     """The fine pieces of the surface of an asset, by region."""
-    return decompose_finely(*surface_of(sample), cache=cache_folder() if cached else None)
+    return decompose_finely(*surface_of(sample), cache=cache_folder())
 
 
 def is_spanning(share: Mapping[str, float]) -> bool:

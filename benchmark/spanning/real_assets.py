@@ -18,10 +18,12 @@ from benchmark.report import Cell, Goal, Result, Table, Tell
 from benchmark.spanning.course import SURE, SplitFamily, SplitHull, SplitPart, split_some
 from benchmark.spanning.detection import (
     ABOUT_LABELS,
+    BY_PROBABILITY,
     CALIBRATIONS,
     COUNTS,
     Detection,
     hulls_of,
+    list_by_probability,
     list_calibrations,
     list_counts,
 )
@@ -61,6 +63,11 @@ def measure(tell: Tell, quick: bool) -> Result:
         "Real assets: hulls that span parts",
         (
             Table(f"Real assets: found at a probability of at least {SURE[0]}", COUNTS, tuple(list_counts(families))),
+            Table(
+                "Real assets: found from other probabilities on, labels of pieces",
+                BY_PROBABILITY,
+                tuple(list_by_probability(families)),
+            ),
             Table("What the probabilities are worth", CALIBRATIONS, tuple(list_calibrations(families))),
             *(
                 Table(

@@ -65,6 +65,19 @@ def test_no_hull_takes_what_is_of_another_kind() -> None:
             assert volume_of_union([group.shape, between]) == pytest.approx(group.shape.volume + between.volume)
 
 
+@pytest.mark.parametrize(
+    ("label", "height", "joins"),
+    [("same", 0.3, True), ("same", 0.9, False), ("other", 0.03, True), ("other", 0.3, False)],
+)
+def test_a_sliver_joins_a_neighbour_whose_hull_grows_by_little(label: str, height: float, joins: bool) -> None:
+    """On a block of 1 m lies a plate of a quarter of its top: the hull grows by a third of its height beside it."""
+    block, plate = box((0, 0, -0.5), (0.5, 0.5, 0.5)), box((0, 0, height / 2), (0.25, 0.25, height / 2))
+    labels = np.array([0, 0 if label == "same" else 1])
+    groups = merge_pieces([block, plate], np.arange(2), 0.5, labels)
+    assert [group.members for group in groups] == ([(0, 1)] if joins else [(0,), (1,)])
+    assert len(merge_pieces([block, plate], np.arange(2), 0.2 * plate.volume, labels)) == 2, "no sliver"
+
+
 def test_no_pieces_are_no_groups() -> None:
     assert merge_pieces([], np.zeros(0, np.int64)) == ()
 

@@ -17,6 +17,7 @@ from meshforge.geometry.solids import overlap_volume, volume_of_union
 
 _WASTE = 0.15  # of a hull around pieces, which may be filled by none of them
 _TAKEN = 0.01  # of it, which may be of other kinds beyond what its halves have of these
+_GROWTH = {True: 0.2, False: 0.02}  # of a hull by a sliver, beside what that fills, by whether both have one label
 _NEAR = 2e-3  # of the diagonal of all: pieces farther apart do not touch
 
 
@@ -35,23 +36,26 @@ class PieceGroup:
         return float(sum(piece.volume for piece in self.pieces))
 
 
-def merge_pieces(pieces: Sequence[Polytope], kinds: Ints, sliver: float = 0.0) -> tuple[PieceGroup, ...]:
+def merge_pieces(
+    pieces: Sequence[Polytope], kinds: Ints, sliver: float = 0.0, labels: Ints | None = None
+) -> tuple[PieceGroup, ...]:
     """Join pieces that touch, are of one kind (n,), and whose convex hull adds at most 15%, the least first.
 
     Each piece is in one group. A group of one is the piece as it is. In the order of the first member. sliver: [m^3] a
-    smaller group is then joined to one of any kind, whose hull grows by no more than that beside what the group fills.
+    smaller group is then joined to one of any kind, whose hull grows by little beside what the group fills: by no more
+    than that, than 20% where both have one of the labels (n,), by default the kinds, and than 2% elsewhere.
     """
     merger = _Merger(pieces, kinds)
     merger.run()
-    merger.join_slivers(sliver)
+    merger.join_slivers(sliver, merger.kinds if labels is None else labels)
     return tuple(sorted(merger.groups.values(), key=lambda group: group.members))
 
 
 class _Merger:
     def __init__(self, pieces: Sequence[Polytope], kinds: Ints) -> None:
         self._pieces = list(pieces)
-        self._kinds = np.asarray(kinds, dtype=np.int64)
-        rows = zip(pieces, self._kinds.tolist(), strict=True)
+        self.kinds = np.asarray(kinds, dtype=np.int64)
+        rows = zip(pieces, self.kinds.tolist(), strict=True)
         self.groups = {k: PieceGroup(piece, (k,), kind, (piece,)) for k, (piece, kind) in enumerate(rows)}
         diagonal = Aabb.union(piece.aabb for piece in pieces).diagonal if pieces else 0.0
         self._thickness = FLATNESS * diagonal
@@ -82,18 +86,21 @@ class _Merger:
             self._touching[other].difference_update(old)
             self._touching[other].add(place)
 
-    def join_slivers(self, least: float) -> None:
-        """Join groups below a volume to the neighbour of any kind whose hull grows least, by at most that volume beside
-        their own."""
+    def join_slivers(self, least: float, labels: Ints) -> None:
+        """Join groups below a volume to the neighbour of any kind whose hull grows least, of those whose hull grows by
+        little beside their own."""
         for place in sorted(self.groups, key=lambda k: (self.groups[k].volume, k)):
             own = self.groups[place]
             if own.volume >= least:
                 break
             hulls = [(k, self._enclose(k, place)) for k in sorted(self._touching[place])]
             found = [(shape.volume - self.groups[k].shape.volume, k, shape) for k, shape in hulls]
-            grown, other, shape = min(found, key=lambda row: row[:2], default=(np.inf, -1, own.shape))
-            if grown <= least + own.volume:
-                self._replace((other, place), other, _unite(self.groups[other], own, shape))
+            for grown, other, shape in sorted(found, key=lambda row: row[:2]):
+                into = self.groups[other]
+                growth = _GROWTH[bool(labels[into.members[0]] == labels[own.members[0]])]
+                if grown <= min(least, growth * into.shape.volume) + own.volume:
+                    self._replace((other, place), other, _unite(into, own, shape))
+                    break
 
     def _propose(self, place: int, others: Iterable[int]) -> None:
         own = self.groups[place]
@@ -123,7 +130,7 @@ class _Merger:
 
     def _overlap_others(self, shape: Polytope, kind: int) -> float:
         """What a shape has of pieces of other kinds [m^3]."""
-        others = (self._pieces[k] for k in np.flatnonzero(self._kinds != kind).tolist())
+        others = (self._pieces[k] for k in np.flatnonzero(self.kinds != kind).tolist())
         return sum(overlap_volume(shape, piece) for piece in others)
 
 

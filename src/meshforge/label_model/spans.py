@@ -238,7 +238,8 @@ class SpanPosterior:
             return ()
         labels = chances[own].argmax(axis=1)
         kinds = asset.region_of[own] * chances.shape[1] + labels
-        groups = merge_pieces([pieces[place] for place in own.tolist()], kinds, _SLIVER * float(volumes[own].sum()))
+        least = _SLIVER * float(volumes[own].sum())
+        groups = merge_pieces([pieces[place] for place in own.tolist()], kinds, least, labels)
         found = list[tuple[int, HullPart]]()
         for group in groups:
             members = own[list(group.members)]
