@@ -47,15 +47,15 @@ def merge_pieces(
     """
     merger = _Merger(pieces, kinds)
     merger.run()
-    merger.join_slivers(sliver, merger.kinds if labels is None else labels)
+    merger.join_slivers(sliver, kinds if labels is None else labels)
     return tuple(sorted(merger.groups.values(), key=lambda group: group.members))
 
 
 class _Merger:
     def __init__(self, pieces: Sequence[Polytope], kinds: Ints) -> None:
         self._pieces = list(pieces)
-        self.kinds = np.asarray(kinds, dtype=np.int64)
-        rows = zip(pieces, self.kinds.tolist(), strict=True)
+        self._kinds = np.asarray(kinds, dtype=np.int64)
+        rows = zip(pieces, self._kinds.tolist(), strict=True)
         self.groups = {k: PieceGroup(piece, (k,), kind, (piece,)) for k, (piece, kind) in enumerate(rows)}
         diagonal = Aabb.union(piece.aabb for piece in pieces).diagonal if pieces else 0.0
         self._thickness = FLATNESS * diagonal
@@ -130,7 +130,7 @@ class _Merger:
 
     def _overlap_others(self, shape: Polytope, kind: int) -> float:
         """What a shape has of pieces of other kinds [m^3]."""
-        others = (self._pieces[k] for k in np.flatnonzero(self.kinds != kind).tolist())
+        others = (self._pieces[k] for k in np.flatnonzero(self._kinds != kind).tolist())
         return sum(overlap_volume(shape, piece) for piece in others)
 
 

@@ -64,8 +64,7 @@ def review_family(
         unknown = {name: AssetConfidence(name, 0.0, (_doubt_of(outcome),)) for name in state.meshes}
         return Assessment(unknown, bar, seen, state.aside, _question_before(state, outcome))
     looked_at = seen | frozenset(state.demos)
-    posterior = family.infer([hull.annotation for mesh in state.meshes.values() for hull in mesh.hulls]).doubt_splits()
-    trial = FamilyTrial.of(state, outcome.program, outcome.readings, posterior, alarms)
+    trial = _try_family(state, outcome, family, alarms)
     assets = {one.asset: trial.confidence_of(place) for place, one in enumerate(trial.trials)}
     found = Assessment(assets, bar, looked_at, state.aside)
     if found.is_done:
@@ -81,9 +80,16 @@ def assess_asset(
     """How probable the edit of one asset of a family is; the arguments are those of `review_family`."""
     if not isinstance(outcome, Found | Ambiguous):
         return AssetConfidence(asset, 0.0, (_doubt_of(outcome),))
-    posterior = family.infer([hull.annotation for mesh in state.meshes.values() for hull in mesh.hulls]).doubt_splits()
-    trial = FamilyTrial.of(state, outcome.program, outcome.readings, posterior, _NO_ALARMS)
+    trial = _try_family(state, outcome, family, _NO_ALARMS)
     return trial.confidence_of(trial.places[asset])
+
+
+def _try_family(
+    state: ReviewState, outcome: Found | Ambiguous, family: FamilyModel, alarms: Mapping[str, Sequence[str]]
+) -> FamilyTrial:
+    """The program tried on the family, under all that its labels say."""
+    posterior = family.infer([hull.annotation for mesh in state.meshes.values() for hull in mesh.hulls]).doubt_splits()
+    return FamilyTrial.of(state, outcome.program, outcome.readings, posterior, alarms)
 
 
 def _doubt_of(outcome: LearningOutcome | None) -> Doubt:

@@ -134,7 +134,7 @@ EngineJob = tuple[TriangleMesh, DecomposeSettings]
 """A mesh, and how to decompose it."""
 
 
-def run_engine(jobs: Sequence[EngineJob], control: EngineControl) -> list[list[EnginePiece] | GeometryError]:
+def run_engines(jobs: Sequence[EngineJob], control: EngineControl) -> list[list[EnginePiece] | GeometryError]:
     """The pieces that engines make of meshes, one after the other in one process, or why there are none: an engine
     crashed. After a crash another process goes on with the next mesh, so each result is what it is alone.
 

@@ -21,12 +21,7 @@ from meshforge.geometry.arrays import Floats, Ints
 from meshforge.geometry.convex import FLATNESS, convex_hull, principal_extents
 from meshforge.geometry.decomposition.by_parts import scale_settings
 from meshforge.geometry.decomposition.creases import Creases, cut_at_creases, find_creases
-from meshforge.geometry.decomposition.engines import (
-    CoacdSettings,
-    DecomposeSettings,
-    EngineJob,
-    VhacdSettings,
-)
+from meshforge.geometry.decomposition.engines import CoacdSettings, DecomposeSettings, EngineJob, VhacdSettings
 from meshforge.geometry.decomposition.regions import group_by_region, list_region_solids
 from meshforge.geometry.decomposition.run import (
     cache_key,

@@ -73,9 +73,10 @@ def decompose_solids(
     control: engines.EngineControl = UNCONTROLLED,
 ) -> list[list[Polytope] | GeometryError]:
     """The convex hulls of each of some meshes, or why there are none; see `decompose`."""
-    kept = [read_entry(cache, cache_key(*solid)) if cache else None for solid in solids]
+    keys = [cache_key(*solid) if cache else "" for solid in solids]
+    kept = [read_entry(cache, key) if cache else None for key in keys]
     new = [number for number, pieces in enumerate(kept) if pieces is None]
-    made = dict(zip(new, engines.run_engine([solids[number] for number in new], control) if new else (), strict=True))
+    made = dict(zip(new, engines.run_engines([solids[number] for number in new], control) if new else (), strict=True))
     found = list[list[Polytope] | GeometryError]()
     for number, (mesh, settings) in enumerate(solids):
         pieces = made[number] if number in made else kept[number] or []
@@ -83,7 +84,7 @@ def decompose_solids(
             if isinstance(pieces, GeometryError):
                 raise pieces
             if cache and number in made:
-                _keep(cache, cache_key(mesh, settings), pieces, note)
+                _keep(cache, keys[number], pieces, note)
             found.append(_make_hulls(pieces, mesh.diagonal, settings.engine, note))
         except GeometryError as error:
             found.append(error)
