@@ -132,7 +132,7 @@ def warm_cache(categories: Sequence[str], tell: Tell, calibration: bool, sets: S
 
 def count_pieces(category: str, setting: str, calibration: bool, name: str) -> int:
     """How many fine pieces an asset has; they are in the cache from then on."""
-    return sum(map(len, make_pieces(find_sample(category, setting, name, calibration))))
+    return len(make_pieces(find_sample(category, setting, name, calibration)))
 
 
 def split_family(category: str, setting: str, calibration: bool) -> list[dict[str, Any]]:

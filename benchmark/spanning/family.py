@@ -6,7 +6,6 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
-from itertools import chain
 
 import numpy as np
 
@@ -14,7 +13,7 @@ from benchmark.assets import Asset, Sample
 from benchmark.assets.decomposition import shares
 from benchmark.spanning.sets import list_samples, surface_of
 from benchmark.tasks.task import PURE
-from meshforge.geometry import Polytope, cache_folder, decompose_finely, divide
+from meshforge.geometry import FinePiece, Polytope, cache_folder, decompose_finely, divide
 from meshforge.label_model import AssetCells, AssetPieces, CellModel, SpanModel, SpanPosterior, piece_mesh
 from meshforge.symbolic import Hull, Label, SymbolicMesh
 
@@ -35,24 +34,24 @@ Parts = Mapping[int, Sequence[Polytope]]
 class SpanFamily:
     """The assets of a category in one of the sets.
 
-    regions: the fine pieces of the surface of each asset, by region, in the frame of its file; known: the assets that a
+    fine: the fine pieces of the surface of each asset, in the frame of its file; known: the assets that a
     person labelled.
     """
 
     samples: tuple[Sample, ...]
-    regions: tuple[tuple[tuple[Polytope, ...], ...], ...] = field(repr=False)
+    fine: tuple[tuple[FinePiece, ...], ...] = field(repr=False)
     known: frozenset[int]
 
     @cached_property
     def pieces(self) -> tuple[tuple[Polytope, ...], ...]:
-        """The fine pieces of each asset, in the order of its regions."""
-        return tuple(tuple(chain.from_iterable(regions)) for regions in self.regions)
+        """The fine pieces of each asset."""
+        return tuple(tuple(piece.shape for piece in own) for own in self.fine)
 
     @cached_property
     def model(self) -> SpanModel:
         """The model of the family, which knows shapes and no label."""
         meshes = [_without_labels(sample.mesh) for sample in self.samples]
-        rows = zip(meshes, self.regions, strict=True)
+        rows = zip(meshes, self.fine, strict=True)
         return SpanModel([AssetPieces(mesh, piece_mesh({mesh.hulls[0].body: own}, mesh)) for mesh, own in rows])
 
     @cached_property
@@ -91,8 +90,8 @@ def choose_known(count: int) -> frozenset[int]:
     return frozenset(int(rng.choice(third)) for third in np.array_split(np.arange(count), KNOWN))
 
 
-def make_pieces(sample: Sample) -> tuple[tuple[Polytope, ...], ...]:
-    """The fine pieces of the surface of an asset, by region."""
+def make_pieces(sample: Sample) -> tuple[FinePiece, ...]:
+    """The fine pieces of the surface of an asset."""
     return decompose_finely(*surface_of(sample), cache=cache_folder())
 
 

@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from meshforge.geometry.decomposition.engines import CoacdSettings, DecomposeSettings, EngineControl, VhacdSettings
     from meshforge.geometry.decomposition.fine import FINE_SETTINGS, PieceEngine, decompose_finely
     from meshforge.geometry.decomposition.parts import SurfaceParts, separate_parts, stack_parts
+    from meshforge.geometry.decomposition.regions import FinePiece
     from meshforge.geometry.decomposition.run import cache_folder, decompose
     from meshforge.geometry.decomposition.triangles import is_line, is_sheet, sheet_hulls, volume_inside
     from meshforge.geometry.division import HullPart, divide
@@ -77,6 +78,7 @@ __all__ = [
     "Ellipsoid",
     "Enclosure",
     "EngineControl",
+    "FinePiece",
     "Floats",
     "HullBudget",
     "HullFault",

@@ -118,6 +118,10 @@ class AssetCells(AssetPieces):
         return np.arange(len(self.owner))
 
     @cached_property
+    def solid_of(self) -> Ints:
+        return self.region_of
+
+    @cached_property
     def surroundings(self) -> Floats:
         """What is around each cell (cells, columns), as `describe_surroundings` has it of hulls."""
         if not self.mesh.hulls:
@@ -143,7 +147,8 @@ class CellModel:
         None for those that ship."""
         seen = Observations.of(labels)
         weights = span_weights("cells") if weights is None else weights
-        return CellPosterior(self.assets, seen.labels, self._infer_cells(seen), weights)
+        solids = [np.zeros(len(asset.owner)) for asset in self.assets]
+        return CellPosterior(self.assets, seen.labels, self._infer_cells(seen), weights, solids)
 
     def _infer_cells(self, seen: Observations) -> list[Floats]:
         """The probability of each label for the cells (cells, labels) of each mesh: what the nearest cells of labelled

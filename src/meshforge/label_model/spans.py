@@ -12,7 +12,16 @@ from itertools import islice
 
 import numpy as np
 
-from meshforge.geometry import Floats, HullPart, Ints, Polytope, convex_hull, divide, merge_pieces, overlap_volume
+from meshforge.geometry import (
+    FinePiece,
+    Floats,
+    HullPart,
+    Ints,
+    convex_hull,
+    divide,
+    merge_pieces,
+    overlap_volume,
+)
 from meshforge.label_model.posterior import FamilyPosterior, model_family
 from meshforge.symbolic import Hull, Label, SymbolicMesh
 
@@ -20,6 +29,7 @@ WEIGHTS_FILE = "spans.json"
 WHOLE = 0.9
 """A hull of which one label has this share, by volume of what it stands for, is of one part."""
 _LEAST_DRAWN = 0.002  # how often a hull spans parts is at least this, for its logarithm
+_WHOLE_SOLIDS = 0.5, 1.5  # solids of one part, and all, that are taken to be seen before any is
 _DRAWS = 512  # of the labels of all pieces
 _MOST = 0.8  # how much a label is believed that a piece takes from the hull that it lies in
 _ALL = 0.85  # of a piece, from which a hull has nearly all of it
@@ -40,16 +50,16 @@ def span_weights(key: str = "weights") -> Floats:
     return found
 
 
-SurfacePieces = Mapping[str, Sequence[Sequence[Polytope]]]
-"""The fine pieces of the surfaces of an asset, by body and then by region, as `decompose_finely` gives these."""
+SurfacePieces = Mapping[str, Sequence[FinePiece]]
+"""The fine pieces of the surfaces of an asset by body, as `decompose_finely` gives these."""
 
 
 def piece_mesh(pieces: SurfacePieces, mesh: SymbolicMesh) -> SymbolicMesh:
-    """The fine pieces of an asset as a mesh that lies as its own does; the parent of each is its region."""
+    """The fine pieces of an asset as a mesh that lies as its own does; the parent of each is its region, after the
+    solid that this is of."""
     hulls = (
-        Hull(f"{body}/{region}/{k}", body, piece, parent=f"{body}/{region}")
-        for body, regions in pieces.items()
-        for region, own in enumerate(regions)
+        Hull(f"{body}/{k}", body, piece.shape, parent=f"{body}/{piece.solid}/{piece.region}")
+        for body, own in pieces.items()
         for k, piece in enumerate(own)
     )
     return SymbolicMesh(tuple(hulls), mesh.asset, mesh.epsilon, mesh.scale)
@@ -86,8 +96,12 @@ class AssetPieces:
     @cached_property
     def region_of(self) -> Ints:
         """The number of the region of each piece (pieces,), in the order in which they come."""
-        numbers = {name: number for number, name in enumerate(dict.fromkeys(h.parent for h in self.pieces.hulls))}
-        return np.array([numbers[piece.parent] for piece in self.pieces.hulls], dtype=np.int64)
+        return _number([str(piece.parent) for piece in self.pieces.hulls])
+
+    @cached_property
+    def solid_of(self) -> Ints:
+        """The same of the solid that the region is of."""
+        return _number([str(piece.parent).rpartition("/")[0] for piece in self.pieces.hulls])
 
     @cached_property
     def regions(self) -> SymbolicMesh:
@@ -114,6 +128,13 @@ class AssetPieces:
             best = max(said, key=lambda name: said[name], default=None)
             share = said[best] / float(self.volumes[own].sum()) if best else 0.0
             found.append(Label(best, min(share, 1.0), "file") if best and share > 0.5 else None)
+        return found
+
+    def weigh_solids(self, whole: float) -> Floats:
+        """The probability that each solid (solids,) is one part; whole: of a small one. The less of the asset a solid
+        has, the likelier it is."""
+        volumes = np.bincount(self.solid_of, weights=self.volumes)
+        found: Floats = whole * (1 - volumes / max(float(volumes.sum()), np.finfo(float).tiny))
         return found
 
     def pieces_of(self, hull: int) -> Ints:
@@ -160,8 +181,10 @@ class SpanModel:
             [label for asset, own in zip(self.assets, said, strict=True) for label in asset.collect_labels(own)]
         )
         chances = [self._weigh(mesh, of_pieces, of_regions) for mesh in range(len(self.assets))]
+        whole = _estimate_whole(self.assets, said)
+        solids = [asset.weigh_solids(whole) for asset in self.assets]
         weights = span_weights() if weights is None else weights
-        return SpanPosterior(self.assets, of_pieces.seen.labels, chances, weights)
+        return SpanPosterior(self.assets, of_pieces.seen.labels, chances, weights, solids)
 
     def _weigh(self, mesh: int, of_pieces: FamilyPosterior, of_regions: FamilyPosterior) -> Floats:
         """The probability of each label for the pieces of a mesh (pieces, labels), by what is inferred of them, and of
@@ -181,14 +204,30 @@ class SpanModel:
 class SpanPosterior:
     """What is known of the parts that hulls hold.
 
-    labels: that anything says, in the order of the columns of shares; chances: of each asset the probability of each
-    label for its pieces (pieces, labels); weights: of the evidence.
+    labels: that anything says, in the order of the columns of shares; by_region: of each asset the probability of each
+    label for its pieces (pieces, labels), had regions nothing to do with each other; weights: of the evidence; solids:
+    of each asset the probability that each of its solids (solids,) is one part.
     """
 
     assets: Sequence[AssetPieces]
     labels: tuple[str, ...]
-    chances: Sequence[Floats]
+    by_region: Sequence[Floats]
     weights: Floats
+    solids: Sequence[Floats]
+
+    @cached_property
+    def chances(self) -> Sequence[Floats]:
+        """Of each asset the probability of each label for its pieces (pieces, labels)."""
+        found = list[Floats]()
+        for asset, chances, solids in zip(self.assets, self.by_region, self.solids, strict=True):
+            whole = solids[asset.solid_of][:, None]
+            found.append((1 - whole) * chances + whole * self._average(asset, chances))
+        return found
+
+    def _average(self, asset: AssetPieces, chances: Floats) -> Floats:
+        """The mean chances (pieces, labels) of the pieces of the solid of each."""
+        of_solid = np.eye(asset.solid_of.max(initial=-1) + 1)[asset.solid_of] * asset.volumes[:, None]
+        return _scale(of_solid.T @ chances, of_solid.sum(axis=0))[asset.solid_of]
 
     def shares_of(self, mesh: int) -> Floats:
         """The expected share of each label in each hull (hulls, labels); zeros for one that stands for nothing."""
@@ -212,9 +251,11 @@ class SpanPosterior:
 
     def collect_evidence(self, mesh: int) -> Floats:
         """What the probability is made from (hulls, 2), as `span_weights` has it."""
-        asset, chances = self.assets[mesh], self.chances[mesh]
+        asset, chances = self.assets[mesh], self.by_region[mesh]
         shares = _scale(asset.common, asset.common.sum(axis=1))
-        drawn = _draw_spans(shares, chances, asset.region_of) if chances.size else np.zeros(len(shares))
+        drawn = np.zeros(len(shares))
+        if chances.size:
+            drawn = _draw_spans(shares, _Draw(chances, self._average(asset, chances), self.solids[mesh]), asset)
         drawn = np.clip(drawn, _LEAST_DRAWN, 1 - _LEAST_DRAWN)
         return np.column_stack([np.ones(len(drawn)), np.log(drawn / (1 - drawn))])
 
@@ -254,17 +295,62 @@ def _deal(items: Sequence[Label | None], counts: Sequence[int]) -> list[list[Lab
     return [list(islice(rest, count)) for count in counts]
 
 
-def _draw_spans(shares: Floats, chances: Floats, region_of: Ints) -> Floats:
-    """How often no label has `WHOLE` of a hull (hulls,), where labels of pieces are drawn by their probabilities
-    (pieces, labels), together for those of one region; shares: (hulls, pieces) of what a hull stands for."""
-    ends = np.cumsum(chances, axis=1)
-    drawn = np.random.default_rng(0).random((_DRAWS, region_of.max(initial=-1) + 1))[:, region_of]
-    codes = (drawn[:, :, None] * ends[None, :, -1:] > ends[None]).sum(axis=2)
+def _estimate_whole(assets: Sequence[AssetPieces], said: Sequence[Sequence[Label | None]]) -> float:
+    """The probability that a small solid is one part, by those of which most is labelled."""
+    one, all_ = _WHOLE_SOLIDS
+    for asset, labels in zip(assets, said, strict=True):
+        names = [label.name if label else "" for label in labels]
+        _, codes = np.unique(["", *names], return_inverse=True)
+        volumes = np.zeros((asset.solid_of.max(initial=-1) + 1, codes.max() + 1))
+        np.add.at(volumes, (asset.solid_of, codes[1:]), asset.volumes)
+        total = volumes.sum(axis=1)
+        told = volumes[:, 0] <= (1 - WHOLE) * total
+        several = np.array(
+            [len(set(asset.region_of[asset.solid_of == solid])) > 1 for solid in range(len(total))], bool
+        )
+        counted = told & several
+        all_ += float(counted.sum())
+        one += float((volumes[counted, 1:].max(axis=1, initial=0.0) >= WHOLE * total[counted]).sum())
+    return one / all_
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class _Draw:
+    """What labels are drawn from: those of pieces by_region, by_solid (pieces, labels), and how likely each solid
+    (solids,) is one part."""
+
+    by_region: Floats
+    by_solid: Floats
+    solids: Floats
+
+
+def _draw_spans(shares: Floats, draw: _Draw, asset: AssetPieces) -> Floats:
+    """How often no label has `WHOLE` of a hull (hulls,), where labels of pieces are drawn by their probabilities:
+    together for those of a solid that is one part, else for those of one region; shares: (hulls, pieces) of what a hull
+    stands for."""
+    random = np.random.default_rng(0)
+    of_regions = random.random((_DRAWS, asset.region_of.max(initial=-1) + 1))[:, asset.region_of]
+    of_solids = random.random((_DRAWS, len(draw.solids)))[:, asset.solid_of]
+    whole = (random.random((_DRAWS, len(draw.solids))) < draw.solids)[:, asset.solid_of]
+    codes = np.where(whole, _pick(of_solids, draw.by_solid), _pick(of_regions, draw.by_region))
     most = np.zeros((len(shares), _DRAWS))
-    for label in range(chances.shape[1]):
+    for label in range(draw.by_region.shape[1]):
         most = np.maximum(most, shares @ (codes == label).T)
     found: Floats = (most < WHOLE).mean(axis=1)
     return found
+
+
+def _pick(drawn: Floats, chances: Floats) -> Ints:
+    """The label of each piece (draws, pieces) by numbers from 0 to 1 (draws, pieces)."""
+    ends = np.cumsum(chances, axis=1)
+    found: Ints = (drawn[:, :, None] * ends[None, :, -1:] > ends[None]).sum(axis=2)
+    return found
+
+
+def _number(names: Sequence[str]) -> Ints:
+    """The number (n,) of each name, in the order in which they first come."""
+    numbers = {name: number for number, name in enumerate(dict.fromkeys(names))}
+    return np.array([numbers[name] for name in names], dtype=np.int64)
 
 
 def _scale(rows: Floats, totals: Floats) -> Floats:

@@ -38,7 +38,10 @@ class ReferenceFamily:
     def digest(self) -> str:
         """Equal for families that say the same about a new asset."""
         rows = [[digest_mesh(one).hex(), str(one.labels)] for one in self.meshes.values()]
-        fine = [[digest_mesh(one.pieces).hex(), one.region_of.tolist()] for one in self.pieces.values()]
+        fine = [
+            [digest_mesh(one.pieces).hex(), one.region_of.tolist(), one.solid_of.tolist()]
+            for one in self.pieces.values()
+        ]
         return batch.text_digest(json.dumps([rows, fine, self.words, self.engine]))
 
     @cached_property

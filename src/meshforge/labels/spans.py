@@ -16,7 +16,16 @@ import numpy as np
 from meshforge import batch
 from meshforge.common import MeshForgeError, ProjectError, describe_error, join_and
 from meshforge.formats import read
-from meshforge.geometry import FINE_SETTINGS, Floats, HullPart, PieceEngine, Polytope, cache_folder, decompose_finely
+from meshforge.geometry import (
+    FINE_SETTINGS,
+    FinePiece,
+    Floats,
+    HullPart,
+    PieceEngine,
+    Polytope,
+    cache_folder,
+    decompose_finely,
+)
 from meshforge.label_model import (
     AssetCells,
     AssetPieces,
@@ -33,7 +42,7 @@ from meshforge.labels.hull_arrays import HULL_ARRAYS, pack_hulls, unpack_hulls
 from meshforge.store import Store
 from meshforge.symbolic import HUMAN_SOURCES, Surface, SymbolicMesh
 
-_LAYOUT = 3  # of kept pieces: by body and region from 2 on, each region decomposed alone from 3 on
+_LAYOUT = 4  # of kept pieces: by body and region from 2 on, each region decomposed alone from 3 on
 _SHOWN = 0.1  # of what a hull stands for: labels of smaller shares are not named
 
 
@@ -246,19 +255,23 @@ def read_pieces(surfaces: Mapping[str, Surface], kept: Path, engine: PieceEngine
     key = _digest(surfaces, engine)
     known = read_arrays(kept, key, *HULL_ARRAYS)
     if known is not None:
-        found: dict[str, list[list[Polytope]]] = {body: [] for body in surfaces}
+        found: dict[str, list[FinePiece]] = {body: [] for body in surfaces}
         for name, own in unpack_hulls(*known).items():
-            found[name.partition("/")[2]].append(own)
+            solid, region, body = name.split("/", 2)
+            found[body] += (FinePiece(shape, int(region), int(solid)) for shape in own)
         return found
     made = decompose_surfaces(surfaces, engine)
-    named = {f"{region}/{body}": own for body, regions in made.items() for region, own in enumerate(regions)}
+    named = dict[str, list[Polytope]]()
+    for body, pieces in made.items():
+        for piece in pieces:
+            named.setdefault(f"{piece.solid}/{piece.region}/{body}", []).append(piece.shape)
     write_arrays(kept, key, pack_hulls(named))
     return made
 
 
 def decompose_surfaces(surfaces: Mapping[str, Surface], engine: PieceEngine = "coacd") -> SurfacePieces:
     """The fine pieces of surfaces by body, as `batch.find_surfaces` gives these."""
-    found = dict[str, Sequence[Sequence[Polytope]]]()
+    found = dict[str, Sequence[FinePiece]]()
     for body, surface in surfaces.items():
         try:
             found[body] = decompose_finely(surface.vertices, surface.faces, engine, cache=cache_folder())

@@ -1,5 +1,5 @@
 """Fine convex pieces of a surface, none of which reaches over a part boundary that the surface shows: each connected
-solid decomposed by itself, its pieces cut at creases; by the region of the surface that they are of."""
+solid decomposed by itself, its pieces cut at creases; with the region of the surface that each is of."""
 
 from __future__ import annotations
 
@@ -16,13 +16,12 @@ from typing import Literal
 import numpy as np
 
 from meshforge.common import GeometryError
-from meshforge.geometry import connectivity
 from meshforge.geometry.arrays import Floats, Ints
 from meshforge.geometry.convex import FLATNESS, convex_hull, principal_extents
 from meshforge.geometry.decomposition.by_parts import scale_settings
 from meshforge.geometry.decomposition.creases import Creases, cut_at_creases, find_creases
 from meshforge.geometry.decomposition.engines import CoacdSettings, DecomposeSettings, EngineJob, VhacdSettings
-from meshforge.geometry.decomposition.regions import group_by_region, list_region_solids
+from meshforge.geometry.decomposition.regions import FinePiece, find_solids, list_region_solids, number_pieces
 from meshforge.geometry.decomposition.run import (
     cache_key,
     decompose,
@@ -51,8 +50,8 @@ _NAME = "a piece of the surface"
 
 def decompose_finely(
     vertices: Floats, faces: Ints, engine: PieceEngine = "coacd", *, cache: Path | None = None
-) -> tuple[tuple[Polytope, ...], ...]:
-    """Fine convex pieces of vertices (n, 3) [m] and faces (m, 3), by region, the same for the same input.
+) -> tuple[FinePiece, ...]:
+    """Fine convex pieces of vertices (n, 3) [m] and faces (m, 3), the same for the same input.
 
     engine: which makes them; cache: a folder for the pieces and for results of the engine, None keeps none.
     Raises GeometryError: nothing that has an area, a coordinate that is not finite.
@@ -60,12 +59,12 @@ def decompose_finely(
     mesh, settings = clean_triangles(vertices, faces), FINE_SETTINGS[engine]
     key = _cache_key(mesh, settings)
     if cache and (known := read_entry(cache, key)) is not None:
-        return group_by_region([Polytope(*piece) for piece in known], mesh.vertices, mesh.faces)
+        return number_pieces([Polytope(*piece) for piece in known], mesh.vertices, mesh.faces)
     pieces, failed = _decompose_mesh(mesh, settings, cache)
     if cache and not failed:  # an engine that was killed may not be the next time
         with suppress(OSError):  # a cache that cannot be written costs time alone
             write_entry(cache, key, [(piece.vertices, piece.faces) for piece in pieces])
-    return group_by_region(pieces, mesh.vertices, mesh.faces)
+    return number_pieces(pieces, mesh.vertices, mesh.faces)
 
 
 def _cache_key(mesh: TriangleMesh, settings: DecomposeSettings) -> str:
@@ -114,34 +113,13 @@ def _decompose_mesh(
 
 def _list_solids(mesh: TriangleMesh, settings: DecomposeSettings) -> list[_Solid]:
     """The solids of a mesh, small ones and all but the largest of many as one piece each."""
-    solids = _find_solids(mesh.vertices, mesh.faces)
+    solids = [mesh.faces[own] for own in find_solids(mesh.vertices, mesh.faces)]
     sizes = [float(np.linalg.norm(np.ptp(mesh.vertices[solid], axis=(0, 1)))) for solid in solids]
     least = max(_SMALL * mesh.diagonal, sorted(sizes, reverse=True)[_MOST - 1] if len(sizes) >= _MOST else 0.0)
     return [
         _Solid(mesh.vertices, solid, settings if size >= least else None)
         for solid, size in zip(solids, sizes, strict=True)
     ]
-
-
-def _find_solids(vertices: Floats, faces: Ints) -> list[Ints]:
-    """The connected components of faces, each cavity with the solid that it is in."""
-    component = connectivity.components_by_vertices(faces)
-    closed = set(connectivity.find_closed_components(faces, component).tolist())
-    numbers = np.unique(component).tolist()
-    own = {number: faces[component == number] for number in numbers}
-    volumes = {number: volume_and_centroid(vertices, own[number])[0] for number in numbers}
-    outer = [number for number in numbers if volumes[number] > 0]
-    found = {number: [own[number]] for number in numbers}
-    for number in numbers:
-        homes = [o for o in outer if volumes[o] > -volumes[number] and _is_within(vertices, own[number], own[o])]
-        if number in closed and volumes[number] < 0 and homes:
-            found[min(homes, key=lambda o: volumes[o])] += found.pop(number)
-    return [np.concatenate(rows) for rows in found.values()]
-
-
-def _is_within(vertices: Floats, inner: Ints, outer: Ints) -> bool:
-    a, b = vertices[inner].reshape(-1, 3), vertices[outer].reshape(-1, 3)
-    return bool((a.min(axis=0) >= b.min(axis=0)).all() and (a.max(axis=0) <= b.max(axis=0)).all())
 
 
 def _list_regions(solid: _Solid) -> list[_Solid]:

@@ -4,6 +4,7 @@ that are of each."""
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -52,19 +53,59 @@ def list_region_solids(vertices: Floats, faces: Ints) -> list[TriangleMesh]:
     return found if len(found) > 1 else []
 
 
-def group_by_region(pieces: Sequence[Polytope], vertices: Floats, faces: Ints) -> tuple[tuple[Polytope, ...], ...]:
-    """Pieces by the region that has most of the surface at each, in the order in which regions first come."""
+@dataclass(frozen=True, eq=False, slots=True)
+class FinePiece:
+    """A convex piece of a surface; region, solid: the numbers of what of the surface it is of, from 0."""
+
+    shape: Polytope
+    region: int
+    solid: int
+
+
+def find_solids(vertices: Floats, faces: Ints) -> list[Ints]:
+    """The connected components of faces (m, 3), each as the places of its faces, a cavity with the solid that it is
+    in."""
+    component = connectivity.components_by_vertices(faces)
+    closed = set(connectivity.find_closed_components(faces, component).tolist())
+    numbers = np.unique(component).tolist()
+    own = {number: np.flatnonzero(component == number) for number in numbers}
+    volumes = {number: volume_and_centroid(vertices, faces[own[number]])[0] for number in numbers}
+    outer = [number for number in numbers if volumes[number] > 0]
+    found = {number: [own[number]] for number in numbers}
+    for number in numbers:
+        inner = faces[own[number]]
+        homes = [o for o in outer if volumes[o] > -volumes[number] and _is_within(vertices, inner, faces[own[o]])]
+        if number in closed and volumes[number] < 0 and homes:
+            found[min(homes, key=lambda o: volumes[o])] += found.pop(number)
+    return [np.concatenate(rows) for rows in found.values()]
+
+
+def _is_within(vertices: Floats, inner: Ints, outer: Ints) -> bool:
+    a, b = vertices[inner].reshape(-1, 3), vertices[outer].reshape(-1, 3)
+    return bool((a.min(axis=0) >= b.min(axis=0)).all() and (a.max(axis=0) <= b.max(axis=0)).all())
+
+
+def number_pieces(pieces: Sequence[Polytope], vertices: Floats, faces: Ints) -> tuple[FinePiece, ...]:
+    """Pieces with the region that has most of the surface at each, and its solid; region by region, in the order in
+    which these first come."""
     from scipy.spatial import cKDTree  # lazy: 0.5 s, half of all imports
 
     faces = drop_degenerate(vertices, faces)
     regions = find_regions(vertices, faces)
+    solids = np.zeros(len(faces), dtype=np.int64)
+    for solid, own in enumerate(find_solids(vertices, faces)):
+        solids[own] = solid
     points, owner = sample_surface(vertices, faces, _POINTS)
     tree = cKDTree(points)
     near = _NEAR * float(np.linalg.norm(np.ptp(vertices, axis=0)))
     found = dict[int, list[Polytope]]()
     for piece in pieces:
-        own, _ = sample_surface(piece.vertices, piece.faces, _OWN_POINTS)
-        distances, places = map(np.asarray, tree.query(own))
+        at, _ = sample_surface(piece.vertices, piece.faces, _OWN_POINTS)
+        distances, places = map(np.asarray, tree.query(at))
         close = distances <= max(near, float(distances.min()))
         found.setdefault(int(np.bincount(regions[owner[places[close]]]).argmax()), []).append(piece)
-    return tuple(map(tuple, found.values()))
+    return tuple(
+        FinePiece(shape, number, int(solids[np.flatnonzero(regions == region)[0]]))
+        for number, (region, shapes) in enumerate(found.items())
+        for shape in shapes
+    )
