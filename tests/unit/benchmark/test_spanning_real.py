@@ -84,7 +84,7 @@ def test_a_real_chair_is_decomposed_as_a_whole_in_the_frame_of_its_file() -> Non
         assert np.allclose(getattr(other, low_or_high)(axis=0), of_file, atol=2e-3)
     assert faces.max() < len(points)
     assert sum(purity < 0.9 for purity in sample.purities) > sum(purity < 0.9 for purity in separate.purities)
-    pieces = [piece for own in make_pieces(sample) for piece in own]
+    pieces = [piece.shape for piece in make_pieces(sample)]
     assert set(label_truly(pieces, sample.asset)) == {part.label for part in sample.asset.parts}
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from itertools import chain
+from collections.abc import Sequence
 from pathlib import Path
 
 import manifold3d
@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from meshforge.common import GeometryError
-from meshforge.geometry import Floats, Ints, Polytope, decompose_finely, volume_of_union
+from meshforge.geometry import FinePiece, Floats, Ints, decompose_finely, volume_of_union
 from meshforge.geometry.decomposition import fine
 from tests.unit.geometry.test_decompose import CUBE, fake_engine
 
@@ -25,8 +25,8 @@ def make_t() -> tuple[Floats, Ints]:
 T_SHAPE = make_t()
 
 
-def contents(regions: tuple[tuple[Polytope, ...], ...]) -> list[list[tuple[bytes, bytes]]]:
-    return [[(piece.vertices.tobytes(), piece.faces.tobytes()) for piece in own] for own in regions]
+def contents(pieces: Sequence[FinePiece]) -> list[tuple[bytes, bytes, int, int]]:
+    return [(one.shape.vertices.tobytes(), one.shape.faces.tobytes(), one.region, one.solid) for one in pieces]
 
 
 def forbid_cuts(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -41,7 +41,7 @@ def test_kept_pieces_are_those_that_were_made_to_the_last_bit(
     monkeypatch: pytest.MonkeyPatch, tmp_path: Path, engine: fine.PieceEngine
 ) -> None:
     made = decompose_finely(*T_SHAPE, engine, cache=tmp_path)
-    assert volume_of_union(list(chain(*made))) == pytest.approx(0.1 * 0.1 * (0.6 + 0.45), rel=0.02)
+    assert volume_of_union([piece.shape for piece in made]) == pytest.approx(0.1 * 0.1 * (0.6 + 0.45), rel=0.02)
     forbid_cuts(monkeypatch)
     assert contents(decompose_finely(*T_SHAPE, engine, cache=tmp_path)) == contents(made)
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from itertools import chain
+from collections.abc import Sequence
 
 import numpy as np
 import pytest
@@ -10,7 +10,13 @@ from manifold3d import Manifold
 
 from meshforge.geometry import Polytope, decompose_finely
 from meshforge.geometry.decomposition.creases import drop_degenerate
-from meshforge.geometry.decomposition.regions import find_regions, group_by_region, list_region_solids
+from meshforge.geometry.decomposition.regions import (
+    FinePiece,
+    find_regions,
+    find_solids,
+    list_region_solids,
+    number_pieces,
+)
 from meshforge.geometry.shape import volume_and_centroid
 from meshforge.geometry.surface import is_closed
 from tests.unit.geometry.solids import block, surface
@@ -50,28 +56,44 @@ def test_a_region_ends_at_concave_edges(solid: Manifold, regions: int) -> None:
     assert count(solid) == regions
 
 
-def test_pieces_are_grouped_by_the_region_they_are_of() -> None:
-    regions = decompose_finely(*surface(PLATE + POST))
-    plate, post = sorted(regions, key=lambda own: min(float(piece.aabb.min[2]) for piece in own))
-    assert all(piece.aabb.max[2] < 0.03 for piece in plate)
-    assert all(piece.aabb.min[2] > 0.02 for piece in post)
+def shapes_of(pieces: Sequence[FinePiece]) -> list[Polytope]:
+    return [piece.shape for piece in pieces]
+
+
+def numbers_of(pieces: Sequence[FinePiece]) -> list[tuple[int, int]]:
+    return [(piece.region, piece.solid) for piece in pieces]
+
+
+def test_each_piece_has_the_region_it_is_of() -> None:
+    pieces = decompose_finely(*surface(PLATE + POST))
+    assert {piece.solid for piece in pieces} == {0}
+    heights = [{round(float(piece.shape.aabb.min[2]), 3) for piece in pieces if piece.region == k} for k in (0, 1)]
+    assert sorted(map(min, heights)) == pytest.approx([-0.025, 0.025], abs=1e-3)
+    assert max(map(len, heights)) == 1
 
 
 def test_solids_apart_are_regions_apart_and_no_piece_is_lost() -> None:
     both = Manifold.compose([PLATE + POST, block((0.2, 0.2, 0.2), (1, 0, 0))])
     vertices, faces = surface(both)
-    pieces = list(chain(*decompose_finely(vertices, faces)))
-    found = group_by_region(pieces, vertices, faces)
-    assert len(found) == 3
-    assert sorted(map(id, chain(*found))) == sorted(map(id, pieces))
-    assert [own[0] for own in found] == sorted((own[0] for own in found), key=pieces.index), "as they first come"
+    pieces = shapes_of(decompose_finely(vertices, faces))
+    found = number_pieces(pieces, vertices, faces)
+    assert sorted(set(numbers_of(found))) in ([(0, 0), (1, 0), (2, 1)], [(0, 0), (1, 1), (2, 1)])
+    assert sorted(map(id, shapes_of(found))) == sorted(map(id, pieces))
+    assert [piece.region for piece in found] == sorted(piece.region for piece in found), "region by region"
+
+
+def test_a_cavity_is_of_the_solid_around_it() -> None:
+    tin = block((0.4, 0.4, 0.4), (0, 0, 0)) - block((0.3, 0.3, 0.3), (0, 0, 0))
+    vertices, faces = surface(Manifold.compose([tin, block((0.1, 0.1, 0.1), (0, 0, 0))]))
+    assert sorted(map(len, find_solids(vertices, faces))) == [12, 24]
 
 
 def test_a_piece_that_lies_nowhere_near_goes_with_the_nearest_region() -> None:
     vertices, faces = surface(PLATE + POST)
-    (away,) = chain(*decompose_finely(*surface(block((0.1, 0.1, 0.1), (0.1, 0, 3)))))
-    (top,) = chain(*decompose_finely(*surface(block((0.08, 0.08, 0.1), (0.1, 0, 0.35)))))
-    assert group_by_region([away, top], vertices, faces) == ((away, top),)
+    (away,) = shapes_of(decompose_finely(*surface(block((0.1, 0.1, 0.1), (0.1, 0, 3)))))
+    (top,) = shapes_of(decompose_finely(*surface(block((0.08, 0.08, 0.1), (0.1, 0, 0.35)))))
+    found = number_pieces([away, top], vertices, faces)
+    assert shapes_of(found) == [away, top] and numbers_of(found) == [(0, 0), (0, 0)]
 
 
 def test_flat_triangles_do_not_count() -> None:
@@ -79,7 +101,8 @@ def test_flat_triangles_do_not_count() -> None:
     flat = np.vstack([faces, [[faces[0, 0], faces[0, 1], faces[0, 0]]]])
     assert len(drop_degenerate(vertices, flat)) == len(faces)
     piece = Polytope(*surface(POST))
-    assert group_by_region([piece], vertices, flat) == ((piece,),)
+    (found,) = number_pieces([piece], vertices, flat)
+    assert found.shape is piece
 
 
 def solids_of(solid: Manifold) -> list[float]:
@@ -118,6 +141,6 @@ def test_an_open_surface_has_no_solids_of_regions() -> None:
 def test_no_piece_reaches_over_the_edge_between_two_regions() -> None:
     """A stub on a leaf, a thirtieth as thick: CoACD by itself makes one piece of both."""
     leaf, plate = block((1.0, 0.05, 2.0), (0, 0, 0)), block((0.2, 0.01, 0.1), (-0.3, 0.03, 0.4))
-    pieces = list(chain(*decompose_finely(*surface(leaf + plate))))
+    pieces = shapes_of(decompose_finely(*surface(leaf + plate)))
     assert sum(piece.volume for piece in pieces) == pytest.approx(0.1 + 0.2 * 0.01 * 0.1, rel=0.01)
     assert all(piece.aabb.max[1] < 0.026 or piece.aabb.min[1] > 0.024 for piece in pieces)

@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 import pytest
 
-from meshforge.geometry import Aabb, Box, Polytope, cut
+from meshforge.geometry import Aabb, Box, FinePiece, Floats, Polytope, cut
 from meshforge.label_model import AssetPieces, SpanModel, SpanPosterior, piece_mesh
 from meshforge.symbolic import Hull, Label, SymbolicMesh
 from tests.unit.project.stools import PARTS, boxes
+
+EVEN = np.full((2, 2), 0.5)
 
 
 def stool(width: float, height: float, slices: int = 1, regions: bool = True) -> AssetPieces:
@@ -16,7 +20,14 @@ def stool(width: float, height: float, slices: int = 1, regions: bool = True) ->
     parts = boxes(width, height)
     mesh = SymbolicMesh(tuple(Hull(f"h{k}", "base", part) for k, part in enumerate(parts)))
     rows = [[parts[0]], *(slice_leg(leg, height, slices) for leg in parts[1:])]
-    return AssetPieces(mesh, piece_mesh({"base": rows if regions else [[p] for own in rows for p in own]}, mesh))
+    return pieces_of(mesh, rows if regions else [[piece] for own in rows for piece in own])
+
+
+def pieces_of(mesh: SymbolicMesh, regions: Sequence[Sequence[Polytope]], apart: bool = False) -> AssetPieces:
+    """Pieces by region; apart: each region is a solid by itself, else all are of one."""
+    body = mesh.hulls[0].body
+    rows = [FinePiece(shape, k, k if apart else 0) for k, own in enumerate(regions) for shape in own]
+    return AssetPieces(mesh, piece_mesh({body: rows}, mesh))
 
 
 def slice_leg(leg: Polytope, height: float, slices: int) -> list[Polytope]:
@@ -47,23 +58,55 @@ def test_pieces_of_a_region_are_of_one_label_though_none_looks_like_its_whole() 
 def test_a_region_that_is_the_whole_asset_says_nothing() -> None:
     new = stool(0.19, 0.41, 2)
     pieces = [hull.shape.tessellate() for hull in new.pieces.hulls]
-    whole = infer(AssetPieces(new.mesh, piece_mesh({"base": [pieces]}, new.mesh)))
-    apart = infer(AssetPieces(new.mesh, piece_mesh({"base": [[piece] for piece in pieces]}, new.mesh)))
+    whole = infer(pieces_of(new.mesh, [pieces]))
+    apart = infer(pieces_of(new.mesh, [[piece] for piece in pieces]))
     assert whole.labels == apart.labels
     assert whole.chances[2].argmax(axis=1).tolist() == [whole.labels.index("seat"), *[whole.labels.index("leg")] * 8]
 
 
 @pytest.mark.parametrize(("regions", "chance"), [(1, 0.0), (2, 0.5)])
 def test_labels_of_one_region_are_drawn_together(regions: int, chance: float) -> None:
+    found = infer_halves(regions, one_part=0.0)
+    assert found.chances_of(0)[0] == pytest.approx(chance, abs=0.06)
+    assert found.shares_of(0)[0] == pytest.approx([0.5, 0.5])
+
+
+@pytest.mark.parametrize(("one_part", "chance"), [(0.0, 0.5), (0.6, 0.2), (1.0, 0.0)])
+def test_labels_of_a_solid_are_drawn_together_as_often_as_it_is_one_part(one_part: float, chance: float) -> None:
+    assert infer_halves(2, one_part).chances_of(0)[0] == pytest.approx(chance, abs=0.06)
+
+
+def test_pieces_of_a_solid_that_is_one_part_have_the_labels_of_its_mean() -> None:
+    found = infer_halves(2, 0.5, np.array([[0.9, 0.1], [0.1, 0.9]]))
+    assert found.chances[0] == pytest.approx(np.array([[0.7, 0.3], [0.3, 0.7]]))
+
+
+def infer_halves(regions: int, one_part: float, chances: Floats = EVEN) -> SpanPosterior:
+    """A hull of two halves in so many regions of one solid, which is so likely one part."""
     halves = [
         Box.of_bounds(Aabb(np.array([x, 0.0, 0.0]), np.array([x + 1, 1.0, 1.0]))).tessellate() for x in (0.0, 1.0)
     ]
     hull = Box.of_bounds(Aabb(np.zeros(3), np.array([2.0, 1.0, 1.0]))).tessellate()
-    mesh = SymbolicMesh((Hull("h", "b", hull),))
-    asset = AssetPieces(mesh, piece_mesh({"b": [halves] if regions == 1 else [[half] for half in halves]}, mesh))
-    posterior = SpanPosterior([asset], ("a", "b"), [np.full((2, 2), 0.5)], np.array([0.0, 1.0]))
-    assert posterior.chances_of(0)[0] == pytest.approx(chance, abs=0.06)
-    assert posterior.shares_of(0)[0] == pytest.approx([0.5, 0.5])
+    asset = pieces_of(SymbolicMesh((Hull("h", "b", hull),)), [halves] if regions == 1 else [[half] for half in halves])
+    return SpanPosterior([asset], ("a", "b"), [chances], np.array([0.0, 1.0]), [np.array([one_part])])
+
+
+@pytest.mark.parametrize(("apart", "least", "most"), [(True, 0.7, 1.0), (False, 0.0, 0.0)])
+def test_how_often_a_solid_is_one_part_is_learned_from_labelled_assets(apart: bool, least: float, most: float) -> None:
+    """Stools of which each leg is two regions of one solid, or all is one solid."""
+    known = [_two_regions_a_leg(apart) for _ in range(3)]
+    model = SpanModel(known)
+    found = model.infer([Label(part) for _ in known for part in PARTS])
+    legs = found.solids[0][1:] if apart else found.solids[0]
+    assert least <= legs.min() <= legs.max() <= most
+
+
+def _two_regions_a_leg(apart: bool) -> AssetPieces:
+    parts = boxes(0.2, 0.4)
+    mesh = SymbolicMesh(tuple(Hull(f"h{k}", "base", part) for k, part in enumerate(parts)))
+    legs = [piece for leg in parts[1:] for piece in slice_leg(leg, 0.4, 2)]
+    rows = [FinePiece(parts[0], 0, 0), *(FinePiece(p, 1 + k, 1 + k // 2 if apart else 0) for k, p in enumerate(legs))]
+    return AssetPieces(mesh, piece_mesh({"base": rows}, mesh))
 
 
 def test_labels_of_a_region_come_from_more_than_half_of_it() -> None:

@@ -9,7 +9,15 @@ import pytest
 
 from meshforge.batch import IN_PROCESS
 from meshforge.common import ProjectError, UsageError
-from meshforge.geometry import Floats, Ints, PieceEngine, Polytope, decompose_finely, overlap_volume, volume_of_union
+from meshforge.geometry import (
+    FinePiece,
+    Floats,
+    Ints,
+    PieceEngine,
+    decompose_finely,
+    overlap_volume,
+    volume_of_union,
+)
 from meshforge.labels import spans
 from meshforge.project import PreparationResult, Project, SplitSettings, span_search
 from meshforge.symbolic import Label
@@ -114,7 +122,7 @@ def engines(monkeypatch: pytest.MonkeyPatch) -> list[str]:
     """The engine of each surface whose fine pieces are made."""
     used = list[str]()
 
-    def note(vertices: Floats, faces: Ints, engine: PieceEngine, *, cache: Path) -> tuple[tuple[Polytope, ...], ...]:
+    def note(vertices: Floats, faces: Ints, engine: PieceEngine, *, cache: Path) -> tuple[FinePiece, ...]:
         used.append(engine)
         return decompose_finely(vertices, faces, engine, cache=cache)
 
