@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 from meshforge.common.exports import export_lazily
 
 if TYPE_CHECKING:
+    from meshforge.label_model.asset_pieces import AssetPieces, SurfacePieces, piece_mesh
     from meshforge.label_model.cells import AssetCells, CellModel, CellPosterior, cut_into_cells
     from meshforge.label_model.consensus import EVIDENCE, consensus_weights
     from meshforge.label_model.describe import MeshDescriber, ShapeDescriptor, remember_descriptor
@@ -14,7 +15,7 @@ if TYPE_CHECKING:
     from meshforge.label_model.posterior import FamilyModel, FamilyPosterior, infer_labels, model_family
     from meshforge.label_model.sides import correct_upright, find_doubtful_sides
     from meshforge.label_model.similar import find_similar
-    from meshforge.label_model.spans import WHOLE, AssetPieces, SpanModel, SpanPosterior, SurfacePieces, piece_mesh
+    from meshforge.label_model.spans import WHOLE, SpanModel, SpanPosterior
     from meshforge.label_model.table import (
         FamilyTable,
         Observations,

@@ -11,8 +11,9 @@ import numpy as np
 
 from meshforge.common import GeometryError
 from meshforge.geometry import Floats, Ints, Polytope, cut, planes_of
+from meshforge.label_model.asset_pieces import AssetPieces
 from meshforge.label_model.describe import find_up, rotation_to_z
-from meshforge.label_model.spans import AssetPieces, SpanPosterior, span_weights
+from meshforge.label_model.spans import SpanPosterior, scale_rows, span_weights
 from meshforge.label_model.surroundings import (
     NEAR_COLUMNS,
     PICTURE_COLUMNS,
@@ -202,8 +203,17 @@ class CellPosterior(SpanPosterior):
         are drawn; the logit of the share of other labels by the likeliest label of each cell; the logarithm of the
         hull's volume by the mean of the hulls of the asset, and how many hulls it touches."""
         own = self.assets[mesh].mesh
-        rest = np.clip(1 - self.main_shares(mesh), _LEAST_REST, 1 - _LEAST_REST)
+        rest = np.clip(1 - self._main_shares(mesh), _LEAST_REST, 1 - _LEAST_REST)
         volumes = np.maximum([hull.volume for hull in own.hulls], np.finfo(float).tiny)
         touching = np.bincount(np.array(sorted(own.contacts), np.int64).ravel(), minlength=len(own.hulls))
         size = np.log(volumes / volumes.mean()) if len(volumes) else volumes
         return np.column_stack([super().collect_evidence(mesh), np.log(rest / (1 - rest)), size, touching])
+
+    def _main_shares(self, mesh: int) -> Floats:
+        """The share (hulls,) of the label that has most of each hull, where each piece has its likeliest label."""
+        common, chances = self.assets[mesh].common, self.chances[mesh]
+        if not chances.size:
+            return np.ones(len(common))
+        likeliest = np.eye(chances.shape[1])[chances.argmax(axis=1)]
+        found: Floats = scale_rows(common @ likeliest, common.sum(axis=1)).max(axis=1)
+        return found

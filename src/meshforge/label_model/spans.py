@@ -1,10 +1,10 @@
 """The probability that a hull holds more than one part: from fine pieces of the surface that hulls stand for, and the
-regions that these are of, whose labels are inferred as those of hulls are."""
+regions and solids that these are of."""
 
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cache, cached_property
 from importlib.resources import files
@@ -12,18 +12,10 @@ from itertools import islice
 
 import numpy as np
 
-from meshforge.geometry import (
-    FinePiece,
-    Floats,
-    HullPart,
-    Ints,
-    convex_hull,
-    divide,
-    merge_pieces,
-    overlap_volume,
-)
+from meshforge.geometry import Floats, HullPart, Ints, divide, merge_pieces
+from meshforge.label_model.asset_pieces import WITHIN, AssetPieces
 from meshforge.label_model.posterior import FamilyPosterior, model_family
-from meshforge.symbolic import Hull, Label, SymbolicMesh
+from meshforge.symbolic import Label
 
 WEIGHTS_FILE = "spans.json"
 WHOLE = 0.9
@@ -31,11 +23,7 @@ WHOLE = 0.9
 _LEAST_DRAWN = 0.002  # how often a hull spans parts is at least this, for its logarithm
 _WHOLE_SOLIDS = 0.5, 1.5  # solids of one part, and all, that are taken to be seen before any is
 _DRAWS = 512  # of the labels of all pieces
-_MOST = 0.8  # how much a label is believed that a piece takes from the hull that it lies in
-_ALL = 0.85  # of a piece, from which a hull has nearly all of it
 _SLIVER = 3e-3  # of the volume of all pieces of a rebuild: smaller ones go with a neighbour where that adds little
-_WITHIN = 0.5  # of a piece's volume that the hull must have
-_THICKNESS = 1e-4  # of the asset's size, that a flat region gets
 _LEAST_CHANCE = 1e-3  # of a label, where chances of pieces and regions are multiplied
 _SHARPNESS = 0.6  # exponent of both, since they have much of their evidence in common
 
@@ -48,111 +36,6 @@ def span_weights(key: str = "weights") -> Floats:
     found = np.array(read[key], dtype=float)
     found.flags.writeable = False
     return found
-
-
-SurfacePieces = Mapping[str, Sequence[FinePiece]]
-"""The fine pieces of the surfaces of an asset by body, as `decompose_finely` gives these."""
-
-
-def piece_mesh(pieces: SurfacePieces, mesh: SymbolicMesh) -> SymbolicMesh:
-    """The fine pieces of an asset as a mesh that lies as its own does; the parent of each is its region, after the
-    solid that this is of."""
-    hulls = (
-        Hull(f"{body}/{k}", body, piece.shape, parent=f"{body}/{piece.solid}/{piece.region}")
-        for body, own in pieces.items()
-        for k, piece in enumerate(own)
-    )
-    return SymbolicMesh(tuple(hulls), mesh.asset, mesh.epsilon, mesh.scale)
-
-
-@dataclass(frozen=True, eq=False)
-class AssetPieces:
-    """The hulls of an asset, and the fine pieces of the surface that they stand for.
-
-    common: (hulls, pieces) [m^3] the volume that each hull has of each piece of its body.
-    """
-
-    mesh: SymbolicMesh
-    pieces: SymbolicMesh
-
-    @cached_property
-    def common(self) -> Floats:
-        found = np.zeros((len(self.mesh.hulls), len(self.pieces.hulls)))
-        if not found.size:
-            return found
-        (low, high), (below, above) = self.mesh.corners, self.pieces.corners
-        meet = ((low[:, None] <= above[None]) & (high[:, None] >= below[None])).all(axis=2)
-        for hull, piece in np.argwhere(meet).tolist():
-            one, other = self.mesh.hulls[hull], self.pieces.hulls[piece]
-            if one.body == other.body:
-                found[hull, piece] = overlap_volume(one.shape, other.shape)
-        return found
-
-    @cached_property
-    def volumes(self) -> Floats:
-        """Of the pieces (pieces,) [m^3]."""
-        return np.array([piece.shape.volume for piece in self.pieces.hulls])
-
-    @cached_property
-    def region_of(self) -> Ints:
-        """The number of the region of each piece (pieces,), in the order in which they come."""
-        return _number([str(piece.parent) for piece in self.pieces.hulls])
-
-    @cached_property
-    def solid_of(self) -> Ints:
-        """The same of the solid that the region is of."""
-        return _number([str(piece.parent).rpartition("/")[0] for piece in self.pieces.hulls])
-
-    @cached_property
-    def regions(self) -> SymbolicMesh:
-        """The regions as a mesh: the convex hull of the pieces of each."""
-        points = [piece.vertices for piece in self.pieces.hulls]
-        thickness = _THICKNESS * self.pieces.diagonal if points else 0.0
-        found = list[Hull]()
-        for number in range(self.region_of.max(initial=-1) + 1):
-            own = np.flatnonzero(self.region_of == number).tolist()
-            first = self.pieces.hulls[own[0]]
-            shape = convex_hull(np.concatenate([points[place] for place in own]), name=first.name, thicken=thickness)
-            found.append(Hull(str(first.parent), first.body, shape))
-        return self.pieces.with_hulls(found)
-
-    def collect_labels(self, labels: Sequence[Label | None]) -> list[Label | None]:
-        """What labels of pieces say about each region: the label of more than half of it, believed by that share."""
-        found = list[Label | None]()
-        for number in range(len(self.regions.hulls)):
-            own = self.region_of == number
-            said: dict[str, float] = {}
-            for place in np.flatnonzero(own).tolist():
-                if label := labels[place]:
-                    said[label.name] = said.get(label.name, 0.0) + label.confidence * float(self.volumes[place])
-            best = max(said, key=lambda name: said[name], default=None)
-            share = said[best] / float(self.volumes[own].sum()) if best else 0.0
-            found.append(Label(best, min(share, 1.0), "file") if best and share > 0.5 else None)
-        return found
-
-    def weigh_solids(self, whole: float) -> Floats:
-        """The probability that each solid (solids,) is one part; whole: of a small one. The less of the asset a solid
-        has, the likelier it is."""
-        volumes = np.bincount(self.solid_of, weights=self.volumes)
-        found: Floats = whole * (1 - volumes / max(float(volumes.sum()), np.finfo(float).tiny))
-        return found
-
-    def pieces_of(self, hull: int) -> Ints:
-        """The pieces that a hull stands for: those that it meets, but for what another hull has nearly all of."""
-        held = self.common / np.maximum(self.volumes, 1e-300)
-        others = np.delete(held, hull, axis=0).max(axis=0, initial=0.0)
-        found: Ints = np.flatnonzero((held[hull] > 0) & ((others < _ALL) | (held[hull] >= others)))
-        return found
-
-    def take_labels(self, labels: Sequence[Label | None]) -> list[Label | None]:
-        """What labels of hulls say about each piece: that of the hull that most of it lies in, not quite believed."""
-        best = self.common.argmax(axis=0) if len(labels) else np.zeros(len(self.pieces.hulls), np.int64)
-        found = list[Label | None]()
-        for piece, hull in zip(self.pieces.hulls, best.tolist(), strict=True):
-            label = labels[hull] if labels else None
-            held = label and self.common[hull, len(found)] >= _WITHIN * piece.shape.volume
-            found.append(Label(label.name, min(label.confidence, _MOST), "file") if label and held else None)
-        return found
 
 
 class SpanModel:
@@ -196,7 +79,7 @@ class SpanModel:
         known[:, [of_pieces.seen.labels.index(label) for label in of_regions.seen.labels]] = of_regions.chances_of(mesh)
         both = (np.maximum(chances, _LEAST_CHANCE) * np.maximum(known[asset.region_of], _LEAST_CHANCE)) ** _SHARPNESS
         share = np.bincount(asset.region_of, weights=asset.volumes)[asset.region_of] / asset.volumes.sum()
-        found: Floats = share[:, None] * chances + (1 - share)[:, None] * _scale(both, both.sum(axis=1))
+        found: Floats = share[:, None] * chances + (1 - share)[:, None] * scale_rows(both, both.sum(axis=1))
         return found
 
 
@@ -227,21 +110,12 @@ class SpanPosterior:
     def _average(self, asset: AssetPieces, chances: Floats) -> Floats:
         """The mean chances (pieces, labels) of the pieces of the solid of each."""
         of_solid = np.eye(asset.solid_of.max(initial=-1) + 1)[asset.solid_of] * asset.volumes[:, None]
-        return _scale(of_solid.T @ chances, of_solid.sum(axis=0))[asset.solid_of]
+        return scale_rows(of_solid.T @ chances, of_solid.sum(axis=0))[asset.solid_of]
 
     def shares_of(self, mesh: int) -> Floats:
         """The expected share of each label in each hull (hulls, labels); zeros for one that stands for nothing."""
         common = self.assets[mesh].common
-        return _scale(common @ self.chances[mesh], common.sum(axis=1))
-
-    def main_shares(self, mesh: int) -> Floats:
-        """The share (hulls,) of the label that has most of each hull, where each piece has its likeliest label."""
-        common, chances = self.assets[mesh].common, self.chances[mesh]
-        if not chances.size:
-            return np.ones(len(common))
-        likeliest = np.eye(chances.shape[1])[chances.argmax(axis=1)]
-        found: Floats = _scale(common @ likeliest, common.sum(axis=1)).max(axis=1)
-        return found
+        return scale_rows(common @ self.chances[mesh], common.sum(axis=1))
 
     def chances_of(self, mesh: int) -> Floats:
         """The probability that each hull (hulls,) holds more than one label; 0 where it stands for nothing."""
@@ -252,7 +126,7 @@ class SpanPosterior:
     def collect_evidence(self, mesh: int) -> Floats:
         """What the probability is made from (hulls, 2), as `span_weights` has it."""
         asset, chances = self.assets[mesh], self.by_region[mesh]
-        shares = _scale(asset.common, asset.common.sum(axis=1))
+        shares = scale_rows(asset.common, asset.common.sum(axis=1))
         drawn = np.zeros(len(shares))
         if chances.size:
             drawn = _draw_spans(shares, _Draw(chances, self._average(asset, chances), self.solids[mesh]), asset)
@@ -274,7 +148,7 @@ class SpanPosterior:
         asset, chances = self.assets[mesh], self.chances[mesh]
         pieces = [piece.shape.tessellate() for piece in asset.pieces.hulls]
         volumes, common = asset.volumes, asset.common[hulls]
-        own = np.flatnonzero(common.sum(axis=0) >= _WITHIN * volumes)
+        own = np.flatnonzero(common.sum(axis=0) >= WITHIN * volumes)
         if not own.size:
             return ()
         labels = chances[own].argmax(axis=1)
@@ -347,12 +221,6 @@ def _pick(drawn: Floats, chances: Floats) -> Ints:
     return found
 
 
-def _number(names: Sequence[str]) -> Ints:
-    """The number (n,) of each name, in the order in which they first come."""
-    numbers = {name: number for number, name in enumerate(dict.fromkeys(names))}
-    return np.array([numbers[name] for name in names], dtype=np.int64)
-
-
-def _scale(rows: Floats, totals: Floats) -> Floats:
+def scale_rows(rows: Floats, totals: Floats) -> Floats:
     """Rows (n, k) by their totals (n,), zeros where these are zero."""
     return rows / np.where(totals > 0, totals, 1.0)[:, None]

@@ -1,0 +1,128 @@
+"""The hulls of an asset beside the fine pieces of the surface that they stand for."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from meshforge.geometry import FinePiece, Floats, Ints, convex_hull, overlap_volume
+from meshforge.symbolic import Hull, Label, SymbolicMesh
+
+_MOST = 0.8  # how much a label is believed that a piece takes from the hull that it lies in
+_ALL = 0.85  # of a piece, from which a hull has nearly all of it
+WITHIN = 0.5
+"""Of a piece's volume that a hull must have, for the piece to lie in it."""
+_THICKNESS = 1e-4  # of the asset's size, that a flat region gets
+
+SurfacePieces = Mapping[str, Sequence[FinePiece]]
+"""The fine pieces of the surfaces of an asset by body, as `decompose_finely` gives these."""
+
+
+def piece_mesh(pieces: SurfacePieces, mesh: SymbolicMesh) -> SymbolicMesh:
+    """The fine pieces of an asset as a mesh that lies as its own does; the parent of each is its region, after the
+    solid that this is of."""
+    hulls = (
+        Hull(f"{body}/{k}", body, piece.shape, parent=f"{body}/{piece.solid}/{piece.region}")
+        for body, own in pieces.items()
+        for k, piece in enumerate(own)
+    )
+    return SymbolicMesh(tuple(hulls), mesh.asset, mesh.epsilon, mesh.scale)
+
+
+@dataclass(frozen=True, eq=False)
+class AssetPieces:
+    """The hulls of an asset, and the fine pieces of the surface that they stand for.
+
+    common: (hulls, pieces) [m^3] the volume that each hull has of each piece of its body.
+    """
+
+    mesh: SymbolicMesh
+    pieces: SymbolicMesh
+
+    @cached_property
+    def common(self) -> Floats:
+        found = np.zeros((len(self.mesh.hulls), len(self.pieces.hulls)))
+        if not found.size:
+            return found
+        (low, high), (below, above) = self.mesh.corners, self.pieces.corners
+        meet = ((low[:, None] <= above[None]) & (high[:, None] >= below[None])).all(axis=2)
+        for hull, piece in np.argwhere(meet).tolist():
+            one, other = self.mesh.hulls[hull], self.pieces.hulls[piece]
+            if one.body == other.body:
+                found[hull, piece] = overlap_volume(one.shape, other.shape)
+        return found
+
+    @cached_property
+    def volumes(self) -> Floats:
+        """Of the pieces (pieces,) [m^3]."""
+        return np.array([piece.shape.volume for piece in self.pieces.hulls])
+
+    @cached_property
+    def region_of(self) -> Ints:
+        """The number of the region of each piece (pieces,), in the order in which they come."""
+        return _number([str(piece.parent) for piece in self.pieces.hulls])
+
+    @cached_property
+    def solid_of(self) -> Ints:
+        """The same of the solid that the region is of."""
+        return _number([str(piece.parent).rpartition("/")[0] for piece in self.pieces.hulls])
+
+    @cached_property
+    def regions(self) -> SymbolicMesh:
+        """The regions as a mesh: the convex hull of the pieces of each."""
+        points = [piece.vertices for piece in self.pieces.hulls]
+        thickness = _THICKNESS * self.pieces.diagonal if points else 0.0
+        found = list[Hull]()
+        for number in range(self.region_of.max(initial=-1) + 1):
+            own = np.flatnonzero(self.region_of == number).tolist()
+            first = self.pieces.hulls[own[0]]
+            shape = convex_hull(np.concatenate([points[place] for place in own]), name=first.name, thicken=thickness)
+            found.append(Hull(str(first.parent), first.body, shape))
+        return self.pieces.with_hulls(found)
+
+    def collect_labels(self, labels: Sequence[Label | None]) -> list[Label | None]:
+        """What labels of pieces say about each region: the label of more than half of it, believed by that share."""
+        found = list[Label | None]()
+        for number in range(len(self.regions.hulls)):
+            own = self.region_of == number
+            said: dict[str, float] = {}
+            for place in np.flatnonzero(own).tolist():
+                if label := labels[place]:
+                    said[label.name] = said.get(label.name, 0.0) + label.confidence * float(self.volumes[place])
+            best = max(said, key=lambda name: said[name], default=None)
+            share = said[best] / float(self.volumes[own].sum()) if best else 0.0
+            found.append(Label(best, min(share, 1.0), "file") if best and share > 0.5 else None)
+        return found
+
+    def weigh_solids(self, whole: float) -> Floats:
+        """The probability that each solid (solids,) is one part; whole: of a small one. The less of the asset a solid
+        has, the likelier it is."""
+        volumes = np.bincount(self.solid_of, weights=self.volumes)
+        found: Floats = whole * (1 - volumes / max(float(volumes.sum()), np.finfo(float).tiny))
+        return found
+
+    def pieces_of(self, hull: int) -> Ints:
+        """The pieces that a hull stands for: those that it meets, but for what another hull has nearly all of."""
+        held = self.common / np.maximum(self.volumes, 1e-300)
+        others = np.delete(held, hull, axis=0).max(axis=0, initial=0.0)
+        found: Ints = np.flatnonzero((held[hull] > 0) & ((others < _ALL) | (held[hull] >= others)))
+        return found
+
+    def take_labels(self, labels: Sequence[Label | None]) -> list[Label | None]:
+        """What labels of hulls say about each piece: that of the hull that most of it lies in, not quite believed."""
+        best = self.common.argmax(axis=0) if len(labels) else np.zeros(len(self.pieces.hulls), np.int64)
+        found = list[Label | None]()
+        for piece, hull in zip(self.pieces.hulls, best.tolist(), strict=True):
+            label = labels[hull] if labels else None
+            held = label and self.common[hull, len(found)] >= WITHIN * piece.shape.volume
+            found.append(Label(label.name, min(label.confidence, _MOST), "file") if label and held else None)
+        return found
+
+
+def _number(names: Sequence[str]) -> Ints:
+    """The number (n,) of each name, in the order in which they first come."""
+    numbers = {name: number for number, name in enumerate(dict.fromkeys(names))}
+    return np.array([numbers[name] for name in names], dtype=np.int64)
