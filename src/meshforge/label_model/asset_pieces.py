@@ -71,6 +71,13 @@ class AssetPieces:
         return _number([str(piece.parent).rpartition("/")[0] for piece in self.pieces.hulls])
 
     @cached_property
+    def solids(self) -> Floats:
+        """Which solid each region is of (regions, solids): ones and zeros."""
+        _, first = np.unique(self.region_of, return_index=True)
+        found: Floats = np.eye(self.solid_of.max(initial=-1) + 1)[self.solid_of[first]]
+        return found
+
+    @cached_property
     def regions(self) -> SymbolicMesh:
         """The regions as a mesh: the convex hull of the pieces of each."""
         points = [piece.vertices for piece in self.pieces.hulls]
@@ -95,13 +102,6 @@ class AssetPieces:
             best = max(said, key=lambda name: said[name], default=None)
             share = said[best] / float(self.volumes[own].sum()) if best else 0.0
             found.append(Label(best, min(share, 1.0), "file") if best and share > 0.5 else None)
-        return found
-
-    def weigh_solids(self, whole: float) -> Floats:
-        """The probability that each solid (solids,) is one part; whole: of a small one. The less of the asset a solid
-        has, the likelier it is."""
-        volumes = np.bincount(self.solid_of, weights=self.volumes)
-        found: Floats = whole * (1 - volumes / max(float(volumes.sum()), np.finfo(float).tiny))
         return found
 
     def pieces_of(self, hull: int) -> Ints:

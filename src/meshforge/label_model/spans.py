@@ -26,6 +26,7 @@ _DRAWS = 512  # of the labels of all pieces
 _SLIVER = 3e-3  # of the volume of all pieces of a rebuild: smaller ones go with a neighbour where that adds little
 _LEAST_CHANCE = 1e-3  # of a label, where chances of pieces and regions are multiplied
 _SHARPNESS = 0.6  # exponent of both, since they have much of their evidence in common
+_IN_COMMON = 0.5  # exponent of what regions of a solid say against one label of all, for the same reason
 
 
 @cache
@@ -65,7 +66,7 @@ class SpanModel:
         )
         chances = [self._weigh(mesh, of_pieces, of_regions) for mesh in range(len(self.assets))]
         whole = _estimate_whole(self.assets, said)
-        solids = [asset.weigh_solids(whole) for asset in self.assets]
+        solids = [_weigh_solids(*both, whole) for both in zip(self.assets, chances, strict=True)]
         weights = span_weights() if weights is None else weights
         return SpanPosterior(self.assets, of_pieces.seen.labels, chances, weights, solids)
 
@@ -186,6 +187,23 @@ def _estimate_whole(assets: Sequence[AssetPieces], said: Sequence[Sequence[Label
         all_ += float(counted.sum())
         one += float((volumes[counted, 1:].max(axis=1, initial=0.0) >= WHOLE * total[counted]).sum())
     return one / all_
+
+
+def _weigh_solids(asset: AssetPieces, chances: Floats, whole: float) -> Floats:
+    """The probability that each solid (solids,) is one part, if that of a small one is whole: the less of the asset it
+    has the likelier, and the less the labels (pieces, labels) of its regions differ."""
+    by_region = np.eye(len(asset.solids))[asset.region_of] * asset.volumes[:, None]
+    volumes = by_region.sum(axis=0)
+    of_solids = volumes @ asset.solids
+    prior: Floats = whole * (1 - of_solids / max(float(volumes.sum()), np.finfo(float).tiny))
+    if not chances.size:
+        return prior
+    known = np.maximum(scale_rows(by_region.T @ chances, volumes), _LEAST_CHANCE)
+    against = np.log(known / known.max(axis=1, keepdims=True)) * volumes[:, None]
+    counts = asset.solids.sum(axis=0) / np.where(of_solids > 0, of_solids, 1.0)
+    agreed = prior * np.exp(_IN_COMMON * counts * (asset.solids.T @ against).max(axis=1))
+    found: Floats = agreed / (agreed + 1 - prior)
+    return found
 
 
 @dataclass(frozen=True, eq=False, slots=True)
