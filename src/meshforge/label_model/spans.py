@@ -66,7 +66,7 @@ class SpanModel:
         )
         chances = [self._weigh(mesh, of_pieces, of_regions) for mesh in range(len(self.assets))]
         whole = _estimate_whole(self.assets, said)
-        solids = [_weigh_solids(*both, whole) for both in zip(self.assets, chances, strict=True)]
+        solids = [weigh_solids(*both, whole) for both in zip(self.assets, chances, strict=True)]
         weights = span_weights() if weights is None else weights
         return SpanPosterior(self.assets, of_pieces.seen.labels, chances, weights, solids)
 
@@ -189,7 +189,7 @@ def _estimate_whole(assets: Sequence[AssetPieces], said: Sequence[Sequence[Label
     return one / all_
 
 
-def _weigh_solids(asset: AssetPieces, chances: Floats, whole: float) -> Floats:
+def weigh_solids(asset: AssetPieces, chances: Floats, whole: float) -> Floats:
     """The probability that each solid (solids,) is one part, if that of a small one is whole: the less of the asset it
     has the likelier, and the less the labels (pieces, labels) of its regions differ."""
     by_region = np.eye(len(asset.solids))[asset.region_of] * asset.volumes[:, None]

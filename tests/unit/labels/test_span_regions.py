@@ -9,6 +9,7 @@ import pytest
 
 from meshforge.geometry import Aabb, Box, FinePiece, Floats, Polytope, cut
 from meshforge.label_model import AssetPieces, SpanModel, SpanPosterior, piece_mesh
+from meshforge.label_model.spans import weigh_solids
 from meshforge.symbolic import Hull, Label, SymbolicMesh
 from tests.unit.project.stools import PARTS, boxes
 
@@ -107,6 +108,23 @@ def _two_regions_a_leg(apart: bool) -> AssetPieces:
     legs = [piece for leg in parts[1:] for piece in slice_leg(leg, 0.4, 2)]
     rows = [FinePiece(parts[0], 0, 0), *(FinePiece(p, 1 + k, 1 + k // 2 if apart else 0) for k, p in enumerate(legs))]
     return AssetPieces(mesh, piece_mesh({"base": rows}, mesh))
+
+
+def test_a_solid_is_the_less_likely_one_part_the_more_the_labels_of_its_regions_differ() -> None:
+    """A stool of a seat, and of legs of two regions each, of which the smaller one differs more and more surely."""
+    asset = _two_regions_a_leg(True)
+    found = list[Floats]()
+    for chance in (0.98, 0.5, 0.3, 0.1, 0.02):
+        chances = np.tile([0.02, 0.98], (9, 1))
+        chances[1::2] = [1 - chance, chance]
+        found.append(weigh_solids(asset, chances, 0.9))
+    shares = np.bincount(asset.solid_of, weights=asset.volumes) / asset.volumes.sum()
+    assert found[0] == pytest.approx(0.9 * (1 - shares))
+    assert found[1] == pytest.approx(found[0])
+    seats, legs = np.array(found)[:, 0], np.array(found)[1:, 1:]
+    assert seats == pytest.approx(seats[0])
+    assert (np.diff(legs, axis=0) < -0.01).all()
+    assert legs[-1] == pytest.approx(np.full(4, 0.7025), abs=1e-3)
 
 
 def test_labels_of_a_region_come_from_more_than_half_of_it() -> None:
