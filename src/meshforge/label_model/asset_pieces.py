@@ -71,7 +71,7 @@ class AssetPieces:
         return _number([str(piece.parent).rpartition("/")[0] for piece in self.pieces.hulls])
 
     @cached_property
-    def solids(self) -> Floats:
+    def regions_by_solid(self) -> Floats:
         """Which solid each region is of (regions, solids): ones and zeros."""
         _, first = np.unique(self.region_of, return_index=True)
         found: Floats = np.eye(self.solid_of.max(initial=-1) + 1)[self.solid_of[first]]

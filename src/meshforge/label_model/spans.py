@@ -103,15 +103,20 @@ class SpanPosterior:
     def chances(self) -> Sequence[Floats]:
         """Of each asset the probability of each label for its pieces (pieces, labels)."""
         found = list[Floats]()
-        for asset, chances, solids in zip(self.assets, self.by_region, self.solids, strict=True):
+        rows = zip(self.assets, self.by_region, self.by_solid, self.solids, strict=True)
+        for asset, by_region, by_solid, solids in rows:
             whole = solids[asset.solid_of][:, None]
-            found.append((1 - whole) * chances + whole * self._average(asset, chances))
+            found.append((1 - whole) * by_region + whole * by_solid)
         return found
 
-    def _average(self, asset: AssetPieces, chances: Floats) -> Floats:
-        """The mean chances (pieces, labels) of the pieces of the solid of each."""
-        of_solid = np.eye(asset.solid_of.max(initial=-1) + 1)[asset.solid_of] * asset.volumes[:, None]
-        return scale_rows(of_solid.T @ chances, of_solid.sum(axis=0))[asset.solid_of]
+    @cached_property
+    def by_solid(self) -> Sequence[Floats]:
+        """Of each asset the mean of by_region over the solid of each piece (pieces, labels)."""
+        found = list[Floats]()
+        for asset, chances in zip(self.assets, self.by_region, strict=True):
+            of_solid = np.eye(asset.solid_of.max(initial=-1) + 1)[asset.solid_of] * asset.volumes[:, None]
+            found.append(scale_rows(of_solid.T @ chances, of_solid.sum(axis=0))[asset.solid_of])
+        return found
 
     def shares_of(self, mesh: int) -> Floats:
         """The expected share of each label in each hull (hulls, labels); zeros for one that stands for nothing."""
@@ -126,11 +131,11 @@ class SpanPosterior:
 
     def collect_evidence(self, mesh: int) -> Floats:
         """What the probability is made from (hulls, 2), as `span_weights` has it."""
-        asset, chances = self.assets[mesh], self.by_region[mesh]
+        asset, by_region = self.assets[mesh], self.by_region[mesh]
         shares = scale_rows(asset.common, asset.common.sum(axis=1))
         drawn = np.zeros(len(shares))
-        if chances.size:
-            drawn = _draw_spans(shares, _Draw(chances, self._average(asset, chances), self.solids[mesh]), asset)
+        if by_region.size:
+            drawn = _draw_spans(shares, _Draw(by_region, self.by_solid[mesh], self.solids[mesh]), asset)
         drawn = np.clip(drawn, _LEAST_DRAWN, 1 - _LEAST_DRAWN)
         return np.column_stack([np.ones(len(drawn)), np.log(drawn / (1 - drawn))])
 
@@ -180,10 +185,7 @@ def _estimate_whole(assets: Sequence[AssetPieces], said: Sequence[Sequence[Label
         np.add.at(volumes, (asset.solid_of, codes[1:]), asset.volumes)
         total = volumes.sum(axis=1)
         told = volumes[:, 0] <= (1 - WHOLE) * total
-        several = np.array(
-            [len(set(asset.region_of[asset.solid_of == solid])) > 1 for solid in range(len(total))], bool
-        )
-        counted = told & several
+        counted = told & (asset.regions_by_solid.sum(axis=0) > 1)
         all_ += float(counted.sum())
         one += float((volumes[counted, 1:].max(axis=1, initial=0.0) >= WHOLE * total[counted]).sum())
     return one / all_
@@ -192,16 +194,16 @@ def _estimate_whole(assets: Sequence[AssetPieces], said: Sequence[Sequence[Label
 def weigh_solids(asset: AssetPieces, chances: Floats, whole: float) -> Floats:
     """The probability that each solid (solids,) is one part, if that of a small one is whole: the less of the asset it
     has the likelier, and the less the labels (pieces, labels) of its regions differ."""
-    by_region = np.eye(len(asset.solids))[asset.region_of] * asset.volumes[:, None]
+    by_region = np.eye(len(asset.regions_by_solid))[asset.region_of] * asset.volumes[:, None]
     volumes = by_region.sum(axis=0)
-    of_solids = volumes @ asset.solids
+    of_solids = volumes @ asset.regions_by_solid
     prior: Floats = whole * (1 - of_solids / max(float(volumes.sum()), np.finfo(float).tiny))
     if not chances.size:
         return prior
     known = np.maximum(scale_rows(by_region.T @ chances, volumes), _LEAST_CHANCE)
     against = np.log(known / known.max(axis=1, keepdims=True)) * volumes[:, None]
-    counts = asset.solids.sum(axis=0) / np.where(of_solids > 0, of_solids, 1.0)
-    agreed = prior * np.exp(_IN_COMMON * counts * (asset.solids.T @ against).max(axis=1))
+    counts = asset.regions_by_solid.sum(axis=0) / np.where(of_solids > 0, of_solids, 1.0)
+    agreed = prior * np.exp(_IN_COMMON * counts * (asset.regions_by_solid.T @ against).max(axis=1))
     found: Floats = agreed / (agreed + 1 - prior)
     return found
 

@@ -42,7 +42,7 @@ from meshforge.labels.hull_arrays import HULL_ARRAYS, pack_hulls, unpack_hulls
 from meshforge.store import Store
 from meshforge.symbolic import HUMAN_SOURCES, Surface, SymbolicMesh
 
-_LAYOUT = 4  # of kept pieces: by body and region from 2 on, each region decomposed alone from 3 on
+_LAYOUT = 4  # of kept pieces: by body and region from 2 on, each region decomposed alone from 3 on, with solids from 4
 _SHOWN = 0.1  # of what a hull stands for: labels of smaller shares are not named
 
 
