@@ -13,7 +13,8 @@ from PIL.Image import Image
 from meshforge.batch import IN_PROCESS
 from meshforge.common import join_and
 from meshforge.geometry import CoacdSettings
-from meshforge.labels import HullSpan
+from meshforge.labels import HullSpan, find_spans
+from meshforge.labels.family_comparison import ignore_stage
 from meshforge.project import SPLIT_DEFAULTS, Project, SplitSettings
 from meshforge.rendering import color_hulls, make_contact_sheet, write_png
 from meshforge.rendering.canvas import Canvas
@@ -34,7 +35,7 @@ def draw_spans(path: Path) -> None:
     """Write the picture."""
     with tempfile.TemporaryDirectory() as scratch:
         project = create_project(Path(scratch))
-        spans = project.list_spans(execution=IN_PROCESS).spans_of(CUP)
+        spans = find_spans(project, IN_PROCESS, ignore_stage).spans_of(CUP)
         found = {span.hull: span for span in spans if span.chance >= SPLIT_DEFAULTS.sure}
         pictures, titles = (
             [_draw(project, found)],

@@ -111,3 +111,11 @@ def _stack(solids: list[Polytope]) -> tuple[Floats, Ints]:
     starts = np.cumsum([0, *(len(solid.vertices) for solid in solids)])
     faces = [solid.faces + start for solid, start in zip(solids, starts, strict=False)]
     return np.concatenate([solid.vertices for solid in solids]), np.concatenate(faces)
+
+
+def test_a_sliver_joins_its_neighbour_though_another_one_has_grown_meanwhile() -> None:
+    """Two slivers make one piece that is none, before it is the turn of the third."""
+    small = [box((0.45, 0.5, 0.5), (0.45, 0.5, 0.5)), box((1.38, 0.5, 0.5), (0.48, 0.5, 0.5))]
+    third = [box((10.485, 0.5, 0.5), (0.485, 0.5, 0.5)), box((25.485, 0.5, 0.5), (14.515, 0.5, 0.5))]
+    together = merge_pieces([*small, *third], np.arange(4), 1.0, np.zeros(4, np.int64))
+    assert [group.members for group in together] == [(0, 1), (2, 3)]

@@ -91,8 +91,8 @@ class _Merger:
         little beside their own."""
         for place in sorted(self.groups, key=lambda k: (self.groups[k].volume, k)):
             own = self.groups[place]
-            if own.volume >= least:
-                break
+            if own.volume >= least:  # it took in others meanwhile
+                continue
             hulls = [(k, self._enclose(k, place)) for k in sorted(self._touching[place])]
             found = [(shape.volume - self.groups[k].shape.volume, k, shape) for k, shape in hulls]
             for grown, other, shape in sorted(found, key=lambda row: row[:2]):

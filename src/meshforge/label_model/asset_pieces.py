@@ -13,6 +13,7 @@ from meshforge.symbolic import Hull, Label, SymbolicMesh
 
 _MOST = 0.8  # how much a label is believed that a piece takes from the hull that it lies in
 _ALL = 0.85  # of a piece, from which a hull has nearly all of it
+_NOTHING = 1e-3  # of what a hull stands for: without it no hole opens
 WITHIN = 0.5
 """Of a piece's volume that a hull must have, for the piece to lie in it."""
 _THICKNESS = 1e-4  # of the asset's size, that a flat region gets
@@ -71,11 +72,10 @@ class AssetPieces:
         return _number([str(piece.parent).rpartition("/")[0] for piece in self.pieces.hulls])
 
     @cached_property
-    def regions_by_solid(self) -> Floats:
-        """Which solid each region is of (regions, solids): ones and zeros."""
+    def solids_of_regions(self) -> Ints:
+        """The solid of each region (regions,)."""
         _, first = np.unique(self.region_of, return_index=True)
-        found: Floats = np.eye(self.solid_of.max(initial=-1) + 1)[self.solid_of[first]]
-        return found
+        return self.solid_of[first]
 
     @cached_property
     def regions(self) -> SymbolicMesh:
@@ -105,10 +105,12 @@ class AssetPieces:
         return found
 
     def pieces_of(self, hull: int) -> Ints:
-        """The pieces that a hull stands for: those that it meets, but for what another hull has nearly all of."""
+        """The pieces that a hull stands for: those that it meets, but for what another hull has nearly all of, so that
+        what this one alone has of it is next to nothing."""
         held = self.common / np.maximum(self.volumes, 1e-300)
         others = np.delete(held, hull, axis=0).max(axis=0, initial=0.0)
-        found: Ints = np.flatnonzero((held[hull] > 0) & ((others < _ALL) | (held[hull] >= others)))
+        alone = np.minimum(held[hull], 1 - others) * self.volumes > _NOTHING * self.common[hull].sum()
+        found: Ints = np.flatnonzero((held[hull] > 0) & ((others < _ALL) | (held[hull] >= others) | alone))
         return found
 
     def take_labels(self, labels: Sequence[Label | None]) -> list[Label | None]:

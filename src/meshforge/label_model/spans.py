@@ -15,6 +15,7 @@ import numpy as np
 from meshforge.geometry import Floats, HullPart, Ints, divide, merge_pieces
 from meshforge.label_model.asset_pieces import WITHIN, AssetPieces
 from meshforge.label_model.posterior import FamilyPosterior, model_family
+from meshforge.label_model.ties import EQUAL
 from meshforge.symbolic import Label
 
 WEIGHTS_FILE = "spans.json"
@@ -114,8 +115,8 @@ class SpanPosterior:
         """Of each asset the mean of by_region over the solid of each piece (pieces, labels)."""
         found = list[Floats]()
         for asset, chances in zip(self.assets, self.by_region, strict=True):
-            of_solid = np.eye(asset.solid_of.max(initial=-1) + 1)[asset.solid_of] * asset.volumes[:, None]
-            found.append(scale_rows(of_solid.T @ chances, of_solid.sum(axis=0))[asset.solid_of])
+            of_solid = sum_groups(asset.solid_of, asset.volumes[:, None] * chances)
+            found.append(scale_rows(of_solid, sum_groups(asset.solid_of, asset.volumes))[asset.solid_of])
         return found
 
     def shares_of(self, mesh: int) -> Floats:
@@ -124,10 +125,11 @@ class SpanPosterior:
         return scale_rows(common @ self.chances[mesh], common.sum(axis=1))
 
     def chances_of(self, mesh: int) -> Floats:
-        """The probability that each hull (hulls,) holds more than one label; 0 where it stands for nothing."""
+        """The probability that each hull (hulls,) holds more than one label; 0 where it stands for nothing, and where
+        nothing is said of any piece."""
         evidence = self.collect_evidence(mesh)
         found: Floats = 1 / (1 + np.exp(-(evidence @ self.weights)))
-        return np.where(self.assets[mesh].common.sum(axis=1) > 0, found, 0.0)
+        return np.where((self.assets[mesh].common.sum(axis=1) > 0) & bool(self.labels), found, 0.0)
 
     def collect_evidence(self, mesh: int) -> Floats:
         """What the probability is made from (hulls, 2), as `span_weights` has it."""
@@ -184,26 +186,26 @@ def _estimate_whole(assets: Sequence[AssetPieces], said: Sequence[Sequence[Label
         volumes = np.zeros((asset.solid_of.max(initial=-1) + 1, codes.max() + 1))
         np.add.at(volumes, (asset.solid_of, codes[1:]), asset.volumes)
         total = volumes.sum(axis=1)
-        told = volumes[:, 0] <= (1 - WHOLE) * total
-        counted = told & (asset.regions_by_solid.sum(axis=0) > 1)
+        told = volumes[:, 0] <= (1 - WHOLE + EQUAL) * total
+        counted = told & (np.bincount(asset.solids_of_regions, minlength=len(total)) > 1)
         all_ += float(counted.sum())
-        one += float((volumes[counted, 1:].max(axis=1, initial=0.0) >= WHOLE * total[counted]).sum())
+        one += float((volumes[counted, 1:].max(axis=1, initial=0.0) >= (WHOLE - EQUAL) * total[counted]).sum())
     return one / all_
 
 
 def weigh_solids(asset: AssetPieces, chances: Floats, whole: float) -> Floats:
     """The probability that each solid (solids,) is one part, if that of a small one is whole: the less of the asset it
     has the likelier, and the less the labels (pieces, labels) of its regions differ."""
-    by_region = np.eye(len(asset.regions_by_solid))[asset.region_of] * asset.volumes[:, None]
-    volumes = by_region.sum(axis=0)
-    of_solids = volumes @ asset.regions_by_solid
+    volumes, solids = sum_groups(asset.region_of, asset.volumes), asset.solids_of_regions
+    of_solids = sum_groups(solids, volumes)
     prior: Floats = whole * (1 - of_solids / max(float(volumes.sum()), np.finfo(float).tiny))
     if not chances.size:
         return prior
-    known = np.maximum(scale_rows(by_region.T @ chances, volumes), _LEAST_CHANCE)
-    against = np.log(known / known.max(axis=1, keepdims=True)) * volumes[:, None]
-    counts = asset.regions_by_solid.sum(axis=0) / np.where(of_solids > 0, of_solids, 1.0)
-    agreed = prior * np.exp(_IN_COMMON * counts * (asset.regions_by_solid.T @ against).max(axis=1))
+    of_regions = sum_groups(asset.region_of, asset.volumes[:, None] * chances)
+    known = np.maximum(scale_rows(of_regions, volumes), _LEAST_CHANCE)
+    against = sum_groups(solids, np.log(known / known.max(axis=1, keepdims=True)) * volumes[:, None])
+    counts = np.bincount(solids) / np.where(of_solids > 0, of_solids, 1.0)
+    agreed = prior * np.exp(_IN_COMMON * counts * against.max(axis=1))
     found: Floats = agreed / (agreed + 1 - prior)
     return found
 
@@ -230,7 +232,7 @@ def _draw_spans(shares: Floats, draw: _Draw, asset: AssetPieces) -> Floats:
     most = np.zeros((len(shares), _DRAWS))
     for label in range(draw.by_region.shape[1]):
         most = np.maximum(most, shares @ (codes == label).T)
-    found: Floats = (most < WHOLE).mean(axis=1)
+    found: Floats = (most < WHOLE - EQUAL).mean(axis=1)
     return found
 
 
@@ -238,6 +240,13 @@ def _pick(drawn: Floats, chances: Floats) -> Ints:
     """The label of each piece (draws, pieces) by numbers from 0 to 1 (draws, pieces)."""
     ends = np.cumsum(chances, axis=1)
     found: Ints = (drawn[:, :, None] * ends[None, :, -1:] > ends[None]).sum(axis=2)
+    return found
+
+
+def sum_groups(groups: Ints, rows: Floats) -> Floats:
+    """The sum (groups, ...) of rows (n, ...) by the group (n,) of each."""
+    found = np.zeros((int(groups.max(initial=-1)) + 1, *rows.shape[1:]))
+    np.add.at(found, groups, rows)
     return found
 
 

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from meshforge.labels.label_store import LabelStore
     from meshforge.labels.merge import LabelOutcome, label_new_hulls
     from meshforge.labels.offers import LabelOffers, OfferCache
-    from meshforge.labels.reference_family import NEW, ReferenceFamily, read_reference_family
+    from meshforge.labels.reference_family import NEW, ReferenceFamily, pick_evenly, read_reference_family
     from meshforge.labels.spans import HullSpan, LabelledPart, SpanReport, find_spans
     from meshforge.labels.summary import Proposal, Proposals, SourceTally, Tally
     from meshforge.labels.vlm.endpoint import endpoint_of
@@ -62,5 +62,6 @@ __all__ = [
     "label_command",
     "label_file_beside",
     "label_new_hulls",
+    "pick_evenly",
     "read_reference_family",
 ]

@@ -5,16 +5,16 @@ from __future__ import annotations
 
 import json
 from collections.abc import Collection, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
-from pathlib import Path
+from typing import TypeVar
 
 from meshforge import batch
 from meshforge.geometry import PieceEngine
 from meshforge.label_model import AssetCells, AssetPieces, evidence_beside_splits, model_family
 from meshforge.label_model.describe import describe_mesh, digest_mesh
 from meshforge.labels.family_comparison import Stage
-from meshforge.labels.spans import FinePieces, SpanReport, decompose_surfaces, find_pieces, infer_spans, read_pieces
+from meshforge.labels.spans import FinePieces, SpanReport, decompose_surfaces, find_pieces, infer_spans
 from meshforge.store import Store
 from meshforge.symbolic import HUMAN_SOURCES, Asset, Label, LabelFile, SymbolicMesh
 
@@ -27,12 +27,14 @@ NEW = ""
 @dataclass(frozen=True, eq=False)
 class ReferenceFamily:
     """Assets of which hulls are labelled. meshes: as they are prepared, by id; pieces: with the fine pieces of their
-    surfaces, by id; words: the project's vocabulary; engine: which makes the pieces."""
+    surfaces, by id; words: the project's vocabulary; engine: which makes the pieces; lost: why those of some are not
+    known."""
 
     meshes: Mapping[str, SymbolicMesh]
     pieces: Mapping[str, AssetPieces]
     words: tuple[str, ...]
     engine: PieceEngine = "coacd"
+    lost: Mapping[str, str] = field(default_factory=dict)
 
     @cached_property
     def digest(self) -> str:
@@ -49,14 +51,12 @@ class ReferenceFamily:
         """The cells of the hulls of its assets, for new hulls that stand for no surface."""
         return {asset: AssetCells(mesh) for asset, mesh in self.meshes.items()}
 
-    def find_spans(self, source: Asset, mesh: SymbolicMesh, kept: Path | None = None) -> SpanReport:
+    def find_spans(self, source: Asset, mesh: SymbolicMesh) -> SpanReport:
         """Which hulls of an asset span parts, as a report on the asset `NEW` alone.
 
-        source: the asset as it was read; mesh: it as it is prepared, with its labels; kept: the file of its pieces.
+        source: the asset as it was read; mesh: it as it is prepared, with its labels.
         """
-        surfaces = batch.find_surfaces(source)
-        found = read_pieces(surfaces, kept, self.engine) if kept else decompose_surfaces(surfaces, self.engine)
-        own = FinePieces.of(found, mesh)
+        own = FinePieces.of(decompose_surfaces(batch.find_surfaces(source), self.engine), mesh)
         known = {asset: one.mesh for asset, one in self.pieces.items()}
         pieces = {asset: FinePieces(one.pieces) for asset, one in self.pieces.items()}
         cells = self.cells if own.unseen else {}
@@ -94,8 +94,7 @@ def read_reference_family(
     """The labelled assets of a project; None where no hull has a label that was not inferred.
 
     engine: which makes the fine pieces of surfaces; without: assets that do not count; spans: whether their surfaces
-    are needed. Raises AssetError where a labels file
-    cannot be read.
+    are needed. Raises AssetError where a labels file cannot be read.
     """
     chosen = choose_labelled({asset: store.labels(asset) for asset in store.assets() if asset not in set(without)})
     meshes = {
@@ -105,13 +104,21 @@ def read_reference_family(
     }
     if not meshes:
         return None
-    found = find_pieces(store, meshes, execution, stage, engine)[0] if spans else {}
+    found, lost = find_pieces(store, meshes, execution, stage, engine) if spans else ({}, {})
     pieces = {asset: AssetPieces(meshes[asset], own.mesh) for asset, own in found.items()}
     for one in pieces.values():
         assert one.common is not None  # measured here, so that no worker does it again; likewise below
     for mesh in (*meshes.values(), *(mesh for own in pieces.values() for mesh in (own.pieces, own.regions))):
         describe_mesh(mesh)
-    return ReferenceFamily(meshes, pieces, store.vocabulary, engine)
+    return ReferenceFamily(meshes, pieces, store.vocabulary, engine, lost)
+
+
+Item = TypeVar("Item")
+
+
+def pick_evenly(items: Sequence[Item], most: int) -> Sequence[Item]:
+    """The items in their order; of more than `most` so many, the first among them."""
+    return [items[place * len(items) // most] for place in range(most)] if len(items) > most else items
 
 
 def choose_labelled(files: Mapping[str, LabelFile], most: int = MOST_COMPARED) -> list[str]:
@@ -122,10 +129,6 @@ def choose_labelled(files: Mapping[str, LabelFile], most: int = MOST_COMPARED) -
     }
     by_people = [asset for asset, labels in said.items() if any(one.source in HUMAN_SOURCES for one in labels)]
     others = [asset for asset, labels in said.items() if labels and asset not in set(by_people)]
-    chosen = {*_pick_evenly(by_people, most)}
-    chosen |= {*_pick_evenly(others, most - len(chosen))}
+    chosen = {*pick_evenly(by_people, most)}
+    chosen |= {*pick_evenly(others, most - len(chosen))}
     return [asset for asset in files if asset in chosen]
-
-
-def _pick_evenly(items: Sequence[str], most: int) -> list[str]:
-    return [items[place * len(items) // most] for place in range(most)] if len(items) > most else list(items)

@@ -3,8 +3,6 @@ the labels that are known."""
 
 from __future__ import annotations
 
-import hashlib
-import json
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -17,12 +15,10 @@ from meshforge import batch
 from meshforge.common import MeshForgeError, ProjectError, describe_error, join_and
 from meshforge.formats import read
 from meshforge.geometry import (
-    FINE_SETTINGS,
     FinePiece,
     Floats,
     HullPart,
     PieceEngine,
-    Polytope,
     cache_folder,
     decompose_finely,
 )
@@ -36,13 +32,10 @@ from meshforge.label_model import (
     evidence_beside_splits,
     piece_mesh,
 )
-from meshforge.labels.descriptor_cache import read_arrays, write_arrays
 from meshforge.labels.family_comparison import Stage
-from meshforge.labels.hull_arrays import HULL_ARRAYS, pack_hulls, unpack_hulls
 from meshforge.store import Store
 from meshforge.symbolic import HUMAN_SOURCES, Surface, SymbolicMesh
 
-_LAYOUT = 4  # of kept pieces: by body and region from 2 on, each region decomposed alone from 3 on, with solids from 4
 _SHOWN = 0.1  # of what a hull stands for: labels of smaller shares are not named
 
 
@@ -52,10 +45,9 @@ LabelledPart = tuple[HullPart, str, float]
 
 @dataclass(frozen=True, eq=False)
 class HullSpan:
-    """A hull that may span parts. chance: of that; shares: of each label in what it stands for, the largest first;
-    by_surface: whether a surface says so, or only likeness."""
+    """A hull of an asset that may span parts. chance: of that; shares: of each label in what it stands for, the largest
+    first; by_surface: whether a surface says so, or only likeness."""
 
-    asset: str
     hull: str
     chance: float
     shares: Mapping[str, float]
@@ -141,7 +133,7 @@ class SpanReport:
             if hull.name in bare or (hull.body in self.unseen[asset]) != unseen:
                 continue
             if not (unseen and hull.source in HUMAN_SOURCES):  # likeness does not outweigh what a person called it
-                yield HullSpan(asset, hull.name, chance, _name_shares(posterior.labels, shares), not unseen)
+                yield HullSpan(hull.name, chance, _name_shares(posterior.labels, shares), not unseen)
 
 
 def _name_shares(labels: Sequence[str], shares: Floats) -> dict[str, float]:
@@ -165,11 +157,9 @@ class FinePieces:
 
 @dataclass(frozen=True, slots=True)
 class _Work:
-    """One asset whose surface is decomposed finely; kept: the file where the pieces are kept; engine: which makes
-    them."""
+    """One asset whose surface is decomposed finely; engine: which makes the pieces."""
 
     path: Path
-    kept: Path
     engine: PieceEngine
 
 
@@ -201,7 +191,7 @@ def find_pieces(
     engine: PieceEngine = "coacd",
 ) -> tuple[dict[str, FinePieces], dict[str, str]]:
     """The fine pieces of the surfaces of assets, by id, and why those of others are not known."""
-    work = [_Work(store.path(asset), pieces_file(store, asset), engine) for asset in meshes]
+    work = [_Work(store.path(asset), engine) for asset in meshes]
     pieces, lost = dict[str, FinePieces](), dict[str, str]()
     with stage(len(work), "decomposing finely") as advance:
         options = batch.ExecutionOptions(execution.workers, execution.timeout, progress=advance, stop=execution.stop)
@@ -238,35 +228,11 @@ def infer_spans(
 
 
 def _find_pieces(work: _Work) -> SurfacePieces | str:
-    """The fine pieces of an asset by body, kept where they were found already; or why there are none."""
+    """The fine pieces of an asset by body, or why there are none."""
     try:
-        return read_pieces(batch.find_surfaces(read(work.path)), work.kept, work.engine)
+        return decompose_surfaces(batch.find_surfaces(read(work.path)), work.engine)
     except Exception as error:  # one asset never stops the others
         return describe_error(error, str(work.path))
-
-
-def pieces_file(store: Store, asset: str) -> Path:
-    """Where the fine pieces of an asset are kept."""
-    return store.layout.sketches / "fine" / f"{asset}.npz"
-
-
-def read_pieces(surfaces: Mapping[str, Surface], kept: Path, engine: PieceEngine = "coacd") -> SurfacePieces:
-    """The fine pieces of surfaces, from a file where they were kept, else kept there."""
-    key = _digest(surfaces, engine)
-    known = read_arrays(kept, key, *HULL_ARRAYS)
-    if known is not None:
-        found: dict[str, list[FinePiece]] = {body: [] for body in surfaces}
-        for name, own in unpack_hulls(*known).items():
-            solid, region, body = name.split("/", 2)
-            found[body] += (FinePiece(shape, int(region), int(solid)) for shape in own)
-        return found
-    made = decompose_surfaces(surfaces, engine)
-    named = dict[str, list[Polytope]]()
-    for body, pieces in made.items():
-        for piece in pieces:
-            named.setdefault(f"{piece.solid}/{piece.region}/{body}", []).append(piece.shape)
-    write_arrays(kept, key, pack_hulls(named))
-    return made
 
 
 def decompose_surfaces(surfaces: Mapping[str, Surface], engine: PieceEngine = "coacd") -> SurfacePieces:
@@ -278,14 +244,3 @@ def decompose_surfaces(surfaces: Mapping[str, Surface], engine: PieceEngine = "c
         except MeshForgeError:  # flat, or without an area: its hulls stand for nothing
             found[body] = []
     return found
-
-
-def _digest(surfaces: Mapping[str, Surface], engine: PieceEngine) -> str:
-    """A digest of all that fine pieces are made from."""
-    basis = [_LAYOUT, engine, FINE_SETTINGS[engine].as_dict(), batch.software_version()]
-    state = hashlib.blake2b(json.dumps(basis).encode(), digest_size=16)
-    for body, surface in surfaces.items():
-        state.update(body.encode())
-        state.update(np.ascontiguousarray(surface.vertices).tobytes())
-        state.update(np.ascontiguousarray(surface.faces).tobytes())
-    return state.hexdigest()

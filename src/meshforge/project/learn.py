@@ -10,9 +10,10 @@ from dataclasses import dataclass, replace
 from meshforge import synthesis
 from meshforge.batch import RECORD_FILE, file_digest, program_digest, text_digest
 from meshforge.common import MeshForgeError, ProgramError, ProjectError, write_atomically
+from meshforge.labels import pick_evenly
 from meshforge.language import Program
 from meshforge.project import demonstrations
-from meshforge.project.run import find_accepted_results, pick_evenly
+from meshforge.project.run import find_accepted_results
 from meshforge.store import AnswersFile, ProgramRecord, Settings, Store
 from meshforge.symbolic import SymbolicMesh
 

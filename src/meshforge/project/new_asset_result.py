@@ -11,10 +11,9 @@ from typing import Any
 from meshforge import batch
 from meshforge.common import describe_error, join_names, pluralize
 from meshforge.label_model import model_family
-from meshforge.labels import NEW, HullSpan
+from meshforge.labels import NEW, HullSpan, pick_evenly
 from meshforge.labels.reference_family import MOST_COMPARED, choose_labelled
 from meshforge.project.review import ProjectReview
-from meshforge.project.run import pick_evenly
 from meshforge.signoff import AssetConfidence, Doubt, ReviewState, assess_asset
 from meshforge.store import MOST_TOLD, Store, describe_parts
 from meshforge.symbolic import Label, LabelFile

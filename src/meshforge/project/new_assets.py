@@ -7,9 +7,10 @@ the other new ones, nor on the number of workers, and no process holds more than
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterator, Sequence
+import json
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from contextlib import AbstractContextManager, nullcontext
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import partial
 from pathlib import Path
 
@@ -22,7 +23,7 @@ from meshforge.labels.family_comparison import Stage
 from meshforge.labels.merge import LabelWriter, can_fill_gap
 from meshforge.project.new_asset_memory import NewAssetFolder, digest_basis
 from meshforge.project.new_asset_result import HullSplit, NewAssetResult, parts_of
-from meshforge.project.preparation_plan import PreparationPlan, SplitSettings, extend_plan, find_new_assets
+from meshforge.project.preparation_plan import PreparationPlan, extend_plan, find_new_assets
 from meshforge.project.prepare import exchange_preparation
 from meshforge.project.span_search import plan_splits
 from meshforge.store import Store, hull_digests
@@ -34,13 +35,15 @@ _NO_LABELS = "no hull of the project has a label, so nothing says which hulls sp
 @dataclass(frozen=True, slots=True)
 class NewAsset:
     """One asset that is to be prepared. labels: its labels file, None where it has none; preparation: the folder of
-    what is done to it already, None for nothing."""
+    what is done to it already, None for nothing; single: the digests of hulls that a person said to be one part, by
+    name."""
 
     id: str
     path: Path
     plan: PreparationPlan
     labels: Path | None = None
     preparation: Path | None = None
+    single: Mapping[str, str] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -106,9 +109,10 @@ def list_new(store: Store) -> tuple[list[NewAsset], str | None]:
     """The assets that came to a project after the others were prepared; and why they are not decomposed, where it is
     unclear how."""
     plans, unclear = find_new_assets(store)
-    own, layout = plans.items(), store.layout
+    layout, single = store.layout, store.single_parts().assets
     return [
-        NewAsset(one, store.path(one), plan, layout.labels(one), layout.preparation(one)) for one, plan in own
+        NewAsset(one, store.path(one), plan, layout.labels(one), layout.preparation(one), single.get(one, {}))
+        for one, plan in plans.items()
     ], unclear
 
 
@@ -151,7 +155,10 @@ def prepare_aside(
     task = _make_task(store, assets, options)
     shared = [task.family.digest if task.family else None, task.split, task.guess, task.contact]
     homes = {one.id: NewAssetFolder(folder, one.id, one.path) for one in assets}
-    basis = {one.id: digest_basis(one.plan, one.labels, one.preparation, shared) for one in assets}
+    basis = {
+        one.id: digest_basis(one.plan, one.labels, one.preparation, [*shared, json.dumps(dict(one.single))])
+        for one in assets
+    }
     known = {one.id: result for one in assets if (result := homes[one.id].read(basis[one.id]))}
     fresh = _prepare_all(task, [one for one in assets if one.id not in known], options)
     for work in assets:
@@ -214,7 +221,7 @@ def _prepare(task: _Task, work: NewAsset) -> _WorkerOutcome | str:
         mesh = _build_mesh(source, after, labels, task.contact)
         found = _SplitOutcome(after)
         if work.plan.split and mesh.hulls:
-            found = _split(task, source, after, mesh, work.plan.split)
+            found = _split(task, source, after, mesh, work)
             if found.splits:
                 mesh = _build_mesh(source, found.preparation, labels, task.contact).with_labels(parts_of(found.splits))
         guesses = task.family.infer_labels(mesh) if task.guess and task.family and mesh.hulls else {}
@@ -258,22 +265,22 @@ class _SplitOutcome:
     notes: tuple[str, ...] = ()
 
 
-def _split(
-    task: _Task, source: Asset, before: batch.Preparation, mesh: SymbolicMesh, how: SplitSettings
-) -> _SplitOutcome:
+def _split(task: _Task, source: Asset, before: batch.Preparation, mesh: SymbolicMesh, work: NewAsset) -> _SplitOutcome:
     """Look for hulls that span parts, and split those that surely do where that is asked for."""
-    if task.family is None:
+    if task.family is None or work.plan.split is None:
         return _SplitOutcome(before, notes=(_NO_LABELS,))
     report = task.family.find_spans(source, mesh)
     bare = report.bare.get(NEW, ())
-    notes = (f"no surface says whether {join_names(bare)} span parts",) if bare else ()
-    plan = plan_splits(report, NEW, how)
+    notes = [f"not compared with {asset}: {why}" for asset, why in task.family.lost.items()]
+    notes += [f"no surface says whether {join_names(bare)} span parts"] if bare else []
+    plan = plan_splits(report, NEW, work.plan.split, work.single)
+    notes += [f"{span}: left as it is, since a person said that it is one part" for span in plan.single]
     if not task.split or not plan.splits:
         likely = {span.hull for span in (*plan.spanning, *plan.unsure)}
-        return _SplitOutcome(before, (), tuple(span for span in report.spans_of(NEW) if span.hull in likely), notes)
+        return _SplitOutcome(before, (), tuple(span for span in report.spans_of(NEW) if span.hull in likely), (*notes,))
     after, labels = plan.divide(source, before)
     splits = tuple(
         HullSplit(one.hull, plan.chance_of(one.hull), one.span.told, {name: labels[name] for name in entry.made})
         for one, entry in zip(plan.splits, after.steps[-1].replaced, strict=True)
     )
-    return _SplitOutcome(after, splits, (*plan.unsure, *plan.whole), notes)
+    return _SplitOutcome(after, splits, (*plan.unsure, *plan.whole), (*notes,))

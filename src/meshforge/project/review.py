@@ -83,8 +83,7 @@ def review_project(
     measures = measure_results(store, program, meshes, basis.inputs) if program else {}
     alarms = describe_odd_results(measures)
     found = review_family(state, outcome, model_family(list(meshes.values())), bar, alarms)
-    seen = {*state.demos, *state.accepted, *state.mended}
-    found = add_span_doubts(store, meshes, _add_unreadable(store, found, state, lost), seen)
+    found = add_span_doubts(store, meshes, _add_unreadable(store, found, state, lost), state.seen)
     found = ask_about_spans(store, meshes, found, program is not None)
     keep_assessment(store, found, basis, measures, execution)
     taken_back = renew_sign_offs(store, clock=clock, execution=execution)

@@ -9,11 +9,11 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import TypeVar
 
 from meshforge import batch
 from meshforge.common import ProjectError, suggest_name
 from meshforge.geometry import digest
+from meshforge.labels import pick_evenly
 from meshforge.language import Action, Program, RunResult, Template
 from meshforge.store import Review, RuleSelection, Store, Verdict, action_text_without_each
 from meshforge.symbolic import SymbolicMesh
@@ -126,17 +126,8 @@ def make_correction(
     return batch.Correction(tuple((name, digest(mesh.hull_of(name).shape)) for name in select), action, label)
 
 
-Item = TypeVar("Item")
-
 MOST_ACCEPTED = 100
 """Of more accepted results so many are learned from: each is one more mesh on which every rule must be right."""
-
-
-def pick_evenly(items: Sequence[Item], most: int) -> Sequence[Item]:
-    """The items in their order; of more than `most` so many, the first among them."""
-    if len(items) <= most:
-        return items
-    return [items[place * len(items) // most] for place in range(most)]
 
 
 def review_assets(store: Store, assets: str | Iterable[str], verdict: Verdict | None, note: str | None = None) -> None:

@@ -53,9 +53,11 @@ def _digest_edits(store: Store, task: ApplyTask, execution: ExecutionOptions) ->
 
 
 def digest_lesson(store: Store) -> str:
-    """The digest of all that probabilities rest on beside the assets: what is learned from, and what a person said."""
-    kept = store.layout.review
-    return text_digest(f"{digest_learning_inputs(store)} {file_digest(kept) if kept.exists() else ''}")
+    """The digest of all that probabilities rest on beside the assets: what is learned from, what a person said, and
+    which hulls were found to span parts."""
+    files = (store.layout.review, store.layout.spans, store.layout.single_parts)
+    kept = (file_digest(file) if file.exists() else "" for file in files)
+    return text_digest(" ".join((digest_learning_inputs(store), *kept)))
 
 
 @dataclass(frozen=True)

@@ -35,8 +35,10 @@ def add_span_doubts(
 ) -> Assessment:
     """The same, where an edit is right at most as probably as that no hull of the asset spans parts.
 
-    meshes: those of the family, by id; seen: assets of which a person saw what the edit makes of them.
+    meshes: those of the family, by id; hulls that look like one which a person split are looked for in them; seen:
+    assets of which a person saw what the edit makes of them.
     """
+    propose_lookalikes(store, meshes)
     files, assets = read_spans(store), dict(found.assets)
     for asset in sorted({asset for file in files for asset in file.assets} & meshes.keys() & assets.keys() - set(seen)):
         likely = likely_spans(files, asset, hull_digests(meshes[asset]))

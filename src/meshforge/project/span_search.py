@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
-from pathlib import Path
+from itertools import starmap
 from types import MappingProxyType
 from typing import Any
 
@@ -16,15 +16,12 @@ from meshforge.formats import read
 from meshforge.label_model import WHOLE
 from meshforge.labels import NEW, HullSpan, LabelledPart, ReferenceFamily, SpanReport, find_spans, read_reference_family
 from meshforge.labels.family_comparison import Stage
-from meshforge.labels.spans import pieces_file
 from meshforge.project.preparation_plan import SplitSettings
-from meshforge.project.span_splits import Split, make_splits
+from meshforge.project.span_splits import LIKELY, Split, make_splits
 from meshforge.store import SpanLine, SpanPart, Store, hull_digests
 from meshforge.store.meshes import AssetFiles
 from meshforge.symbolic import Asset, Label
 
-LIKELY = 0.5
-"""The probability from which a hull is named, and asked about."""
 MOST_TOGETHER = 300
 """Assets of a project that are compared all with all; of more, each with the labelled ones alone."""
 MADE_ANEW = "made anew with its body"
@@ -140,11 +137,16 @@ def _rebuild(report: SpanReport, asset: str, plan: SplitPlan) -> SplitPlan:
     for rows in made.values():
         for hull, parts in rows.items():
             splits.append(make_split(spans[hull], digests[hull], parts, with_body=hull not in named))
+
+    def leave(spans: Iterable[HullSpan]) -> tuple[HullSpan, ...]:
+        return tuple(span for span in spans if mesh.hull_of(span.hull).body not in made)
+
     return replace(
         plan,
         splits=tuple(splits),
-        unsure=tuple(span for span in plan.unsure if mesh.hull_of(span.hull).body not in made),
-        whole=tuple(span for span in plan.spanning if mesh.hull_of(span.hull).body not in made),
+        unsure=leave(plan.unsure),
+        whole=leave(plan.spanning),
+        single=leave(plan.single),
         rebuilt=tuple(made),
     )
 
@@ -177,7 +179,7 @@ def search_spans(
         problem = "no hull has a label, so nothing says what parts there are"
         raise ProjectError(problem, where=str(store.folder), remedy=remedy)
     rows = zip(assets, store.asset_files(assets), strict=True)
-    work = [_Work(asset, files, pieces_file(store, asset)) for asset, files in rows]
+    work = list(starmap(_Work, rows))
     with stage(len(work), "looking for hulls that span parts") as advance:
         single = store.single_parts().assets
         found = batch.execute(partial(_search_one, family, how, single), work, replace(execution, progress=advance))
@@ -212,11 +214,10 @@ def _describe(
 
 @dataclass(frozen=True, slots=True)
 class _Work:
-    """An asset to be looked at; pieces: the file of its fine pieces."""
+    """An asset to be looked at."""
 
     asset: str
     files: AssetFiles
-    pieces: Path
 
 
 def _search_one(
@@ -226,7 +227,7 @@ def _search_one(
     try:
         seen = batch.record_digest(work.files.preparation)
         own = family.without(work.asset)
-        report = own.find_spans(read(work.files.path), work.files.read_mesh(), work.pieces)
+        report = own.find_spans(read(work.files.path), work.files.read_mesh())
         return _describe(report, NEW, how, single.get(work.asset, {}), seen)
     except Exception as error:  # one asset never stops the others
         return describe_error(error, str(work.files.path))

@@ -19,6 +19,8 @@ from meshforge.project.prepare import PreparationResult, exchange_preparation
 from meshforge.store import SpanLine, SpansFile, Store, hull_digests
 from meshforge.symbolic import Asset, Hull, Label, SymbolicMesh
 
+LIKELY = 0.5
+"""The probability from which a hull is named, and asked about."""
 _FIND = "Find them again: meshforge prepare PROJECT --split-spanning --dry-run"
 
 

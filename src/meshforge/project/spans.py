@@ -10,11 +10,10 @@ from meshforge import batch
 from meshforge.common import MeshForgeError, UsageError
 from meshforge.engines import find_engine
 from meshforge.formats import read
-from meshforge.labels import SpanReport, find_spans
 from meshforge.labels.family_comparison import Stage, ignore_stage
 from meshforge.project.preparation_plan import SPLIT_DEFAULTS, SplitSettings, keep_split, read_piece_engine
 from meshforge.project.prepare import PreparationResult
-from meshforge.project.span_search import AssetSpans, list_likely, search_spans
+from meshforge.project.span_search import AssetSpans, search_spans
 from meshforge.project.span_splits import Split, keep_shapes, write_splits
 from meshforge.project.split_limits import describe_limits
 from meshforge.store import SpanLine, SpansFile, Store
@@ -108,12 +107,14 @@ def list_spans(
     *,
     execution: batch.ExecutionOptions = batch.EXECUTION_DEFAULTS,
     stage: Stage = ignore_stage,
-) -> SpanReport:
-    """Which hulls span parts, found anew and kept for the status and the review.
+) -> dict[str, str]:
+    """Find anew which hulls span parts, for `spans`, the status and the review; why some assets could not be looked at.
 
     Raises ProjectError as `split_spanning` does, StoppedError on a stop, with nothing written.
     """
-    report = find_spans(store, execution, stage, read_piece_engine(store))
+    how = SplitSettings(pieces=read_piece_engine(store))
+    rows = list(search_spans(store, store.assets(), how, execution, stage))
     batch.raise_if_stopped(execution.stop)
-    _write_likely(store, {asset: _keep_shapes(store, asset, list_likely(report, asset)) for asset in report.meshes})
-    return report
+    found = {asset: one.likely for asset, one in rows if isinstance(one, AssetSpans)}
+    _write_likely(store, {asset: _keep_shapes(store, asset, likely) for asset, likely in found.items()})
+    return {asset: why for asset, why in rows if isinstance(why, str)}

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -13,11 +13,10 @@ from meshforge.batch.preparation.record import PreparationStep
 from meshforge.common import MeshForgeError
 from meshforge.formats import read
 from meshforge.labels.split_lookalikes import SplitExample, SplitLookalikes, SplitProposal
-from meshforge.project.span_splits import keep_shapes
+from meshforge.project.span_splits import LIKELY, keep_shapes
 from meshforge.store import SpanLine, SpanPart, SpansFile, Store, hull_digests
 from meshforge.symbolic import SymbolicMesh
 
-_LIKELY = 0.5  # from which a hull is asked about
 _DIGITS = 3
 
 
@@ -56,21 +55,22 @@ def propose_lookalikes(store: Store, meshes: Mapping[str, SymbolicMesh]) -> None
     if not examples and not known.assets:
         return
     digests = {asset: hull_digests(mesh) for asset, mesh in meshes.items()}
-    rows = [batch.software_version(), [one.to_json() for one in examples], digests]
+    contact = store.settings.thresholds.contact
+    rows = [batch.software_version(), contact, [one.to_json() for one in examples], digests]
     key = batch.text_digest(json.dumps(rows, sort_keys=True))
     if known.key == key:
         return
     parts = {asset: _list_parts(store, asset) for asset in meshes}
     finder, best = SplitLookalikes(meshes), dict[str, dict[str, tuple[_ExampleStep, SplitProposal]]]()
     for one in examples:
-        split = _replay(store, one)
+        split = _replay(store, one, contact)
         is_part = one.entry.what in parts[one.asset]
         for proposal in finder.find(split) if split else ():
             if (proposal.hull in parts[proposal.asset]) != is_part:  # what was split need not be split so again
                 continue
             own = best.setdefault(proposal.asset, {})
             before = own.get(proposal.hull)
-            if proposal.chance >= _LIKELY and (before is None or proposal.chance > before[1].chance):
+            if proposal.chance >= LIKELY and (before is None or proposal.chance > before[1].chance):
                 own[proposal.hull] = one, proposal
     _keep(store, key, {asset: own for asset, own in best.items() if own}, digests)
 
@@ -124,14 +124,16 @@ def _find_examples(store: Store, mesh: SymbolicMesh, asset: str) -> Iterator[_Ex
                 yield _ExampleStep(asset, place, entry, named)
 
 
-def _replay(store: Store, example: _ExampleStep) -> SplitExample | None:
-    """A split with the asset as it was before; None where the asset cannot be read any more."""
+def _replay(store: Store, example: _ExampleStep, contact: float | None) -> SplitExample | None:
+    """A split with the asset as it was before; None where the asset cannot be read any more. contact: the threshold of
+    the project, None for the language's own."""
     try:
         preparation = store.preparation(example.asset)
         before = preparation.with_only(preparation.steps[: example.place])
         mesh = SymbolicMesh.of(batch.apply_preparation(read(store.path(example.asset)), before))
     except MeshForgeError:
         return None
+    mesh = mesh if contact is None else replace(mesh, epsilon=contact)
     if example.entry.what not in mesh.index:
         return None
     step = preparation.steps[example.place]

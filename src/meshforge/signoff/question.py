@@ -130,3 +130,8 @@ class ReviewState:
     failed: Mapping[str, Selections] = field(default_factory=dict)
     aside: frozenset[str] = frozenset()
     later: frozenset[str] = frozenset()
+
+    @property
+    def seen(self) -> frozenset[str]:
+        """The assets of which a person saw what the edit makes of them."""
+        return frozenset((*self.demos, *self.accepted, *self.mended))

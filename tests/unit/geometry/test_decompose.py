@@ -28,6 +28,7 @@ from meshforge.geometry.decomposition.run import (
     write_entry,
 )
 from meshforge.geometry.decomposition.triangles import clean_triangles
+from meshforge.geometry.decomposition.worker import pack_pieces
 
 QUICK = CoacdSettings(resolution=200, mcts_iterations=20, mcts_nodes=8)
 COARSE = VhacdSettings(resolution=5000, max_convex_hulls=4)
@@ -208,7 +209,7 @@ def test_an_engine_that_takes_too_long_is_ended(monkeypatch: pytest.MonkeyPatch,
 
 def test_sheets_get_a_thickness_and_needles_are_left_out(tmp_path: Path) -> None:
     sheet, needle = CUBE[0] * [1, 1, 0], CUBE[0] * [1, 0, 0]
-    write_entry(tmp_path, cache_key(clean_triangles(*CUBE), QUICK), [(sheet, CUBE[1]), (needle, CUBE[1])])
+    write_entry(tmp_path, cache_key(clean_triangles(*CUBE), QUICK), pack_pieces([(sheet, CUBE[1]), (needle, CUBE[1])]))
     notes: list[str] = []
     (hull,) = decompose(*CUBE, QUICK, cache=tmp_path, note=notes.append)
     assert hull.aabb.size == pytest.approx([1, 1, 1e-4 * 3**0.5])

@@ -16,7 +16,9 @@ from meshforge.geometry.decomposition.regions import (
     find_solids,
     list_region_solids,
     number_pieces,
+    turn_outward,
 )
+from meshforge.geometry.decomposition.triangles import clean_triangles
 from meshforge.geometry.shape import volume_and_centroid
 from meshforge.geometry.surface import is_closed
 from tests.unit.geometry.solids import block, surface
@@ -86,6 +88,41 @@ def test_a_cavity_is_of_the_solid_around_it() -> None:
     tin = block((0.4, 0.4, 0.4), (0, 0, 0)) - block((0.3, 0.3, 0.3), (0, 0, 0))
     vertices, faces = surface(Manifold.compose([tin, block((0.1, 0.1, 0.1), (0, 0, 0))]))
     assert sorted(map(len, find_solids(vertices, faces))) == [12, 24]
+
+
+TIN = block((0.4, 0.4, 0.4), (0, 0, 0)) - block((0.3, 0.3, 0.3), (0, 0, 0))
+BESIDE = block((0.1, 0.1, 0.1), (1, 0, 0))
+
+
+@pytest.mark.parametrize("solid", [PLATE + POST, TIN, Manifold.compose([TIN, BESIDE])], ids=["one", "hollow", "two"])
+def test_a_surface_that_is_inside_out_is_turned(solid: Manifold) -> None:
+    vertices, faces = surface(solid)
+    mesh = clean_triangles(vertices, faces)
+    assert turn_outward(mesh) is mesh
+    turned = turn_outward(clean_triangles(vertices, faces[:, ::-1]))
+    assert volume_and_centroid(turned.vertices, turned.faces)[0] == pytest.approx(solid.volume())
+    assert len(find_solids(turned.vertices, turned.faces)) == len(find_solids(vertices, faces))
+
+
+def test_one_solid_of_two_that_is_inside_out_is_turned_and_a_cavity_is_not() -> None:
+    (one, one_faces), (two, two_faces) = surface(TIN), surface(BESIDE)
+    faces = np.concatenate([one_faces, two_faces[:, ::-1] + len(one)])
+    turned = turn_outward(clean_triangles(np.concatenate([one, two]), faces))
+    assert volume_and_centroid(turned.vertices, turned.faces)[0] == pytest.approx(TIN.volume() + BESIDE.volume())
+
+
+def test_an_open_surface_is_left_as_it_is() -> None:
+    vertices, faces = surface(PLATE)
+    mesh = clean_triangles(vertices, faces[1:, ::-1])
+    assert turn_outward(mesh) is mesh
+
+
+def test_pieces_of_a_surface_inside_out_are_those_of_the_surface() -> None:
+    vertices, faces = surface(PLATE + POST)
+    inward, outward = decompose_finely(vertices, faces[:, ::-1]), decompose_finely(vertices, faces)
+    assert len(inward) == len(outward) == 2
+    for one, other in zip(inward, outward, strict=True):
+        assert one.shape.volume == pytest.approx(other.shape.volume)
 
 
 def test_a_piece_that_lies_nowhere_near_goes_with_the_nearest_region() -> None:

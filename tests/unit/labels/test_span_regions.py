@@ -7,11 +7,11 @@ from collections.abc import Sequence
 import numpy as np
 import pytest
 
-from meshforge.geometry import Aabb, Box, FinePiece, Floats, Polytope, cut
+from meshforge.geometry import Aabb, Box, FinePiece, Floats, Polytope, cut, volume_of_union
 from meshforge.label_model import AssetPieces, SpanModel, SpanPosterior, piece_mesh
 from meshforge.label_model.spans import weigh_solids
 from meshforge.symbolic import Hull, Label, SymbolicMesh
-from tests.unit.project.stools import PARTS, boxes
+from tests.unit.project.stools import PARTS, boxes, make_box
 
 EVEN = np.full((2, 2), 0.5)
 
@@ -133,3 +133,31 @@ def test_labels_of_a_region_come_from_more_than_half_of_it() -> None:
     assert [str(one and one.name) for one in asset.collect_labels(said)] == list(PARTS)
     sliver = [Label("seat"), *[Label("leg"), None] * 4]
     assert [one and one.name for one in asset.collect_labels(sliver)] == ["seat", None, None, None, None]
+
+
+@pytest.mark.parametrize("order", [range(10), (9, *range(9)), (3, 9, 0, 1, 2, 4, 5, 6, 7, 8)])
+def test_a_hull_of_exactly_nine_tenths_is_of_one_part_in_whatever_order_its_pieces_come(order: Sequence[int]) -> None:
+    slabs = [make_box((0.1 * k + 0.05, 0, 0), (0.05, 0.5, 0.5)) for k in range(10)]
+    mesh = SymbolicMesh((Hull("h", "base", make_box((0.5, 0, 0), (0.5, 0.5, 0.5))),))
+    asset = pieces_of(mesh, [[slabs[k]] for k in order])
+    chances = np.eye(2)[[int(k == 9) for k in order]]
+    found = SpanPosterior([asset], ("leg", "seat"), [chances], np.array([0.0, 1.0]), [np.zeros(1)])
+    assert found.chances_of(0)[0] < 0.01
+
+
+def test_where_nothing_is_said_of_any_piece_no_hull_spans_parts() -> None:
+    new = stool(0.19, 0.41)
+    assert SpanModel([new]).infer([None] * len(new.mesh.hulls)).chances_of(0).tolist() == [0.0] * len(new.mesh.hulls)
+
+
+@pytest.mark.parametrize(("reach", "kept"), [(0.9, True), (1.0, False)])
+def test_what_a_hull_alone_has_of_a_piece_stays_in_its_parts(reach: float, kept: bool) -> None:
+    """A base, of which another hull has all, or all but the foot of a wall."""
+    base, wall = make_box((0.5, 0, 0.05), (0.5, 0.5, 0.05)), make_box((0.95, 0, 0.6), (0.05, 0.5, 0.5))
+    spanning = make_box((0.95, 0, 0.55), (0.05, 0.5, 0.55))
+    other = make_box((reach / 2, 0, 0.05), (reach / 2, 0.5, 0.05))
+    mesh = SymbolicMesh((Hull("spanning", "b", spanning), Hull("other", "b", other)))
+    asset = pieces_of(mesh, [[base], [wall]])
+    assert asset.pieces_of(0).tolist() == ([0, 1] if kept else [1])
+    found = SpanPosterior([asset], ("base", "wall"), [np.eye(2)], np.array([0.0, 1.0]), [np.zeros(1)]).divide(0, 0)
+    assert volume_of_union([other, *(part.shape for part in found)]) == pytest.approx(0.1 + 0.1)

@@ -15,13 +15,14 @@ PARTS = ("seat", "leg", "leg", "leg", "leg")
 
 def boxes(width: float, height: float) -> list[Polytope]:
     """The parts: a seat, then the legs, which touch it from below."""
-    seat = _box((0, 0, height + 0.02), (width, width, 0.02))
+    seat = make_box((0, 0, height + 0.02), (width, width, 0.02))
     at = width - 0.04
-    legs = [_box((x, y, height / 2), (0.03, 0.03, height / 2)) for x in (-at, at) for y in (-at, at)]
+    legs = [make_box((x, y, height / 2), (0.03, 0.03, height / 2)) for x in (-at, at) for y in (-at, at)]
     return [seat, *legs]
 
 
-def _box(middle: Sequence[float], half: Sequence[float]) -> Polytope:
+def make_box(middle: Sequence[float], half: Sequence[float]) -> Polytope:
+    """An upright box; half: of its sizes [m]."""
     return Box(Pose(np.eye(3), np.array(middle, dtype=float)), np.array(half, dtype=float)).tessellate()
 
 

@@ -4,12 +4,14 @@ import json
 import shutil
 from collections.abc import Sequence
 from pathlib import Path
+from typing import Any
 
 import pytest
 
 from meshforge.batch import IN_PROCESS, ExecutionOptions, read_preparation
 from meshforge.geometry import volume_of_union
 from meshforge.labels.reference_family import choose_labelled
+from meshforge.labels.spans import FinePieces, find_pieces
 from meshforge.project import (
     NewAsset,
     NewAssetOptions,
@@ -214,6 +216,29 @@ def test_what_comes_later_to_a_project_is_kept_in_it_and_undone(folder: Path) ->
     project.unprepare("c.urdf")
     assert list(project.prepare_new()) == [], "what was taken back is not done again"
     assert [hull.name for hull in project.mesh("c.urdf").hulls] == ["base/h0", "base/h1", "base/h2", "base/h3"]
+
+
+def test_a_hull_that_a_person_said_to_be_one_part_is_left(folder: Path) -> None:
+    for path in (folder / "new").glob("c*"):
+        shutil.copy(path, folder / "assets")
+    project = Project.open(folder / "p")
+    project.mark_as_one_part("c.urdf", "base/h0")
+    (found,) = project.prepare_new(NewAssetOptions(execution=IN_PROCESS))
+    assert found.splits == () and found.spanning == ()
+    assert [note.partition(": ")[2] for note in found.notes] == [
+        "left as it is, since a person said that it is one part"
+    ]
+    assert found.notes[0].startswith("base/h0 holds seat and leg, ")
+
+
+def test_labelled_assets_that_could_not_be_compared_are_named(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def lose_one(*given: Any) -> tuple[dict[str, FinePieces], dict[str, str]]:
+        found, _ = find_pieces(*given)
+        return {"a.urdf": found["a.urdf"]}, {"b.urdf": "no answer within 600 s"}
+
+    monkeypatch.setattr("meshforge.labels.reference_family.find_pieces", lose_one)
+    results = prepare(folder, ["c.urdf"])
+    assert "not compared with b.urdf: no answer within 600 s" in results["c.urdf"].notes
 
 
 def test_those_that_people_labelled_come_first_of_more_than_are_compared() -> None:

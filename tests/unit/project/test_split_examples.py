@@ -90,3 +90,16 @@ def test_a_damaged_preparation_shows_nothing_and_stops_nothing(project: Project)
     meshes = dict(project.meshes_by_id())
     (project.layout.preparation(SHOWN) / "preparation.json").write_text("{")
     assert choose_span_question(project, meshes) is None
+
+
+def test_look_alikes_are_found_anew_under_another_contact_threshold(project: Project) -> None:
+    label(project)
+    ask(project)
+    before = project.lookalike_spans()
+    ask(project)
+    assert project.lookalike_spans() == before
+    toml = project.layout.settings
+    toml.write_text(toml.read_text() + "\n[thresholds]\ncontact = 0.01\n")
+    project = Project.open(project.folder)
+    ask(project)
+    assert project.lookalike_spans().key != before.key

@@ -13,6 +13,7 @@ from meshforge.batch import IN_PROCESS
 from meshforge.language import Delete
 from meshforge.project import Project
 from meshforge.signoff import Assessment, review_family
+from meshforge.store import SpanLine, SpansFile, hull_digests
 from meshforge.studio.learning import process
 from meshforge.studio.learning.queue import CancelFlag
 from meshforge.studio.session.file_sync import FileSync
@@ -67,6 +68,43 @@ def test_what_is_not_written_is_sure_and_not_signed_off(tmp_path: Path, flag: Ca
     learn(project, flag)
     assess(project, flag)
     assert [one.sign_off for one in project.status().assets] == ["sure", "signed off", "sure"]
+
+
+def find_span(project: Project, asset: str, chance: float = 0.6) -> str:
+    """Keep that the first hull of an asset likely spans parts; its name."""
+    hull, geometry = next(iter(hull_digests(project.mesh(asset)).items()))
+    project.write_spans(SpansFile(assets={asset: {hull: SpanLine(geometry=geometry, chance=chance, told="two parts")}}))
+    return hull
+
+
+def test_an_asset_with_a_hull_that_likely_spans_parts_is_held_as_a_review_holds_it(
+    tmp_path: Path, flag: CancelFlag
+) -> None:
+    project = applied(tmp_path)
+    project.set_verdict(SECOND, "accepted")
+    find_span(project, THIRD)
+    learn(project, flag)
+    assess(project, flag)
+    assert signers_of(project) == {FIRST: "person", SECOND: "person"}
+    before = files_of(project)
+    project.review(execution=IN_PROCESS)
+    assert files_of(project) == before
+
+
+def test_what_was_signed_off_is_taken_back_once_a_hull_is_found_to_span_parts(tmp_path: Path, flag: CancelFlag) -> None:
+    project = applied(tmp_path)
+    project.set_verdict(SECOND, "accepted")
+    learn(project, flag)
+    assess(project, flag)
+    assert THIRD in signers_of(project)
+    hull = find_span(project, THIRD)
+    learn(project, flag, 2)
+    assess(project, flag, 2)
+    assert THIRD not in signers_of(project)
+    project.mark_as_one_part(THIRD, hull)
+    learn(project, flag, 3)
+    assess(project, flag, 3)
+    assert signers_of(project)[THIRD] == "tool"
 
 
 def test_what_changed_while_it_was_assessed_is_not_kept(

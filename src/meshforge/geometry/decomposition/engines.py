@@ -146,11 +146,11 @@ def run_engines(jobs: Sequence[EngineJob], control: EngineControl) -> list[list[
             np.savez(folder / MESH.format(number), vertices=mesh.vertices, faces=mesh.faces)
         rows = [{"engine": settings.engine, **settings.as_dict()} for _, settings in jobs]
         (folder / JOBS).write_text(json.dumps(rows))
-        log = folder / "errors.txt"
+        log, started = folder / "errors.txt", time.monotonic()
         while len(found) < len(jobs):
             command = [sys.executable, "-P", worker.__file__, name, str(len(found))]
             with log.open("wb") as errors:
-                code = _supervise(command, errors.fileno(), control)
+                code = _supervise(command, errors.fileno(), control, started)
             while (result := folder / PIECES.format(len(found))).exists():
                 found.append(unpack_pieces(result.read_bytes()))
             if len(found) < len(jobs):
@@ -160,8 +160,8 @@ def run_engines(jobs: Sequence[EngineJob], control: EngineControl) -> list[list[
     return found
 
 
-def _supervise(command: list[str], errors: int, control: EngineControl) -> int:
-    """The exit code of a command, which is killed when it is cancelled or time is up."""
+def _supervise(command: list[str], errors: int, control: EngineControl, started: float) -> int:
+    """The exit code of a command, which is killed when it is cancelled or time is up; started: when that began."""
     environment = {**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, sys.path)), "PYTHONWARNINGS": "ignore"}
     if parent_process() is not None:  # one of several workers, which share the processors; results are the same
         environment.setdefault("OMP_NUM_THREADS", "1")
@@ -172,7 +172,6 @@ def _supervise(command: list[str], errors: int, control: EngineControl) -> int:
     reader = threading.Thread(target=_read_progress, args=(process, lines), daemon=True)
     reader.start()
     try:
-        started = time.monotonic()
         while _is_running(process):
             _report(lines, control)
             if control.cancel():
@@ -215,22 +214,9 @@ def _last_message(log: Path, code: int) -> str:
     return f"exit code {code}: {message[-200:]}"
 
 
-def pack_pieces(pieces: list[EnginePiece]) -> bytes:
-    """The pieces as the content of an `.npz`."""
-    buffer = io.BytesIO()
-    np.savez_compressed(
-        buffer,
-        vertices=np.concatenate([v for v, _ in pieces] or [np.zeros((0, 3))]),
-        faces=np.concatenate([f for _, f in pieces] or [np.zeros((0, 3), np.int64)]),
-        counts=np.array([[len(v), len(f)] for v, f in pieces], dtype=np.int64).reshape(-1, 2),
-    )
-    return buffer.getvalue()
-
-
 def unpack_pieces(content: bytes) -> list[EnginePiece]:
     """The pieces of `pack_pieces`. Raises ValueError, KeyError, EOFError or BadZipFile for anything else."""
-    with np.load(io.BytesIO(content), allow_pickle=False) as arrays:
-        vertices, faces, counts = (arrays[name] for name in ("vertices", "faces", "counts"))
+    vertices, faces, counts = unpack_arrays(content, "vertices", "faces", "counts")
     ends = np.cumsum(counts.reshape(-1, 2), axis=0)
     if (len(vertices), len(faces)) != tuple(ends[-1] if len(ends) else (0, 0)):
         raise ValueError("counts do not add up")
@@ -238,3 +224,9 @@ def unpack_pieces(content: bytes) -> list[EnginePiece]:
         (vertices[v0:v1].astype(np.float64), faces[f0:f1].astype(np.int64))
         for (v0, f0), (v1, f1) in zip(ends - counts, ends, strict=True)
     ]
+
+
+def unpack_arrays(content: bytes, *names: str) -> list[Any]:
+    """Arrays of `pack_pieces` by name. Raises as `unpack_pieces` does."""
+    with np.load(io.BytesIO(content), allow_pickle=False) as arrays:
+        return [arrays[name] for name in names]

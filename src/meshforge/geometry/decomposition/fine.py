@@ -20,8 +20,21 @@ from meshforge.geometry.arrays import Floats, Ints
 from meshforge.geometry.convex import FLATNESS, convex_hull, principal_extents
 from meshforge.geometry.decomposition.by_parts import scale_settings
 from meshforge.geometry.decomposition.creases import Creases, cut_at_creases, find_creases
-from meshforge.geometry.decomposition.engines import CoacdSettings, DecomposeSettings, EngineJob, VhacdSettings
-from meshforge.geometry.decomposition.regions import FinePiece, find_solids, list_region_solids, number_pieces
+from meshforge.geometry.decomposition.engines import (
+    CoacdSettings,
+    DecomposeSettings,
+    EngineJob,
+    VhacdSettings,
+    unpack_arrays,
+    unpack_pieces,
+)
+from meshforge.geometry.decomposition.regions import (
+    FinePiece,
+    find_solids,
+    list_region_solids,
+    number_pieces,
+    turn_outward,
+)
 from meshforge.geometry.decomposition.run import (
     cache_key,
     decompose,
@@ -31,6 +44,7 @@ from meshforge.geometry.decomposition.run import (
     write_entry,
 )
 from meshforge.geometry.decomposition.triangles import TriangleMesh, clean_triangles, is_sheet, sheet_hulls
+from meshforge.geometry.decomposition.worker import pack_pieces
 from meshforge.geometry.interior import Interior
 from meshforge.geometry.shape import Polytope, volume_and_centroid
 from meshforge.geometry.solids import volume_of_union
@@ -40,7 +54,7 @@ FINE = CoacdSettings(threshold=0.05, resolution=500, mcts_iterations=20, mcts_no
 PieceEngine = Literal["coacd", "vhacd"]
 FINE_SETTINGS: Mapping[PieceEngine, DecomposeSettings] = {"coacd": FINE, "vhacd": VhacdSettings(resolution=100_000)}
 """The settings for fine pieces of each engine; V-HACD's are those of its authors, with fewer voxels, for time."""
-_VERSION = 3  # of what is made of an engine's pieces; another one after any change, so that the cache forgets
+_VERSION = 4  # of what is made of an engine's pieces; another one after any change, so that the cache forgets
 _CONVEX = 0.995  # of the volume of its convex hull: such a solid is one piece
 _COMPLETE = 0.97  # of a solid's volume, that pieces of its regions must make up
 _SMALL = 0.03  # of the surface's diagonal: a smaller component is one piece
@@ -56,15 +70,28 @@ def decompose_finely(
     engine: which makes them; cache: a folder for the pieces and for results of the engine, None keeps none.
     Raises GeometryError: nothing that has an area, a coordinate that is not finite.
     """
-    mesh, settings = clean_triangles(vertices, faces), FINE_SETTINGS[engine]
+    mesh, settings = turn_outward(clean_triangles(vertices, faces)), FINE_SETTINGS[engine]
     key = _cache_key(mesh, settings)
     if cache and (known := read_entry(cache, key)) is not None:
-        return number_pieces([Polytope(*piece) for piece in known], mesh.vertices, mesh.faces)
+        return _unpack(known)
     pieces, failed = _decompose_mesh(mesh, settings, cache)
+    found = number_pieces(pieces, mesh.vertices, mesh.faces)
     if cache and not failed:  # an engine that was killed may not be the next time
         with suppress(OSError):  # a cache that cannot be written costs time alone
-            write_entry(cache, key, [(piece.vertices, piece.faces) for piece in pieces])
-    return number_pieces(pieces, mesh.vertices, mesh.faces)
+            write_entry(cache, key, _pack(found))
+    return found
+
+
+def _pack(pieces: Sequence[FinePiece]) -> bytes:
+    """Pieces as they are kept."""
+    numbers = np.array([(piece.region, piece.solid) for piece in pieces], dtype=np.int64).reshape(-1, 2)
+    return pack_pieces([(piece.shape.vertices, piece.shape.faces) for piece in pieces], numbers=numbers)
+
+
+def _unpack(content: bytes) -> tuple[FinePiece, ...]:
+    (numbers,) = unpack_arrays(content, "numbers")
+    rows = zip(unpack_pieces(content), numbers.tolist(), strict=True)
+    return tuple(FinePiece(Polytope(*piece), region, solid) for piece, (region, solid) in rows)
 
 
 def _cache_key(mesh: TriangleMesh, settings: DecomposeSettings) -> str:

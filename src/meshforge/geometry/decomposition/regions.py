@@ -65,24 +65,54 @@ class FinePiece:
 def find_solids(vertices: Floats, faces: Ints) -> list[Ints]:
     """The connected components of faces (m, 3), each as the places of its faces, a cavity with the solid that it is
     in."""
-    component = connectivity.components_by_vertices(faces)
-    closed = set(connectivity.find_closed_components(faces, component).tolist())
-    numbers = np.unique(component).tolist()
-    own = {number: np.flatnonzero(component == number) for number in numbers}
-    volumes = {number: volume_and_centroid(vertices, faces[own[number]])[0] for number in numbers}
-    outer = [number for number in numbers if volumes[number] > 0]
-    found = {number: [own[number]] for number in numbers}
-    for number in numbers:
-        inner = faces[own[number]]
-        homes = [o for o in outer if volumes[o] > -volumes[number] and _is_within(vertices, inner, faces[own[o]])]
-        if number in closed and volumes[number] < 0 and homes:
-            found[min(homes, key=lambda o: volumes[o])] += found.pop(number)
+    component, own = _list_components(faces)
+    volumes = [volume_and_centroid(vertices, faces[places])[0] for places in own]
+    found = {number: [places] for number, places in enumerate(own)}
+    for number in connectivity.find_closed_components(faces, component).tolist():
+        if volumes[number] < 0 and (home := _find_home(vertices, faces, own, volumes, number)) is not None:
+            found[home] += found.pop(number)
     return [np.concatenate(rows) for rows in found.values()]
 
 
-def _is_within(vertices: Floats, inner: Ints, outer: Ints) -> bool:
-    a, b = vertices[inner].reshape(-1, 3), vertices[outer].reshape(-1, 3)
-    return bool((a.min(axis=0) >= b.min(axis=0)).all() and (a.max(axis=0) <= b.max(axis=0)).all())
+def turn_outward(mesh: TriangleMesh) -> TriangleMesh:
+    """A mesh whose solids face outward: all its closed components are turned where they are inside out together, then
+    each that is and lies in no other."""
+    vertices, faces = mesh.vertices, mesh.faces.copy()
+    component, own = _list_components(faces)
+    closed = connectivity.find_closed_components(faces, component).tolist()
+    volumes = [volume_and_centroid(vertices, faces[places])[0] for places in own]
+    turned = set[int](closed if sum(volumes[number] for number in closed) < 0 else ())
+    volumes = [-volume if number in turned else volume for number, volume in enumerate(volumes)]
+    for number in closed:
+        if volumes[number] < 0 and _find_home(vertices, faces, own, volumes, number) is None:
+            turned ^= {number}
+    for number in turned:
+        faces[own[number]] = faces[own[number]][:, ::-1]
+    return TriangleMesh(vertices, faces, mesh.open_edges) if turned else mesh
+
+
+def _list_components(faces: Ints) -> tuple[Ints, list[Ints]]:
+    """The component (m,) of each of faces (m, 3), numbered by its first face, and the places of the faces of each."""
+    component = connectivity.components_by_vertices(faces)
+    sizes = np.bincount(component)
+    return component, np.split(np.argsort(component, kind="stable"), np.cumsum(sizes)[:-1])
+
+
+def _find_home(vertices: Floats, faces: Ints, own: Sequence[Ints], volumes: Sequence[float], cavity: int) -> int | None:
+    """The smallest component around one, by their boxes, that is larger; None where there is none."""
+    low, high = _corners_of(vertices, faces[own[cavity]])
+
+    def is_around(number: int) -> bool:
+        below, above = _corners_of(vertices, faces[own[number]])
+        return bool((low >= below).all() and (high <= above).all())
+
+    homes = (number for number, volume in enumerate(volumes) if volume > -volumes[cavity] and is_around(number))
+    return min(homes, key=lambda number: volumes[number], default=None)
+
+
+def _corners_of(vertices: Floats, faces: Ints) -> tuple[Floats, Floats]:
+    points = vertices[faces].reshape(-1, 3)
+    return points.min(axis=0), points.max(axis=0)
 
 
 def number_pieces(pieces: Sequence[Polytope], vertices: Floats, faces: Ints) -> tuple[FinePiece, ...]:

@@ -8,7 +8,6 @@ from __future__ import annotations
 import hashlib
 import json
 import os
-import zipfile
 from collections.abc import Callable, Mapping, Sequence
 from importlib.metadata import version
 from pathlib import Path
@@ -18,6 +17,7 @@ from meshforge.common import GeometryError, pluralize, write_atomically
 from meshforge.geometry.convex import FLATNESS, convex_hull, principal_extents
 from meshforge.geometry.decomposition import engines
 from meshforge.geometry.decomposition.triangles import TriangleMesh, cap_holes, clean_triangles
+from meshforge.geometry.decomposition.worker import pack_pieces
 from meshforge.geometry.shape import Polytope
 
 _CHECKSUM_SIZE = 16  # bytes
@@ -74,7 +74,7 @@ def decompose_solids(
 ) -> list[list[Polytope] | GeometryError]:
     """The convex hulls of each of some meshes, or why there are none; see `decompose`."""
     keys = [cache_key(*solid) if cache else "" for solid in solids]
-    kept = [read_entry(cache, key) if cache else None for key in keys]
+    kept = [_read_pieces(cache, key) if cache else None for key in keys]
     new = [number for number, pieces in enumerate(kept) if pieces is None]
     made = dict(zip(new, engines.run_engines([solids[number] for number in new], control) if new else (), strict=True))
     found = list[list[Polytope] | GeometryError]()
@@ -91,9 +91,14 @@ def decompose_solids(
     return found
 
 
+def _read_pieces(cache: Path, key: str) -> list[engines.EnginePiece] | None:
+    content = read_entry(cache, key)
+    return None if content is None else engines.unpack_pieces(content)
+
+
 def _keep(cache: Path, key: str, pieces: list[engines.EnginePiece], note: Callable[[str], None]) -> None:
     try:
-        write_entry(cache, key, pieces)
+        write_entry(cache, key, pack_pieces(pieces))
     except OSError as error:
         note(f"the result could not be kept in {cache}: {error.strerror or error}")
 
@@ -144,19 +149,18 @@ def cache_key(mesh: TriangleMesh, settings: engines.DecomposeSettings) -> str:
     return hashlib.blake2b(header.encode() + mesh.vertices.tobytes() + mesh.faces.tobytes(), digest_size=20).hexdigest()
 
 
-def read_entry(folder: Path, key: str) -> list[engines.EnginePiece] | None:
-    """The pieces kept under a key; None where there is no entry, or one that is damaged."""
+def read_entry(folder: Path, key: str) -> bytes | None:
+    """What is kept under a key, as it was written; None where there is no entry, or one that is damaged."""
     try:
         content = (folder / "decompositions" / f"{key}.npz").read_bytes()
-        packed, checksum = content[:-_CHECKSUM_SIZE], content[-_CHECKSUM_SIZE:]
-        return engines.unpack_pieces(packed) if checksum == _checksum(packed) else None
-    except (OSError, ValueError, KeyError, EOFError, zipfile.BadZipFile):
+    except OSError:
         return None
+    packed, checksum = content[:-_CHECKSUM_SIZE], content[-_CHECKSUM_SIZE:]
+    return packed if checksum == _checksum(packed) else None
 
 
-def write_entry(folder: Path, key: str, pieces: list[engines.EnginePiece]) -> None:
-    """Keep pieces under a key. Raises OSError where the folder cannot be written."""
-    content = engines.pack_pieces(pieces)
+def write_entry(folder: Path, key: str, content: bytes) -> None:
+    """Keep what `pack_pieces` made under a key. Raises OSError where the folder cannot be written."""
     write_atomically(folder / "decompositions" / f"{key}.npz", content + _checksum(content))
 
 

@@ -7,9 +7,11 @@ the number of the first one to decompose.
 from __future__ import annotations
 
 import ctypes
+import io
 import json
 import signal
 import sys
+from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
@@ -17,6 +19,20 @@ import numpy as np
 
 JOBS, MESH, PIECES = "jobs.json", "mesh-{}.npz", "pieces-{}.npz"
 """The files of the folder: the settings of all meshes, and by number each mesh and what was made of it."""
+
+
+def pack_pieces(pieces: Iterable[tuple[Any, Any]], **more: Any) -> bytes:
+    """Pieces, each vertices (n, 3) and faces (m, 3), and more arrays by name, as the content of an `.npz`."""
+    rows = [(np.asarray(v, np.float64), np.asarray(f, np.int64)) for v, f in pieces]
+    buffer = io.BytesIO()
+    np.savez_compressed(
+        buffer,
+        vertices=np.concatenate([v for v, _ in rows] or [np.zeros((0, 3))]),
+        faces=np.concatenate([f for _, f in rows] or [np.zeros((0, 3), np.int64)]),
+        counts=np.array([[len(v), len(f)] for v, f in rows], dtype=np.int64).reshape(-1, 2),
+        **more,
+    )
+    return buffer.getvalue()
 
 
 def main(folder: str, first: str) -> None:
@@ -27,14 +43,8 @@ def main(folder: str, first: str) -> None:
         mesh = np.load(Path(folder, MESH.format(number)), allow_pickle=False)
         settings = jobs[number]
         engine = {"coacd": _run_coacd, "vhacd": _run_vhacd}[settings.pop("engine")]
-        pieces = [(np.asarray(v, float), np.asarray(f)) for v, f in engine(mesh["vertices"], mesh["faces"], settings)]
         partial = Path(folder, "partial.npz")
-        np.savez(
-            partial,
-            vertices=np.concatenate([v for v, _ in pieces] or [np.zeros((0, 3))]),
-            faces=np.concatenate([f for _, f in pieces] or [np.zeros((0, 3))]),
-            counts=np.array([[len(v), len(f)] for v, f in pieces], dtype=np.int64).reshape(-1, 2),
-        )
+        partial.write_bytes(pack_pieces(engine(mesh["vertices"], mesh["faces"], settings)))
         partial.replace(Path(folder, PIECES.format(number)))
 
 

@@ -77,14 +77,14 @@ def start_spans(session: Session) -> Job:
     project = session.project
 
     def work(progress: JobProgress) -> str:
-        report = project.list_spans(execution=ExecutionOptions(stop=progress.is_stopped), stage=progress.stage)
-        for asset, why in report.lost.items():
+        lost = project.list_spans(execution=ExecutionOptions(stop=progress.is_stopped), stage=progress.stage)
+        for asset, why in lost.items():
             progress.add_line(JobLine(asset=asset, status="failed", text=why))
         session.update([relative_name(project.layout.spans, project.folder)])
         found = project.spans().assets
         for asset, lines in found.items():
             progress.add_line(JobLine(asset=asset, status="done", text="; ".join(one.told for one in lines.values())))
-        return _describe_spans(found, len(report.lost))
+        return _describe_spans(found, len(lost))
 
     assets = project.assets()
     return session.jobs.start(
