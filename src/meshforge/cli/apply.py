@@ -76,7 +76,10 @@ def _run(given: ApplyArguments, work: ApplyWork, measures: CheckOptions | None) 
     remark_new(work.new)
     summary.held = work.held
     for held in work.held:
-        print_json(held.to_json(), compact=True) if given.json else typer.echo(f"{'held':10} {held.asset}: {held.why}")
+        if given.json:
+            print_json({**held.to_json(), **work.describe_new(held.asset)}, compact=True)
+        else:
+            typer.echo(f"{'held':10} {held.asset}: {held.why}")
     if not given.json:
         typer.echo(f"{summary}{NOTHING_WRITTEN if given.dry_run else ''}")
         if alarms:

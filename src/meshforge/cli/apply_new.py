@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 from meshforge import batch
 from meshforge.cli.console import progress
 from meshforge.cli.terminal import remark
+from meshforge.common import format_share
 
 if TYPE_CHECKING:
     from meshforge.project import NewAsset, NewAssetOptions, NewAssetResult, Project
@@ -106,8 +107,6 @@ def hold_new(confidences: Mapping[str, AssetConfidence], bar: float, out: Path) 
 
 def hold(asset: str, found: AssetConfidence | None, out: Path, why: str | None = None) -> batch.Held:
     """An asset that is held back, since its edit is not sure enough; why: another reason."""
-    from meshforge.project import format_share  # lazy: 170 modules that a program file does not need
-
     written = batch.read_stamp(out, asset)
     kept = str(out / written.out) if written and written.out else None
     if found and not why:

@@ -115,7 +115,11 @@ class ApplyWork:
             asset: {"probability": round(one.probability, 4), "doubts": [doubt.to_json() for doubt in one.doubts]}
             for asset, one in self.confidences.items()
         }
-        return standings | {asset: {**standings.get(asset, {}), **one.to_json()} for asset, one in self.new.items()}
+        return standings | {asset: {**standings.get(asset, {}), **self.describe_new(asset)} for asset in self.new}
+
+    def describe_new(self, asset: str) -> dict[str, Any]:
+        """What was done to a new asset before, nothing of another."""
+        return self.new[asset].to_json() if asset in self.new else {}
 
 
 def _work_of_project(given: ApplyArguments, stack: ExitStack) -> ApplyWork:

@@ -79,7 +79,7 @@ def prepare(given: PrepareArguments) -> None:
     spanning = given.split_spanning + given.rebuild_spanning
     if (given.method is not None and not spanning) + spanning + given.undo + given.remove != 1:
         what = "--decompose METHOD, --split-spanning, --rebuild-spanning, --undo or --remove"
-        raise UsageError(f"say what to do: {what}")
+        raise UsageError(f"say what to do, one of these: {what}")
     if not spanning:
         options.refuse_options(given.context, ("sure", "dry_run", "limits"), "--split-spanning or --rebuild-spanning")
     if given.undo and not given.assets:

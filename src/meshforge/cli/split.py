@@ -10,7 +10,7 @@ from typing import Annotated
 import typer
 
 from meshforge.cli import options
-from meshforge.cli.hulls import find_hulls, is_number
+from meshforge.cli.hulls import LISTING, find_hulls, is_number
 from meshforge.cli.prepare import print_results
 from meshforge.common import UsageError
 from meshforge.project import Project
@@ -49,12 +49,12 @@ def split(given: SplitArguments) -> None:
     """
     at, across, method = given.at, given.across, given.method
     if bool(at or across) == (method is not None) or bool(at) != bool(across):
-        raise UsageError("say how: --at X,Y,Z --across X,Y,Z, or --decompose METHOD")
+        raise UsageError("say how: either --at X,Y,Z --across X,Y,Z or --decompose METHOD")
     project = Project.open(given.project)
     asset = options.asset_id(given.asset, project)
     hull = given.hull
     if is_number(hull):
-        (hull,) = find_hulls(hull, project.mesh(asset).index, "HULL")
+        (hull,) = find_hulls(hull, project.mesh(asset).index, "HULL", f"{LISTING} --project {given.project}")
     if method is None:
         options.refuse_options(given.context, ("option", "hollow"), "--decompose METHOD")
         result = project.cut(asset, hull, _parse_vector(at, "--at"), _parse_direction(across, "--across"))

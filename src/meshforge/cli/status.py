@@ -55,7 +55,9 @@ def _print_status(found: Status, folder: Path) -> None:
 def _to_row(asset: AssetStatus) -> tuple[object, ...]:
     stale = f"stale: {', '.join(asset.stale)} changed" if asset.stale else None
     bare = f"{asset.sources} without hulls (meshforge prepare)" if asset.sources else None
-    spans = f"{'; '.join(asset.spans.values())} (meshforge prepare --split-spanning)" if asset.spans else None
+    spans = (
+        f"{'; '.join(asset.spans.values())} (meshforge review, or prepare --split-spanning)" if asset.spans else None
+    )
     remarks = [text for text in (asset.error, stale, asset.review, bare, spans, *asset.prepared, *asset.flags) if text]
     labelled = "" if not asset.hulls else "all" if asset.labelled == asset.hulls else asset.labelled
     output = "" if asset.output == "none" else asset.output

@@ -31,6 +31,11 @@ def nearest_name(name: str, available: Iterable[str]) -> str | None:
     return found[0] if found else None
 
 
+def format_share(share: float) -> str:
+    """A probability in whole percent, rounded down, so that none below a limit looks as if it were at it."""
+    return f"{int(share * 100 + 1e-9)}%"
+
+
 def suggest_name(name: str, available: Iterable[str], otherwise: str | None = None) -> str | None:
     """The remedy for a name that is not available: the nearest one that is; otherwise, where nothing is alike."""
     like = nearest_name(name, available)

@@ -51,6 +51,15 @@ class Visual:
             for s in read
         ]
 
+    def explain_absence(self) -> str:
+        """Why it has no surfaces: what is wrong with its file."""
+        assert isinstance(self.what, Path)
+        try:
+            mesh_reader.read_triangles(self.what)
+        except MeshForgeError as error:
+            return error.sentence
+        return f"{self.what}: it has no triangles"
+
     def surfaces_with_looks(self) -> list[Surface]:
         """Its surfaces with the base colours and pictures of their file, unless it has a colour itself."""
         if isinstance(self.what, Shape) or self.rgba is not None:
@@ -99,10 +108,19 @@ class VisualSurfaces(LazySurfaces):
 
     def __init__(self, visuals: tuple[Visual, ...]) -> None:
         self.visuals = visuals
+        self._absent = list[Visual]()
 
     def _make(self) -> Iterator[Surface]:
+        self._absent = []
         for visual in self.visuals:
-            yield from visual.surfaces()
+            own = visual.surfaces()
+            self._absent += [] if any(len(surface.faces) for surface in own) else [visual]
+            yield from own
+
+    def explain_absent(self) -> list[tuple[str, str]]:
+        """The body of each visual that shows nothing, and why."""
+        assert self._surfaces is not None  # looked for now
+        return [(visual.body, visual.explain_absence()) for visual in self._absent]
 
 
 def visuals_of(asset: Asset) -> list[tuple[str, Visual | Surface]]:

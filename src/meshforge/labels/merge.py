@@ -258,7 +258,8 @@ def label_new_hulls(
     followed = symbolic.transfer_labels(rest, mesh).mesh
     taken = {name: label for name, label in fresh.items() if label and not followed.hull_of(name).annotation}
     notes = [f"labels of {join_names([*gone])} went to {join_names([*taken])}"] if taken and gone else []
-    lost = sorted({label.name for label in labels.values()} - {label.name for label in taken.values()})
+    owed = {label.name for label in labels.values() if label.source != "split"}  # those follow from the split
+    lost = sorted(owed - {label.name for label in taken.values()})
     notes += [f"no hull takes over the label {join_names(lost)}"] if lost else []
     away = tuple(name for name in gone if name not in taken)
     return NewHullLabels(store, asset, followed.with_labels(taken), away, tuple(notes))

@@ -56,7 +56,8 @@ class ReferenceFamily:
 
         source: the asset as it was read; mesh: it as it is prepared, with its labels.
         """
-        own = FinePieces.of(decompose_surfaces(batch.find_surfaces(source), self.engine), mesh)
+        found, notes = decompose_surfaces(source, self.engine)
+        own = FinePieces.of(found, mesh, notes)
         known = {asset: one.mesh for asset, one in self.pieces.items()}
         pieces = {asset: FinePieces(one.pieces) for asset, one in self.pieces.items()}
         cells = self.cells if own.unseen else {}

@@ -3,8 +3,8 @@ the labels that are known."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
 from types import MappingProxyType
@@ -12,8 +12,8 @@ from types import MappingProxyType
 import numpy as np
 
 from meshforge import batch
-from meshforge.common import MeshForgeError, ProjectError, describe_error, join_and
-from meshforge.formats import read
+from meshforge.common import MeshForgeError, ProjectError, describe_error, format_share, join_and
+from meshforge.formats import VisualSurfaces, read
 from meshforge.geometry import (
     FinePiece,
     Floats,
@@ -34,8 +34,10 @@ from meshforge.label_model import (
 )
 from meshforge.labels.family_comparison import Stage
 from meshforge.store import Store
-from meshforge.symbolic import HUMAN_SOURCES, Surface, SymbolicMesh
+from meshforge.symbolic import HUMAN_SOURCES, Asset, SymbolicMesh
 
+_ALIKE = 20.0  # a surface larger or smaller than its hulls by this factor is in another unit
+_TINY = 1e-300
 _SHOWN = 0.1  # of what a hull stands for: labels of smaller shares are not named
 
 
@@ -56,12 +58,13 @@ class HullSpan:
     def __str__(self) -> str:
         """`base holds wall and handle, 94%`; without a surface `base holds wall and handle, by likeness, 64%`."""
         how = "" if self.by_surface else ", by likeness"
-        return f"{self.hull} holds {join_and(self.labels)}{how}, {self.chance:.0%}"
+        return f"{self.hull} holds {join_and(self.labels)}{how}, {format_share(self.chance)}"
 
     @property
     def labels(self) -> tuple[str, ...]:
-        """The labels of at least a tenth of what it stands for, that of the largest share first."""
-        return tuple(label for label, share in self.shares.items() if share >= _SHOWN)
+        """The labels of at least a tenth of what it stands for, at least two, that of the largest share first."""
+        count = sum(share >= _SHOWN for share in self.shares.values())
+        return tuple(self.shares)[: max(count, 2)]
 
 
 @dataclass(frozen=True, eq=False)
@@ -69,7 +72,8 @@ class SpanReport:
     """What was found. meshes: the assets that were looked at, as they are prepared; lost: why others were not;
 
     by_surface, by_cells: what is known of hulls that stand for a surface, and of others; None where no hull is such;
-    unseen: the bodies, by asset, that have no surface; engine: which made the fine pieces.
+    unseen: the bodies, by asset, that have no surface; engine: which made the fine pieces; notes: by asset, on surfaces
+    that could not be used.
     """
 
     meshes: Mapping[str, SymbolicMesh]
@@ -78,6 +82,7 @@ class SpanReport:
     unseen: Mapping[str, frozenset[str]]
     lost: Mapping[str, str]
     engine: PieceEngine = "coacd"
+    notes: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
 
     @cached_property
     def bare(self) -> Mapping[str, tuple[str, ...]]:
@@ -144,15 +149,33 @@ def _name_shares(labels: Sequence[str], shares: Floats) -> dict[str, float]:
 @dataclass(frozen=True, eq=False, slots=True)
 class FinePieces:
     """The fine pieces of the surfaces of an asset, as a mesh that lies as its own does; unseen: the bodies with hulls
-    that have no surface."""
+    that have no surface; notes: on surfaces that could not be used."""
 
     mesh: SymbolicMesh
     unseen: frozenset[str] = frozenset()
+    notes: tuple[str, ...] = ()
 
     @staticmethod
-    def of(found: SurfacePieces, mesh: SymbolicMesh) -> FinePieces:
-        """Those found by body, of all bodies that have a surface."""
-        return FinePieces(piece_mesh(found, mesh), frozenset(hull.body for hull in mesh.hulls) - found.keys())
+    def of(found: SurfacePieces, mesh: SymbolicMesh, notes: Iterable[str] = ()) -> FinePieces:
+        """Those found by body, of all bodies that have a surface; one of quite another size than its hulls says nothing
+        of them, and does not count."""
+        told, kept = list(notes), dict(found)
+        for body, pieces in found.items():
+            hulls = [hull.vertices for hull in mesh.hulls if hull.body == body]
+            if not hulls or not pieces:
+                continue
+            ratio = _diagonal([piece.shape.vertices for piece in pieces]) / max(_diagonal(hulls), _TINY)
+            if not 1 / _ALIKE < ratio < _ALIKE:
+                told.append(
+                    f"{body}: its surface is {ratio:.3g} times the size of its hulls (another unit?): it does not count"
+                )
+                del kept[body]
+        return FinePieces(piece_mesh(kept, mesh), frozenset(hull.body for hull in mesh.hulls) - kept.keys(), (*told,))
+
+
+def _diagonal(points: Sequence[Floats]) -> float:
+    """That of the box around all [m]."""
+    return float(np.linalg.norm(np.ptp(np.concatenate(points), axis=0)))
 
 
 @dataclass(frozen=True, slots=True)
@@ -199,7 +222,7 @@ def find_pieces(
             if isinstance(found, batch.WorkerFailure | str):
                 lost[asset] = found if isinstance(found, str) else found.why
             else:
-                pieces[asset] = FinePieces.of(found, meshes[asset])
+                pieces[asset] = FinePieces.of(found[0], meshes[asset], found[1])
     return pieces, lost
 
 
@@ -224,23 +247,28 @@ def infer_spans(
     if any(own.unseen for own in pieces.values()):
         by_cells = CellModel([cells.get(asset) or AssetCells(mesh) for asset, mesh in known.items()]).infer(said)
     unseen = {asset: own.unseen for asset, own in pieces.items()}
-    return SpanReport(known, by_surface, by_cells, unseen, lost)
+    notes = {asset: own.notes for asset, own in pieces.items()}
+    return SpanReport(known, by_surface, by_cells, unseen, lost, notes=notes)
 
 
-def _find_pieces(work: _Work) -> SurfacePieces | str:
-    """The fine pieces of an asset by body, or why there are none."""
+def _find_pieces(work: _Work) -> tuple[SurfacePieces, list[str]] | str:
+    """The fine pieces of an asset by body, with notes, or why there are none."""
     try:
-        return decompose_surfaces(batch.find_surfaces(read(work.path)), work.engine)
+        return decompose_surfaces(read(work.path), work.engine)
     except Exception as error:  # one asset never stops the others
         return describe_error(error, str(work.path))
 
 
-def decompose_surfaces(surfaces: Mapping[str, Surface], engine: PieceEngine = "coacd") -> SurfacePieces:
-    """The fine pieces of surfaces by body, as `batch.find_surfaces` gives these."""
+def decompose_surfaces(source: Asset, engine: PieceEngine = "coacd") -> tuple[SurfacePieces, list[str]]:
+    """The fine pieces of the surfaces of an asset by body, as it was read; and notes on what it shows that cannot be
+    read."""
     found = dict[str, Sequence[FinePiece]]()
-    for body, surface in surfaces.items():
+    for body, surface in batch.find_surfaces(source).items():
         try:
             found[body] = decompose_finely(surface.vertices, surface.faces, engine, cache=cache_folder())
         except MeshForgeError:  # flat, or without an area: its hulls stand for nothing
             found[body] = []
-    return found
+    absent = source.visuals.explain_absent() if isinstance(source.visuals, VisualSurfaces) else []
+    notes = [f"what {body} shows there does not count: {why}" for body, why in absent]
+    notes += [f"what {name} shows does not count: there is no such file" for name in source.missing]
+    return found, notes

@@ -23,21 +23,23 @@ if TYPE_CHECKING:
     from meshforge.project.review import ProjectReview
     from meshforge.project.run import make_correction, output_digest, run_with_corrections
     from meshforge.project.run_report import add_standings, build_run_report, summarize_outputs
-    from meshforge.project.sign_off_text import format_review, format_share, format_standing, format_status
+    from meshforge.project.sign_off_text import format_review, format_standing, format_status
     from meshforge.project.sign_offs import AssessmentBasis, digest_lesson, keep_assessment
     from meshforge.project.span_questions import (
+        add_carried_doubts,
         add_span_doubts,
         ask_about_spans,
         can_ask_about_spans,
         choose_span_question,
     )
     from meshforge.project.span_search import MADE_ANEW
-    from meshforge.project.span_splits import Split
+    from meshforge.project.span_splits import LIKELY, Split, read_spans
     from meshforge.project.status import AssetStatus, Status
 else:
     __getattr__ = export_lazily(__name__)
 
 __all__ = [
+    "LIKELY",
     "MADE_ANEW",
     "SPLIT_DEFAULTS",
     "AssessmentBasis",
@@ -53,6 +55,7 @@ __all__ = [
     "Split",
     "SplitSettings",
     "Status",
+    "add_carried_doubts",
     "add_span_doubts",
     "add_standings",
     "ask_about_spans",
@@ -64,7 +67,6 @@ __all__ = [
     "digest_lesson",
     "forget_plan",
     "format_review",
-    "format_share",
     "format_standing",
     "format_status",
     "keep_assessment",
@@ -74,6 +76,7 @@ __all__ = [
     "output_digest",
     "prepare_aside",
     "read_preparation_plan",
+    "read_spans",
     "run_with_corrections",
     "sees_whole_family",
     "select_assets",

@@ -14,6 +14,7 @@ from meshforge.label_model import model_family
 from meshforge.labels import NEW, HullSpan, pick_evenly
 from meshforge.labels.reference_family import MOST_COMPARED, choose_labelled
 from meshforge.project.review import ProjectReview
+from meshforge.project.span_splits import WENT_ELSEWHERE
 from meshforge.signoff import AssetConfidence, Doubt, ReviewState, assess_asset
 from meshforge.store import MOST_TOLD, Store, describe_parts
 from meshforge.symbolic import Label, LabelFile
@@ -35,7 +36,7 @@ class HullSplit:
     def __str__(self) -> str:
         """`base holds wall and handle, 94%: into wall (99%), 2 handle (97% to 98%)`."""
         parts = describe_parts((label.name, label.confidence) for label in self.parts.values())
-        return f"{self.told}: into {parts or 'nothing'}"
+        return f"{self.told}: {f'into {parts}' if parts else WENT_ELSEWHERE}"
 
 
 def parts_of(splits: Iterable[HullSplit]) -> dict[str, Label]:

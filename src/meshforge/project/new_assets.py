@@ -272,6 +272,7 @@ def _split(task: _Task, source: Asset, before: batch.Preparation, mesh: Symbolic
     report = task.family.find_spans(source, mesh)
     bare = report.bare.get(NEW, ())
     notes = [f"not compared with {asset}: {why}" for asset, why in task.family.lost.items()]
+    notes += report.notes.get(NEW, ())
     notes += [f"no surface says whether {join_names(bare)} span parts"] if bare else []
     plan = plan_splits(report, NEW, work.plan.split, work.single)
     notes += [f"{span}: left as it is, since a person said that it is one part" for span in plan.single]

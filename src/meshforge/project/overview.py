@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterable, Iterator
+from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from dataclasses import replace
 from functools import partial
 
@@ -16,6 +16,7 @@ from meshforge.project.learn import program_state_of, suggest_first_demonstratio
 from meshforge.project.preparation_journal import describe_carried
 from meshforge.project.run import build_jobs, build_task, output_digest
 from meshforge.project.sign_offs import digest_lesson
+from meshforge.project.span_splits import likely_spans, read_spans
 from meshforge.project.standings import Standings
 from meshforge.project.status import AssetStatus, Status
 from meshforge.signoff import BAR
@@ -46,7 +47,7 @@ def compute_status(
     program, task, problem = _read_program(store)
     rows = [_asset_status(store, job, facts[job.id], task, reviews.get(job.id)) for job in work]
     now = {job.id: inputs_of(task, job, dict(facts[job.id].files)) for job in work if task and not facts[job.id].error}
-    last, spans = store.assessment(), store.spans()
+    last, spans = store.assessment(), read_spans(store)
     standings = Standings(now, store.sign_offs(), last if last and last.holds(digest_lesson(store), now) else None)
     rows = [replace(row, spans=_list_spans(spans, row.id, facts[row.id])) for row in rows]
     assets = tuple(map(standings.add_to, rows))
@@ -130,9 +131,9 @@ def _asset_status(
     )
 
 
-def _list_spans(spans: SpansFile, asset: str, facts: AssetFacts) -> dict[str, str]:
+def _list_spans(spans: Sequence[SpansFile], asset: str, facts: AssetFacts) -> dict[str, str]:
     """The hulls of an asset that likely span parts, by name, in words."""
-    return {hull: line.told for hull, line in spans.likely(asset, dict(facts.hulls)).items()}
+    return {hull: line.told for hull, line in likely_spans(spans, asset, dict(facts.hulls)).items()}
 
 
 def _describe_unknown_hulls(store: Store, asset: str, facts: AssetFacts) -> Iterator[str]:

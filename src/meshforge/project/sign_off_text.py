@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from meshforge.common import join_names, quote_path
+from meshforge.common import format_share, join_names, quote_path
 from meshforge.project.status import AssetStatus, Status
 from meshforge.signoff import AssetConfidence
 from meshforge.signoff.assessment import NO_LOOK
@@ -108,8 +108,3 @@ def format_standing(asset: AssetStatus) -> str:
         return f"{share}signed off when its output is up to date (meshforge apply)"
     who = {"tool": " by MeshForge", "person": " by a person", None: ""}[asset.signed_by]
     return f"{share}{asset.sign_off}{who}"
-
-
-def format_share(share: float) -> str:
-    """A probability in whole percent, rounded down, so that none below the bar looks as if it were at it."""
-    return f"{int(share * 100)}%"

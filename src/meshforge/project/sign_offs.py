@@ -55,7 +55,9 @@ def _digest_edits(store: Store, task: ApplyTask, execution: ExecutionOptions) ->
 def digest_lesson(store: Store) -> str:
     """The digest of all that probabilities rest on beside the assets: what is learned from, what a person said, and
     which hulls were found to span parts."""
-    files = (store.layout.review, store.layout.spans, store.layout.single_parts)
+    layout = store.layout
+    files = [layout.review, layout.spans, layout.single_parts]
+    files += map(layout.preparation_journal, store.demonstration_ids())  # whether a person looked at what was carried
     kept = (file_digest(file) if file.exists() else "" for file in files)
     return text_digest(" ".join((digest_learning_inputs(store), *kept)))
 

@@ -5,7 +5,9 @@ from __future__ import annotations
 from collections.abc import Collection, Iterator, Mapping
 from dataclasses import replace
 
+from meshforge import batch
 from meshforge.common import ProjectError
+from meshforge.project.preparation_journal import describe_carried
 from meshforge.project.span_splits import likely_spans, mark_as_one_part, read_spans, split_as_found
 from meshforge.project.split_examples import has_split_examples, propose_lookalikes
 from meshforge.signoff import Assessment, Doubt, HullPlace, ReviewChoice, ReviewQuestion
@@ -13,6 +15,8 @@ from meshforge.signoff.prices import YES_OR_NO
 from meshforge.signoff.question import ONE_PART, SPLIT, identify
 from meshforge.store import SpanLine, Store, hull_digests
 from meshforge.symbolic import SymbolicMesh
+
+_NOT_MEANT = 0.5  # the probability that not all parts are meant where a demonstration named their hull
 
 
 def ask_about_spans(
@@ -45,6 +49,28 @@ def add_span_doubts(
         doubts = [Doubt("label", line.told, (hull,), share=line.chance) for hull, line in likely.items()]
         assets[asset] = assets[asset].with_doubts(doubts)
     return replace(found, assets=assets)
+
+
+def add_carried_doubts(store: Store, found: Assessment, looked_at: Collection[str]) -> Assessment:
+    """The same, where a program is learned from a demonstration that was carried to the parts of a hull, and nobody has
+    looked whether all of them are meant.
+
+    looked_at: assets whose result a person found right, or mended.
+    """
+    texts = {asset: [*_list_carried(store, asset)] for asset in store.demonstration_ids() if asset in found.assets}
+    if not any(texts.values()):
+        return found
+    assets = dict(found.assets)
+    for asset in assets.keys() - set(looked_at):
+        told = (text if one == asset else f"{one}: {text}" for one, own in texts.items() for text in own)
+        assets[asset] = assets[asset].with_doubts(Doubt("reading", text, share=_NOT_MEANT) for text in told)
+    unseen = {asset for asset, own in texts.items() if own} - set(looked_at)
+    return replace(found, assets=assets, looked_at=found.looked_at - unseen)
+
+
+def _list_carried(store: Store, asset: str) -> Iterator[str]:
+    folder = store.layout.preparation(asset)
+    yield from describe_carried(store, asset, len(batch.read_steps(folder) or ()))
 
 
 def can_ask_about_spans(store: Store) -> bool:

@@ -3,14 +3,16 @@ asset by itself in a worker process, so that no process holds all of them."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from itertools import starmap
+from pathlib import Path
 from types import MappingProxyType
 from typing import Any
 
 from meshforge import batch
+from meshforge.batch.preparation.record import PreparationStep
 from meshforge.common import ProjectError, describe_error
 from meshforge.formats import read
 from meshforge.label_model import WHOLE
@@ -79,12 +81,17 @@ class SplitPlan:
         return {"sure": self.how.sure, "pieces": self.how.pieces, **rebuilt}
 
 
-def list_likely(report: SpanReport, asset: str, least: float = LIKELY) -> dict[str, Split]:
+def list_likely(
+    report: SpanReport, asset: str, least: float = LIKELY, without: Collection[str] = ()
+) -> dict[str, Split]:
     """The hulls of an asset that span parts with a probability of at least `least`, by name, and their parts; no parts
-    where no plane divides a hull. One that only reaches into a part which another hull stands for is not among them."""
+    where no plane divides a hull. One that only reaches into a part which another hull stands for is not among them.
+
+    without: hulls that are not looked at.
+    """
     digests, found = hull_digests(report.meshes[asset]), dict[str, Split]()
     for span in report.spans_of(asset):
-        if span.chance < least:
+        if span.chance < least or span.hull in without:
             continue
         parts = report.divide(asset, span.hull)
         if len(parts) == 1 and parts[0][2] >= WHOLE:
@@ -194,22 +201,39 @@ def _search_together(
     execution: batch.ExecutionOptions,
     stage: Stage,
 ) -> Iterator[tuple[str, AssetSpans | str]]:
-    seen = {asset: batch.record_digest(store.layout.preparation(asset)) for asset in assets}
+    seen = {asset: _Seen.of(store.layout.preparation(asset)) for asset in assets}
     report, single = find_spans(store, execution, stage, how.pieces), store.single_parts().assets
-    for asset, digest in seen.items():
+    for asset, own in seen.items():
         if asset in report.lost or asset not in report.meshes:
             yield asset, report.lost.get(asset, "it cannot be read")
         else:
-            yield asset, _describe(report, asset, how, single.get(asset, {}), digest)
+            yield asset, _describe(report, asset, how, single.get(asset, {}), own)
 
 
-def _describe(
-    report: SpanReport, asset: str, how: SplitSettings, single: Mapping[str, str], seen: str | None
-) -> AssetSpans:
-    bare = tuple(f"{name} stands for no surface: left as it is" for name in report.bare.get(asset, ()))
-    found = list_likely(report, asset, min(how.sure, LIKELY))
+def _describe(report: SpanReport, asset: str, how: SplitSettings, single: Mapping[str, str], seen: _Seen) -> AssetSpans:
+    bare = (f"{name} stands for no surface: left as it is" for name in report.bare.get(asset, ()))
+    notes = (*report.notes.get(asset, ()), *bare)
+    found = list_likely(report, asset, min(how.sure, LIKELY), seen.list_parts(how))
     likely = {hull: one for hull, one in found.items() if one.span.chance >= LIKELY}
-    return AssetSpans(_plan_likely(report, asset, how, single, found), bare, likely, seen)
+    return AssetSpans(_plan_likely(report, asset, how, single, found), notes, likely, seen.digest)
+
+
+@dataclass(frozen=True, slots=True)
+class _Seen:
+    """The preparation of an asset when it was looked at: its digest, None for none, and its steps."""
+
+    digest: str | None
+    steps: tuple[PreparationStep, ...]
+
+    @staticmethod
+    def of(folder: Path) -> _Seen:
+        digest = batch.record_digest(folder)
+        return _Seen(digest, batch.read_steps(folder) or ())
+
+    def list_parts(self, how: SplitSettings) -> frozenset[str]:
+        """The hulls that such a split made already: it would not make better ones of them."""
+        steps = (step for step in self.steps if step.do == "divide" and ("rebuilt" in step.settings or not how.rebuild))
+        return frozenset(name for step in steps for entry in step.replaced for name in entry.made)
 
 
 @dataclass(frozen=True, slots=True)
@@ -225,7 +249,7 @@ def _search_one(
 ) -> AssetSpans | str:
     """What a worker finds of an asset, or why it failed."""
     try:
-        seen = batch.record_digest(work.files.preparation)
+        seen = _Seen.of(work.files.preparation)
         own = family.without(work.asset)
         report = own.find_spans(read(work.files.path), work.files.read_mesh())
         return _describe(report, NEW, how, single.get(work.asset, {}), seen)

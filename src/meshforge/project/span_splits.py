@@ -21,6 +21,8 @@ from meshforge.symbolic import Asset, Hull, Label, SymbolicMesh
 
 LIKELY = 0.5
 """The probability from which a hull is named, and asked about."""
+WENT_ELSEWHERE = "what it held went to hulls named after others"
+"""Of a hull of a body that is rebuilt, in place of its parts."""
 _FIND = "Find them again: meshforge prepare PROJECT --split-spanning --dry-run"
 
 
@@ -36,7 +38,8 @@ class Split:
 
     def __str__(self) -> str:
         """`base holds wall and handle, 94%: into 2 wall (97% to 98%), handle (93%)`."""
-        return f"{self.span.told}: into {self.span.parts_told or 'nothing'}"
+        parts = self.span.parts_told
+        return f"{self.span.told}: {f'into {parts}' if parts else WENT_ELSEWHERE}"
 
     def divide(self, mesh: SymbolicMesh) -> tuple[SymbolicMesh, tuple[str, ...]]:
         """A mesh to look at, with the parts in the place of the hull, each with its label; and their names."""

@@ -10,7 +10,7 @@ import numpy as np
 
 from meshforge import batch
 from meshforge.batch.preparation.record import PreparationStep
-from meshforge.common import MeshForgeError
+from meshforge.common import MeshForgeError, format_share
 from meshforge.formats import read
 from meshforge.labels.split_lookalikes import SplitExample, SplitLookalikes, SplitProposal
 from meshforge.project.span_splits import LIKELY, keep_shapes
@@ -91,7 +91,7 @@ def _keep(
 
 def _to_line(example: _ExampleStep, proposal: SplitProposal, geometry: str) -> SpanLine:
     chance = round(proposal.chance, _DIGITS)
-    told = f"{proposal.hull} looks like {example.hull}, {chance:.0%}"
+    told = f"{proposal.hull} looks like {example.hull}, {format_share(chance)}"
     parts = tuple(SpanPart(label=label, share=chance) for label in example.labels)
     return SpanLine(geometry=geometry, chance=chance, told=told, parts=parts, like=example.hull)
 

@@ -28,7 +28,7 @@ def describe_limits(
     for one in map(find_engine, names):
         for finding in _find_new(one.name, old, new):
             titles.setdefault(f"{finding.message}. {finding.remedy}", []).append(one.title)
-    return [f"after the split, {' and '.join(engines)}: {text}" for text, engines in titles.items()]
+    return [f"then, {' and '.join(engines)}: {text}" for text, engines in titles.items()]
 
 
 def _find_new(engine: str, old: SymbolicMesh, new: SymbolicMesh) -> Iterator[Finding]:

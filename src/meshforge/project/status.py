@@ -30,7 +30,7 @@ class AssetStatus:
     known, and its files; corrections: edits by hand, a number.
     sign_off: whether it is signed off; signed_by: by whom; void: what changed since it was; probability, doubts: of its
     edit, as of the last review where nothing changed since, else None. spans: hulls that likely hold more than one
-    part, by name, in words, as `prepare --split-spanning` found them.
+    part, by name, in words, as `prepare --split-spanning` found them, or as they look like one that a person split.
     """
 
     id: str

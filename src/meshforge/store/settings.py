@@ -201,7 +201,7 @@ def orientation_text(orient: Orient | None) -> str:
 def _read_text(path: Path) -> str:
     try:
         return path.read_text(encoding="utf-8-sig")
-    except FileNotFoundError as error:
+    except (FileNotFoundError, NotADirectoryError) as error:
         raise ProjectError(
             "this is no project", where=str(path.parent), remedy="Make one: meshforge new PROJECT ASSETS..."
         ) from error

@@ -9,6 +9,7 @@ from typing import Any
 import pytest
 
 from meshforge.batch import IN_PROCESS, ExecutionOptions, read_preparation
+from meshforge.common import format_share
 from meshforge.geometry import volume_of_union
 from meshforge.labels.reference_family import choose_labelled
 from meshforge.labels.spans import FinePieces, find_pieces
@@ -72,7 +73,7 @@ def test_a_new_hull_that_spans_parts_is_split_and_all_is_labelled(folder: Path) 
     (split,) = found["c.urdf"].splits
     assert split.hull == "base/h0" and split.chance is not None and split.chance > 0.7
     assert {label.name for label in split.parts.values()} == {"seat", "leg"}
-    assert str(split).startswith(f"base/h0 holds seat and leg, {split.chance:.0%}: into leg (")
+    assert str(split).startswith(f"base/h0 holds seat and leg, {format_share(split.chance)}: into leg (")
     labels = read_labels(folder / "aside/labels/c.urdf.json").labels
     assert [label.name for label in labels.values()].count("seat") == 1 and len(labels) == 5
     assert {label.source for label in labels.values()} == {"propagated", "split"}, "no guess passes for a fact"

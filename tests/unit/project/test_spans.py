@@ -2,6 +2,7 @@ from __future__ import annotations
 
 import json
 import shutil
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -18,6 +19,7 @@ from meshforge.geometry import (
     overlap_volume,
     volume_of_union,
 )
+from meshforge.label_model import SpanPosterior
 from meshforge.labels import spans
 from meshforge.project import PreparationResult, Project, SplitSettings, span_search
 from meshforge.symbolic import Label
@@ -301,3 +303,45 @@ def test_labels_that_a_person_gave_stay_a_persons_when_a_body_is_rebuilt(project
     rebuild(project, "c.urdf")
     sources = {hull.name.split("#")[0]: hull.source for hull in project.mesh("c.urdf").hulls}
     assert sources[legs[0].name] == "user" and sources[legs[1].name] == "split"
+
+
+def test_a_surface_in_another_unit_does_not_count_and_is_named(project: Project) -> None:
+    seen = project.path("c.urdf").with_name("c_seen.obj")
+    points = [line.split() for line in seen.read_text().splitlines()]
+    rows = [["v", *(f"{1000 * float(x):g}" for x in row[1:])] if row[0] == "v" else row for row in points]
+    seen.write_text("\n".join(map(" ".join, rows)) + "\n")
+    (_, _, found) = split(project, dry_run=True)
+    assert found.notes[0].startswith("base: its surface is 1e+03 times the size of its hulls")
+    assert all("by likeness" in line.told for line in project.spans().assets.get("c.urdf", {}).values())
+
+
+@pytest.mark.parametrize(
+    ("text", "why"),
+    [(None, "no such file"), ("", "the file is empty"), ("v nan 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", "finite")],
+)
+def test_a_surface_that_cannot_be_read_is_named(project: Project, text: str | None, why: str) -> None:
+    seen = project.path("c.urdf").with_name("c_seen.obj")
+    seen.unlink() if text is None else seen.write_text(text)
+    (_, _, found) = split(project, dry_run=True)
+    assert "does not count: " in found.notes[0] and "c_seen.obj" in found.notes[0] and why in found.notes[0]
+
+
+def test_a_hull_that_likely_spans_parts_is_told_with_two_labels_and_no_surer_than_it_is() -> None:
+    span = spans.HullSpan("base", 0.8999, {"wall": 0.95, "handle": 0.04, "lid": 0.01})
+    assert str(span) == "base holds wall and handle, 89%"
+    assert str(replace(span, chance=0.9, shares={"wall": 0.5, "handle": 0.3, "lid": 0.2})).endswith(
+        "wall, handle and lid, 90%"
+    )
+
+
+@pytest.mark.parametrize("rebuild", [False, True])
+def test_what_a_split_made_is_not_split_again(project: Project, rebuild: bool, monkeypatch: pytest.MonkeyPatch) -> None:
+    split(project, rebuild=rebuild)
+    before = files(project)
+    monkeypatch.setattr(
+        SpanPosterior, "chances_of", lambda self, mesh: np.full(len(self.assets[mesh].mesh.hulls), 0.99)
+    )
+    made = {name for result in split(project, "c.urdf", rebuild=rebuild, dry_run=True) for name in result.hulls}
+    parts = {name for step in project.preparation("c.urdf").steps for entry in step.replaced for name in entry.made}
+    assert parts and not made and not parts & project.spans().assets.get("c.urdf", {}).keys()
+    assert files(project) == before

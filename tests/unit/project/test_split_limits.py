@@ -44,7 +44,7 @@ def limits(asset: Asset, parts: tuple[Polytope, ...], engine: str | None) -> lis
 
 def test_parts_of_too_many_vertices_are_named_with_the_remedy(stool: Asset) -> None:
     (text,) = [one for one in limits(stool, (ball(300), ball(20)), "physx-cpu") if "255 vertices" in one]
-    assert text.startswith("after the split, PhysX on the CPU: base/h0#0 (300): more than 255 vertices; ")
+    assert text.startswith("then, PhysX on the CPU: base/h0#0 (300): more than 255 vertices; ")
     assert text.endswith("Reduce it (check --fix), replace it by a primitive, or split it.")
     assert limits(stool, (ball(60), ball(20)), "unity") == []
 
@@ -52,7 +52,7 @@ def test_parts_of_too_many_vertices_are_named_with_the_remedy(stool: Asset) -> N
 def test_a_body_of_too_many_hulls_is_named(stool: Asset) -> None:
     parts = slices(boxes(0.2, 0.4)[0], 70)
     (text,) = [one for one in limits(stool, parts, "physx-gpu") if "body" in one]
-    assert text.startswith("after the split, PhysX on the GPU (Isaac, SAPIEN): body 'base': 74 hulls, more than 64; ")
+    assert text.startswith("then, PhysX on the GPU (Isaac, SAPIEN): body 'base': 74 hulls, more than 64; ")
     assert not [one for one in limits(stool, parts[:60], "physx-gpu") if "body" in one]
 
 

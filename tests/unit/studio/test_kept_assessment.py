@@ -107,6 +107,26 @@ def test_what_was_signed_off_is_taken_back_once_a_hull_is_found_to_span_parts(tm
     assert signers_of(project)[THIRD] == "tool"
 
 
+def test_nothing_rests_unseen_on_a_demonstration_that_was_carried_to_the_parts_of_a_hull(
+    tmp_path: Path, flag: CancelFlag
+) -> None:
+    project = applied(tmp_path)
+    project.set_verdict(SECOND, "accepted")
+    project.cut(FIRST, "crumb", (5.05, 5.05, 5.05), (0, 0, 1))
+    list(project.apply(execution=IN_PROCESS))
+    learn(project, flag)
+    assess(project, flag)
+    assert signers_of(project) == {SECOND: "person"}
+    carried = "crumb, which is demonstrated for rule 1, was split into crumb#0, crumb#1: "
+    carried += "look whether all parts are meant"
+    told = {asset.id: [doubt.text for doubt in asset.doubts] for asset in project.status().assets}
+    assert carried in told[FIRST] and f"{FIRST}: {carried}" in told[THIRD]
+    project.demonstrate(FIRST, project.steps(FIRST))
+    learn(project, flag, 2)
+    assess(project, flag, 2)
+    assert {FIRST, THIRD} <= signers_of(project).keys(), "a person looked"
+
+
 def test_what_changed_while_it_was_assessed_is_not_kept(
     tmp_path: Path, flag: CancelFlag, monkeypatch: pytest.MonkeyPatch
 ) -> None:

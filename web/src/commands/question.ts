@@ -10,11 +10,20 @@ import type { AnyEdit, DoubtView, ReviewQuestionView } from "../wire";
 import type { Command } from "./command";
 import { flag } from "./review";
 
+/** The question that was replied to last. */
+let replied: ReviewQuestionView | null = null;
+
 /** Takes one of a question's choices, counted from 0, or none of them. */
 export async function reply(question: ReviewQuestionView, place: number | null): Promise<void> {
+  if (question === replied) return; // a second click, before another question is there
+  replied = question;
   setHighlight(null);
   const edits = editsFor(question, place);
-  for (const edit of edits) if (!(await perform(edit))) return;
+  for (const edit of edits) {
+    if (await perform(edit)) continue;
+    replied = null;
+    return;
+  }
 }
 
 /** Asks another question; this one does not come back as long as what it is about stays. */

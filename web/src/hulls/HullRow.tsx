@@ -4,6 +4,7 @@ import { memo } from "react";
 import type { Tone } from "../pictures/hullColors";
 import { type CommonParts, NONE } from "../store/commonParts";
 import { volumeText } from "../store/units";
+import { sureText } from "../store/assessment";
 import { sourceText } from "../store/words";
 import { hover, useUnit, useWorkspace } from "../store/workspace";
 import { Name } from "../ui/Name";
@@ -84,7 +85,7 @@ export const HullRow = memo(function HullRow({ row, tone, parts, short, active, 
 
 function labelTitle({ hull }: Row, was: string | undefined): string {
   if (hull.label === null) return "No label";
-  const share = hull.confidence === null ? "" : `${Math.round(100 * hull.confidence)} % sure`;
+  const share = hull.confidence === null ? "" : sureText(hull.confidence);
   const parts = [hull.label, share, hull.source ? sourceText(hull.source) : "", was === undefined ? "" : `was ${was}`];
   return parts.filter(Boolean).join(", ");
 }

@@ -12,6 +12,9 @@ export function percentText(probability: number, bar = 1): string {
   return shown < 1 ? "<1%" : `${shown}%`;
 }
 
+/** How sure a label is: `99% sure`; certain is only what a person or a file said. */
+export const sureText = (confidence: number): string => `${confidence === 1 ? "100%" : percentText(confidence)} sure`;
+
 /** The bar as it was set: `95%`, `99.99%`. */
 export const barText = (bar: number): string => `${Number((100 * bar).toPrecision(6))}%`;
 

@@ -111,7 +111,9 @@ def divide_hulls(
 def _find_hull(asset: Asset, before: record.Preparation, name: str) -> Geom:
     geoms = {geom.name: geom for geom in record.apply_preparation(asset, before).geoms}
     if name not in geoms:
-        remedy = suggest_name(name, geoms)
+        remedy = suggest_name(
+            name, geoms, f"It has {pluralize(len(geoms), 'hull')}: meshforge info ASSET --project PROJECT"
+        )
         raise GeometryError(f"there is no hull {name!r}", where=str(asset.path), remedy=remedy)
     return geoms[name]
 

@@ -8,11 +8,11 @@ from typing import TypedDict
 from uuid import uuid4
 
 from meshforge.batch import ExecutionOptions, record_digest
-from meshforge.common import MeshForgeError, ProjectError, join_names, pluralize, relative_name
+from meshforge.common import MeshForgeError, ProjectError, format_share, join_names, pluralize, relative_name
 from meshforge.formats import DecomposeBy
 from meshforge.geometry import CoacdSettings, DecomposeSettings, VhacdSettings
 from meshforge.labels import LabelOutcome, PropagationResult, VlmForecast, VlmResult, check_vlm_settings
-from meshforge.project import PreparationResult, Project, read_preparation_plan
+from meshforge.project import LIKELY, PreparationResult, Project, read_preparation_plan
 from meshforge.store import SpanLine, VlmSettings
 from meshforge.studio.edits.assets import Decompose, LabelFromModel, Propagate
 from meshforge.studio.errors import ConflictError
@@ -97,7 +97,7 @@ def _describe_spans(found: Mapping[str, Mapping[str, SpanLine]], lost: int) -> s
     whole = sum(not line.parts for line in lines)
     left = f" {pluralize(lost, 'asset')} could not be looked at." if lost else ""
     if not lines:
-        return f"No hull likely spans parts.{left}"
+        return f"No hull spans parts with {format_share(LIKELY)} or more.{left}"
     spans = "likely span parts" if len(lines) > 1 else "likely spans parts"
     asked = "you are asked about each" if not whole else f"no plane divides {whole}, you are asked about the others"
     return f"{pluralize(len(lines), 'hull')} of {pluralize(len(found), 'asset')} {spans}: {asked}.{left}"

@@ -12,7 +12,7 @@ from time import monotonic
 
 from meshforge.batch import SETTINGS, STATE, source_files
 from meshforge.common import MeshForgeError, relative_name
-from meshforge.project import Project
+from meshforge.project import Project, read_spans
 from meshforge.store import Review, SpanLine
 from meshforge.studio.edits.base import LATER_FILE, LEARNED_FILE, PROGRAM_FILE, SINGLE_PARTS_FILE
 from meshforge.studio.learning.scheduler import LearningScheduler
@@ -32,8 +32,9 @@ _LEARNING_FILES = frozenset(("answers.json", "review.json", PROGRAM_FILE))
 
 SIGN_OFF_FILE = "signoff.json"
 PREPARATION_PLAN_FILE = "preparation.json"
-_SPANS_FILES = (SINGLE_PARTS_FILE, f"{STATE}/spans.json")
-_QUESTION_FILES = (LATER_FILE, *_SPANS_FILES)
+_LOOKALIKES_FILE = f"{STATE}/lookalikes.json"
+_FOUND_FILES = (SINGLE_PARTS_FILE, f"{STATE}/spans.json")
+_QUESTION_FILES = (LATER_FILE, *_FOUND_FILES)
 
 POLL_SECONDS = 1.5
 """Seconds between two polls; more where a poll itself takes long, so that it takes a small share of the time."""
@@ -41,7 +42,7 @@ _SHARE = 10
 _WATCH_FOLDERS = ("labels", "demonstrations", "corrections", "prepared", "templates", f"edited/{STATE}/stamps")
 _WATCH_FILES = (
     SETTINGS, "answers.json", PROGRAM_FILE, "review.json", SIGN_OFF_FILE, LEARNED_FILE, PREPARATION_PLAN_FILE,
-    *_QUESTION_FILES,
+    *_QUESTION_FILES, _LOOKALIKES_FILE,
 )  # fmt: skip
 
 FileStamps = dict[str, tuple[int, int]]
@@ -77,7 +78,7 @@ class FileSync:
         self._queue.add(changes.assets, later=changes.settings)
         if changes.reviews:
             self._queue.add(self._update_reviews())
-        if not names.isdisjoint(_SPANS_FILES):
+        if not names.isdisjoint((*_FOUND_FILES, _LOOKALIKES_FILE)):
             self._queue.add(self._update_spans())
         if is_other and not changes.learning:
             self._learning.measure_reach()
@@ -145,11 +146,13 @@ def _read_aside(project: Project) -> tuple[str, ...]:
         return ()
 
 
-def _read_spans(project: Project) -> dict[str, dict[str, SpanLine]]:
+def _read_spans(project: Project) -> dict[str, list[dict[str, SpanLine]]]:
     try:
-        return project.spans().assets
+        files = read_spans(project)
     except MeshForgeError:  # the cards say so
         return {}
+    ids = {asset: None for file in files for asset in file.assets}
+    return {asset: [file.assets.get(asset, {}) for file in files] for asset in ids}
 
 
 def _view_program(project: Project, before: ProgramView) -> ProgramView:

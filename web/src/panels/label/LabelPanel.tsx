@@ -1,5 +1,6 @@
 // The stage in which hulls get labels: the vocabulary, what is not sure, and ways to get labels.
 import { Check, ChevronRight } from "lucide-react";
+import { sureText } from "../../store/assessment";
 import { useProject } from "../../store/project";
 import { type SceneHull, useScenes } from "../../store/scenes";
 import { confirmLabels, goToUnsure, isUnsure, labelProgress } from "../../store/unsureHulls";
@@ -41,7 +42,7 @@ function UnsureHulls() {
 
 function UnsureHull({ hull }: { hull: SceneHull }) {
   const color = useProject((state) => state.project.vocabulary.find(({ name }) => name === hull.label)?.color);
-  const sure = hull.confidence === null ? null : `${Math.round(100 * hull.confidence)}% sure`;
+  const sure = hull.confidence === null ? null : sureText(hull.confidence);
   return (
     <Note>
       <div className={css.doubtful}>

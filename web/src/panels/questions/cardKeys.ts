@@ -46,6 +46,7 @@ export function pressOnCard(event: KeyboardEvent, keys: CardKeys, hold: () => vo
   const letter = LETTERS[key];
   if (!letter && !/^[1-9]$/.test(key)) return;
   event.preventDefault();
+  if (event.repeat) return; // a key that is held must not answer questions that nobody saw
   hold();
   (letter ? keys[letter] : keys.choices?.[Number(key) - 1])?.();
 }
