@@ -43,7 +43,7 @@ def test_dry_run_then_split_then_undo(run: Run) -> None:
     told = run("status", "p", "--json")
     spans = {asset["asset"]: asset["spans"] for asset in json.loads(told.out)["assets"]}
     assert spans["a.urdf"] == [] and spans["c.urdf"][0].startswith("base/h0 holds seat and leg, ")
-    assert "(meshforge prepare --split-spanning)" in run("status", "p").out
+    assert "(meshforge review, or prepare --split-spanning)" in run("status", "p").out
     asked = run("info", "c.urdf", "--project", "p")
     assert "\nbase/h0 holds seat and leg, " in asked.out and "meshforge split" in asked.out
     assert json.loads(run("info", "c.urdf", "--project", "p", "--json").out)["spans"] == spans["c.urdf"]
