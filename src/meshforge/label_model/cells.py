@@ -143,13 +143,11 @@ class CellModel:
         scale, weights = ColumnScale.of(np.concatenate([np.zeros((0, SURROUNDINGS_WIDTH)), *rows])), _weigh_columns()
         self._rows = [scale(own) * weights for own in rows]
 
-    def infer(self, labels: Sequence[Label | None], weights: Floats | None = None) -> CellPosterior:
-        """What labels of the hulls of all meshes in order say, None for an unlabelled one. weights: of the evidence,
-        None for those that ship."""
+    def infer(self, labels: Sequence[Label | None]) -> CellPosterior:
+        """What labels of the hulls of all meshes in order say, None for an unlabelled one."""
         seen = Observations.of(labels)
-        weights = span_weights("cells") if weights is None else weights
         solids = [np.zeros(len(asset.owner)) for asset in self.assets]
-        return CellPosterior(self.assets, seen.labels, self._infer_cells(seen), weights, solids)
+        return CellPosterior(self.assets, seen.labels, self._infer_cells(seen), span_weights("cells"), solids)
 
     def _infer_cells(self, seen: Observations) -> list[Floats]:
         """The probability of each label for the cells (cells, labels) of each mesh: what the nearest cells of labelled

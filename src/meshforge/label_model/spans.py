@@ -52,10 +52,9 @@ class SpanModel:
         self,
         labels: Sequence[Label | None],
         piece_labels: Sequence[Label | None] | None = None,
-        weights: Floats | None = None,
     ) -> SpanPosterior:
         """What labels say: of the hulls of all meshes in order, None for an unlabelled one; piece_labels: of all pieces
-        in order, where they are known; weights: (2,), None for those that ship."""
+        in order, where they are known."""
         rows = _deal(labels, [len(asset.mesh.hulls) for asset in self.assets])
         said = [asset.take_labels(own) for asset, own in zip(self.assets, rows, strict=True)]
         if piece_labels is not None:
@@ -68,8 +67,7 @@ class SpanModel:
         chances = [self._weigh(mesh, of_pieces, of_regions) for mesh in range(len(self.assets))]
         whole = _estimate_whole(self.assets, said)
         solids = [weigh_solids(*both, whole) for both in zip(self.assets, chances, strict=True)]
-        weights = span_weights() if weights is None else weights
-        return SpanPosterior(self.assets, of_pieces.seen.labels, chances, weights, solids)
+        return SpanPosterior(self.assets, of_pieces.seen.labels, chances, span_weights(), solids)
 
     def _weigh(self, mesh: int, of_pieces: FamilyPosterior, of_regions: FamilyPosterior) -> Floats:
         """The probability of each label for the pieces of a mesh (pieces, labels), by what is inferred of them, and of

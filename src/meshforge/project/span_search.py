@@ -201,7 +201,7 @@ def _search_together(
     execution: batch.ExecutionOptions,
     stage: Stage,
 ) -> Iterator[tuple[str, AssetSpans | str]]:
-    seen = {asset: _Seen.of(store.layout.preparation(asset)) for asset in assets}
+    seen = {asset: _Steps.of(store.layout.preparation(asset)) for asset in assets}
     report, single = find_spans(store, execution, stage, how.pieces), store.single_parts().assets
     for asset, own in seen.items():
         if asset in report.lost or asset not in report.meshes:
@@ -210,7 +210,9 @@ def _search_together(
             yield asset, _describe(report, asset, how, single.get(asset, {}), own)
 
 
-def _describe(report: SpanReport, asset: str, how: SplitSettings, single: Mapping[str, str], seen: _Seen) -> AssetSpans:
+def _describe(
+    report: SpanReport, asset: str, how: SplitSettings, single: Mapping[str, str], seen: _Steps
+) -> AssetSpans:
     bare = (f"{name} stands for no surface: left as it is" for name in report.bare.get(asset, ()))
     notes = (*report.notes.get(asset, ()), *bare)
     found = list_likely(report, asset, min(how.sure, LIKELY), seen.list_parts(how))
@@ -219,16 +221,16 @@ def _describe(report: SpanReport, asset: str, how: SplitSettings, single: Mappin
 
 
 @dataclass(frozen=True, slots=True)
-class _Seen:
+class _Steps:
     """The preparation of an asset when it was looked at: its digest, None for none, and its steps."""
 
     digest: str | None
     steps: tuple[PreparationStep, ...]
 
     @staticmethod
-    def of(folder: Path) -> _Seen:
+    def of(folder: Path) -> _Steps:
         digest = batch.record_digest(folder)
-        return _Seen(digest, batch.read_steps(folder) or ())
+        return _Steps(digest, batch.read_steps(folder) or ())
 
     def list_parts(self, how: SplitSettings) -> frozenset[str]:
         """The hulls that such a split made already: it would not make better ones of them."""
@@ -249,7 +251,7 @@ def _search_one(
 ) -> AssetSpans | str:
     """What a worker finds of an asset, or why it failed."""
     try:
-        seen = _Seen.of(work.files.preparation)
+        seen = _Steps.of(work.files.preparation)
         own = family.without(work.asset)
         report = own.find_spans(read(work.files.path), work.files.read_mesh())
         return _describe(report, NEW, how, single.get(work.asset, {}), seen)
