@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from meshforge.project.sign_off_text import format_review, format_standing, format_status
     from meshforge.project.sign_offs import AssessmentBasis, digest_lesson, keep_assessment
     from meshforge.project.span_questions import (
-        add_carried_doubts,
+        add_demonstration_doubts,
         add_span_doubts,
         ask_about_spans,
         can_ask_about_spans,
@@ -55,7 +55,7 @@ __all__ = [
     "Split",
     "SplitSettings",
     "Status",
-    "add_carried_doubts",
+    "add_demonstration_doubts",
     "add_span_doubts",
     "add_standings",
     "ask_about_spans",

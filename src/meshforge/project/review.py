@@ -28,7 +28,7 @@ from meshforge.project import demonstrations, learn, run
 from meshforge.project.alarms import measure_results
 from meshforge.project.family_state import FamilyStateReader
 from meshforge.project.sign_offs import AssessmentBasis, Clock, keep_assessment, now_utc, renew_sign_offs
-from meshforge.project.span_questions import add_carried_doubts, add_span_doubts, answer_span, ask_about_spans
+from meshforge.project.span_questions import add_demonstration_doubts, add_span_doubts, answer_span, ask_about_spans
 from meshforge.signoff import (
     BAR,
     Assessment,
@@ -83,9 +83,9 @@ def review_project(
     measures = measure_results(store, program, meshes, basis.inputs) if program else {}
     alarms = describe_odd_results(measures)
     found = review_family(state, outcome, model_family(list(meshes.values())), bar, alarms)
-    found = add_span_doubts(store, meshes, _add_unreadable(store, found, state, lost), state.seen)
+    found = add_span_doubts(store, meshes, _add_unreadable(store, found, state, lost), state.reviewed_assets)
     if not by_hand:
-        found = add_carried_doubts(store, found, {*state.accepted, *state.mended})
+        found = add_demonstration_doubts(store, found, {*state.accepted, *state.mended})
     found = ask_about_spans(store, meshes, found, program is not None)
     keep_assessment(store, found, basis, measures, execution)
     taken_back = renew_sign_offs(store, clock=clock, execution=execution)

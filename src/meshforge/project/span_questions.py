@@ -51,13 +51,15 @@ def add_span_doubts(
     return replace(found, assets=assets)
 
 
-def add_carried_doubts(store: Store, found: Assessment, looked_at: Collection[str]) -> Assessment:
+def add_demonstration_doubts(store: Store, found: Assessment, looked_at: Collection[str]) -> Assessment:
     """The same, where a program is learned from a demonstration that was carried to the parts of a hull, and nobody has
     looked whether all of them are meant.
 
     looked_at: assets whose result a person found right, or mended.
     """
-    texts = {asset: [*_list_carried(store, asset)] for asset in store.demonstration_ids() if asset in found.assets}
+    texts = {
+        asset: [*_describe_demonstration(store, asset)] for asset in store.demonstration_ids() if asset in found.assets
+    }
     if not any(texts.values()):
         return found
     assets = dict(found.assets)
@@ -68,7 +70,7 @@ def add_carried_doubts(store: Store, found: Assessment, looked_at: Collection[st
     return replace(found, assets=assets, looked_at=found.looked_at - unseen)
 
 
-def _list_carried(store: Store, asset: str) -> Iterator[str]:
+def _describe_demonstration(store: Store, asset: str) -> Iterator[str]:
     folder = store.layout.preparation(asset)
     yield from describe_carried(store, asset, len(batch.read_steps(folder) or ()))
 

@@ -132,6 +132,6 @@ class ReviewState:
     later: frozenset[str] = frozenset()
 
     @property
-    def seen(self) -> frozenset[str]:
+    def reviewed_assets(self) -> frozenset[str]:
         """The assets of which a person saw what the edit makes of them."""
         return frozenset((*self.demos, *self.accepted, *self.mended))

@@ -251,7 +251,7 @@ def _ask_last_looks(family: FamilyTrial) -> Iterator[ReviewQuestion]:
     seen = [*state.accepted.values(), *state.mended.values()]
     answers = [one for one in state.answers if one.select is not None]
     unseen = {one.rule for one in answers if not any(len(done) >= one.rule and done[one.rule - 1] for done in seen)}
-    known = state.seen | state.aside
+    known = state.reviewed_assets | state.aside
     for trial, evidence in zip(family.trials, family.evidence, strict=True):
         told = {one.rule for one in answers if one.asset == trial.asset}
         if trial.asset in known or (told and trial.asset not in family.foreign):

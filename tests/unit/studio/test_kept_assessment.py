@@ -36,6 +36,15 @@ def assess(project: Project, flag: CancelFlag, number: int = 1) -> None:
     assert process.assess(project.folder, flag.make_token("assess"), number) is not None
 
 
+def assessed(folder: Path, flag: CancelFlag) -> Project:
+    """A project whose second result a person accepted, as the studio assesses it."""
+    project = applied(folder)
+    project.set_verdict(SECOND, "accepted")
+    learn(project, flag)
+    assess(project, flag)
+    return project
+
+
 def signers_of(project: Project) -> dict[str, str]:
     return {asset: one.by for asset, one in project.sign_offs().assets.items()}
 
@@ -48,10 +57,7 @@ def files_of(project: Project) -> list[bytes | None]:
 def test_what_was_assessed_is_known_to_the_status_and_signs_off_what_is_written(
     tmp_path: Path, flag: CancelFlag
 ) -> None:
-    project = applied(tmp_path)
-    project.set_verdict(SECOND, "accepted")
-    learn(project, flag)
-    assess(project, flag)
+    project = assessed(tmp_path, flag)
     assert signers_of(project) == {FIRST: "person", SECOND: "person", THIRD: "tool"}
     assert project.status().is_signed_off
     before = files_of(project)
@@ -92,10 +98,7 @@ def test_an_asset_with_a_hull_that_likely_spans_parts_is_held_as_a_review_holds_
 
 
 def test_what_was_signed_off_is_taken_back_once_a_hull_is_found_to_span_parts(tmp_path: Path, flag: CancelFlag) -> None:
-    project = applied(tmp_path)
-    project.set_verdict(SECOND, "accepted")
-    learn(project, flag)
-    assess(project, flag)
+    project = assessed(tmp_path, flag)
     assert THIRD in signers_of(project)
     hull = find_span(project, THIRD)
     learn(project, flag, 2)

@@ -65,10 +65,9 @@ class FinePiece:
 def find_solids(vertices: Floats, faces: Ints) -> list[Ints]:
     """The connected components of faces (m, 3), each as the places of its faces, a cavity with the solid that it is
     in."""
-    component, own = _list_components(faces)
-    volumes = [volume_and_centroid(vertices, faces[places])[0] for places in own]
+    own, volumes, closed = _list_components(vertices, faces)
     found = {number: [places] for number, places in enumerate(own)}
-    for number in connectivity.find_closed_components(faces, component).tolist():
+    for number in closed:
         if volumes[number] < 0 and (home := _find_home(vertices, faces, own, volumes, number)) is not None:
             found[home] += found.pop(number)
     return [np.concatenate(rows) for rows in found.values()]
@@ -78,9 +77,7 @@ def turn_outward(mesh: TriangleMesh) -> TriangleMesh:
     """A mesh whose solids face outward: all its closed components are turned where they are inside out together, then
     each that is and lies in no other."""
     vertices, faces = mesh.vertices, mesh.faces.copy()
-    component, own = _list_components(faces)
-    closed = connectivity.find_closed_components(faces, component).tolist()
-    volumes = [volume_and_centroid(vertices, faces[places])[0] for places in own]
+    own, volumes, closed = _list_components(vertices, faces)
     turned = set[int](closed if sum(volumes[number] for number in closed) < 0 else ())
     volumes = [-volume if number in turned else volume for number, volume in enumerate(volumes)]
     for number in closed:
@@ -91,11 +88,13 @@ def turn_outward(mesh: TriangleMesh) -> TriangleMesh:
     return TriangleMesh(vertices, faces, mesh.open_edges) if turned else mesh
 
 
-def _list_components(faces: Ints) -> tuple[Ints, list[Ints]]:
-    """The component (m,) of each of faces (m, 3), numbered by its first face, and the places of the faces of each."""
+def _list_components(vertices: Floats, faces: Ints) -> tuple[list[Ints], list[float], list[int]]:
+    """The components of faces (m, 3), by their first face: the places of the faces of each, its volume [m^3], negative
+    where it is inside out, and the numbers of those that are closed."""
     component = connectivity.components_by_vertices(faces)
-    sizes = np.bincount(component)
-    return component, np.split(np.argsort(component, kind="stable"), np.cumsum(sizes)[:-1])
+    own = np.split(np.argsort(component, kind="stable"), np.cumsum(np.bincount(component))[:-1])
+    volumes = [volume_and_centroid(vertices, faces[places])[0] for places in own]
+    return own, volumes, connectivity.find_closed_components(faces, component).tolist()
 
 
 def _find_home(vertices: Floats, faces: Ints, own: Sequence[Ints], volumes: Sequence[float], cavity: int) -> int | None:

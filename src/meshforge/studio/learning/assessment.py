@@ -12,7 +12,7 @@ from meshforge.language import Program, explain, parse_extractor, show
 from meshforge.project import (
     AssessmentBasis,
     Project,
-    add_carried_doubts,
+    add_demonstration_doubts,
     add_span_doubts,
     ask_about_spans,
     choose_span_question,
@@ -82,9 +82,9 @@ def assess_project(
         return None
     last = project.assessment()
     found = review_family(state, judged, model, last.bar if last else BAR, describe_odd_results(measures))
-    found = add_span_doubts(project, meshes, found, state.seen)
+    found = add_span_doubts(project, meshes, found, state.reviewed_assets)
     if accepted is None:
-        found = add_carried_doubts(project, found, {*state.accepted, *state.mended})
+        found = add_demonstration_doubts(project, found, {*state.accepted, *state.mended})
     found = ask_about_spans(project, meshes, found, program is not None)
     return ProjectAssessment(found, state, program, basis, measures)
 
