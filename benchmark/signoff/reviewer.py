@@ -78,7 +78,8 @@ class Reviewer:
 
     def _look(self, question: ReviewQuestion, desk: Desk, program: Program | None) -> ReviewReply:
         """Whether a result is right; set aside what nobody could show."""
-        right = self.judge.looks_right(desk, program, question.asset) != self.person.errs_now()
+        there = any(choice.text == RIGHT for choice in question.choices)  # else the program cannot run
+        right = (self.judge.looks_right(desk, program, question.asset) != self.person.errs_now()) and there
         said = RIGHT if right else WRONG if self._truth.reference[question.asset] is not None else ASIDE
         self.ledger.add("result", GLANCE + APPROVAL)
         place = place_of(question, said)

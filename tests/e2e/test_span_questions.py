@@ -8,6 +8,7 @@ import shutil
 import time
 from io import BytesIO
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -43,6 +44,8 @@ def test_a_card_asks_about_each_hull_that_spans_parts_and_yes_splits_it(project:
         person.open(address(studio))
         _find(person)
         first = _asked(person)
+        person.press("Tab")
+        assert person.page.locator("section[aria-labelledby=asked] :focus").count() == 1, "Tab goes on from the card"
         assert not project.layout.preparation(first).exists()
         _sees_parts_in_color(person, tmp_path / "view.png")
         person.sees("1 more hull likely spans parts.")
@@ -61,6 +64,24 @@ def test_a_card_asks_about_each_hull_that_spans_parts_and_yes_splits_it(project:
         studio.cards(lambda cards: [asset for asset in cards if cards[asset]["spans"]] == [other])
         assert not project.layout.preparation(first).exists()
         assert not person.complaints
+
+
+def test_an_asset_on_which_the_program_cannot_run_is_corrected_or_set_aside(project: Project, tmp_path: Path) -> None:
+    with opened(tmp_path, project.folder, "--page", str(PAGE)) as studio, chromium() as browser:
+        studio.settled()
+        legs = [hull.name for hull in project.mesh("a.urdf").hulls if hull.label == "leg"]
+        studio.edit("steps", **studio.steps("a.urdf") | {"steps": [{"select": legs, "action": "Delete"}]})
+        person = hand(browser)
+        person.open(address(studio))
+        person.press("Alt+3")
+        person.page.locator("#asked", has_text="The program cannot run on ").wait_for()
+        person.press("u")
+        assert not person.page.get_by_role("button", name="Right").count()
+        person.page.get_by_role("button", name="Correct it").wait_for()
+        person.page.get_by_role("button", name="Set aside").wait_for()
+        person.press("s", "n")
+        person.sees("What to do with the selected hulls")
+        assert not person.complaints, "no result was asked for that there cannot be"
 
 
 def test_the_job_can_be_stopped_and_says_what_is_wrong(project: Project, tmp_path: Path) -> None:
@@ -89,7 +110,9 @@ def test_a_cut_whose_parts_are_labelled_is_proposed_on_a_look_alike(project: Pro
         hello = studio.until(lambda hello: bool(hello["assessment"] and hello["assessment"]["question"]))
         question = hello["assessment"]["question"]
         assert question["text"].startswith("base/h0 of d.urdf looks like base/h0 of c.urdf, ")
-        assert studio.get("/api/parts", asset="d.urdf", hull="base/h0").status_code == 200
+        parts = _header(studio.get("/api/parts", asset="d.urdf", hull="base/h0").content)
+        assert parts["like"] == {"asset": "c.urdf", "hull": "base/h0", "parts": [0, 1]}
+        assert question["choices"][0]["text"] == "split so: leg, seat", "nothing is known of each part"
         _is_beside_its_parts(studio.get("/api/parts/picture", asset="d.urdf", hull="base/h0").content)
         studio.edit("split-span", asset="d.urdf", hull="base/h0")
         assert [hull.label for hull in project.mesh("d.urdf").hulls[:2]] == ["leg", "seat"]
@@ -101,14 +124,18 @@ def test_a_cut_whose_parts_are_labelled_is_proposed_on_a_look_alike(project: Pro
 
 def _is_beside_its_parts(packet: bytes) -> None:
     """The left half of the picture shows the hull, the right half its parts, as many as the left half's other hulls."""
-    length = int.from_bytes(packet[:4], "little")
-    names = json.loads(packet[4 : 4 + length])["names"]
+    names = _header(packet)["names"]
     assert names == ["base/h0#0", "base/h0#1", "base/h1", "base/h2", "base/h3", "base/h0"]
-    with Image.open(BytesIO(packet[4 + length :])) as picture:
+    with Image.open(BytesIO(packet[4 + int.from_bytes(packet[:4], "little") :])) as picture:
         shown = np.asarray(picture)[..., 1].astype(int)
     left, right = (set(half.ravel()) - {0} for half in np.hsplit(shown, 2))
     assert 6 in left and not left & {1, 2}
     assert {1, 2} <= right and 6 not in right
+
+
+def _header(packet: bytes) -> dict[str, Any]:
+    header: dict[str, Any] = json.loads(packet[4 : 4 + int.from_bytes(packet[:4], "little")])
+    return header
 
 
 def _find(person: Hand) -> None:

@@ -9,6 +9,7 @@ from meshforge.cli.mesh_pictures import MeshPictures
 from meshforge.common import MeshForgeError
 from meshforge.project import Project, ProjectReview
 from meshforge.signoff import ReviewQuestion
+from meshforge.signoff.question import RIGHT
 
 
 def draw_question(project: Project, found: ProjectReview, question: ReviewQuestion) -> list[Path]:
@@ -36,7 +37,7 @@ def _draw(pictures: MeshPictures, found: ProjectReview, question: ReviewQuestion
             pictures.draw(mesh, frozenset(choice.select or ()), f"{name}-choice-{number}", f"choice {number}")
             for number, choice in enumerate(question.choices, 1)
         ]
-    if question.kind == "result" and program:
+    if question.kind == "result" and program and question.choices[0].text == RIGHT:
         return [pictures.draw_result(question.asset, program, name)]
     turned = [choice.orient for choice in question.choices if choice.orient]
     if turned:

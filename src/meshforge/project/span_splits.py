@@ -141,7 +141,7 @@ def split_as_found(store: Store, asset: str, hull: str) -> PreparationResult:
     """
     seen = batch.record_digest(store.layout.preparation(asset))
     split = find_split(store, asset, hull)
-    like = {"like": split.span.like} if split.span.like else {}
+    like = {"like": str(split.span.like)} if split.span.like else {}
     return write_splits(store, asset, [split], {"asked": True, "pieces": split.span.pieces, **like}, seen)
 
 

@@ -107,8 +107,9 @@ def list_spans(
     *,
     execution: batch.ExecutionOptions = batch.EXECUTION_DEFAULTS,
     stage: Stage = ignore_stage,
-) -> dict[str, str]:
-    """Find anew which hulls span parts, for `spans`, the status and the review; why some assets could not be looked at.
+) -> tuple[PreparationResult, ...]:
+    """Find anew which hulls span parts, for `spans`, the status and the review; of each asset why it could not be
+    looked at, and what of it was not.
 
     Raises ProjectError as `split_spanning` does, StoppedError on a stop, with nothing written.
     """
@@ -117,4 +118,7 @@ def list_spans(
     batch.raise_if_stopped(execution.stop)
     found = {asset: one.likely for asset, one in rows if isinstance(one, AssetSpans)}
     _write_likely(store, {asset: _keep_shapes(store, asset, likely) for asset, likely in found.items()})
-    return {asset: why for asset, why in rows if isinstance(why, str)}
+    return tuple(
+        PreparationResult(asset, problems=(one,)) if isinstance(one, str) else PreparationResult(asset, notes=one.notes)
+        for asset, one in rows
+    )

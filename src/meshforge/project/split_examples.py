@@ -14,7 +14,7 @@ from meshforge.common import MeshForgeError, format_share
 from meshforge.formats import read
 from meshforge.labels.split_lookalikes import SplitExample, SplitLookalikes, SplitProposal
 from meshforge.project.span_splits import LIKELY, keep_shapes
-from meshforge.store import SpanLine, SpanPart, SpansFile, Store, hull_digests
+from meshforge.store import SpanLine, SpanPart, SpansFile, SplitHull, Store, hull_digests
 from meshforge.symbolic import SymbolicMesh
 
 _DIGITS = 3
@@ -30,9 +30,9 @@ class _ExampleStep:
     labels: tuple[str, ...]
 
     @property
-    def hull(self) -> str:
-        """`base of cup_01`."""
-        return f"{self.entry.what} of {self.asset}"
+    def hull(self) -> SplitHull:
+        """What was split."""
+        return SplitHull(asset=self.asset, hull=self.entry.what, parts=tuple(self.entry.made))
 
     def to_json(self) -> list[object]:
         return [self.asset, self.place, self.entry.what, self.entry.source, self.entry.made, self.labels]

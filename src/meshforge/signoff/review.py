@@ -240,7 +240,7 @@ def _ask_results(family: FamilyTrial, found: Assessment) -> Iterator[ReviewQuest
         others[place] = 0.0
         gain = doubt + float(others.sum()) * trust
         seconds = YES_OR_NO + doubt * mend
-        yield _ask_result(family, trial, gain, seconds, f"Is the result of {name} right?")
+        yield _ask_result(trial, gain, seconds)
 
 
 def _ask_last_looks(family: FamilyTrial) -> Iterator[ReviewQuestion]:
@@ -259,11 +259,17 @@ def _ask_last_looks(family: FamilyTrial) -> Iterator[ReviewQuestion]:
         looked = told | {rule for rule in unseen if rule <= len(trial.selections) and trial.selections[rule - 1]}
         if looked:
             gain = len(looked) + 1 - evidence.probability
-            yield _ask_result(family, trial, gain, YES_OR_NO, f"One last look: is the result of {trial.asset} right?")
+            yield _ask_result(trial, gain, YES_OR_NO, "One last look: is")
 
 
-def _ask_result(family: FamilyTrial, trial: Trial, gain: float, seconds: float, text: str) -> ReviewQuestion:
-    choices = (ReviewChoice(RIGHT), ReviewChoice(WRONG), ReviewChoice(ASIDE))
+def _ask_result(trial: Trial, gain: float, seconds: float, begin: str = "Is") -> ReviewQuestion:
+    """Whether a result is right; where the program cannot run there is none that could be."""
+    if trial.error:
+        text = f"The program cannot run on {trial.asset}: {trial.error}. Correct it, or set it aside?"
+        said = [WRONG, ASIDE]
+    else:
+        text, said = f"{begin} the result of {trial.asset} right?", [RIGHT, WRONG, ASIDE]
+    choices = tuple(map(ReviewChoice, said))
     draft = ReviewQuestion("", "result", text, seconds, gain, trial.asset, choices=choices)
     return identify(draft, [f"{bits:x}" for bits in trial.selections])
 

@@ -45,7 +45,15 @@ if TYPE_CHECKING:
         toml_value,
     )
     from meshforge.store.sign_off import AssessmentFile, ConfidenceLine, SignOff, SignOffFile, find_changes
-    from meshforge.store.spans import MOST_TOLD, SinglePartsFile, SpanLine, SpanPart, SpansFile, describe_parts
+    from meshforge.store.spans import (
+        MOST_TOLD,
+        SinglePartsFile,
+        SpanLine,
+        SpanPart,
+        SpansFile,
+        SplitHull,
+        describe_parts,
+    )
     from meshforge.store.store import Store
 else:
     __getattr__ = export_lazily(__name__)
@@ -75,6 +83,7 @@ __all__ = [
     "SpanLine",
     "SpanPart",
     "SpansFile",
+    "SplitHull",
     "StepLine",
     "Store",
     "Verdict",

@@ -20,6 +20,18 @@ class SpanPart(JsonFile):
     share: float
 
 
+class SplitHull(JsonFile):
+    """A hull that a person split. parts: the names of what was made of it."""
+
+    asset: str
+    hull: str
+    parts: tuple[str, ...]
+
+    def __str__(self) -> str:
+        """`base of cup_01`."""
+        return f"{self.hull} of {self.asset}"
+
+
 class SpanLine(JsonFile):
     """One hull that likely spans parts. geometry: the digest of the hull as it was; told: in words; parts: what a split
     makes of it, none where no plane divides it; pieces: the engine of the fine pieces that say so; like: the hull that
@@ -31,12 +43,12 @@ class SpanLine(JsonFile):
     told: str
     parts: tuple[SpanPart, ...] = ()
     pieces: PieceEngine = "coacd"
-    like: str | None = None
+    like: SplitHull | None = None
 
     @property
     def parts_told(self) -> str:
-        """The parts in words."""
-        return describe_parts((part.label, part.share) for part in self.parts)
+        """The parts in words; those that look like others have their labels, and nothing is known of each."""
+        return describe_parts((part.label, None if self.like else part.share) for part in self.parts)
 
 
 class SpansFile(JsonFile):
@@ -74,13 +86,15 @@ class SinglePartsFile(JsonFile):
         return self.model_copy(update={"assets": dict(sorted(rows.items()))})
 
 
-def describe_parts(parts: Iterable[tuple[str, float]]) -> str:
-    """Labels of parts with their shares, or how sure they are: `10 wall (75% to 92%), handle (93%)`."""
-    shares = dict[str, list[float]]()
+def describe_parts(parts: Iterable[tuple[str, float | None]]) -> str:
+    """Labels of parts with their shares, or how sure they are, where that is known: `10 wall (75% to 92%), handle`."""
+    shares = dict[str, list[float | None]]()
     for label, share in parts:
         shares.setdefault(label, []).append(share)
     words = []
     for label, own in shares.items():
-        ends = dict.fromkeys(f"{min(share, MOST_TOLD):.0%}" for share in (min(own), max(own)))
-        words.append(f"{f'{len(own)} ' if len(own) > 1 else ''}{label} ({' to '.join(ends)})")
+        known = [min(share, MOST_TOLD) for share in own if share is not None]
+        ends = dict.fromkeys(f"{share:.0%}" for share in (min(known), max(known))) if known else ()
+        told = f" ({' to '.join(ends)})" if ends else ""
+        words.append(f"{f'{len(own)} ' if len(own) > 1 else ''}{label}{told}")
     return ", ".join(words)

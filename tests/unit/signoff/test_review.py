@@ -185,6 +185,19 @@ def test_a_program_that_cannot_run_on_an_asset_is_said_so() -> None:
     assert found.assets["bare"].doubts[0].text == "the program cannot run: no hull has a label"
 
 
+def test_nobody_is_asked_whether_a_result_is_right_that_cannot_be() -> None:
+    meshes = {**tables(), "bare": table().with_labels(dict.fromkeys(table().index))}
+    state = ReviewState(meshes, FRAME, demos=shown(meshes, "t0"))
+    asked = []
+    while question := review(state, bar=1.0).question:
+        asked += [question] if question.kind == "result" else []
+        state = apply_reply(state, question, ReviewReply(question.id, later=True))
+    bare = [one for one in asked if one.asset == "bare"]
+    assert [choice.text for one in bare for choice in one.choices] == [WRONG, ASIDE]
+    assert bare[0].text.startswith("The program cannot run on bare: no hull has a label. ")
+    assert {choice.text for one in asked if one.asset != "bare" for choice in one.choices} == {RIGHT, WRONG, ASIDE}
+
+
 def test_the_same_family_gives_the_same() -> None:
     meshes = tables(leg2_low="panel")
     state = ReviewState(meshes, FRAME, demos=shown(meshes, "t0"))

@@ -10,6 +10,8 @@ export interface Command {
   readonly enabled?: () => boolean;
   /** Does it; where it takes a while, keys that are typed ahead wait for the promise. */
   readonly run: () => unknown;
+  /** Whether it moves the focus, so that Tab goes on from there. */
+  readonly movesFocus?: boolean;
 }
 
 /** The name of a pressed key combination, as commands list it. */

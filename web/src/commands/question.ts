@@ -84,10 +84,15 @@ export async function acceptResult(asset: string): Promise<boolean> {
 
 export const setAside = (asset: string): Promise<boolean> => flag(asset, "set aside");
 
+/** Whether a question is about a result; where the program cannot run there is none that could be right. */
+export const canBeRight = ({ kind, choices }: ReviewQuestionView): boolean =>
+  kind === "result" && choices.some(({ text }) => text === "right");
+
 /** Opens what a question is about. */
-export function showAsked({ kind, asset, hulls }: ReviewQuestionView): void {
+export function showAsked(question: ReviewQuestionView): void {
+  const { asset, hulls } = question;
   const names = hulls.filter((one) => one.asset === asset).map((one) => one.hull);
-  visit(asset, kind === "result" ? { kind: "result", of: "program" } : { kind: "source" }, names);
+  visit(asset, canBeRight(question) ? { kind: "result", of: "program" } : { kind: "source" }, names);
 }
 
 /** Opens an asset with the hulls of a doubt selected. */
@@ -124,5 +129,6 @@ export const questionCommands: readonly Command[] = [
     keys: ["U"],
     enabled: () => isAsked(useProject.getState()),
     run: goToCard,
+    movesFocus: true,
   },
 ];

@@ -11,13 +11,15 @@ interface ThumbnailProps {
   of: "source" | "output";
   /** Positions of hulls to point out; the others are pale. */
   highlight?: readonly number[] | undefined;
+  /** Positions of hulls in the colours of their labels; the others are pale. */
+  only?: readonly number[];
   /** Width in CSS pixels; it fills its place without. */
   size?: number;
   /** What a screen reader says; empty where words beside it say the same. */
   label?: string;
 }
 
-export const Thumbnail = memo(function Thumbnail({ asset, of, highlight, size, label }: ThumbnailProps) {
+export const Thumbnail = memo(function Thumbnail({ asset, of, highlight, only, size, label }: ThumbnailProps) {
   const version = useProject(({ cards }) => cards[asset]?.[of === "source" ? "picture" : "edited_picture"] ?? null);
   const labels = useProject(({ cards }) => cards[asset]?.[of === "source" ? "labels" : "after_labels"]);
   const unsure = useProject(({ cards }) => cards[asset]?.unsure);
@@ -28,12 +30,13 @@ export const Thumbnail = memo(function Thumbnail({ asset, of, highlight, size, l
     (k: number) => {
       if (k < 0) return "var(--hull-opaque)";
       if (marked) return marked.has(k) ? "var(--highlight)" : "var(--hull-pale)";
+      if (only && !only.includes(k)) return "var(--hull-pale)";
       if (of === "output" && !labels?.length) return hueOf(k);
       return palette.split(" ")[labels?.[k] ?? -1] || "var(--hull-unlabelled)";
     },
-    [marked, of, labels, palette],
+    [marked, only, of, labels, palette],
   );
-  const hatched = useCallback((k: number) => !marked && doubtful.has(k), [marked, doubtful]);
+  const hatched = useCallback((k: number) => !marked && !only && doubtful.has(k), [marked, only, doubtful]);
   if (version === null) return <Blank size={size} />;
   const said = label ?? `${of === "source" ? "Picture" : "Picture of the edited asset"}: ${asset}`;
   return (

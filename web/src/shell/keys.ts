@@ -30,7 +30,7 @@ export function bindKeys(): void {
     const { target } = event;
     const open = isOpen(key, target, byKey && target !== document.body);
     const isOurs = open && (actionOf(key) !== undefined || (isBusy() && isCommand(key)));
-    if (isOurs ? isToPart(key) : MOVES.test(key)) byKey = true;
+    if (isOurs ? isToPart(key) || commandFor(key)?.movesFocus : MOVES.test(key)) byKey = true;
     if (!isOurs) return;
     event.preventDefault();
     if (!event.repeat || MAY_REPEAT.test(key)) runKey(() => actionOf(key));

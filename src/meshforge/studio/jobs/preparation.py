@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
-from typing import TypedDict
+from typing import Literal, TypedDict
 from uuid import uuid4
 
 from meshforge.batch import ExecutionOptions, record_digest
@@ -77,19 +77,27 @@ def start_spans(session: Session) -> Job:
     project = session.project
 
     def work(progress: JobProgress) -> str:
-        lost = project.list_spans(execution=ExecutionOptions(stop=progress.is_stopped), stage=progress.stage)
-        for asset, why in lost.items():
-            progress.add_line(JobLine(asset=asset, status="failed", text=why))
+        results = project.list_spans(execution=ExecutionOptions(stop=progress.is_stopped), stage=progress.stage)
         session.update([relative_name(project.layout.spans, project.folder)])
         found = project.spans().assets
-        for asset, lines in found.items():
-            progress.add_line(JobLine(asset=asset, status="done", text="; ".join(one.told for one in lines.values())))
-        return _describe_spans(found, len(lost))
+        for result in results:
+            if line := _spans_line(result, found.get(result.asset, {})):
+                progress.add_line(line)
+        return _describe_spans(found, sum(bool(result.problems) for result in results))
 
     assets = project.assets()
     return session.jobs.start(
         "spans", "Looking for hulls that span parts", len(assets), work, stays="nothing was kept."
     )
+
+
+def _spans_line(result: PreparationResult, found: Mapping[str, SpanLine]) -> JobLine | None:
+    """What was found of one asset, and what of it could not be looked at; None where there is nothing to tell."""
+    told = [*result.problems, *(one.told for one in found.values()), *result.notes]
+    if not told:
+        return None
+    status: Literal["failed", "done", "skipped"] = "failed" if result.problems else "done" if found else "skipped"
+    return JobLine(asset=result.asset, status=status, text="; ".join(told))
 
 
 def _describe_spans(found: Mapping[str, Mapping[str, SpanLine]], lost: int) -> str:

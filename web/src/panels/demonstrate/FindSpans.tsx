@@ -2,12 +2,13 @@
 import { CircleQuestionMark, Split, Square } from "lucide-react";
 import { goToCard } from "../../commands/question";
 import { openQuestion } from "../../store/assessment";
+import { countSpans } from "../../store/hullParts";
 import { cancelJob, findSpans, useJob, whyNotFindSpans } from "../../store/jobs";
 import { useProject } from "../../store/project";
 import { capitalize } from "../../store/words";
 import { Button } from "../../ui/Button";
 import { Section } from "../../ui/Section";
-import type { Job } from "../../wire";
+import type { Job, JobLine } from "../../wire";
 import { JobLines, JobNote } from "../review/JobProgress";
 import css from "./demonstrate.module.css";
 
@@ -36,9 +37,14 @@ function Running({ job }: { job: Job }) {
 function Ready({ job }: { job: Job | null }) {
   const why = useProject(whyNotFindSpans);
   const isAsked = useProject((state) => openQuestion(state)?.kind === "span");
+  const left = useProject(({ cards }) => countSpans(cards));
+  const isFound = (line: JobLine) => line.status === "done";
+  // once all hulls are split, or said to be one part, what was found is not so any more
+  const isOver = left === 0 && job?.lines.some(isFound);
+  const lines = job?.lines.filter((line) => left > 0 || !isFound(line)) ?? [];
   return (
     <div className={css.spans}>
-      {job && <JobNote job={job} />}
+      {job && !isOver && <JobNote job={job} />}
       <div className={css.buttons}>
         <Button icon={Split} disabled={why !== null} onClick={() => void findSpans()} tip="Hulls of all assets that hold more than one part">
           Find hulls that span parts
@@ -50,7 +56,7 @@ function Ready({ job }: { job: Job | null }) {
         )}
       </div>
       {why !== null && <p className={css.hint}>{why}</p>}
-      {job && <JobLines lines={job.lines} />}
+      <JobLines lines={lines} />
     </div>
   );
 }

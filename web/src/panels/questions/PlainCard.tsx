@@ -2,7 +2,7 @@
 import { Check, Flag, TriangleAlert, X } from "lucide-react";
 import { useMemo, useState } from "react";
 import { demonstrate } from "../../commands/learn";
-import { acceptResult, labelGroup, putOff, reply, setAside, showAsked } from "../../commands/question";
+import { acceptResult, canBeRight, labelGroup, putOff, reply, setAside, showAsked } from "../../commands/question";
 import { Thumbnail } from "../../pictures/Thumbnail";
 import { type Exceptions, placesOf, worthText } from "../../store/assessment";
 import { isUpToDate } from "../../store/reviews";
@@ -32,7 +32,7 @@ export function PlainCard({ question }: { question: ReviewQuestionView }) {
     >
       <h3 id="asked">{question.text}</h3>
       {question.hulls.length > 0 && <GroupHulls question={question} exceptions={exceptions} onChange={setExceptions} />}
-      {question.kind === "result" && <ResultPictures asset={question.asset} />}
+      {canBeRight(question) && <ResultPictures asset={question.asset} />}
       <Replies question={question} exceptions={exceptions} />
       {worth && <p className={css.dim}>{worth}</p>}
     </section>
@@ -77,10 +77,11 @@ function Replies({ question, exceptions }: { question: ReviewQuestionView; excep
   const { kind, asset, hulls } = question;
   const later = () => void putOff(question);
   const show = () => showAsked(question);
+  const mend = () => demonstrate(asset);
   const canShow = kind === "result" || hulls.length > 0;
   const [first, ...others] = choicesOf(question, exceptions);
-  const reject = kind === "result" ? () => demonstrate(asset) : kind === "group" || kind === "repair" ? later : undefined;
-  const accept = kind === "demonstrate" ? () => demonstrate(asset) : first?.run;
+  const reject = kind === "result" ? mend : kind === "group" || kind === "repair" ? later : undefined;
+  const accept = kind === "demonstrate" ? mend : first?.run;
   const keys: CardKeys = {
     choices: [first, ...others].flatMap((line) => line?.run ?? []),
     later,
@@ -102,14 +103,14 @@ function Replies({ question, exceptions }: { question: ReviewQuestionView; excep
         </Reply>
       ))}
       {kind === "demonstrate" && (
-        <Reply keyName="Y" look="primary" onClick={() => demonstrate(asset)}>
+        <Reply keyName="Y" look="primary" onClick={mend}>
           Demonstrate {shortName(asset)}
         </Reply>
       )}
       {kind === "result" && (
         <>
-          <Reply keyName="N" icon={X} tip="Show on this asset what is right" onClick={() => demonstrate(asset)}>
-            Wrong: correct it
+          <Reply keyName="N" icon={X} tip="Show on this asset what is right" onClick={mend}>
+            {first ? "Wrong: correct it" : "Correct it"}
           </Reply>
           <Reply look="quiet" icon={Flag} tip="Flag it: it is no longer held, and not signed off" onClick={doing(() => void setAside(asset))}>
             Set aside
@@ -131,7 +132,7 @@ function Replies({ question, exceptions }: { question: ReviewQuestionView; excep
 function choicesOf(question: ReviewQuestionView, exceptions: Exceptions): readonly Line[] {
   const { kind, asset, choices, hulls } = question;
   if (kind === "demonstrate") return [];
-  if (kind === "result") return [{ text: "Right", run: () => void acceptResult(asset) }];
+  if (kind === "result") return canBeRight(question) ? [{ text: "Right", run: () => void acceptResult(asset) }] : [];
   const lines = choices.map((choice, k) => ({
     text: <ChoiceText label={choice.label} text={choice.text} many={kind === "group" && hulls.length > 1} />,
     run: () => void reply(question, k),

@@ -3,12 +3,14 @@ import { Check, X } from "lucide-react";
 import { useCallback, useEffect } from "react";
 import { putOff, reply, showAsked } from "../../commands/question";
 import { IdPicture } from "../../pictures/IdPicture";
+import { Thumbnail } from "../../pictures/Thumbnail";
 import { useFetched } from "../../pictures/useFetched";
 import { api } from "../../server/api";
 import { countSpans, groupParts, type PartGroup, showHullParts, useHullParts } from "../../store/hullParts";
 import { useProject } from "../../store/project";
+import { shortName } from "../../store/words";
 import { Swatch } from "../../ui/Section";
-import type { HullView, ReviewQuestionView } from "../../wire";
+import type { HullView, ReviewQuestionView, SplitHullView } from "../../wire";
 import { useCardKeys } from "./cardKeys";
 import css from "./questions.module.css";
 import { LaterReply, Reply, ShowReply } from "./Replies";
@@ -17,7 +19,8 @@ export function SpanCard({ question }: { question: ReviewQuestionView }) {
   const { id, hulls } = question;
   const { asset, hull, place } = hulls[0] ?? { asset: "", hull: "", place: -1 };
   useEffect(() => showHullParts(asset, hull), [id, asset, hull]);
-  const parts = useHullParts((state) => state.shown?.packet.header.parts) ?? NO_PARTS;
+  const header = useHullParts((state) => state.shown?.packet.header);
+  const [parts, like] = [header?.parts ?? NO_PARTS, header?.like ?? null];
   const rest = useProject(({ cards }) => countSpans(cards) - Number(hull in (cards[asset]?.spans ?? {})));
   const split = () => void reply(question, 0);
   const keep = () => void reply(question, 1);
@@ -36,9 +39,10 @@ export function SpanCard({ question }: { question: ReviewQuestionView }) {
       </button>
       <ul className={css.parts} aria-label="Parts">
         {groupParts(parts).map((group) => (
-          <Part key={group.label} {...group} />
+          <Part key={group.label} {...group} share={like ? "" : group.share} />
         ))}
       </ul>
+      {like && <Example {...like} />}
       <div className={css.row}>
         <Reply keyName="Y" look="primary" icon={Check} tip="A step in the preparation of the asset; undo takes it back" onClick={doing(split)}>
           Split so
@@ -56,15 +60,25 @@ export function SpanCard({ question }: { question: ReviewQuestionView }) {
 
 const NO_PARTS: readonly HullView[] = [];
 
-/** Parts of one label: how many, and how sure it is of each. */
+/** Parts of one label: how many, and how sure it is of each, empty where nothing is known of that. */
 function Part({ label, count, share }: PartGroup) {
   const color = useLabelColors()(label);
   return (
     <li>
       <Swatch color={color} /> {label}
       {count > 1 && <b>×{count}</b>}
-      <span className={css.facts}>{share}</span>
+      {share && <span className={css.facts}>{share} sure</span>}
     </li>
+  );
+}
+
+/** The hull that a person split, in its parts: this one looks like it. */
+function Example({ asset, hull, parts }: SplitHullView) {
+  return (
+    <figure className={css.example}>
+      <Thumbnail asset={asset} of="source" only={parts} size={96} label={`${hull} of ${asset} as it was split`} />
+      <figcaption>{`${hull} of ${shortName(asset)}, as it was split`}</figcaption>
+    </figure>
   );
 }
 

@@ -37,8 +37,11 @@ function Part({ job, unit }: { job: Job; unit: string }) {
 
 const MOODS = { running: "plain", done: "good", failed: "bad", cancelled: "warn" } as const;
 
-/** How a job ended, in its own words. */
-export const JobNote = ({ job }: { job: Job }) => <Note mood={MOODS[job.state]}>{job.message}</Note>;
+/** How a job ended, in its own words; what could not be done for some assets is not good. */
+export function JobNote({ job }: { job: Job }) {
+  const failed = job.state === "done" && job.lines.some(({ status }) => status === "failed");
+  return <Note mood={failed ? "warn" : MOODS[job.state]}>{job.message}</Note>;
+}
 
 const SIGNS: Readonly<Record<JobLine["status"], string>> = { done: "✓", edited: "✓", unchanged: "=", failed: "✗", skipped: "–" };
 

@@ -38,10 +38,10 @@ describe("a hull", () => {
   });
 
   it("is out of sight while its parts are shown in its place, which no other hull is", () => {
-    useHullParts.setState({ shown: { asset: scene.asset, packet: { header: { rows: [], hull: "b", parts: [] }, rows: [], shapes: [] } } });
+    useHullParts.setState({ shown: { asset: scene.asset, packet: { header: { rows: [], hull: "b", parts: [], like: null }, rows: [], shapes: [] } } });
     const { a, b } = looks();
     expect([a?.visible, b?.visible]).toEqual([true, false]);
-    expect(a?.role).toBe(ROLE.washed);
+    expect(a?.role).toBe(ROLE.faint);
     useHullParts.setState({ shown: null });
     expect(looks()["b"]?.visible).toBe(true);
     expect(looks()["a"]?.role).toBe(ROLE.plain);

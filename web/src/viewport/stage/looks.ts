@@ -24,12 +24,9 @@ export function appearances(scene: Scene, ink: ThemeColors): { shown: Appearance
   const tone = tonesOf(scene, view.colorBy, useProject.getState().project.vocabulary);
   const divided = dividedHull(scene);
   const unseen = divided ? new Set([...hidden, divided.name]) : hidden;
-  const shown = { tone, selection, hover, hidden: unseen, lit, going, ink, changed: divided ? NOTHING : changedHulls(scene) };
+  const shown = { tone, selection, hover, hidden: unseen, lit, going, ink, changed: changedHulls(scene), faint: divided !== null };
   return { shown, before: { ...shown, going: new Set() } };
 }
-
-/** All is paler than the parts of a hull that a person is asked about. */
-const NOTHING: ReadonlySet<string> = new Set();
 
 /** Previews are hidden while hulls are picked for something else. */
 export const showsPreview = (tool: Tool): boolean => tool !== "cut" && tool !== "landmark";
