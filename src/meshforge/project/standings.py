@@ -24,7 +24,7 @@ class Standings:
         """An asset with how it stands."""
         line = self.last.assets.get(asset.id) if self.last else None
         sign_off, now = self.signed.assets.get(asset.id), self.inputs.get(asset.id)
-        void = _find_void(sign_off, now)
+        void = _find_void(sign_off, now, bool(asset.spans))
         found = line.to_confidence(asset.id) if line else None
         state, accepted = self._find_state(asset, line, sign_off, void), asset.review == "accepted" and not asset.stale
         by = "person" if accepted or not sign_off else sign_off.by
@@ -53,8 +53,10 @@ class Standings:
         return "sure" if line.passes(self.last.bar) else "held"
 
 
-def _find_void(sign_off: SignOff | None, now: OutputInputs | None) -> tuple[str, ...]:
-    """What changed of all that a sign-off rests on."""
+def _find_void(sign_off: SignOff | None, now: OutputInputs | None, spans: bool) -> tuple[str, ...]:
+    """What changed of all that a sign-off rests on. spans: whether hulls of the asset likely span parts; the tool signs
+    no such asset off, so that they were found since."""
     if not sign_off:
         return ()
-    return find_changes(now, sign_off.rests_on) if now else ("asset",)
+    known = ("what is known of its hulls",) if spans and sign_off.by == "tool" else ()
+    return (*find_changes(now, sign_off.rests_on), *known) if now else ("asset",)

@@ -15,6 +15,7 @@ from meshforge.project import Project, ProjectReview
 from meshforge.signoff import HullPlace, ReviewChoice, ReviewQuestion, ReviewReply
 from meshforge.signoff.question import ASIDE, RIGHT, WRONG
 from meshforge.signoff.slips import BY_MISTAKE, ON_PURPOSE
+from meshforge.store import SpanLine, SpansFile, hull_digests
 from meshforge.symbolic import Label
 from meshforge.synthesis import Answer, Step
 from tests.unit.project.tables import FIRST, LEGS, SECOND, THIRD, applied, demonstrated, fresh, labelled, learned
@@ -73,6 +74,20 @@ def test_a_sign_off_is_void_when_a_label_changes_and_says_so(tmp_path: Path) -> 
     assert (status.sign_off, status.void) == ("void", ("labels",))
     assert status.probability is None
     assert not project.status().is_signed_off
+
+
+def test_a_sign_off_of_the_tool_is_void_when_a_hull_is_found_to_span_parts_and_a_persons_stays(tmp_path: Path) -> None:
+    project = applied(tmp_path)
+    review(project)
+    lines = {
+        asset: {"crumb": SpanLine(geometry=hull_digests(project.mesh(asset))["crumb"], chance=0.8, told="crumb holds")}
+        for asset in (FIRST, THIRD)
+    }
+    project.write_spans(SpansFile(assets=lines))
+    states = {one.id: (one.sign_off, one.void) for one in project.status().assets}
+    assert states[THIRD] == ("void", ("what is known of its hulls",))
+    assert states[FIRST] == states[SECOND] == ("signed off", ()), "a person showed what becomes of it"
+    assert review(project).taken_back.keys() == {THIRD}
 
 
 def test_a_sign_off_is_void_when_the_program_changes(tmp_path: Path) -> None:
