@@ -38,6 +38,7 @@ COMMANDS = {
     "fmt": "Print a program in its canonical form, comments kept",
 }
 """Every command with the line that the list of commands shows: the function of its name in the module of its name."""
+_INTERRUPTED = 130  # the exit code where a person pressed Ctrl-C
 _HELP_OPTIONS = {"help_option_names": ["-h", "--help"]}
 
 
@@ -112,7 +113,11 @@ def main() -> None:
         build_application()(prog_name="meshforge")
     except KeyboardInterrupt:
         print("stopped", file=sys.stderr)
-        sys.exit(130)
+        sys.exit(_INTERRUPTED)
+    except SystemExit as left:
+        if left.code == _INTERRUPTED:  # typer says nothing of it
+            print("stopped", file=sys.stderr)
+        raise
     except BrokenPipeError:  # the reader of our output has gone; nothing is left to say
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         sys.exit(0)

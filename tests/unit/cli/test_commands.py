@@ -15,6 +15,7 @@ from PIL import Image
 
 import meshforge
 from meshforge.cli.main import COMMANDS, load_command
+from meshforge.project import Project
 from tests.unit.batch.families import write_table, write_tables
 from tests.unit.cli.in_process import Run, runner
 
@@ -100,6 +101,15 @@ sys.exit(", ".join(sorted(heavy & sys.modules.keys())) or 0)
 @pytest.mark.slow
 def test_no_command_shows_the_commands(run: Run) -> None:
     assert all(command in run().out + run("--help").out for command in COMMANDS)
+
+
+def test_a_command_that_is_interrupted_says_so(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
+    def press_control_c(folder: Path) -> Project:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(Project, "open", press_control_c)
+    left = run("status", "p")
+    assert (left.code, left.out, left.err) == (130, "", "stopped\n")
 
 
 def test_an_unknown_command_is_wrong_usage(run: Run) -> None:
