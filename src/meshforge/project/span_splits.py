@@ -76,7 +76,7 @@ def make_splits(
     source: the asset as it was read; settings: of the step, besides the probabilities. Raises GeometryError: no such
     hull.
     """
-    divisions = [batch.HullDivision(one.hull, one.span.chance, one.shapes, str(one), one.with_body) for one in splits]
+    divisions = [batch.HullDivision(one.hull, one.shapes, str(one), one.with_body) for one in splits]
     chances = {one.hull: one.span.chance for one in splits}
     after = batch.divide_hulls(source, before, divisions, {**settings, "chances": chances})
     labels = {

@@ -38,7 +38,7 @@ def slices(hull: Polytope, count: int) -> tuple[Polytope, ...]:
 
 
 def limits(asset: Asset, parts: tuple[Polytope, ...], engine: str | None) -> list[str]:
-    after = divide_hulls(asset, Preparation(), [HullDivision("base/h0", 0.95, parts, "")], {})
+    after = divide_hulls(asset, Preparation(), [HullDivision("base/h0", parts, "")], {})
     return describe_limits(asset, Preparation(), after, engine)
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 
@@ -36,9 +36,8 @@ def cut_hull(asset: Asset, before: record.Preparation, name: str, at: Vector, ac
         )
     remarks = [] if geom.shape.kind in ("polytope", "box") else [f"the {geom.shape.kind} became a polytope"]
     settings = {"at": [*map(float, at)], "across": [*map(float, across)]}
-    return _add_step(
-        asset, before, geom, record.PreparationStep("cut", settings, software_versions(), ()), (below, above), remarks
-    )
+    division = _describe_division(name, (below, above), remarks)
+    return _divide(asset, before, "cut", settings, software_versions(), [(geom, division)])
 
 
 def split_hull(
@@ -68,17 +67,17 @@ def split_hull(
         raise GeometryError(problem, where=name, remedy="Set a lower threshold, or cut it by a plane.")
     remarks = [f"{parting.lost:.0%} of its volume is in no part"]
     remarks += [f"{pluralize(parting.dropped, 'crumb')} dropped"] if parting.dropped else []
-    step = record.PreparationStep("split", settings_to_json(settings, hollow), software_versions(settings), ())
-    return _add_step(asset, before, geom, step, parting.parts, [*remarks, *notes])
+    division = _describe_division(name, parting.parts, [*remarks, *notes])
+    how = settings_to_json(settings, hollow)
+    return _divide(asset, before, "split", how, software_versions(settings), [(geom, division)])
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class HullDivision:
-    """A hull that spans parts, or, with_body, one that does not and is made anew with all hulls of its body. chance: of
-    that it spans parts; parts: convex; told: in words."""
+    """A hull and what takes its place. parts: convex; told: in words; with_body: whether it spans no parts itself, and
+    is made anew with all hulls of its body."""
 
     hull: str
-    chance: float
     parts: tuple[Polytope, ...]
     told: str
     with_body: bool = False
@@ -92,24 +91,22 @@ def divide_hulls(
     settings: of the step; `pieces` is the engine of the fine pieces, CoACD where there is none. Raises GeometryError:
     no such hull.
     """
-    geoms = {geom.name: geom for geom in record.apply_preparation(asset, before).geoms}
-    taken = {*(g.name for g in asset.geoms), *(o.name for o in asset.opaque), *before.hull_digests}
-    entries = list[record.Replacement]()
-    for one in divisions:
-        if one.hull not in geoms:
-            raise GeometryError(f"there is no hull {one.hull!r}", where=str(asset.path))
-        names = record.free_names(one.hull, len(one.parts), taken)
-        made = dict(zip(names, map(record.hull_digest, one.parts), strict=True))
-        geometry = digest(geoms[one.hull].shape)
-        entries.append(record.Replacement(one.hull, "hull", geometry, made, one.told, one.with_body))
-        taken |= made.keys()
+    geoms = _list_geoms(asset, before)
+    rows = [(_take_hull(asset, geoms, one.hull), one) for one in divisions]
     fine = FINE_SETTINGS[settings.get("pieces", "coacd")]
-    step = record.PreparationStep("divide", dict(settings), software_versions(fine), tuple(entries))
-    return before.with_step(step, [part for one in divisions for part in one.parts])
+    return _divide(asset, before, "divide", settings, software_versions(fine), rows)
+
+
+def _list_geoms(asset: Asset, before: record.Preparation) -> dict[str, Geom]:
+    """The hulls of an asset as it is prepared, by name."""
+    return {geom.name: geom for geom in record.apply_preparation(asset, before).geoms}
 
 
 def _find_hull(asset: Asset, before: record.Preparation, name: str) -> Geom:
-    geoms = {geom.name: geom for geom in record.apply_preparation(asset, before).geoms}
+    return _take_hull(asset, _list_geoms(asset, before), name)
+
+
+def _take_hull(asset: Asset, geoms: Mapping[str, Geom], name: str) -> Geom:
     if name not in geoms:
         remedy = suggest_name(
             name, geoms, f"It has {pluralize(len(geoms), 'hull')}: meshforge info ASSET --project PROJECT"
@@ -129,19 +126,28 @@ def _find_divider(asset: Asset, geom: Geom) -> Surface:
     return found
 
 
-def _add_step(
+def _describe_division(hull: str, parts: Sequence[Polytope], notes: Sequence[str]) -> HullDivision:
+    return HullDivision(hull, tuple(parts), "; ".join([pluralize(len(parts), "hull"), *notes]))
+
+
+def _divide(
     asset: Asset,
     before: record.Preparation,
-    geom: Geom,
-    step: record.PreparationStep,
-    parts: Sequence[Polytope],
-    notes: Sequence[str],
+    do: Literal["cut", "split", "divide"],
+    settings: Mapping[str, Any],
+    software: dict[str, str],
+    rows: Sequence[tuple[Geom, HullDivision]],
 ) -> record.Preparation:
+    """A preparation with one step more, in which parts take the place of hulls."""
     taken = {*(g.name for g in asset.geoms), *(o.name for o in asset.opaque), *before.hull_digests}
-    made = dict(zip(record.free_names(geom.name, len(parts), taken), map(record.hull_digest, parts), strict=True))
-    description = "; ".join([pluralize(len(parts), "hull"), *notes])
-    entry = record.Replacement(geom.name, "hull", digest(geom.shape), made, description)
-    return before.with_step(record.PreparationStep(step.do, step.settings, step.software, (entry,)), parts)
+    entries = list[record.Replacement]()
+    for geom, one in rows:
+        names = record.free_names(one.hull, len(one.parts), taken)
+        made = dict(zip(names, map(record.hull_digest, one.parts), strict=True))
+        entries.append(record.Replacement(one.hull, "hull", digest(geom.shape), made, one.told, one.with_body))
+        taken |= made.keys()
+    step = record.PreparationStep(do, dict(settings), software, tuple(entries))
+    return before.with_step(step, [part for _, one in rows for part in one.parts])
 
 
 def _format_point(point: Floats) -> str:
