@@ -178,6 +178,14 @@ def read_json(path: Path, model: type[Model]) -> Model | None:
         raise invalid_file(path, error) from error
 
 
+def read_derived(path: Path, model: type[Model]) -> Model | None:
+    """What a JSON file holds that can be made again; None where there is no such file, or it is damaged."""
+    try:
+        return read_json(path, model)
+    except ProjectError:
+        return None
+
+
 def write_json(path: Path, content: BaseModel) -> None:
     """Write a JSON file, readable and fit for git."""
     write_atomically(path, json_text(content))

@@ -23,7 +23,7 @@ from meshforge.store import membership
 from meshforge.store import program as program_files
 from meshforge.store import settings as settings_file
 from meshforge.store.feedback import AnswersFile, Review, ReviewFile
-from meshforge.store.layout import Layout, read_json, write_json
+from meshforge.store.layout import Layout, read_derived, read_json, write_json
 from meshforge.store.meshes import AssetFiles, read_labels_file
 from meshforge.store.preparation_plan import forget_assets
 from meshforge.store.sign_off import AssessmentFile, LaterFile, SignOffFile
@@ -321,10 +321,7 @@ class Store:
 
     def assessment(self) -> AssessmentFile | None:
         """How the family stood when it was looked at last; None where that is not kept, or damaged."""
-        try:
-            return read_json(self.layout.assessment, AssessmentFile)
-        except ProjectError:  # it can be made again
-            return None
+        return read_derived(self.layout.assessment, AssessmentFile)
 
     def write_assessment(self, found: AssessmentFile) -> None:
         """Keep how the family stands."""
@@ -338,10 +335,7 @@ class Store:
 
     def lookalike_spans(self) -> SpansFile:
         """Which hulls look like hulls that a person split; none where that is not kept, or damaged."""
-        try:
-            return read_json(self.layout.lookalike_spans, SpansFile) or SpansFile()
-        except ProjectError:  # it can be found again
-            return SpansFile()
+        return read_derived(self.layout.lookalike_spans, SpansFile) or SpansFile()
 
     def write_lookalike_spans(self, found: SpansFile) -> None:
         """Keep which hulls look like hulls that a person split."""
@@ -350,10 +344,7 @@ class Store:
 
     def last_spans(self) -> SpansFile:
         """Which hulls likely span parts, as was found last; none where that is not kept, or damaged."""
-        try:
-            return read_json(self.layout.spans, SpansFile) or SpansFile()
-        except ProjectError:  # it can be found again
-            return SpansFile()
+        return read_derived(self.layout.spans, SpansFile) or SpansFile()
 
     def write_spans(self, found: SpansFile) -> None:
         """Keep which hulls likely span parts."""
