@@ -19,7 +19,7 @@ from benchmark.study.propagation import begin_by_hand
 from meshforge.common import MeshForgeError
 from meshforge.language import Program
 from meshforge.signoff import Assessment, ReviewQuestion, ReviewState
-from meshforge.signoff.question import RIGHT, WRONG
+from meshforge.signoff.question import CORRECT, RIGHT, WRONG
 from meshforge.synthesis import Answer, LearningOutcome, NeedsRepair, NoProgram
 
 CAP = 600.0
@@ -173,7 +173,7 @@ class ReviewCourse:
         said = None if reply.choice is None or not question.choices else question.choices[reply.choice].text
         self._set(self.tool.apply(self.state, question, reply, done))
         if question.kind == "result" and said not in (RIGHT, None) and reply.mended is None:
-            self._mend(question.asset, said == WRONG)
+            self._mend(question.asset, said in (WRONG, CORRECT))
 
     def _set(self, state: ReviewState) -> None:
         """Go on from a state; where labels changed, with all that the tool then takes them for."""

@@ -14,7 +14,7 @@ from benchmark.study.person import Person
 from benchmark.study.propagation import HandLabels
 from meshforge.language import Program
 from meshforge.signoff import HullPlace, ReviewQuestion, ReviewReply
-from meshforge.signoff.question import ASIDE, RIGHT, WRONG
+from meshforge.signoff.question import ASIDE, CORRECT, RIGHT, WRONG
 from meshforge.symbolic import Label
 from meshforge.synthesis import Demonstration, Step
 
@@ -82,7 +82,7 @@ class Reviewer:
         right = (self.judge.looks_right(desk, program, question.asset) != self.person.errs_now()) and there
         said = RIGHT if right else WRONG if self._truth.reference[question.asset] is not None else ASIDE
         self.ledger.add("result", GLANCE + APPROVAL)
-        place = place_of(question, said)
+        place = place_of(question, CORRECT if said == WRONG and not there else said)
         return ReviewReply(
             question.id, place, mended=self._mends(desk, program, question.asset) if said == WRONG else None
         )

@@ -20,7 +20,7 @@ from meshforge.cli.terminal import print_json, remark
 from meshforge.common import MeshForgeError, UsageError
 from meshforge.project import Project, ProjectReview, format_review
 from meshforge.signoff import BAR, ReviewQuestion, ReviewReply
-from meshforge.signoff.question import WRONG
+from meshforge.signoff.question import CORRECT, WRONG
 
 _FEW_HELD = 3  # held assets that are named beside a question
 
@@ -82,10 +82,11 @@ def _reply(
     for sentence in find_contradictions(found.state, question, reply):
         remark(sentence)
     said = None if reply.later or reply.choice is None else question.choices[reply.choice].text
-    if question.kind == "result" and said == WRONG:
+    if question.kind == "result" and said in (WRONG, CORRECT):
         word = shlex.quote(str(project.folder))
         show_it = f"meshforge demonstrate {word} {shlex.quote(question.asset)} 'HULLS => ACTION' ..."
-        remark(f"{question.asset} is flagged; to show what is meant there: {show_it}")
+        state = "flagged" if said == WRONG else "set aside until then"
+        remark(f"{question.asset} is {state}; to show what is meant there: {show_it}")
     after = _look(project, bar)
     return replace(after, taken_back={**found.taken_back, **after.taken_back})
 

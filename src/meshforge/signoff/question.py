@@ -23,6 +23,8 @@ Selections = tuple[frozenset[str], ...]
 
 RIGHT, WRONG, ASIDE = "right", "wrong", "set aside"
 """The choices of a question about a result."""
+CORRECT = "correct it"
+"""In place of the first two of them where the program cannot run."""
 SPLIT, ONE_PART = "split so", "no, it is one part"
 """The choices of a question about a hull that likely spans parts; which parts follows the first."""
 

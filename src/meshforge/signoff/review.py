@@ -18,6 +18,7 @@ from meshforge.signoff.groups import LookalikeGroup, find_groups, find_other_lab
 from meshforge.signoff.prices import READING, YES_OR_NO, price_demonstration
 from meshforge.signoff.question import (
     ASIDE,
+    CORRECT,
     RIGHT,
     WRONG,
     HullPlace,
@@ -266,7 +267,7 @@ def _ask_result(trial: Trial, gain: float, seconds: float, begin: str = "Is") ->
     """Whether a result is right; where the program cannot run there is none that could be."""
     if trial.error:
         text = f"The program cannot run on {trial.asset}: {trial.error}. Correct it, or set it aside?"
-        said = [WRONG, ASIDE]
+        said = [CORRECT, ASIDE]
     else:
         text, said = f"{begin} the result of {trial.asset} right?", [RIGHT, WRONG, ASIDE]
     choices = tuple(map(ReviewChoice, said))

@@ -20,7 +20,7 @@ from meshforge.signoff import (
     list_answers,
     review_family,
 )
-from meshforge.signoff.question import ASIDE, RIGHT, WRONG
+from meshforge.signoff.question import ASIDE, CORRECT, RIGHT, WRONG
 from meshforge.symbolic import Label, SymbolicMesh
 from meshforge.synthesis import Demonstration, LearningOutcome, Step, synthesize
 from tests.synthesis_boxes import table
@@ -193,7 +193,7 @@ def test_nobody_is_asked_whether_a_result_is_right_that_cannot_be() -> None:
         asked += [question] if question.kind == "result" else []
         state = apply_reply(state, question, ReviewReply(question.id, later=True))
     bare = [one for one in asked if one.asset == "bare"]
-    assert [choice.text for one in bare for choice in one.choices] == [WRONG, ASIDE]
+    assert [choice.text for one in bare for choice in one.choices] == [CORRECT, ASIDE]
     assert bare[0].text.startswith("The program cannot run on bare: no hull has a label. ")
     assert {choice.text for one in asked if one.asset != "bare" for choice in one.choices} == {RIGHT, WRONG, ASIDE}
 
