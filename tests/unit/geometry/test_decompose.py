@@ -148,6 +148,7 @@ worker.main(*sys.argv[1:])
 """
 
 
+@pytest.mark.slow
 def test_each_of_several_solids_is_decomposed_as_it_is_alone(tmp_path: Path) -> None:
     solids = [
         read_solid(*L_SHAPE, QUICK, close=False),

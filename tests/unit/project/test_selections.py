@@ -114,6 +114,7 @@ def test_parts_get_the_labels_of_what_split_their_hull_and_a_persons_comes_back(
     assert "top gets its label from its parts, which were labelled since it was split" in notes
 
 
+@pytest.mark.slow
 @needs_fork
 def test_a_killed_split_or_undo_loses_nothing_and_flags_what_is_gone(tmp_path: Path) -> None:
     project = said(tmp_path)
@@ -151,6 +152,7 @@ def said_and_labelled(folder: Path) -> Project:
     return project
 
 
+@pytest.mark.slow
 @needs_fork
 @pytest.mark.parametrize("everything", [False, True])
 def test_a_killed_undo_is_finished_by_the_next_bit_for_bit(tmp_path: Path, everything: bool) -> None:
@@ -173,6 +175,7 @@ def test_a_killed_undo_is_finished_by_the_next_bit_for_bit(tmp_path: Path, every
     assert len(states) > 5
 
 
+@pytest.mark.slow
 @needs_fork
 def test_after_a_killed_split_or_undo_a_split_and_its_undo_leave_nothing(tmp_path: Path) -> None:
     project = said_and_labelled(tmp_path)
@@ -202,6 +205,7 @@ def test_after_a_killed_split_or_undo_a_split_and_its_undo_leave_nothing(tmp_pat
         assert died > 5
 
 
+@pytest.mark.slow
 @needs_fork
 def test_a_killed_undo_does_not_overwrite_labels_that_a_person_changed_since(tmp_path: Path) -> None:
     project = said_and_labelled(tmp_path)

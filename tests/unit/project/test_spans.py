@@ -305,6 +305,7 @@ def test_labels_that_a_person_gave_stay_a_persons_when_a_body_is_rebuilt(project
     assert sources[legs[0].name] == "user" and sources[legs[1].name] == "split"
 
 
+@pytest.mark.slow
 def test_a_surface_in_another_unit_does_not_count_and_is_named(project: Project) -> None:
     seen = project.path("c.urdf").with_name("c_seen.obj")
     points = [line.split() for line in seen.read_text().splitlines()]
@@ -315,6 +316,7 @@ def test_a_surface_in_another_unit_does_not_count_and_is_named(project: Project)
     assert all("by likeness" in line.told for line in project.spans().assets.get("c.urdf", {}).values())
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("text", "why"),
     [(None, "no such file"), ("", "the file is empty"), ("v nan 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", "finite")],

@@ -49,6 +49,7 @@ def test_parts_of_too_many_vertices_are_named_with_the_remedy(stool: Asset) -> N
     assert limits(stool, (ball(60), ball(20)), "unity") == []
 
 
+@pytest.mark.slow
 def test_a_body_of_too_many_hulls_is_named(stool: Asset) -> None:
     parts = slices(boxes(0.2, 0.4)[0], 70)
     (text,) = [one for one in limits(stool, parts, "physx-gpu") if "body" in one]
