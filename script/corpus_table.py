@@ -65,14 +65,15 @@ def page(found: Sequence[Row]) -> str:
 
 
 def _note(found: Sequence[Row]) -> str:
-    """The notes, the commonest first, with the numbers and files of one of those that have it."""
-    files: dict[str, list[Row]] = {}
+    """The notes, the commonest first: in how many files, with one of these and what is noted there."""
+    files: dict[str, dict[str, str]] = {}
     for one in found:
         for note in one.notes.split("; ") if one.notes else ():
-            files.setdefault(re.sub(r"[\d,.]+|\([^)]*\)", "#", note), []).append(one)
-    lines = ["## Notes\n", "| files | such as | its notes |", "|---|---|---|"]
-    ordered = sorted(files.values(), key=lambda own: (-len(own), own[0].path))
-    lines += [f"| {len(own)} | {own[0].path} | {_cell(own[0].notes)} |" for own in ordered]
+            kind = re.sub(r"[\d,.]+|\([^)]*\)", "#", note)
+            files.setdefault(kind, {}).setdefault(one.path, note)
+    lines = ["## Notes\n", "| files | such as | its note |", "|---|---|---|"]
+    ordered = sorted(files.values(), key=lambda own: (-len(own), min(own)))
+    lines += [f"| {len(own)} | {path} | {_cell(note)} |" for own in ordered for path, note in [min(own.items())]]
     return "\n".join(lines) + "\n"
 
 
