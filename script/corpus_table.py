@@ -71,9 +71,10 @@ def _note(found: Sequence[Row]) -> str:
         for note in one.notes.split("; ") if one.notes else ():
             kind = re.sub(r"[\d,.]+|\([^)]*\)", "#", note)
             files.setdefault(kind, {}).setdefault(one.path, note)
+    noted = [(len(own), *min(own.items())) for own in files.values()]
+    noted.sort(key=lambda row: (-row[0], row[1]))
     lines = ["## Notes\n", "| files | such as | its note |", "|---|---|---|"]
-    ordered = sorted(files.values(), key=lambda own: (-len(own), min(own)))
-    lines += [f"| {len(own)} | {path} | {_cell(note)} |" for own in ordered for path, note in [min(own.items())]]
+    lines += [f"| {count} | {path} | {_cell(note)} |" for count, path, note in noted]
     return "\n".join(lines) + "\n"
 
 

@@ -6,8 +6,8 @@ is named. Laws are tried on the same examples every time; `--explore` draws new 
 
 An `--all` run names the tests that are not marked and take more than `WARNING`, the slowest first. None fails for it:
 what a test takes is the machine's doing too. CPU time counts rather than the clock, so that a busy machine matters
-less; it is that of the test and its fixtures of scope "function", child processes included. A law may take as much
-longer as it tries more examples than in a quick run.
+less; it is that of the test and its fixtures of scope "function", child processes included, but for those that a server
+of worker processes started. A law may take as much longer as it tries more examples than in a quick run.
 """
 
 from __future__ import annotations
