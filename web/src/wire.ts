@@ -401,7 +401,7 @@ export interface Unprepare {
 export interface ReviewAssets {
   kind: "review";
   ids: string[];
-  verdict: ("accepted" | "flagged") | null;
+  verdict: ("accepted" | "wrong") | null;
   note?: string | null;
 }
 /**
@@ -683,7 +683,7 @@ export interface Card {
   stale: string[];
   error: string | null;
   flags: string[];
-  review: ("accepted" | "flagged") | null;
+  review: ("accepted" | "wrong") | null;
   note: string | null;
   corrections: number;
   sources: number;

@@ -10,7 +10,14 @@ from meshforge.common.exports import export_lazily
 if TYPE_CHECKING:
     from meshforge.batch.archive import write_archive
     from meshforge.batch.check import CheckJournal, CheckOutcome, CheckTask, check_asset, check_assets, open_journal
-    from meshforge.batch.corrections import Correction, replay_corrections
+    from meshforge.batch.corrections import (
+        Correction,
+        RuleSelection,
+        action_text,
+        action_text_without_each,
+        replay_corrections,
+        selections_of,
+    )
     from meshforge.batch.discovery import (
         ADDED,
         OWN_FOLDERS,
@@ -156,6 +163,7 @@ __all__ = [
     "ReportOptions",
     "ReportStatus",
     "RuleEffect",
+    "RuleSelection",
     "RunFigures",
     "RunSummary",
     "Skipped",
@@ -163,6 +171,8 @@ __all__ = [
     "StandingWord",
     "TopItems",
     "WorkerFailure",
+    "action_text",
+    "action_text_without_each",
     "apply",
     "apply_preparation",
     "asset_digests",
@@ -206,6 +216,7 @@ __all__ = [
     "replay_corrections",
     "replay_preparation",
     "run_isolated",
+    "selections_of",
     "server_context",
     "software_version",
     "source_files",

@@ -1,4 +1,4 @@
-"""Edits by hand: steps on named hulls, replayed on one asset after the program."""
+"""What a person decided on one asset: hulls that rules select there, and edits by hand, replayed after the program."""
 
 from __future__ import annotations
 
@@ -9,6 +9,43 @@ from meshforge import language
 from meshforge.batch.provenance import text_digest
 from meshforge.geometry import digest
 from meshforge.symbolic import SymbolicMesh, mask_of
+
+
+@dataclass(frozen=True, slots=True)
+class RuleSelection:
+    """What a rule selected on an asset, or is to select there; action: what it does, by `action_text_without_each`."""
+
+    rule: int
+    action: str
+    select: tuple[str, ...]
+
+
+def action_text_without_each(action: language.Action, label: str | None) -> str:
+    """What a rule does, in the language's text, whether to all hulls together or to each."""
+    return action_text(action.action if isinstance(action, language.Each) else action, label)
+
+
+def action_text(action: language.Action, label: str | None) -> str:
+    """An action as a rule has it after its arrow: `Add(+X, "knob.obj") as handle`."""
+    return f"{action} as {language.show_label(label)}" if label else str(action)
+
+
+def selections_of(meant: Iterable[RuleSelection], program: language.Program) -> dict[int, frozenset[str]]:
+    """What rules of a program are to select on an asset, by their numbers; nothing where its rules do something else
+    than those that a person spoke of."""
+    known = {one.rule: one for one in meant}
+    actions = {
+        number: action_text_without_each(rule.action, rule.label) for number, rule in enumerate(program.rules, 1)
+    }
+    if {number: one.action for number, one in known.items()} != actions:
+        return {}
+    return {number: frozenset(one.select) for number, one in known.items()}
+
+
+def selections_digest(meant: Iterable[RuleSelection]) -> str | None:
+    """The digest of what rules are to select, None where nobody said so."""
+    lines = [f"{one.rule} {one.action} {sorted(one.select)}" for one in meant]
+    return text_digest("\n".join(lines)) if lines else None
 
 
 @dataclass(frozen=True, slots=True)

@@ -11,7 +11,7 @@ from functools import partial
 from pathlib import Path
 
 from meshforge.batch import outputs, provenance
-from meshforge.batch.corrections import replay_corrections
+from meshforge.batch.corrections import replay_corrections, selections_of
 from meshforge.batch.discovery import STATE
 from meshforge.batch.execution import execute
 from meshforge.batch.inputs import inputs_of
@@ -143,7 +143,7 @@ def _run_program(
     labels = read_labels(job.labels) if job.labels else LabelFile()
     followed = transfer_labels(labels, SymbolicMesh.of(asset))
     source = followed.mesh
-    result = task.program.run(source, task.templates)
+    result = task.program.run(source, task.templates, selections=selections_of(job.selections, task.program))
     mesh, flags = replay_corrections(job.corrections, source, result.mesh, task.program, task.templates)
     draft = outputs.plan_draft(task, job, asset)
     if task.options.dry_run:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from meshforge.batch import provenance
-from meshforge.batch.corrections import corrections_digest
+from meshforge.batch.corrections import corrections_digest, selections_digest
 from meshforge.batch.jobs import ApplyTask, AssetJob
 from meshforge.batch.preparation.storage import record_digest
 from meshforge.common import Plugin
@@ -24,6 +24,7 @@ def inputs_of(task: ApplyTask, job: AssetJob, files: dict[str, str]) -> provenan
         program=provenance.program_digest(task.program),
         templates=provenance.template_digests(task.templates),
         corrections=corrections_digest(job.corrections),
+        selections=selections_digest(job.selections),
         settings=" ".join([f"mass={options.mass}", *(f"{key}={value}" for key, value in written.items() if value)]),
         software=provenance.software_version(_plugins_of(task, job)),
     )

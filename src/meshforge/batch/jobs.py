@@ -9,7 +9,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from meshforge.batch.corrections import Correction
+from meshforge.batch.corrections import Correction, RuleSelection
 from meshforge.batch.discovery import AssetSet, asset_id
 from meshforge.batch.provenance import stamp_path
 from meshforge.batch.workers import GIB, MIB
@@ -22,7 +22,8 @@ from meshforge.language import Program, Template
 class AssetJob:
     """One asset of a batch.
 
-    id: its path below `base`, which the output mirrors; labels: its labels file, None for no labels;
+    id: its path below `base`, which the output mirrors; labels: its labels file, None for no labels; selections: what a
+    person said that rules select there;
     corrections: edits by hand, replayed after the program; preparation: the folder of what is done to it before;
     notes: what its outcome says of that.
     """
@@ -33,6 +34,7 @@ class AssetJob:
     labels: Path | None = None
     corrections: tuple[Correction, ...] = ()
     preparation: Path | None = None
+    selections: tuple[RuleSelection, ...] = ()
     notes: tuple[str, ...] = ()
 
 

@@ -33,6 +33,7 @@ class OutputInputs(BaseModel):
     program: str
     templates: dict[str, str]
     corrections: str | None
+    selections: str | None = None
     settings: str
     software: str
 

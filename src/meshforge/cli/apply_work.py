@@ -23,8 +23,6 @@ if TYPE_CHECKING:
     from meshforge.project import NewAssetOptions, NewAssetResult, Project, ProjectReview
     from meshforge.signoff import AssetConfidence
 
-_ASIDE = "a person set it aside"
-
 
 @dataclass(frozen=True, slots=True)
 class ApplyArguments:
@@ -60,15 +58,16 @@ class ApplyArguments:
             "May be repeated.",
         ),
     ] = None
-    sure: Annotated[
+    min_confidence: Annotated[
         float | None,
         typer.Option(
-            "--sure",
-            help="Write only results that are so sure, or were looked at.",
+            "--min-confidence",
+            help="Write only results that are right with this probability, or were looked at.",
             min=0.5,
             max=1.0,
         ),
     ] = None
+    sure: options.OldSure = None
     no_split: Annotated[
         bool, typer.Option("--no-split", help="Leave hulls of new assets that span parts as they are; name them.")
     ] = False
@@ -135,7 +134,7 @@ def _work_of_project(given: ApplyArguments, stack: ExitStack) -> ApplyWork:
     out = given.out or project.layout.edited
     folder = Path(stack.enter_context(TemporaryDirectory())) if given.dry_run else None
     new = prepare_later(project, folder, new_options)
-    held = _hold_back(project, out, given.sure) if given.sure is not None else ()
+    held = _hold_back(project, out, given.min_confidence) if given.min_confidence is not None else ()
     program, jobs, templates = project.work()
     names = {one.asset for one in held}
     rest = [job for job in new.update(jobs) if job.id not in names]
@@ -154,16 +153,16 @@ def _work_of_others(
     out = given.out
     if out.absolute() == project.layout.edited:
         raise UsageError("this folder is for the project's own assets", where=str(out), remedy="Choose another --out.")
-    review = _review(project, given.sure) if given.sure is not None else None
+    review = _review(project, given.min_confidence) if given.min_confidence is not None else None
     program, _, templates = project.work(())
     folder = Path(stack.enter_context(TemporaryDirectory())) if given.dry_run else out / batch.STATE
     new_options = replace(new_options, guess=bool(program.labels_asked))
     jobs, new = prepare_given(project, given.assets or (), given.labels, folder, new_options)
     found: dict[str, AssetConfidence] = {}
     held: tuple[batch.Held, ...] = ()
-    if review and given.sure is not None:
+    if review and given.min_confidence is not None:
         found = assess_new_assets(project, review, jobs, new.results, new_options.execution)
-        held = hold_new(found, given.sure, out)
+        held = hold_new(found, given.min_confidence, out)
     names = {one.asset for one in held}
     by_id = {job.id: job for job in jobs}
     return ApplyWork(
@@ -192,13 +191,15 @@ def _hold_back(project: Project, out: Path, bar: float) -> tuple[batch.Held, ...
     """The assets of a project whose edits are less sure than a bar, the least sure first."""
     assessment = _review(project, bar).assessment
     held = (hold(name, assessment.assets.get(name), out) for name in assessment.held)
-    aside = (hold(name, assessment.assets.get(name), out, _ASIDE) for name in sorted(assessment.aside))
-    return (*held, *aside)
+    away = (
+        hold(name, assessment.assets.get(name), out, f"excluded: {why}") for name, why in assessment.excluded.items()
+    )
+    return (*held, *away)
 
 
 def _work_of_program(given: ApplyArguments) -> ApplyWork:
-    if given.sure is not None:
-        raise UsageError("--sure needs a project: a program alone does not say how sure its results are")
+    if given.min_confidence is not None:
+        raise UsageError("--min-confidence needs a project: a program alone does not say how sure its results are")
     if given.no_split:
         raise UsageError("--no-split needs a project: a program alone splits no hulls")
     if not given.assets or given.out is None:

@@ -52,10 +52,13 @@ class PrepareArguments:
             "--rebuild-spanning", help="Make all hulls anew, part by part, of bodies where a hull spans parts."
         ),
     ] = False
-    sure: Annotated[
+    min_confidence: Annotated[
         float | None,
-        typer.Option("--sure", metavar="P", help="Split hulls that span parts with at least this probability [0.9]."),
+        typer.Option(
+            "--min-confidence", metavar="P", help="Split hulls that span parts with at least this probability [0.9]."
+        ),
     ] = None
+    sure: options.OldSure = None
     dry_run: Annotated[bool, typer.Option("--dry-run", help="Say which hulls would be split; write nothing.")] = False
     limits: Annotated[
         options.EngineName | None,
@@ -120,7 +123,7 @@ def _divide_spanning(project: Project, given: PrepareArguments) -> int:
     results = project.split_spanning(
         [options.asset_id(asset, project) for asset in given.assets] if given.assets else None,
         SplitSettings(
-            SPLIT_DEFAULTS.sure if given.sure is None else given.sure,
+            SPLIT_DEFAULTS.sure if given.min_confidence is None else given.min_confidence,
             given.rebuild_spanning,
             given.method.value if given.method else SPLIT_DEFAULTS.pieces,
         ),

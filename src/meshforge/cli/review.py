@@ -13,16 +13,16 @@ import typer
 
 from meshforge.cli import options
 from meshforge.cli.console import show_status
-from meshforge.cli.review_answers import find_contradictions, parse_reply, read_replies
+from meshforge.cli.review_answers import ScriptReply, find_contradictions, parse_reply, read_replies
 from meshforge.cli.review_pictures import draw_question
 from meshforge.cli.review_text import format_prompt, format_question, format_reply_help
 from meshforge.cli.terminal import print_json, remark
 from meshforge.common import MeshForgeError, UsageError
 from meshforge.project import Project, ProjectReview, format_review
-from meshforge.signoff import BAR, ReviewQuestion, ReviewReply
-from meshforge.signoff.question import CORRECT, WRONG
+from meshforge.signoff import BAR, ResultQuestion, ReviewQuestion, ReviewReply
+from meshforge.signoff.question import WRONG
 
-_FEW_HELD = 3  # held assets that are named beside a question
+_FEW_HELD = 3  # assets that need review and are named beside a question
 
 
 @dataclass(frozen=True, slots=True)
@@ -30,12 +30,17 @@ class ReviewArguments:
     """What is typed after `meshforge review`."""
 
     project: Annotated[Path, typer.Argument(help="A project folder.")]
-    sure: Annotated[
-        float, typer.Option("--sure", help="The probability from which on a result is signed off.", min=0.5, max=1.0)
+    min_confidence: Annotated[
+        float,
+        typer.Option(
+            "--min-confidence", help="The probability from which on a result is signed off.", min=0.5, max=1.0
+        ),
     ] = BAR
+    sure: options.OldSure = None
     answers: Annotated[
-        Path | None, typer.Option("--answers", help="A JSON file of replies, each given when its question is asked.")
+        Path | None, typer.Option("--answers", help="A JSON file of replies to questions that are asked, in any order.")
     ] = None
+    by: Annotated[str | None, typer.Option("--by", help="Your name, kept with what you say.")] = None
     again: Annotated[bool, typer.Option("--again", help="Ask again what was put off.")] = False
     json: options.Json = False
 
@@ -45,50 +50,82 @@ def review(given: ReviewArguments) -> None:
     """Say how sure each result is, and ask what signs a family off; first what makes most results right for a second of
     your time.
 
-    In a terminal it asks one question after the other; what is said is kept at once. Exit code 1 while some result is
-    held, or where a reply did not fit any more.
+    In a terminal it asks one question after the other; what is said is kept at once. Exit code 1 while some result
+    needs review, or where a reply did not fit any more.
     """
     project = Project.open(given.project)
-    replies = read_replies(given.answers) if given.answers else []
+    replies = [replace(reply, by=given.by) for reply in read_replies(given.answers)] if given.answers else []
     if given.again:
         project.ask_again()
-    found = _look(project, given.sure)
-    waiting = {reply.question: reply for reply in replies}
-    while (question := found.assessment.question) and question.id in waiting:
-        found = _reply(project, found, question, waiting.pop(question.id), given.sure)
-    for name in waiting:
-        remark(f"{name}: this question is not asked any more, so the reply is skipped")
+    session = _Session(project, given.min_confidence)
+    missed = session.reply_to_all(replies)
     asks = not (given.json or given.answers) and sys.stdin.isatty() and sys.stdout.isatty()
     if asks:
-        found = _converse(project, found, given.sure)
+        session.converse(given.by)
+    found = session.found
     if given.json:
         print_json(to_json(project, found))
     else:
         _print_review(project, found, shlex.quote(str(given.project)), asked=asks)
-    for asset, why in found.taken_back.items():
+    for asset, why in session.taken_back.items():
         remark(f"{asset} is no longer signed off: {why}")
-    raise typer.Exit(int(bool(found.assessment.held or waiting)))
+    raise typer.Exit(int(bool(found.assessment.held or missed)))
 
 
-def _look(project: Project, bar: float) -> ProjectReview:
-    with show_status("looking at the family"):
-        return project.review(bar)
+class _Session:
+    """Replies one after the other. found: the family as it stands; taken_back: why some assets are no longer signed
+    off."""
 
+    def __init__(self, project: Project, bar: float) -> None:
+        self._project, self._bar = project, bar
+        self.taken_back = dict[str, str]()
+        self.found = self._look()
 
-def _reply(
-    project: Project, found: ProjectReview, question: ReviewQuestion, reply: ReviewReply, bar: float
-) -> ProjectReview:
-    project.reply(found, question, reply)
-    for sentence in find_contradictions(found.state, question, reply):
-        remark(sentence)
-    said = None if reply.later or reply.choice is None else question.choices[reply.choice].text
-    if question.kind == "result" and said in (WRONG, CORRECT):
-        word = shlex.quote(str(project.folder))
-        show_it = f"meshforge demonstrate {word} {shlex.quote(question.asset)} 'HULLS => ACTION' ..."
-        state = "flagged" if said == WRONG else "set aside until then"
-        remark(f"{question.asset} is {state}; to show what is meant there: {show_it}")
-    after = _look(project, bar)
-    return replace(after, taken_back={**found.taken_back, **after.taken_back})
+    def reply_to_all(self, replies: Sequence[ScriptReply]) -> int:
+        """Take replies, each once its question is asked; how many did not fit. One that was taken before, by a command
+        that was killed, fits."""
+        waiting = list(replies)
+        while asked := next(
+            ((one, question) for one in waiting if (question := one.find(self.found.assessment))), None
+        ):
+            waiting.remove(asked[0])
+            self._reply(asked[1], asked[0].to_reply(asked[1]))
+        known = self._project.feedback().replied
+        missed = [one for one in waiting if one.question not in known]
+        for one in missed:
+            remark(f"{one.question}: this question is not asked any more, so the reply is skipped")
+        return len(missed)
+
+    def converse(self, by: str | None) -> None:
+        """Ask at the terminal until nothing is left, or the person has enough; what was said is kept at once."""
+        while question := self.found.assessment.question:
+            typer.echo(format_review(self.found, self._project.folder, held=_FEW_HELD))
+            typer.echo(f"\n{format_question(question, draw_question(self._project, self.found, question))}")
+            if not question.choices:
+                typer.echo(format_reply_help(question, shlex.quote(str(self._project.folder))))
+            reply = _ask(question)
+            if reply is None:
+                break
+            try:
+                self._reply(question, replace(reply, by=by))
+            except MeshForgeError as error:
+                typer.echo(f"{error.message}\n", err=True)
+
+    def _look(self) -> ProjectReview:
+        with show_status("looking at the family"):
+            found = self._project.review(self._bar)
+        self.taken_back |= found.taken_back
+        return found
+
+    def _reply(self, question: ReviewQuestion, reply: ReviewReply) -> None:
+        self._project.reply(question, reply)
+        for sentence in find_contradictions(self.found.state, question, reply):
+            remark(sentence)
+        if isinstance(question, ResultQuestion) and reply.choice == WRONG and not (reply.selections or reply.labels):
+            word, asset = shlex.quote(str(self._project.folder)), shlex.quote(question.asset)
+            show_it = f"meshforge demonstrate {word} {asset} 'HULLS => ACTION' ..."
+            remark(f"{question.asset} needs review; to show what is meant there: {show_it}")
+        self.found = self._look()
 
 
 def _print_review(project: Project, found: ProjectReview, word: str, *, asked: bool) -> None:
@@ -98,7 +135,7 @@ def _print_review(project: Project, found: ProjectReview, word: str, *, asked: b
     if question and not asked:
         typer.echo(f"\n{format_question(question, draw_question(project, found, question))}")
         remark(f"\n{format_reply_help(question, word)}")
-    if question is None and found.assessment.held and project.put_off_ids():
+    if question is None and found.assessment.held and project.feedback().snoozed:
         remark(f"Some questions were put off: meshforge review {word} --again asks them.")
     if found.assessment.is_done and project.program() and not _is_written(project):
         remark(f"Next: meshforge apply {word}")
@@ -107,23 +144,6 @@ def _print_review(project: Project, found: ProjectReview, word: str, *, asked: b
 def _is_written(project: Project) -> bool:
     """Whether all outputs are up to date."""
     return all(asset.is_done for asset in project.status().assets)
-
-
-def _converse(project: Project, found: ProjectReview, bar: float) -> ProjectReview:
-    """Ask at the terminal until nothing is left, or the person has enough; what was said is kept at once."""
-    while question := found.assessment.question:
-        typer.echo(format_review(found, project.folder, held=_FEW_HELD))
-        typer.echo(f"\n{format_question(question, draw_question(project, found, question))}")
-        if not question.choices:
-            typer.echo(format_reply_help(question, shlex.quote(str(project.folder))))
-        reply = _ask(question)
-        if reply is None:
-            break
-        try:
-            found = _reply(project, found, question, reply, bar)
-        except MeshForgeError as error:
-            typer.echo(f"{error.message}\n", err=True)
-    return found
 
 
 def _ask(question: ReviewQuestion) -> ReviewReply | None:
@@ -148,7 +168,7 @@ def to_json(project: Project, found: ProjectReview) -> dict[str, Any]:
     return {
         "signed_off": len(assessment.signed_off),
         "held": [{"asset": name, **assessment.assets[name].to_json()} for name in assessment.held],
-        "set_aside": sorted(assessment.aside),
+        "excluded": dict(sorted(assessment.excluded.items())),
         "question": {**question.to_json(), "pictures": list(map(str, pictures))} if question else None,
         "lost": dict(found.lost),
     }

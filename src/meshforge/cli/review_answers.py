@@ -3,22 +3,53 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
 from meshforge.cli.review_text import letter_of
 from meshforge.common import UsageError
-from meshforge.signoff import HullPlace, ReviewQuestion, ReviewReply, ReviewState
+from meshforge.signoff import Assessment, HullPlace, ResultQuestion, ReviewQuestion, ReviewReply, ReviewState
 from meshforge.symbolic import HUMAN_SOURCES
 
 _FORM = (
-    'Expected a list of {"id", "choice": a number from 0, or null for none of the choices, "exceptions": '
-    '{"ASSET#HULL": LABEL}, "later": true}.'
+    'Expected a list of {"id", "choice": the id of a choice, or null for none of them, "exceptions": '
+    '{"ASSET#HULL": LABEL}, "selections": {"RULE": ["HULL", ...]}, "labels": {"HULL": LABEL}, "later": true}.'
 )
 
 
-def read_replies(path: Path) -> list[ReviewReply]:
+@dataclass(frozen=True, slots=True)
+class ScriptReply:
+    """A reply of a file. number: its place there, from 1; choice: an id, or a number from 0."""
+
+    number: int
+    question: str
+    choice: str | int | None = None
+    exceptions: Mapping[HullPlace, str] = field(default_factory=dict)
+    selections: Mapping[int, frozenset[str]] = field(default_factory=dict)
+    labels: Mapping[str, str] = field(default_factory=dict)
+    later: bool = False
+    by: str | None = None
+
+    def find(self, found: Assessment) -> ReviewQuestion | None:
+        """The question that it replies to, if it is asked now."""
+        return next((one for one in found.questions if one.id == self.question), None)
+
+    def to_reply(self, question: ReviewQuestion) -> ReviewReply:
+        """The reply. Raises UsageError for a choice that there is not."""
+        choice = self.choice
+        if isinstance(choice, int):
+            if not 0 <= choice < len(question.choices):
+                problem = f"reply {self.number}: question {question.id} has {len(question.choices)} choices"
+                raise UsageError(problem, remedy="Name one by its id, or count them from 0.")
+            choice = question.choices[choice].id
+        return ReviewReply(
+            self.question, choice, self.exceptions, self.selections, self.labels, later=self.later, by=self.by
+        )
+
+
+def read_replies(path: Path) -> list[ScriptReply]:
     """Replies from a file. Raises UsageError, naming the entry and the field, where it is not what it should be."""
     try:
         rows = json.loads(path.read_text("utf-8-sig"))
@@ -34,57 +65,97 @@ def read_replies(path: Path) -> list[ReviewReply]:
         raise UsageError(str(error), where=str(path), remedy=_FORM) from error
 
 
-def _to_reply(number: int, row: Any) -> ReviewReply:
+def _to_reply(number: int, row: Any) -> ScriptReply:
     """One entry, of this number in the file. Raises ValueError that says what of it is wrong."""
     if not isinstance(row, dict) or "id" not in row:
         raise ValueError(f"reply {number} has no id")
-    if odd := row.keys() - {"id", "choice", "exceptions", "later"}:
+    if odd := row.keys() - {"id", "choice", "exceptions", "selections", "labels", "later"}:
         raise ValueError(f"reply {number} has a field {min(odd)!r}, which is none of a reply")
-    choice, later, exceptions = row.get("choice"), row.get("later", False), row.get("exceptions", {})
-    if choice is not None and (isinstance(choice, bool) or not isinstance(choice, int)):
-        raise ValueError(f"reply {number}: the choice {choice!r} is no number from 0")
+    choice, later = row.get("choice"), row.get("later", False)
+    if choice is not None and (isinstance(choice, bool) or not isinstance(choice, int | str)):
+        raise ValueError(f"reply {number}: the choice {choice!r} is no id, and no number from 0")
     if not isinstance(later, bool):
         raise ValueError(f"reply {number}: {later!r} for later is not true or false")
+    exceptions, selections, labels = (row.get(name, {}) for name in ("exceptions", "selections", "labels"))
     if not isinstance(exceptions, dict):
         raise ValueError(f"reply {number}: its exceptions are no labels by ASSET#HULL")
     for place, label in exceptions.items():
         if "#" not in place or not isinstance(label, str):
             raise ValueError(f"reply {number}: the exception {place!r} is no label of an ASSET#HULL")
+    if not isinstance(selections, dict) or not all(map(_is_selection, selections.items())):
+        raise ValueError(f"reply {number}: its selections are no lists of hulls by the numbers of rules")
+    if not isinstance(labels, dict) or not all(isinstance(label, str) for label in labels.values()):
+        raise ValueError(f"reply {number}: its labels are no labels by hull")
     places = ((place.rpartition("#"), label) for place, label in exceptions.items())
     hulls = {HullPlace(asset, hull): label for (asset, _, hull), label in places}
-    return ReviewReply(str(row["id"]), choice, hulls, later=later)
+    chosen = {int(rule): frozenset(names) for rule, names in selections.items()}
+    return ScriptReply(number, str(row["id"]), choice, hulls, chosen, labels, later)
+
+
+def _is_selection(row: tuple[str, Any]) -> bool:
+    rule, hulls = row
+    return rule.isdecimal() and isinstance(hulls, list) and all(isinstance(name, str) for name in hulls)
 
 
 def parse_reply(line: str, question: ReviewQuestion) -> ReviewReply:
-    """The reply that a person typed: nothing for the first choice, a number from 1, n for none of them, l for later;
-    after the number those hulls of a group that are something else, as `c=leg`; y or n where that is all there is to
-    say. Raises UsageError for anything else."""
-    words = line.replace(",", " ").split()
-    if question.kind == "span" and words in (["y"], ["n"]):
-        return ReviewReply(question.id, int(words == ["n"]))
-    if words == ["l"]:
+    """The reply that a person typed: nothing for the first choice, the number of one from 1 or its id, n for none of
+    them, l for later; after it, for a group, those hulls that are something else, as `c=leg`; for a result that is
+    wrong, `RULE:HULL,HULL` for what a rule should have selected, and `HULL=LABEL`. Raises UsageError for anything
+    else."""
+    words = line.split()
+    if words == ["l"] or not question.choices:
         return ReviewReply(question.id, later=True)
-    choice: int | None = 0
-    if words and (words[0] == "n" or words[0].isdecimal()):
-        word = words.pop(0)
-        choice = None if word == "n" else int(word) - 1
+    chosen = (
+        _parse_choice(words.pop(0), question) if words and not set(words[0]) & set("=:") else question.choices[0].id
+    )
+    if isinstance(question, ResultQuestion):
+        return _parse_correction(words, question, chosen)
     letters = {letter_of(place): hull for place, hull in enumerate(question.hulls)}
     exceptions = {}
-    for word in words:
+    for word in " ".join(words).replace(",", " ").split():
         letter, equals, label = word.partition("=")
         if not equals or not label or letter not in letters:
             raise UsageError(f"{word!r} is no reply")
         exceptions[letters[letter]] = label
-    if choice is not None and not 0 <= choice < len(question.choices):
-        raise UsageError(f"there is no choice {choice + 1}")
-    return ReviewReply(question.id, choice, exceptions)
+    return ReviewReply(question.id, chosen, exceptions)
+
+
+def _parse_choice(word: str, question: ReviewQuestion) -> str | None:
+    ids = [choice.id for choice in question.choices]
+    if word in ids:
+        return word
+    starts = [name for name in ids if name.startswith(word)]
+    if len(starts) == 1 and word in "yn":
+        return starts[0]
+    if word == "n":
+        return None
+    if word.isdecimal() and not 0 < int(word) <= len(ids):
+        raise UsageError(f"there is no choice {word}")
+    if not word.isdecimal():
+        raise UsageError(f"{word!r} is no reply")
+    return ids[int(word) - 1]
+
+
+def _parse_correction(words: Sequence[str], question: ResultQuestion, chosen: str | None) -> ReviewReply:
+    selections, labels = dict[int, frozenset[str]](), dict[str, str]()
+    for word in words:
+        rule, colon, names = word.partition(":")
+        hull, equals, label = word.rpartition("=")
+        if colon and rule.isdecimal():
+            selections[int(rule)] = frozenset(name for name in names.split(",") if name)
+        elif equals and hull and label:
+            labels[hull] = label
+        else:
+            raise UsageError(f"{word!r} is no RULE:HULL,HULL and no HULL=LABEL")
+    return ReviewReply(question.id, chosen, selections=selections, labels=labels)
 
 
 def find_contradictions(state: ReviewState, question: ReviewQuestion, reply: ReviewReply) -> Iterator[str]:
     """A sentence for each label of a person that the reply of a person changes: the last word counts."""
-    choice = None if reply.choice is None else question.choices[reply.choice]
+    choice = question.choice(reply.choice)
     given = dict.fromkeys(question.hulls, choice.label) if choice and not reply.later else {}
-    for place, label in {**given, **reply.exceptions}.items():
+    said = {HullPlace(question.asset, hull): label for hull, label in reply.labels.items()}
+    for place, label in {**given, **reply.exceptions, **said}.items():
         was = state.meshes[place.asset].hull_of(place.hull).annotation
         if label and was and was.source in HUMAN_SOURCES and was.name != label:
             yield (

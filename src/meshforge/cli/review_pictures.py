@@ -8,7 +8,7 @@ from pathlib import Path
 from meshforge.cli.mesh_pictures import MeshPictures
 from meshforge.common import MeshForgeError
 from meshforge.project import Project, ProjectReview
-from meshforge.signoff import ReviewQuestion
+from meshforge.signoff import ReadingQuestion, ResultQuestion, ReviewQuestion, SpanQuestion
 from meshforge.signoff.question import RIGHT
 
 
@@ -25,19 +25,19 @@ def draw_question(project: Project, found: ProjectReview, question: ReviewQuesti
 
 def _draw(pictures: MeshPictures, found: ProjectReview, question: ReviewQuestion) -> list[Path]:
     name, program = question.id, found.outcome.program if found.outcome else None
-    if question.kind == "span":
+    if isinstance(question, SpanQuestion):
         return [pictures.draw_split(*question.hulls[0], name)]
     if question.hulls:
         return [pictures.draw_sheet(_hulls_by_asset(question), name)]
     if question.asset not in found.state.meshes:
         return []
-    if question.kind in ("reading", "label") and program and question.rule:
+    if isinstance(question, ReadingQuestion) and program and question.rule:
         mesh = pictures.mesh_before_rule(question.asset, question.rule, program)
         return [
             pictures.draw(mesh, frozenset(choice.select or ()), f"{name}-choice-{number}", f"choice {number}")
             for number, choice in enumerate(question.choices, 1)
         ]
-    if question.kind == "result" and program and question.choices[0].text == RIGHT:
+    if isinstance(question, ResultQuestion) and program and question.choice(RIGHT):
         return [pictures.draw_result(question.asset, program, name)]
     turned = [choice.orient for choice in question.choices if choice.orient]
     if turned:

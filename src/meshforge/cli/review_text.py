@@ -8,7 +8,8 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from meshforge.common import join_names, pluralize
-from meshforge.signoff import ReviewQuestion
+from meshforge.signoff import ResultQuestion, ReviewQuestion
+from meshforge.signoff.question import NO
 
 
 def format_question(question: ReviewQuestion, pictures: Sequence[Path]) -> str:
@@ -36,20 +37,22 @@ def format_prompt(question: ReviewQuestion) -> str:
     count = len(question.choices)
     if not count:
         return "l later, q stop: "
-    if question.kind == "span":
-        return "y split so, n it is one part, l later, q stop; Enter: y: "
     numbers = ", ".join(map(str, range(1, count + 1)))
     but = " (what is something else after it: 1 b=LABEL)" if len(question.hulls) > 1 else ""
-    return f"{numbers}{but}, n for none, l later, q stop; Enter: 1: "
+    if isinstance(question, ResultQuestion):
+        but = " (what is right after it: 2 RULE:HULL,HULL HULL=LABEL)"
+    none = "" if question.choice(NO) else ", n for none"
+    return f"{numbers}{but}{none}, l later, q stop; Enter: 1: "
 
 
 def format_reply_help(question: ReviewQuestion, folder: str) -> str:
     """How to reply where nobody can be asked; folder: of the project, as one types it."""
     if not question.choices:
         return f"Show it: meshforge demonstrate {folder} {shlex.quote(question.asset)} 'HULLS => ACTION' ..."
-    entry = json.dumps([{"id": question.id, "choice": 0}])
+    entry = json.dumps([{"id": question.id, "choice": question.choices[0].id}])
+    ids = ", ".join(choice.id for choice in question.choices)
     return (
         f"Reply in a terminal: meshforge review {folder}\n"
         f"  or in a script: meshforge review {folder} --answers FILE, where FILE holds {entry}\n"
-        '  (the first choice; null in place of 0: none of them; "later": true puts it off)'
+        f'  (choices: {ids}; null for none of them; "later": true puts it off)'
     )

@@ -19,6 +19,9 @@ def status(
     signed_off: Annotated[
         bool, typer.Option("--signed-off", help="Exit code 1 while some asset is not signed off.")
     ] = False,
+    allow_excluded: Annotated[
+        bool, typer.Option("--allow-excluded", help="With --signed-off: assets that are not solved do not count.")
+    ] = False,
     json: Json = False,
 ) -> None:
     """Show what is labelled, demonstrated, learned, applied, stale and flagged, and the next sensible step.
@@ -32,7 +35,7 @@ def status(
         print_json(found.to_json())
     else:
         _print_status(found, opened.folder)
-    if signed_off and not found.is_signed_off:
+    if signed_off and not (found.is_signed_off_but_unsolved if allow_excluded else found.is_signed_off):
         raise typer.Exit(1)
 
 

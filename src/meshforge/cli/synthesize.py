@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import shlex
 import sys
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated, Literal
@@ -19,7 +19,7 @@ from meshforge.cli.terminal import print_json, remark
 from meshforge.common import UsageError, join_names, pluralize
 from meshforge.language import Program
 from meshforge.project import Project, select_assets
-from meshforge.store import AnswersFile, RepairLine
+from meshforge.store import AnswerEvent, LabelFixEvent
 from meshforge.synthesis import LearningOutcome, Options, outcome_to_json
 
 
@@ -124,14 +124,14 @@ def _print_outcome(outcome: LearningOutcome, session: LearningSession, folder: P
 
 
 def _context_of(session: LearningSession, folder: Path, outcome: LearningOutcome) -> synthesize_text.LearningContext:
-    answers = session.project.answers()
+    said = session.project.feedback()
     return synthesize_text.LearningContext(
         folder,
         assets=len(session.project.assets()),
         in_use=len(select_assets(session.project)),
         readable=len(session.meshes()),
-        answers=len(answers.answers) + len(session.given) - len(outcome.stale),
-        repairs=len(answers.confirmed),
+        answers=len(said.answers) + len(session.given) - len(outcome.stale),
+        repairs=sum(fix.accepted for fix in said.fixes.values()),
         kept=session.keep,
         stopped=session.stopped,
     )
@@ -139,35 +139,31 @@ def _context_of(session: LearningSession, folder: Path, outcome: LearningOutcome
 
 def _print_answers(project: Project, folder: Path, json: bool) -> None:
     """List all answers and repairs by their ids."""
-    answers = project.answers()
+    said = project.feedback().said
     if json:
-        print_json(answers.model_dump(mode="json", by_alias=True))
+        print_json([{"id": name, **event.model_dump(mode="json", by_alias=True)} for name, event in said.items()])
         return
-    for line in _answer_lines(answers):
-        typer.echo(line)
-    if answers.ids:
-        command = f"meshforge synthesize {shlex.quote(str(folder))} --forget {shlex.quote(answers.ids[0])}"
+    for name, event in said.items():
+        typer.echo(f"{name}  {_describe(event)}")
+    if said:
+        command = f"meshforge synthesize {shlex.quote(str(folder))} --forget {shlex.quote(next(iter(said)))}"
         remark(f"To take one back: {command}")
     else:
         remark("nothing was answered, repaired or refused yet")
 
 
-def _answer_lines(answers: AnswersFile) -> Iterator[str]:
-    for line in answers.answers:
-        hulls = f"{pluralize(len(line.select), 'hull')}: {join_names(line.select)}" if line.select else "nothing"
-        yield f"{line.id}  {'neither of the choices' if line.select is None else hulls}"
-    yield from (f"{line.id}  repaired, was {_describe_before(line)}" for line in answers.confirmed)
-    yield from (f"{line.id}  refused, stays {_describe_before(line)}" for line in answers.rejected)
-
-
-def _describe_before(line: RepairLine) -> str:
-    return line.was or "without a label"
+def _describe(event: AnswerEvent | LabelFixEvent) -> str:
+    if isinstance(event, LabelFixEvent):
+        return f"{'repaired, was' if event.accepted else 'refused, stays'} {event.was or 'without a label'}"
+    if event.select is None:
+        return "neither of the choices"
+    return f"{pluralize(len(event.select), 'hull')}: {join_names(event.select)}" if event.select else "nothing"
 
 
 def _forget_answers(project: Project, folder: Path, ids: Sequence[str]) -> None:
     """Take back what has one of these ids, or everything by `all`."""
     if "all" in ids:
-        count = len(project.answers().ids)
+        count = len(project.feedback().said)
         notes = list(project.forget_answers())
         typer.echo(f"taken back: {pluralize(count, 'answer or repair', 'answers and repairs')}")
     else:

@@ -113,7 +113,7 @@ class Conversation:
 
     def _offer_undo(self, outcome: NoProgram) -> bool:
         """An answer after which no program is left can be taken back at once."""
-        if not self._last_question or self._last_question.id not in self._session.project.answers().ids:
+        if not self._last_question or self._last_question.id not in self._session.project.feedback().said:
             return False
         self._say(f"With your answer about {self._last_question.asset} there is no program: {outcome.why}")
         if self._ask_one_of(("y", "n"), "Take it back? y, n: ") == "n":

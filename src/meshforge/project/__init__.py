@@ -30,7 +30,7 @@ if TYPE_CHECKING:
         add_span_doubts,
         ask_about_spans,
         can_ask_about_spans,
-        choose_span_question,
+        list_span_questions,
     )
     from meshforge.project.span_search import MADE_ANEW
     from meshforge.project.span_splits import LIKELY, Split, read_spans
@@ -62,7 +62,6 @@ __all__ = [
     "assess_new_assets",
     "build_run_report",
     "can_ask_about_spans",
-    "choose_span_question",
     "describe_new",
     "digest_lesson",
     "forget_plan",
@@ -71,6 +70,7 @@ __all__ = [
     "format_status",
     "keep_assessment",
     "list_new",
+    "list_span_questions",
     "make_correction",
     "measure_results",
     "output_digest",

@@ -146,7 +146,7 @@ class Adviser:
         if held:
             which = f"{held[0].id} is" if len(held) == 1 else f"{len(held)} of them, first {held[0].id}, are"
             return Advice(f"All assets are edited; {which} not signed off: review them.", self._type("review"))
-        odd = [asset.id for asset in self.assets if asset.flags or asset.review == "flagged"]
+        odd = [asset.id for asset in self.assets if asset.flags or asset.review == "wrong"]
         if odd:
             say = f"All assets are edited; {len(odd)} of them want a look, first {odd[0]}: edit them by hand."
             return Advice(say, self._type("studio"))

@@ -11,6 +11,7 @@ from meshforge.batch import (
     program_digest,
     read_stamp,
     replay_corrections,
+    selections_of,
     template_digests,
 )
 from meshforge.common import MeshForgeError
@@ -18,7 +19,7 @@ from meshforge.language import Program
 from meshforge.project import run
 from meshforge.project.sign_offs import is_written
 from meshforge.signoff import EditMeasures, measure_edit
-from meshforge.store import ConfidenceLine, Store
+from meshforge.store import ConfidenceLine, Feedback, Store
 from meshforge.symbolic import SymbolicMesh
 from meshforge.synthesis import memoize
 
@@ -57,13 +58,14 @@ class _Plan:
     last: Mapping[str, ConfidenceLine]
     digest: str
     key: str
+    feedback: Feedback
 
     @staticmethod
     def of(store: Store, program: Program) -> _Plan:
         task, last = run.build_task(store, program), store.assessment()
         digest = program_digest(program)
         key = f"{digest} {template_digests(task.templates)}"
-        return _Plan(store, task, last.assets if last else {}, digest, key)
+        return _Plan(store, task, last.assets if last else {}, digest, key, store.feedback())
 
     def recall(self, asset: str, now: OutputInputs | None) -> EditMeasures | None:
         """The measures of an output or of the last review, None where neither is as this program would make it now."""
@@ -76,11 +78,11 @@ class _Plan:
 
     def measure(self, asset: str, mesh: SymbolicMesh) -> EditMeasures:
         """The measures of an edit with what was done by hand after it; cached with the mesh."""
-        corrections = self.store.corrections(asset)
+        corrections, meant = self.store.corrections(asset), run.meant_selections(self.feedback, asset)
         program, templates = self.task.program, self.task.templates
 
         def make() -> EditMeasures:
-            after = program.run(mesh, templates, memo=memoize).mesh
+            after = program.run(mesh, templates, selections=selections_of(meant, program), memo=memoize).mesh
             return measure_edit(mesh, replay_corrections(corrections, mesh, after, program, templates)[0])
 
-        return memoize(mesh, ("measures", self.key, *map(str, corrections)), EditMeasures, make)
+        return memoize(mesh, ("measures", self.key, *map(str, (*corrections, *meant))), EditMeasures, make)

@@ -8,10 +8,11 @@ from collections.abc import Container, Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 
 from meshforge import store as files
+from meshforge.batch import action_text_without_each
 from meshforge.common import MeshForgeError, ProjectError, UsageError, suggest_among, suggest_name
 from meshforge.labels import merge
 from meshforge.project.preparation_journal import confirm_selections
-from meshforge.store import Store
+from meshforge.store import UNASKED, Said, Store
 from meshforge.symbolic import Label, SymbolicMesh
 from meshforge.synthesis import Answer, Demonstration, LabelCorrection, Question, Step
 
@@ -35,18 +36,16 @@ def demonstrate(store: Store, asset: str, steps: Iterable[Step]) -> None:
     confirm_selections(store, asset)
 
 
-def correct_selection(store: Store, asset: str, rule: int, select: Sequence[str]) -> None:
+def correct_selection(store: Store, asset: str, rule: int, select: Sequence[str], said: Said = UNASKED) -> None:
     """Select other hulls in a step of a demonstration after a slip; on an asset that is not demonstrated by an answer,
     and what was accepted there counts no more. Raises ProjectError where there is no such step, and as `demonstrate`
     and `add_answer` do."""
     with store.lock():
-        known = store.reviews().get(asset)
-        is_accepted = known is not None and known.verdict == "accepted"
-        answered = [(line.answer.rule, line.answer.asset) for line in store.answers().answers]
-        if asset not in store.demonstration_ids() and (is_accepted or (rule, asset) in answered):
-            add_answer(store, Answer(rule, asset, select))
-            if is_accepted:
-                store.write_reviews({asset: None})
+        feedback = store.feedback()
+        known = feedback.verdict_on(asset)
+        if asset not in store.demonstration_ids() and (known or f"{rule}:{asset}" in feedback.answers):
+            more = [files.VerdictEvent(asset=asset, by=said.by, question=said.question)] if known else []
+            store.add_events(check_answer(store, Answer(rule, asset, select)).with_question(*said), *more)
             return
         steps = store.steps(asset)
         if rule > len(steps) or steps[rule - 1].open:
@@ -115,7 +114,6 @@ def _write_reordered(store: Store, kept: Mapping[Path, files.DemonstrationFile],
 
     order: the old number of the rule that is first from now on, of the second, and so on.
     """
-    answers = store.answers()
     actions = _actions_by_rule(kept)
     for path, file in kept.items():
         steps = _reorder(file.steps, order, actions)
@@ -123,9 +121,7 @@ def _write_reordered(store: Store, kept: Mapping[Path, files.DemonstrationFile],
             path.unlink(missing_ok=True)
         elif steps != file.steps:
             files.write_json(path, file.model_copy(update={"steps": steps}))
-    now = _renumber(answers, order, len(actions))
-    if now != answers:
-        store.write_answers(now)
+    store.change_events(lambda events: _renumber(events, order, len(actions)))
 
 
 def _actions_by_rule(kept: Mapping[Path, files.DemonstrationFile]) -> dict[int, str]:
@@ -145,15 +141,14 @@ def _reorder(
     return tuple(step.model_copy(update={"rule": place}) for place, step in enumerate(steps, 1))
 
 
-def _renumber(answers: files.AnswersFile, order: Sequence[int], before: int) -> files.AnswersFile:
-    """The answers about other numbers; before: how many rules there were. Answers about rules beyond stay."""
+def _renumber(events: Iterable[files.Event], order: Sequence[int], before: int) -> Iterator[files.Event]:
+    """The events with answers about other numbers; before: how many rules there were. Answers beyond these stay."""
     places = {rule: place for place, rule in enumerate(order, 1)}
-    now = answers.model_copy(update={"answers": ()})
-    for line in answers.answers:
-        rule = places.get(line.rule, line.rule if line.rule > before else 0)
-        if rule:
-            now = now.with_line(line.model_copy(update={"rule": rule, "id": f"{rule}:{line.asset}"}))
-    return now
+    for event in events:
+        if not isinstance(event, files.AnswerEvent) or event.rule > before:
+            yield event
+        elif event.rule in places:
+            yield event.model_copy(update={"rule": places[event.rule]})
 
 
 def add_answer(store: Store, answer: Answer) -> str:
@@ -161,10 +156,9 @@ def add_answer(store: Store, answer: Answer) -> str:
 
     It takes the place of an earlier answer to the same question. Raises ProjectError: no such asset or rule.
     """
-    line = check_answer(store, answer)
-    with store.lock():
-        store.write_answers(store.answers().with_line(line))
-    return line.id
+    event = check_answer(store, answer)
+    store.add_events(event)
+    return event.id
 
 
 def answer(store: Store, question: Question, choice: int | None) -> str:
@@ -177,7 +171,7 @@ def answer(store: Store, question: Question, choice: int | None) -> str:
     return add_answer(store, question.answer_with(choice))
 
 
-def check_answer(store: Store, given: Answer) -> files.AnswerLine:
+def check_answer(store: Store, given: Answer) -> files.AnswerEvent:
     """An answer as it is kept. Raises ProjectError: no such asset, or no such rule. Its hulls may be made by a rule."""
     store.path(given.asset)
     actions = actions_of(map(store.steps, store.demonstration_ids()))
@@ -185,11 +179,9 @@ def check_answer(store: Store, given: Answer) -> files.AnswerLine:
         shown = f"only rules 1 to {max(actions)} are" if actions else "nothing is"
         raise ProjectError(f"there is no rule {given.rule} to answer for: {shown} demonstrated", where=given.asset)
     select = None if given.select is None else tuple(sorted(given.select))
-    identity = f"{given.rule}:{given.asset}"
     refused = tuple(tuple(sorted(choice)) for choice in given.refused)
-    action = actions[given.rule]
-    return files.AnswerLine(
-        id=identity, rule=given.rule, asset=given.asset, select=select, action=action, refused=refused
+    return files.AnswerEvent(
+        rule=given.rule, asset=given.asset, select=select, action=actions[given.rule], refused=refused
     )
 
 
@@ -197,11 +189,11 @@ def actions_of(demonstrations: Iterable[Iterable[Step]]) -> dict[int, str]:
     """What each rule does, as the first demonstration that shows it says, without `Each`."""
     found: dict[int, str] = {}
     for step in (step for steps in demonstrations for step in steps if step.shown):
-        found.setdefault(step.rule, files.action_text_without_each(step.action, step.label))
+        found.setdefault(step.rule, action_text_without_each(step.action, step.label))
     return dict(sorted(found.items()))
 
 
-def confirm(store: Store, right: LabelCorrection) -> str:
+def confirm(store: Store, right: LabelCorrection, said: Said = UNASKED) -> str:
     """Repair a label, as a `Repair` proposes it or not, remembering the one before; give the repair's id
     `ASSET#HULL=LABEL`.
 
@@ -212,27 +204,22 @@ def confirm(store: Store, right: LabelCorrection) -> str:
         labels, problem = _repair_label(store, mesh, right)
         if problem:
             raise ProjectError(problem, where=right.asset, remedy=f"Learn again: meshforge synthesize {store.folder}")
-        answers, identity = store.answers(), files.repair_id(right)
-        known = [line.before for line in answers.confirmed if line.id == identity]
-        current = mesh.hull_of(right.hull).annotation
-        before = known[0] if known and current == _label_of_repair(right) else files.LabelBefore.of(current)
-        line = files.ConfirmationLine(
-            id=identity, asset=right.asset, hull=right.hull, was=right.was, to=right.to, before=before
-        )
+        event = files.LabelFixEvent(asset=right.asset, hull=right.hull, was=right.was, to=right.to, accepted=True)
+        known, current = store.feedback().fixes.get(event.id), mesh.hull_of(right.hull).annotation
+        is_repeated = known and known.accepted and current == _label_of_repair(right)
+        before = known.before if known and is_repeated else files.LabelBefore.of(current)
         # the record first: killed in between, the repair is merely proposed again
-        store.write_answers(answers.with_line(line))
+        store.add_events(event.model_copy(update={"before": before}).with_question(*said))
         store.write_labels(right.asset, files.hull_digests(mesh), labels, store.vocabulary)
-    return identity
+    return event.id
 
 
-def reject(store: Store, wrong: LabelCorrection) -> str:
+def reject(store: Store, wrong: LabelCorrection, said: Said = UNASKED) -> str:
     """Refuse a repair, so that it is not proposed again; give its id."""
     store.path(wrong.asset)
-    identity = files.repair_id(wrong)
-    line = files.RepairLine(id=identity, asset=wrong.asset, hull=wrong.hull, was=wrong.was, to=wrong.to)
-    with store.lock():
-        store.write_answers(store.answers().with_line(line))
-    return identity
+    event = files.LabelFixEvent(asset=wrong.asset, hull=wrong.hull, was=wrong.was, to=wrong.to, accepted=False)
+    store.add_events(event.with_question(*said))
+    return event.id
 
 
 def take_back(store: Store, said: str) -> str | None:
@@ -242,19 +229,20 @@ def take_back(store: Store, said: str) -> str | None:
     where there is no such one.
     """
     with store.lock():
-        kept = store.answers()
-        if said not in kept.ids:
+        kept = store.feedback().said
+        if said not in kept:
             listing = f"See what was said: meshforge synthesize {store.folder} --list-answers"
-            remedy = suggest_name(said, kept.ids, listing)
+            remedy = suggest_name(said, kept, listing)
             raise ProjectError(f"there is no answer or repair {said!r}", where=str(store.folder), remedy=remedy)
-        notes = [_restore_label(store, line) for line in kept.confirmed if line.id == said]
-        store.write_answers(kept.without(said))
-    return next(iter(notes), None)
+        event = kept[said]
+        note = _restore_label(store, event) if isinstance(event, files.LabelFixEvent) and event.accepted else None
+        store.add_events(files.WithdrawalEvent(id=said))
+    return note
 
 
 def forget_answers(store: Store) -> tuple[str, ...]:
     """Take back everything; gives the sentences about labels that are left alone."""
-    notes = [take_back(store, entry) for entry in store.answers().ids]
+    notes = [take_back(store, entry) for entry in store.feedback().said]
     return tuple(note for note in notes if note)
 
 
@@ -274,7 +262,7 @@ def _repair_label(store: Store, mesh: SymbolicMesh, right: LabelCorrection) -> t
     return labels, None
 
 
-def _restore_label(store: Store, line: files.ConfirmationLine) -> str | None:
+def _restore_label(store: Store, line: files.LabelFixEvent) -> str | None:
     """Give a hull the label back that it had before a repair; a sentence on why, where that is not done."""
     try:
         mesh = store.mesh(line.asset)
@@ -282,7 +270,7 @@ def _restore_label(store: Store, line: files.ConfirmationLine) -> str | None:
     except MeshForgeError as error:
         return f"the label of {line.hull} in {line.asset} is left as it is: {error.problem}"
     before = line.before.annotation if line.before else None
-    if current not in (before, _label_of_repair(line.correction)):
+    if current not in (before, _label_of_repair(line.fix)):
         state = f"labelled {current.name}" if current else "without a label"
         return f"{line.hull} in {line.asset} is left {state}, as it was changed after the repair"
     if current != before:

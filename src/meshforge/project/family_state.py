@@ -4,10 +4,10 @@ results, as far as that counts under the program as it is now.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
-from meshforge.batch import OutputInputs, Stamp, read_stamp
+from meshforge.batch import OutputInputs, RuleSelection, read_stamp, selections_of
 from meshforge.common import MeshForgeError
 from meshforge.language import Program, Template
 from meshforge.project.demonstrations import actions_of
@@ -15,7 +15,7 @@ from meshforge.project.run import number_selections, output_digest
 from meshforge.project.sign_offs import is_written
 from meshforge.signoff import ReviewState
 from meshforge.signoff.question import Selections
-from meshforge.store import Review, Store
+from meshforge.store import Store, VerdictEvent
 from meshforge.symbolic import SymbolicMesh
 from meshforge.synthesis import memoize
 
@@ -36,23 +36,32 @@ class FamilyStateReader:
 
     def read(self) -> ReviewState:
         """All that is known. Raises MeshForgeError for files of the project that cannot be read."""
-        store, signed = self.store, self.store.sign_offs()
+        store, feedback = self.store, self.store.feedback()
         demos = {
             asset: replace(demo, mesh=self.meshes[asset])
             for asset, demo in store.demonstrations().items()
             if asset in self.meshes
         }
-        accepted, flagged = self._sort_verdicts()
+        found = _Verdicts(
+            {asset: some for asset, some in feedback.verdicts.items() if asset in self.meshes and asset not in demos}
+        )
         actions = actions_of(demo.steps for demo in demos.values())
+        program = self.program or store.program()
+        given_up = {asset: one.reason for asset, one in feedback.exclusions.items() if one.reason}
         return ReviewState(
             self.meshes,
             self._read_frame(),
             self._read_templates(self.program),
-            {} if self.by_hand else demos,
-            tuple(line.answer for line in store.answers().answers if line.fits(actions)),
-            {asset: done for asset, done in accepted.items() if asset in self.meshes},
-            aside=flagged.union(asset for asset in signed.aside if asset not in demos),
-            later=frozenset(store.put_off_ids()),
+            demos,
+            self.by_hand,
+            tuple(line.answer for line in feedback.answers.values() if line.fits(actions)),
+            meant=found.list_meant(program),
+            failed=found.list_failed(program),
+            accepted=frozenset(asset for asset, one in found.accepted() if self._stands(asset, one, program)),
+            corrected=found.list_corrected(program),
+            wrong=found.list_wrong(program),
+            excluded=given_up,
+            snoozed=frozenset(feedback.snoozed),
         )
 
     def _read_frame(self) -> Program:
@@ -65,30 +74,19 @@ class FamilyStateReader:
     def _read_templates(self, program: Program | None) -> dict[str, Template]:
         return self.store.templates(program.templates if program else ())
 
-    def _sort_verdicts(self) -> tuple[dict[str, Selections], frozenset[str]]:
-        """What the rules select on the results that a person accepted, and the assets that they flagged. Where nothing
-        fits what was shown by now, the last program is still the one whose results a person looked at."""
-        program = self.program or self.store.program()
-        accepted, flagged = dict[str, Selections](), set[str]()
-        for asset, review in self.store.reviews().items():
-            stamp = read_stamp(self.store.layout.edited, asset)
-            if review.output != output_digest(stamp) or not self._counts(asset, review, stamp, program):
-                continue
-            if review.verdict == "flagged":
-                flagged.add(asset)
-            else:
-                accepted[asset] = tuple(frozenset(one.select) for one in review.seen)
-        return accepted, frozenset(flagged)
-
-    def _counts(self, asset: str, review: Review, stamp: Stamp | None, program: Program | None) -> bool:
-        """Whether the program does what it did when a person looked: selects the same, or made that very output."""
-        if review.seen:
-            return self._select(asset, program) == tuple((one.action, one.select) for one in review.seen)
+    def _stands(self, asset: str, verdict: VerdictEvent, program: Program | None) -> bool:
+        """Whether the output that a person accepted is there, and the program does what it did: selects the same, or
+        made that very output."""
+        stamp = read_stamp(self.store.layout.edited, asset)
+        if verdict.output != output_digest(stamp):
+            return False
+        if verdict.seen and not verdict.meant:
+            return self._select(asset, program) == verdict.seen
         now = self.inputs.get(asset)
         return now is not None and is_written(stamp, now)
 
-    def _select(self, asset: str, program: Program | None) -> tuple[tuple[str, tuple[str, ...]], ...] | None:
-        """What the rules of a program do to which hulls of an asset; None where they cannot."""
+    def _select(self, asset: str, program: Program | None) -> tuple[RuleSelection, ...] | None:
+        """What the rules select on an asset; None where the program cannot run."""
         mesh = self.meshes.get(asset)
         if program is None or mesh is None:
             return None
@@ -96,5 +94,42 @@ class FamilyStateReader:
             trace = program.run(mesh, self._read_templates(program), memo=memoize).trace
         except MeshForgeError:
             return None
-        found = number_selections(program, {r.rule: r.selected for r in trace})
-        return tuple((one.action, one.select) for one in found)
+        return number_selections(program, {r.rule: r.selected for r in trace})
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class _Verdicts:
+    """What people said of results, by asset, in order."""
+
+    by_asset: Mapping[str, Sequence[VerdictEvent]]
+
+    def accepted(self) -> Iterator[tuple[str, VerdictEvent]]:
+        """Those that are accepted now."""
+        yield from ((asset, some[-1]) for asset, some in self.by_asset.items() if some[-1].verdict == "accepted")
+
+    def list_meant(self, program: Program | None) -> dict[str, Selections]:
+        """What each rule is to select by the last word of a person, where its rules are those of the program."""
+        rows = ((asset, some[-1]) for asset, some in self.by_asset.items())
+        known = ((asset, one.meant or (one.seen if one.verdict == "accepted" else ())) for asset, one in rows)
+        return _fit(known, program)
+
+    def list_failed(self, program: Program | None) -> dict[str, Selections]:
+        """What the rules selected on results that were called wrong last."""
+        last = ((asset, [one for one in some if one.verdict == "wrong"]) for asset, some in self.by_asset.items())
+        return _fit(((asset, some[-1].seen) for asset, some in last if some), program)
+
+    def list_corrected(self, program: Program | None) -> frozenset[str]:
+        """The assets of which a person said what rules are to select, and these are rules of the program."""
+        return frozenset(_fit(((asset, some[-1].meant) for asset, some in self.by_asset.items()), program))
+
+    def list_wrong(self, program: Program | None) -> frozenset[str]:
+        """The assets of which the last word is that the result is wrong."""
+        wrong = (asset for asset, some in self.by_asset.items() if some[-1].verdict == "wrong")
+        return frozenset(wrong) - self.list_corrected(program)
+
+
+def _fit(rows: Iterable[tuple[str, Sequence[RuleSelection]]], program: Program | None) -> dict[str, Selections]:
+    if program is None:
+        return {}
+    fitting = ((asset, selections_of(some, program)) for asset, some in rows)
+    return {asset: tuple(found[rule] for rule in sorted(found)) for asset, found in fitting if found}

@@ -13,8 +13,8 @@ from meshforge.common import MeshForgeError, ProgramError, ProjectError, write_a
 from meshforge.labels import pick_evenly
 from meshforge.language import Program
 from meshforge.project import demonstrations
-from meshforge.project.run import find_accepted_results
-from meshforge.store import AnswersFile, ProgramRecord, Settings, Store
+from meshforge.project.evidence import list_accepted, list_corrected, list_rejections, sort_answers
+from meshforge.store import ProgramRecord, Settings, Store
 from meshforge.symbolic import SymbolicMesh
 
 MOST_ASSETS = 400
@@ -50,8 +50,8 @@ def select_assets(store: Store) -> tuple[str, ...]:
     every = store.assets()
     if len(every) <= MOST_ASSETS:
         return every
-    known = {line.asset for line in store.answers().answers}
-    known.update(find_accepted_results(store))
+    feedback = store.feedback()
+    known = {line.asset for line in feedback.answers.values()} | feedback.verdicts.keys()
     known.update(store.demonstration_ids())
     known.update(pick_evenly(every, MOST_ASSETS))
     return tuple(asset for asset in every if asset in known)
@@ -144,8 +144,10 @@ def digest_learning_inputs(store: Store, settings: Settings | None = None) -> st
     """
     layout, settings = store.layout, settings or store.settings
     words = [settings.orient, str(settings.vocabulary), str(settings.thresholds)]
-    words += [file_digest(layout.answers)] if layout.answers.exists() else []
-    concerned = {line.asset for line in store.answers().answers} | set(store.demonstration_ids())
+    feedback = store.feedback()
+    words += [line.model_dump_json() for line in feedback.said.values()]
+    words += [f"{some[-1].asset} {some[-1].meant}" for some in feedback.verdicts.values() if some[-1].meant]
+    concerned = {line.asset for line in feedback.answers.values()} | set(store.demonstration_ids())
     for asset, path in store.found.ids.items():
         if asset in concerned:
             files = [layout.demonstration(asset), layout.labels(asset), layout.preparation(asset) / RECORD_FILE, path]
@@ -176,9 +178,9 @@ def learn_program(
     meshes = FamilyMeshes(store).meshes() if meshes is None else meshes
     demos = _read_demonstrations(store, meshes)
     inputs = digest_learning_inputs(store)
-    answers_file = store.answers()
-    fitting, unfit = _sort_answers(store, answers_file, demos, answers)
-    accepted = _answers_of_accepted(store, demos, fitting)
+    said = store.feedback()
+    fitting, unfit = sort_answers(store, said, demos, answers)
+    accepted, corrected = list_accepted(store, demos, fitting), list_corrected(said, demos, meshes)
     asker = _RepairAsker(store, confirm) if accept and confirm else None
     settings = store.settings
     names = dict.fromkeys(name for demo in demos.values() for step in demo.steps for name in step.action.templates)
@@ -188,7 +190,7 @@ def learn_program(
         options or synthesis.Options(),
         contact=settings.thresholds.contact,
         extremity=settings.thresholds.extremity,
-        rejected=tuple(_list_rejections(answers_file)),
+        rejected=tuple(list_rejections(said)),
         stop=stop,
     )
 
@@ -204,11 +206,13 @@ def learn_program(
             answers=answers,
         )
 
-    outcome = learn([*accepted, *fitting])
+    outcome = learn([*accepted, *fitting, *corrected])
+    if isinstance(outcome, synthesis.NoProgram | synthesis.NeedsRepair) and corrected:
+        outcome = learn([*accepted, *fitting])  # other labels may be at fault there
     if isinstance(outcome, synthesis.NoProgram) and accepted:
         overruled = tuple(dict.fromkeys(answer.asset for answer in accepted))
         outcome = replace(learn(fitting), overruled=overruled)
-    stale = [answer for answer in outcome.stale if answer not in accepted]
+    stale = [answer for answer in outcome.stale if answer not in (*accepted, *corrected)]
     outcome = replace(outcome, stale=tuple(dict.fromkeys([*unfit, *stale])))
     if accept and isinstance(outcome, synthesis.Found | synthesis.Ambiguous):
         accept_outcome(store, outcome, asker.inputs if asker and asker.inputs else inputs)
@@ -254,35 +258,3 @@ def _read_demonstrations(store: Store, meshes: Mapping[str, SymbolicMesh]) -> di
         asset: synthesis.Demonstration(meshes.get(asset) or store.mesh(asset), store.steps(asset), asset)
         for asset in ids
     }
-
-
-def _sort_answers(
-    store: Store, said: AnswersFile, demos: Mapping[str, synthesis.Demonstration], more: Sequence[synthesis.Answer]
-) -> tuple[list[synthesis.Answer], list[synthesis.Answer]]:
-    """The answers to learn from, and those to a rule that does something else by now."""
-    lines = {
-        line.id: line for line in [*said.answers, *(demonstrations.check_answer(store, answer) for answer in more)]
-    }
-    actions = demonstrations.actions_of(demo.steps for demo in demos.values())
-    fitting = [line.answer for line in lines.values() if line.fits(actions)]
-    return fitting, [line.answer for line in lines.values() if not line.fits(actions)]
-
-
-def _answers_of_accepted(
-    store: Store, demos: Mapping[str, synthesis.Demonstration], said: Sequence[synthesis.Answer]
-) -> list[synthesis.Answer]:
-    """What rules select on results that were accepted, but for what was said otherwise, or of rules that are others."""
-    actions = demonstrations.actions_of(demo.steps for demo in demos.values())
-    known = {(answer.rule, answer.asset) for answer in said}
-    return [
-        synthesis.Answer(one.rule, asset, one.select)
-        for asset, seen in find_accepted_results(store).items()
-        for one in seen
-        if actions.get(one.rule) == one.action and (one.rule, asset) not in known
-    ]
-
-
-def _list_rejections(answers: AnswersFile) -> list[synthesis.LabelCorrection]:
-    """What is not to be proposed: what was refused, and what would undo a confirmed repair."""
-    undone = (line.correction.reverse for line in answers.confirmed)
-    return [*(line.correction for line in answers.rejected), *(reverse for reverse in undone if reverse)]

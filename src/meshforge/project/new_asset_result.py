@@ -159,10 +159,10 @@ def assess_new_assets(
 def _choose_state(state: ReviewState) -> ReviewState:
     """The state of few assets: all that were demonstrated or corrected, of labelled and accepted ones some, evenly."""
     files = {asset: LabelFile(labels=mesh.labels) for asset, mesh in state.meshes.items()}
-    accepted = pick_evenly(list(state.accepted), MOST_COMPARED)
-    some = {*state.demos, *state.mended, *accepted, *choose_labelled(files)}
+    accepted = pick_evenly(sorted(state.accepted), MOST_COMPARED)
+    some = {*state.demos, *state.corrected, *accepted, *choose_labelled(files)}
     meshes = {asset: mesh for asset, mesh in state.meshes.items() if asset in some}
-    return replace(state, meshes=meshes, accepted={asset: state.accepted[asset] for asset in accepted})
+    return replace(state, meshes=meshes, accepted=frozenset(accepted))
 
 
 def _assess(task: _Task, job: batch.AssetJob) -> AssetConfidence:

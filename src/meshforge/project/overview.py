@@ -20,7 +20,7 @@ from meshforge.project.span_splits import likely_spans, read_spans
 from meshforge.project.standings import Standings
 from meshforge.project.status import AssetStatus, Status
 from meshforge.signoff import BAR
-from meshforge.store import AssetFacts, Review, SpansFile, Store, geometry_digest, survey
+from meshforge.store import AssetFacts, SpansFile, Store, VerdictEvent, geometry_digest, survey
 from meshforge.symbolic import LabelFile, match_labels
 
 
@@ -41,14 +41,16 @@ def compute_status(
     """
     for asset in only or ():
         store.path(asset)
-    settings, ids, work, reviews = store.settings, store.found.ids, build_jobs(store, only), store.reviews()
+    settings, ids, work, said = store.settings, store.found.ids, build_jobs(store, only), store.feedback()
     execution = ExecutionOptions(workers=workers, stop=stop)
     facts = survey(store.found, store.layout, only, execution=execution, progress=progress)
     program, task, problem = _read_program(store)
-    rows = [_asset_status(store, job, facts[job.id], task, reviews.get(job.id)) for job in work]
+    rows = [_asset_status(store, job, facts[job.id], task, said.verdict_on(job.id)) for job in work]
     now = {job.id: inputs_of(task, job, dict(facts[job.id].files)) for job in work if task and not facts[job.id].error}
     last, spans = store.assessment(), read_spans(store)
-    standings = Standings(now, store.sign_offs(), last if last and last.holds(digest_lesson(store), now) else None)
+    standings = Standings(
+        now, said, store.sign_offs(), last if last and last.holds(digest_lesson(store), now) else None
+    )
     rows = [replace(row, spans=_list_spans(spans, row.id, facts[row.id])) for row in rows]
     assets = tuple(map(standings.add_to, rows))
     state = program_state_of(store, program)
@@ -92,13 +94,14 @@ def _read_program(store: Store) -> tuple[Program | None, ApplyTask | None, str |
 
 
 def _asset_status(
-    store: Store, job: AssetJob, facts: AssetFacts, task: ApplyTask | None, review: Review | None
+    store: Store, job: AssetJob, facts: AssetFacts, task: ApplyTask | None, review: VerdictEvent | None
 ) -> AssetStatus:
     stamp = read_stamp(store.layout.edited, job.id)
     failed = stamp.error if stamp and stamp.status == "failed" else None
     file, unreadable = _read_labels(store, job)
     homes = match_labels(LabelFile() if facts.error else file, facts.hulls)
-    current_review = review if review and review.output == output_digest(stamp) else None
+    is_current = bool(review and (review.output == output_digest(stamp) or review.verdict == "wrong"))
+    current_review = review if is_current else None
     return AssetStatus(
         id=job.id,
         hulls=None if facts.error else len(facts.hulls),

@@ -21,7 +21,8 @@ from meshforge.project import (
     span_splits,
     spans,
 )
-from meshforge.project.review import build_review_state, reply_to, review_project
+from meshforge.project.replies import reply_to
+from meshforge.project.review import build_review_state, review_project
 from meshforge.store import add_assets, create_folder, find_assets
 
 

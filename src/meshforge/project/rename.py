@@ -7,6 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from meshforge import store as files
+from meshforge.batch import action_text
 from meshforge.common import ProgramError, ProjectError, suggest_name, write_atomically
 from meshforge.language import Program, rename_in_orient, rename_in_program
 from meshforge.project import learn
@@ -25,6 +26,7 @@ def rename_label(store: Store, old: str, new: str) -> None:
     with store.lock():
         settings = store.settings
         _check_names(store, settings.vocabulary, old, new)
+        store.migrate()
         texts = dict(_rewrite_files(store, old, new))
         program = store.program()
         after = _rename_in_settings(store, settings, old, new)
@@ -69,10 +71,10 @@ def _rewrite_files(store: Store, old: str, new: str) -> Iterator[tuple[Path, str
         yield from _rename_in_steps(path, files.read_json(path, files.DemonstrationFile), old, new)
     for path in map(layout.corrections, layout.ids_with("corrections")):
         yield from _rename_in_steps(path, files.read_json(path, files.CorrectionsFile), old, new)
-    answers = store.answers()
-    now = _rename_in_answers(answers, layout.answers, old, new)
-    if now != answers:
-        yield layout.answers, files.json_text(now)
+    events = files.load_events(layout)
+    now = [_rename_in_event(event, layout.events, old, new) for event in events]
+    if now != list(events):
+        yield layout.events, files.format_lines(now)
 
 
 def _rename_in_labels(file: LabelFile, old: str, new: str) -> LabelFile:
@@ -91,30 +93,30 @@ def _rename_in_steps(
 
 def _rename_in_action(text: str, where: Path, old: str, new: str) -> str:
     action, label = files.parse_action_text(text, where)
-    return files.action_text(action, new) if label == old else text
+    return action_text(action, new) if label == old else text
 
 
-def _rename_in_answers(answers: files.AnswersFile, where: Path, old: str, new: str) -> files.AnswersFile:
-    """All answers with the label by its new name; of those that are the same then, one stays."""
-    now = answers.model_copy(update={"answers": (), "confirmed": (), "rejected": ()})
-    for line in answers.answers:
-        action = None if line.action is None else _rename_in_action(line.action, where, old, new)
-        now = now.with_line(line.model_copy(update={"action": action}))
-    for repair in (*answers.rejected, *answers.confirmed):
-        now = now.with_line(_rename_in_repair(repair, old, new))
-    return now
+def _rename_in_event(event: files.Event, where: Path, old: str, new: str) -> files.Event:
+    match event:
+        case files.LabelFixEvent():
+            return event.rename(old, new)
+        case files.AnswerEvent() if event.action:
+            return event.model_copy(update={"action": _rename_in_action(event.action, where, old, new)})
+        case files.VerdictEvent():
+            pairs = (
+                tuple(replace(one, action=_rename_in_action(one.action, where, old, new)) for one in some)
+                for some in (event.seen, event.meant)
+            )
+            return event.model_copy(update=dict(zip(("seen", "meant"), pairs, strict=True)))
+        case files.WithdrawalEvent():
+            return event.model_copy(update={"id": _rename_in_id(event.id, old, new)})
+        case _:
+            return event
 
 
-def _rename_in_repair(line: files.RepairLine, old: str, new: str) -> files.RepairLine:
-    right = replace(
-        line.correction,
-        was=new if line.was == old else line.was,
-        to=new if line.to == old else line.to,
-    )
-    values: dict[str, object] = {"id": files.repair_id(right), "was": right.was, "to": right.to}
-    if isinstance(line, files.ConfirmationLine) and line.before:
-        values["before"] = line.before.rename(old, new)
-    return line.model_copy(update=values)
+def _rename_in_id(name: str, old: str, new: str) -> str:
+    """The id of a label fix, which ends in the label that it gives."""
+    return f"{name.removesuffix(f'={old}')}={new}" if "#" in name and name.endswith(f"={old}") else name
 
 
 def _rename_in_tables(store: Store, text: str, settings: files.Settings, old: str, new: str) -> str:

@@ -1,5 +1,5 @@
-"""Running the program, the job of each asset and the mesh before a rule; and what follows: edits by hand, and which
-edited assets a person has accepted or flagged.
+"""Running the program, the job of each asset and the mesh before a rule; and what follows: edits by hand, and what a
+person said of results.
 
 A result that is accepted by itself was looked at: what each rule selected there is what was meant, and learning keeps
 to it. Who accepts many at once says nothing of each.
@@ -8,21 +8,23 @@ to it. Who accepts many at once says nothing of each.
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from types import MappingProxyType
 
 from meshforge import batch
-from meshforge.common import ProjectError, suggest_name
+from meshforge.common import MeshForgeError, ProjectError, suggest_name
 from meshforge.geometry import digest
 from meshforge.labels import pick_evenly
+from meshforge.labels.merge import set_labels
 from meshforge.language import Action, Program, RunResult, Template
-from meshforge.store import Review, RuleSelection, Store, Verdict, action_text_without_each
+from meshforge.store import UNASKED, ExclusionEvent, Feedback, Said, Store, Verdict, VerdictEvent
 from meshforge.symbolic import SymbolicMesh
-from meshforge.synthesis import Demonstration, advance, begin_replay
+from meshforge.synthesis import Demonstration, advance, begin_replay, memoize
 
 
 def build_jobs(store: Store, only: Collection[str] | None = None) -> tuple[batch.AssetJob, ...]:
     """A job for each asset, or for some, with the project's labels and edits by hand."""
-    layout = store.layout
+    layout, feedback = store.layout, store.feedback()
     return tuple(
         batch.AssetJob(
             asset,
@@ -31,6 +33,7 @@ def build_jobs(store: Store, only: Collection[str] | None = None) -> tuple[batch
             layout.labels(asset) if layout.labels(asset).exists() else None,
             store.corrections(asset),
             layout.preparation(asset) if (layout.preparation(asset) / batch.RECORD_FILE).exists() else None,
+            meant_selections(feedback, asset),
         )
         for asset, path in store.found.choose(only).items()
     )
@@ -81,7 +84,8 @@ def mesh_before_rule(
 
 
 def correct(store: Store, asset: str, select: Iterable[str], action: Action, label: str | None = None) -> None:
-    """Add an edit by hand on hulls of an asset, by the names they have after the program and the edits before.
+    """Add an edit by hand on hulls of an asset, by the names they have after the program and the edits before; what the
+    program made there counts as wrong.
 
     Raises ProjectError for a hull that is not there then.
     """
@@ -89,6 +93,9 @@ def correct(store: Store, asset: str, select: Iterable[str], action: Action, lab
         store.templates(action.templates)  # raises ProgramError
         before = run_with_corrections(store, asset, store.mesh(asset), store.program())
         added = make_correction(before.mesh, asset, sorted(set(select)), action, label)
+        if not before.corrections:
+            seen = number_selections(before.program, {line.rule: line.selected for line in before.run.trace})
+            store.add_events(VerdictEvent(asset=asset, verdict="wrong", note="edited by hand", seen=seen))
         store.write_corrections(asset, (*before.corrections, added))
 
 
@@ -110,7 +117,7 @@ def run_with_corrections(store: Store, asset: str, mesh: SymbolicMesh, program: 
     corrections = store.corrections(asset)
     names = [*plan.templates, *(name for one in corrections for name in one.action.templates)]
     templates = store.templates(dict.fromkeys(names))
-    run = plan.run(mesh, templates)
+    run = plan.run(mesh, templates, selections=batch.selections_of(meant_selections(store.feedback(), asset), plan))
     after, flags = batch.replay_corrections(corrections, mesh, run.mesh, plan, templates)
     return RunWithCorrections(plan, templates, run, corrections, after, flags)
 
@@ -130,63 +137,119 @@ MOST_ACCEPTED = 100
 """Of more accepted results so many are learned from: each is one more mesh on which every rule must be right."""
 
 
-def review_assets(store: Store, assets: str | Iterable[str], verdict: Verdict | None, note: str | None = None) -> None:
-    """Accept or flag the output of one or several assets, or take that back by None, also that they were set aside; it
-    counts until that changes.
+def meant_selections(feedback: Feedback, asset: str) -> tuple[batch.RuleSelection, ...]:
+    """What a person said that rules select on an asset, when they called its result wrong."""
+    verdict = feedback.verdict_on(asset)
+    return verdict.meant if verdict else ()
 
-    One that is accepted by itself was looked at: learning keeps to what the program selected there.
-    Raises ProjectError, with nothing written, where there is no output that a verdict could be about.
+
+def review_assets(
+    store: Store,
+    assets: str | Iterable[str],
+    verdict: Verdict | None,
+    note: str | None = None,
+    *,
+    selections: Mapping[int, Collection[str]] = MappingProxyType({}),
+    labels: Mapping[str, str] = MappingProxyType({}),
+    said: Said = UNASKED,
+) -> None:
+    """Accept the result of one or several assets, or call it wrong; None takes back what was said, an exclusion too.
+
+    Who judges one by itself looked at it: learning keeps to what the program selected there, or to `selections`: names
+    of hulls that rules should have selected, by their numbers; its output is made with these from now on. labels: of
+    its hulls, where these are wrong.
+    Raises ProjectError, with nothing written: no output that could be accepted, no such rule, hull or label.
     """
-    assets = (assets,) if isinstance(assets, str) else tuple(assets)
-    own = {asset: _build_review(store, asset, verdict, note) for asset in assets}
-    if len(assets) == 1 and (review := own[assets[0]]):
-        own = {assets[0]: review.model_copy(update={"seen": _read_selections(store, assets[0])})}
+    names = (assets,) if isinstance(assets, str) else tuple(assets)
     with store.lock():
-        store.write_reviews(own)
-        store.write_sign_offs(store.sign_offs().without_aside(assets))
+        events = [_judge(store, asset, verdict, note, selections, said, alone=len(names) == 1) for asset in names]
+        away = store.feedback().exclusions
+        more = [ExclusionEvent(asset=asset) for asset in names if asset in away]
+        for asset in names if labels else ():
+            set_labels(store, asset, labels, "user", 1.0)
+        store.add_events(*events, *more)
 
 
-def _build_review(store: Store, asset: str, verdict: Verdict | None, note: str | None) -> Review | None:
+def _judge(
+    store: Store,
+    asset: str,
+    verdict: Verdict | None,
+    note: str | None,
+    selections: Mapping[int, Collection[str]],
+    said: Said,
+    *,
+    alone: bool,
+) -> VerdictEvent:
     store.path(asset)
-    output = output_digest(batch.read_stamp(store.layout.edited, asset))
-    if verdict and not output:
-        raise ProjectError(
-            f"{asset} has no output to be {verdict}",
-            where=str(store.folder),
-            remedy=f"Make it: meshforge apply {store.folder}",
-        )
-    return Review(verdict=verdict, note=note, output=output) if verdict else None
-
-
-def find_accepted_results(store: Store) -> dict[str, tuple[RuleSelection, ...]]:
-    """What the program did on the results that were looked at and accepted, by asset; of very many some, evenly."""
-    rows = sorted(
-        (asset, review)
-        for asset, review in store.reviews().items()
-        if review.verdict == "accepted" and review.seen and asset in store.found.ids
+    stamp = batch.read_stamp(store.layout.edited, asset)
+    output = output_digest(stamp) if verdict else None
+    if verdict == "accepted" and not output:
+        remedy = f"Make it: meshforge apply {store.folder}"
+        raise ProjectError(f"{asset} has no output to be accepted", where=str(store.folder), remedy=remedy)
+    seen = (_read_selections(store, stamp) or _run_for_selections(store, asset, verdict)) if verdict and alone else ()
+    before = meant_selections(store.feedback(), asset) if verdict == "accepted" else ()  # it is made with these
+    meant = _replace_selections(store, asset, seen, selections) if selections else before
+    by, question = said.by, said.question
+    return VerdictEvent(
+        asset=asset, verdict=verdict, note=note, output=output, seen=seen, meant=meant, by=by, question=question
     )
+
+
+def _run_for_selections(store: Store, asset: str, verdict: Verdict) -> tuple[batch.RuleSelection, ...]:
+    """What the program selects on an asset whose result is wrong and not written as it is; nothing where it fails."""
+    program = store.program()
+    if verdict != "wrong" or program is None:
+        return ()
+    try:
+        trace = program.run(store.mesh(asset), store.templates(program.templates), memo=memoize).trace
+    except MeshForgeError:
+        return ()
+    return number_selections(program, {line.rule: line.selected for line in trace})
+
+
+def _replace_selections(
+    store: Store, asset: str, seen: Sequence[batch.RuleSelection], selections: Mapping[int, Collection[str]]
+) -> tuple[batch.RuleSelection, ...]:
+    """What rules should have selected. Raises ProjectError for one that cannot be: it is tried."""
+    program = store.program()
+    known = {one.rule: one for one in seen}
+    if program is None or not known:
+        raise ProjectError("there is no result that selections could correct", where=asset)
+    for rule in selections:
+        if rule not in known:
+            raise ProjectError(f"there is no rule {rule}: the program has {len(known)}", where=asset)
+    meant = tuple(
+        replace(one, select=tuple(sorted(selections.get(rule, one.select)))) for rule, one in sorted(known.items())
+    )
+    program.run(
+        store.mesh(asset), store.templates(program.templates), selections=batch.selections_of(meant, program)
+    )  # raises ProgramError
+    return meant
+
+
+def find_accepted_results(store: Store) -> dict[str, tuple[batch.RuleSelection, ...]]:
+    """What the program did on the results that were looked at and accepted, by asset; of very many some, evenly."""
+    verdicts = ((asset, some[-1]) for asset, some in store.feedback().verdicts.items() if asset in store.found.ids)
+    rows = [(asset, one) for asset, one in verdicts if one.verdict == "accepted" and one.seen]
     some = pick_evenly(rows, MOST_ACCEPTED)
     present = {asset: output_digest(batch.read_stamp(store.layout.edited, asset)) for asset, _ in some}
-    return {asset: review.seen for asset, review in some if review.output == present[asset]}
+    return {asset: one.seen for asset, one in some if one.output == present[asset]}
 
 
-def _read_selections(store: Store, asset: str) -> tuple[RuleSelection, ...]:
+def _read_selections(store: Store, stamp: batch.Stamp | None) -> tuple[batch.RuleSelection, ...]:
     """What the rules selected on an asset; nothing where another program did that, or it was edited by hand."""
-    stamp, program = batch.read_stamp(store.layout.edited, asset), store.program()
-    made = stamp and stamp.inputs
+    made, program = stamp and stamp.inputs, store.program()
     if not stamp or not made or not program or made.corrections or made.program != batch.program_digest(program):
         return ()
     return number_selections(program, {line.rule: line.selected for line in stamp.rules})
 
 
-def number_selections(program: Program, selected: Mapping[int, Iterable[str]]) -> tuple[RuleSelection, ...]:
+def number_selections(program: Program, selected: Mapping[int, Iterable[str]]) -> tuple[batch.RuleSelection, ...]:
     """What the rules of a program do to which hulls; selected: names of hulls, by the number of the rule."""
     actions = {
-        number: action_text_without_each(rule.action, rule.label) for number, rule in enumerate(program.rules, 1)
+        number: batch.action_text_without_each(rule.action, rule.label) for number, rule in enumerate(program.rules, 1)
     }
-    return tuple(
-        RuleSelection(rule=rule, action=actions[rule], select=tuple(sorted(hulls))) for rule, hulls in selected.items()
-    )
+    return tuple(batch.RuleSelection(rule, actions[rule], tuple(sorted(hulls))) for rule, hulls in selected.items())
 
 
 def output_digest(stamp: batch.Stamp | None) -> str | None:

@@ -21,7 +21,7 @@ _BOM = "\ufeff"
 _KINDS: dict[SelectionKind, tuple[str, ...]] = {
     "demonstration": ("steps",),
     "corrections": ("steps",),
-    "answers": ("answers", "confirmed", "rejected"),
+    "answers": ("events",),
 }
 
 
@@ -74,25 +74,26 @@ def check_selections(store: Store, asset: str) -> None:
     """Raises ProjectError, naming the file, where a demonstration, edits by hand or the answers cannot be read."""
     store.steps(asset)
     store.corrections(asset)
-    store.answers()
+    store.feedback()
 
 
 def carry_selections(store: Store, asset: str, successors: Successors) -> tuple[SelectionChange, ...]:
-    """What selections become where hulls are split: those that name one name its parts. Nothing is written yet.
+    """What selections become where hulls are split: those that name one name its parts. None of these is written yet.
 
     Raises ProjectError where a file cannot be read.
     """
     check_selections(store, asset)
+    store.migrate()
     found = []
     for kind in _KINDS:
-        text = _read_text(_path(store, asset, kind)) or "{}"
-        data, lines = _load(text), list[tuple[Line, tuple[Line, ...]]]()
+        text = _read_text(_path(store, asset, kind)) or ""
+        data, lines = _load(text, kind), list[tuple[Line, tuple[Line, ...]]]()
         for key in _KINDS[kind]:
             after = [(line, _carry_line(kind, asset, line, successors)) for line in data.get(key, ())]
             lines += [(line, now) for line, now in after if now != (line,)]
             data |= {key: [one for _, now in after for one in now]} if key in data else {}
         if lines:
-            found.append(SelectionChange(kind=kind, before=text, after=_format(data), lines=tuple(lines)))
+            found.append(SelectionChange(kind=kind, before=text, after=_format(data, kind), lines=tuple(lines)))
     return tuple(found)
 
 
@@ -127,7 +128,7 @@ def describe_change(
     Raises ProjectError where a file cannot be read.
     """
     check_selections(store, asset)
-    data = _load(_read_text(_path(store, asset, change.kind)) or "{}")
+    data = _load(_read_text(_path(store, asset, change.kind)) or "", change.kind)
     there = [line for key in _KINDS[change.kind] for line in data.get(key, ())]
     for line, now in change.lines:
         if all(one in there for one in now):
@@ -149,18 +150,23 @@ def _read_text(path: Path) -> str | None:
     return path.read_bytes().decode("utf-8") if path.exists() else None
 
 
-def _load(text: str) -> Line:
-    found: Line = json.loads(text.removeprefix(_BOM))
+def _load(text: str, kind: SelectionKind) -> Line:
+    text = text.removeprefix(_BOM)
+    if kind == "answers":
+        return {"events": [json.loads(line) for line in text.split("\n") if line.strip()]}
+    found: Line = json.loads(text or "{}")
     return found
 
 
 def _path(store: Store, asset: str, kind: SelectionKind) -> Path:
     layout = store.layout
     one_asset = {"demonstration": layout.demonstration, "corrections": layout.corrections}
-    return one_asset[kind](asset) if kind in one_asset else layout.answers
+    return one_asset[kind](asset) if kind in one_asset else layout.events
 
 
-def _format(data: Line) -> str:
+def _format(data: Line, kind: SelectionKind) -> str:
+    if kind == "answers":
+        return "".join(f"{json.dumps(line, ensure_ascii=False, separators=(',', ':'))}\n" for line in data["events"])
     return json.dumps(data, ensure_ascii=False, indent=2) + "\n"
 
 
@@ -172,11 +178,11 @@ def _names_in(line: Line) -> set[str]:
 
 def _carry_line(kind: SelectionKind, asset: str, line: Line, successors: Successors) -> tuple[Line, ...]:
     """A line with parts in the place of their hull; a repair is one of each part then."""
-    if not _names_in(line) & successors.parts.keys() or (kind == "answers" and line["asset"] != asset):
+    if not _names_in(line) & successors.parts.keys() or (kind == "answers" and line.get("asset") != asset):
         return (line,)
     if "hull" in line:
         names = successors.parts[line["hull"]]
-        return tuple({**line, "id": f"{asset}#{name}={line['to']}", "hull": name} for name in names)
+        return tuple({**line, "hull": name} for name in names)
     if "hulls" in line:
         known = successors.digests
         meant = {name: value for name, value in line["hulls"].items() if known.get(name) == value}
@@ -198,7 +204,7 @@ def _with_names(line: Line, change: Any) -> Line:
 def _restore_lines(
     asset: str, kind: SelectionKind, text: str, changed: Iterable[tuple[Line, tuple[Line, ...]]], successors: Successors
 ) -> str:
-    data = _load(text)
+    data = _load(text, kind)
     for key in _KINDS[kind]:
         lines = list(data.get(key, ()))
         for before, after in changed:
@@ -207,7 +213,7 @@ def _restore_lines(
                 lines = [one for one in lines if one not in after]
         lines = [_carry_line_back(kind, asset, line, successors) for line in lines]
         data |= {key: lines} if key in data else {}
-    return text if data == _load(text) else _format(data)
+    return text if data == _load(text, kind) else _format(data, kind)
 
 
 def _carry_line_back(kind: SelectionKind, asset: str, line: Line, successors: Successors) -> Line:

@@ -9,8 +9,9 @@ from typing import TYPE_CHECKING
 
 from meshforge.common import format_share, join_names, quote_path
 from meshforge.project.status import AssetStatus, Status
-from meshforge.signoff import AssetConfidence
+from meshforge.signoff import AssetConfidence, ExclusionReason
 from meshforge.signoff.assessment import NO_LOOK
+from meshforge.signoff.question import NOT_OF_FAMILY, NOT_SOLVED
 
 if TYPE_CHECKING:
     from meshforge.project.review import ProjectReview
@@ -19,27 +20,29 @@ MOST_HELD = 12
 """Lines on assets that are held, one for each reason."""
 
 
-def format_counts(signed_off: int, total: int, held: int, aside: int, bar: float) -> str:
-    """The sentence that says how far a family is signed off."""
+def format_counts(signed_off: int, total: int, held: int, excluded: Sequence[ExclusionReason], bar: float) -> str:
+    """The sentence that says how far a family is signed off; total: assets, but for those not of the family."""
+    foreign = excluded.count(NOT_OF_FAMILY)
     if not total:
-        return "There is no asset."
+        return f"Nothing is signed off: all {foreign} assets are excluded." if foreign else "There is no asset."
     are, were = ("is", "was") if signed_off == 1 else ("are", "were")
     some = f"{signed_off} of {total} {are} at least {100 * bar:g}% sure, or {were} looked at"
-    aside_text = f"; {aside} set aside" if aside else ""
+    counts = ((reason, excluded.count(reason)) for reason in (NOT_SOLVED, NOT_OF_FAMILY))
+    away = "".join(f", {count} excluded: {reason}" for reason, count in counts if count)
     if held:
-        return f"{some}{aside_text}; look at {'this one' if held == 1 else f'these {held}'}:"
-    return f"{some}{aside_text}: signed off."
+        return f"{some}{away}; look at {'this one' if held == 1 else f'these {held}'}:"
+    return f"{some}{away}." if signed_off else f"Nothing is signed off{away}."
 
 
 def format_review(found: ProjectReview, folder: Path, held: int = MOST_HELD) -> str:
     """How the family stands: the counts, then why assets are held, the least probable first; held: lines at most."""
     one = found.assessment
     names = one.held
-    lines = [format_counts(len(one.signed_off), len(one.assets), len(names), len(one.aside), one.bar)]
+    lines = [format_counts(len(one.signed_off), len(one.assets), len(names), [*one.excluded.values()], one.bar)]
     lines += _format_held([_hold(one.assets[name]) for name in names], folder, held, " (all with --json)")
     if names and one.question is None:
         lines.append(
-            "Nothing is left to ask: show the edit on one of these (meshforge demonstrate), or mend its result."
+            "Nothing is left to ask: show the edit on one of these (meshforge demonstrate), or say what is right there."
         )
     return "\n".join(lines)
 
@@ -48,8 +51,9 @@ def format_status(found: Status, folder: Path) -> str:
     """How far a project is signed off by its last review, and what is not, the least sure first."""
     waits = found.count(lambda asset: asset.sign_off == "sure")
     done = waits + found.count(lambda asset: asset.sign_off == "signed off")
-    aside = found.count(lambda asset: asset.sign_off == "set aside")
-    lines = [format_counts(done, len(found.assets), len(found.open_assets), aside, found.bar)]
+    excluded = [asset.excluded for asset in found.assets if asset.excluded]
+    total = len(found.assets) - excluded.count(NOT_OF_FAMILY)
+    lines = [format_counts(done, total, len(found.open_assets), excluded, found.bar)]
     if waits:
         lines.append(f"  {waits} of them will be signed off when their outputs are up to date (meshforge apply)")
     lines += _format_held([_hold_of_status(asset) for asset in found.open_assets], folder, MOST_HELD)

@@ -27,7 +27,14 @@ from meshforge.language import Program
 from meshforge.project import run
 from meshforge.project.learn import digest_learning_inputs
 from meshforge.signoff import Assessment, EditMeasures
-from meshforge.store import AssessmentFile, ConfidenceLine, SignOff, Store, find_changes, survey
+from meshforge.store import (
+    AssessmentFile,
+    ConfidenceLine,
+    SignOff,
+    Store,
+    find_changes,
+    survey,
+)
 
 Clock = Callable[[], datetime]
 
@@ -56,10 +63,18 @@ def digest_lesson(store: Store) -> str:
     """The digest of all that probabilities rest on beside the assets: what is learned from, what a person said, and
     which hulls were found to span parts."""
     layout = store.layout
-    files = [layout.review, layout.spans, layout.single_parts]
+    files = [layout.spans, layout.single_parts]
     files += map(layout.preparation_journal, store.demonstration_ids())  # whether a person looked at what was carried
     kept = (file_digest(file) if file.exists() else "" for file in files)
-    return text_digest(" ".join((digest_learning_inputs(store), *kept)))
+    return text_digest(" ".join((digest_learning_inputs(store), digest_said(store), *kept)))
+
+
+def digest_said(store: Store) -> str:
+    """The digest of what people said of results, and of the questions that they snoozed."""
+    said = store.feedback()
+    words = [one.model_dump_json(exclude={"by"}) for some in said.verdicts.values() for one in some]
+    words += [f"{asset} {one.reason}" for asset, one in said.exclusions.items()]
+    return text_digest("\n".join(words))
 
 
 @dataclass(frozen=True)
@@ -106,8 +121,8 @@ def keep_assessment(
         for name, one in found.assets.items()
         if name in basis.inputs
     }
-    aside = tuple(sorted(found.aside))
-    store.write_assessment(AssessmentFile(bar=found.bar, lesson=basis.lesson, aside=aside, assets=lines))
+    wrong = tuple(sorted(found.wrong))
+    store.write_assessment(AssessmentFile(bar=found.bar, lesson=basis.lesson, wrong=wrong, assets=lines))
     return True
 
 
@@ -136,30 +151,29 @@ def renew_sign_offs(
         if alarms:
             last = last.with_alarms(alarms)
             store.write_assessment(last)
-        before = store.sign_offs()
-        kept, lost = dict[str, SignOff](), dict[str, str]()
-        for name in [*last.assets, *(before.assets.keys() & store.found.ids.keys() - last.assets.keys())]:
-            old, now, line = before.assets.get(name), inputs.get(name), last.assets.get(name)
-            if line is None or now is None:  # it cannot be read now, so that its sign-off is void
-                kept |= {name: old} if old else {}
+        before, away = store.sign_offs(), {*last.wrong, *store.feedback().exclusions}
+        kept = {name: one for name, one in before.items() if name in store.found.ids}
+        lost = dict[str, str]()
+        for name, line in last.assets.items():
+            old, now = before.get(name), inputs.get(name)
+            if now is None:  # it cannot be read now, so that its sign-off is void
                 continue
-            changes = find_changes(now, old.rests_on) if old else ()
-            good = line.passes(last.bar) and name not in last.aside
-            is_new = good and (old is None or bool(changes))
-            if is_new and is_written(read_stamp(store.layout.edited, name), now):
-                by: Literal["person", "tool"] = "person" if line.looked_at else "tool"
-                kept[name] = SignOff(by=by, when=when, probability=line.probability, rests_on=now)
-            elif old and (good or (keep_persons and old.by == "person" and changes)):
-                kept[name] = old  # where something changed void, and named so, until its output is there again
-            elif old:
-                lost[name] = _describe_loss(old, line, changes, name in last.aside)
-        store.write_sign_offs(before.model_copy(update={"assets": dict(sorted(kept.items()))}))
+            changed = find_changes(now, old.rests_on) if old else ()
+            good = line.passes(last.bar) and name not in away
+            if good and (old is None or changed):
+                if is_written(read_stamp(store.layout.edited, name), now):
+                    by: Literal["person", "tool"] = "person" if line.looked_at else "tool"
+                    kept[name] = SignOff(asset=name, by=by, when=when, probability=line.probability, rests_on=now)
+            elif old and not good and not (keep_persons and old.by == "person" and changed):
+                lost[name] = _describe_loss(old, line, changed, name in away)
+                del kept[name]
+        store.write_sign_offs(kept)
     return lost
 
 
-def _describe_loss(old: SignOff, line: ConfidenceLine, changes: tuple[str, ...], aside: bool) -> str:
-    if aside:
-        return "a person flagged it or set it aside"
+def _describe_loss(old: SignOff, line: ConfidenceLine, changes: tuple[str, ...], away: bool) -> str:
+    if away:
+        return "a person called it wrong, or excluded it"
     if line.stands_out:
         return f"its output stands out: {line.doubts[0].text}"
     why = f", {' and '.join(changes)} changed" if changes else ", by what is known of the family now"

@@ -10,9 +10,9 @@ from meshforge.common import ProjectError
 from meshforge.project.preparation_journal import describe_carried
 from meshforge.project.span_splits import likely_spans, mark_as_one_part, read_spans, split_as_found
 from meshforge.project.split_examples import has_split_examples, propose_lookalikes
-from meshforge.signoff import Assessment, Doubt, HullPlace, ReviewChoice, ReviewQuestion
+from meshforge.signoff import Assessment, Doubt, HullPlace, ReviewChoice, SpanQuestion
 from meshforge.signoff.prices import YES_OR_NO
-from meshforge.signoff.question import ONE_PART, SPLIT, identify
+from meshforge.signoff.question import NO, YES, identify
 from meshforge.store import SpanLine, Store, hull_digests
 from meshforge.symbolic import SymbolicMesh
 
@@ -27,11 +27,11 @@ def ask_about_spans(
     meshes: those of the family, by id. While there is no program these questions come first: what is demonstrated on a
     hull that spans parts has to be demonstrated anew once it is split.
     """
-    question = choose_span_question(store, meshes, found.aside)
-    other = found.question
-    if question is None or (other and has_program and other.worth >= question.worth):
-        return found
-    return replace(found, question=question)
+    spans = list_span_questions(store, meshes, found.excluded)
+    asked = (
+        sorted([*found.questions, *spans], key=lambda one: -one.worth) if has_program else [*spans, *found.questions]
+    )
+    return replace(found, questions=tuple(asked))
 
 
 def add_span_doubts(
@@ -80,21 +80,21 @@ def can_ask_about_spans(store: Store) -> bool:
     return bool(store.spans().assets) or has_split_examples(store)
 
 
-def choose_span_question(
-    store: Store, meshes: Mapping[str, SymbolicMesh], aside: Collection[str] = ()
-) -> ReviewQuestion | None:
-    """The question about the hull that most likely spans parts; None where none is known, or all were put off.
+def list_span_questions(
+    store: Store, meshes: Mapping[str, SymbolicMesh], excluded: Collection[str] = ()
+) -> list[SpanQuestion]:
+    """The questions about hulls that likely span parts, the likeliest first.
 
-    meshes: those of the family, by id; hulls that look like one which a person split are looked for in them; aside:
+    meshes: those of the family, by id; hulls that look like one which a person split are looked for in them; excluded:
     those that nothing is asked about.
     """
     propose_lookalikes(store, meshes)
-    later = set(store.put_off_ids())
-    asked = (one for one in _list_questions(store, meshes) if one.id not in later and one.asset not in aside)
-    return min(asked, key=lambda one: (-one.gain, one.asset, one.hulls), default=None)
+    snoozed = set(store.feedback().snoozed)
+    asked = [one for one in _list_questions(store, meshes) if one.id not in snoozed and one.asset not in excluded]
+    return sorted(asked, key=lambda one: (-one.gain, one.asset, one.hulls))
 
 
-def _list_questions(store: Store, meshes: Mapping[str, SymbolicMesh]) -> Iterator[ReviewQuestion]:
+def _list_questions(store: Store, meshes: Mapping[str, SymbolicMesh]) -> Iterator[SpanQuestion]:
     """A question for each hull that likely spans parts, is as it was when that was found, and can be divided."""
     files = read_spans(store)
     for asset in sorted({asset for file in files for asset in file.assets} & meshes.keys()):
@@ -103,21 +103,24 @@ def _list_questions(store: Store, meshes: Mapping[str, SymbolicMesh]) -> Iterato
                 yield _ask(asset, hull, span)
 
 
-def _ask(asset: str, hull: str, span: SpanLine) -> ReviewQuestion:
+def _ask(asset: str, hull: str, span: SpanLine) -> SpanQuestion:
     text = f"{hull} of {asset} {span.told.removeprefix(f'{hull} ')}: split {'as that was' if span.like else 'so'}?"
-    choices = (ReviewChoice(f"{SPLIT}: {span.parts_told}"), ReviewChoice(ONE_PART))
+    choices = (
+        ReviewChoice(NO, "no, it is one part"),
+        ReviewChoice(YES, f"split so: {span.parts_told}"),
+    )
     place = HullPlace(asset, hull)
-    draft = ReviewQuestion("", "span", text, YES_OR_NO, span.chance, asset, hulls=(place,), choices=choices)
+    draft = SpanQuestion(text, YES_OR_NO, span.chance, asset, hulls=(place,), choices=choices)
     return identify(draft, [span.geometry])
 
 
-def answer_span(store: Store, question: ReviewQuestion, choice: ReviewChoice) -> None:
+def answer_span(store: Store, question: SpanQuestion, choice: ReviewChoice) -> None:
     """Split the hull that a question is about, or keep that it is one part.
 
     Raises ProjectError where the hull is not as it was when it was asked about.
     """
     (place,) = question.hulls
-    if choice.text == ONE_PART:
+    if choice.id == NO:
         mark_as_one_part(store, place.asset, place.hull)
         return
     result = split_as_found(store, place.asset, place.hull)

@@ -6,10 +6,11 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import Any, Literal
 
-from meshforge.signoff import BAR, Doubt
+from meshforge.signoff import BAR, Doubt, ExclusionReason
+from meshforge.signoff.question import NOT_OF_FAMILY
 from meshforge.symbolic import Label
 
-SignOffState = Literal["signed off", "sure", "held", "void", "set aside", "unknown"]
+SignOffState = Literal["signed off", "sure", "held", "void", "excluded", "unknown"]
 """Sure: sure enough to be signed off, once its output is up to date; void: signed off, but something changed since;
 unknown: not reviewed as it is now."""
 OutputState = Literal["none", "edited", "unchanged", "failed"]
@@ -28,9 +29,10 @@ class AssetStatus:
     names, labels: of the hulls, in the asset's order; geometry: the digest of names and shapes of all hulls, empty
     where it cannot be read. after, after_labels, output_digest: hulls of the output, the label of each where that is
     known, and its files; corrections: edits by hand, a number.
-    sign_off: whether it is signed off; signed_by: by whom; void: what changed since it was; probability, doubts: of its
-    edit, as of the last review where nothing changed since, else None. spans: hulls that likely hold more than one
-    part, by name, in words, as `prepare --split-spanning` found them, or as they look like one that a person split.
+    sign_off: whether it is signed off; signed_by: by whom; void: what changed since it was; excluded: why it is given
+    up; probability, doubts: of its edit, as of the last review where nothing changed since, else None. spans: hulls
+    that likely hold more than one part, by name, in words, as `prepare --split-spanning` found them, or as they look
+    like one that a person split.
     """
 
     id: str
@@ -42,7 +44,7 @@ class AssetStatus:
     stale: tuple[str, ...] = ()
     error: str | None = None
     flags: tuple[str, ...] = ()
-    review: Literal["accepted", "flagged"] | None = None
+    review: Literal["accepted", "wrong"] | None = None
     prepared: tuple[str, ...] = ()
     sources: int = 0
     names: tuple[str, ...] = ()
@@ -56,6 +58,7 @@ class AssetStatus:
     sign_off: SignOffState = "unknown"
     signed_by: Literal["tool", "person"] | None = None
     void: tuple[str, ...] = ()
+    excluded: ExclusionReason | None = None
     probability: float | None = None
     doubts: tuple[Doubt, ...] = ()
     spans: Mapping[str, str] = field(default_factory=dict)
@@ -95,7 +98,7 @@ class Status:
 
     @property
     def open_assets(self) -> tuple[AssetStatus, ...]:
-        """Those to be looked at: neither sure enough nor set aside, the least probable first."""
+        """Those to be looked at: neither sure enough nor excluded, the least probable first."""
         some = [asset for asset in self.assets if asset.sign_off in ("held", "void", "unknown")]
         return tuple(
             sorted(some, key=lambda asset: (-1.0 if asset.probability is None else asset.probability, asset.id))
@@ -103,8 +106,15 @@ class Status:
 
     @property
     def is_signed_off(self) -> bool:
-        """Whether every asset is signed off or set aside."""
-        return all(asset.sign_off in ("signed off", "set aside") for asset in self.assets)
+        """Whether every asset of the family is signed off, and there is one."""
+        counted = [asset.sign_off == "signed off" for asset in self.assets if asset.excluded != NOT_OF_FAMILY]
+        return bool(counted) and all(counted)
+
+    @property
+    def is_signed_off_but_unsolved(self) -> bool:
+        """Whether every asset of the family is signed off or given up, and some are signed off."""
+        states = {asset.sign_off for asset in self.assets if asset.excluded != NOT_OF_FAMILY}
+        return "signed off" in states and states <= {"signed off", "excluded"}
 
     def count(self, holds: Callable[[AssetStatus], bool]) -> int:
         """How many assets a condition holds for."""
@@ -144,6 +154,7 @@ def _asset_json(asset: AssetStatus) -> dict[str, Any]:
         "sign_off": asset.sign_off,
         "signed_by": asset.signed_by,
         "void": list(asset.void),
+        "excluded": asset.excluded,
         **asset.confidence_to_json(),
     }
 

@@ -11,15 +11,24 @@ if TYPE_CHECKING:
     from meshforge.signoff.assessment import BAR, Assessment, AssetConfidence, Doubt, DoubtKind
     from meshforge.signoff.measures import EditMeasures, measure_edit
     from meshforge.signoff.question import (
+        DemonstrationQuestion,
+        ExclusionReason,
+        GroupQuestion,
         HullPlace,
+        OrientationQuestion,
         QuestionKind,
+        ReadingQuestion,
+        RepairQuestion,
+        ResultQuestion,
         ReviewChoice,
         ReviewQuestion,
         ReviewReply,
-        ReviewState,
+        SlipQuestion,
+        SpanQuestion,
+        UnseenLabelQuestion,
     )
-    from meshforge.signoff.reply import apply_reply, list_answers
     from meshforge.signoff.review import assess_asset, review_family
+    from meshforge.signoff.state import ReviewState
 else:
     __getattr__ = export_lazily(__name__)
 
@@ -29,20 +38,28 @@ __all__ = [
     "AlarmKind",
     "Assessment",
     "AssetConfidence",
+    "DemonstrationQuestion",
     "Doubt",
     "DoubtKind",
     "EditMeasures",
+    "ExclusionReason",
+    "GroupQuestion",
     "HullPlace",
+    "OrientationQuestion",
     "QuestionKind",
+    "ReadingQuestion",
+    "RepairQuestion",
+    "ResultQuestion",
     "ReviewChoice",
     "ReviewQuestion",
     "ReviewReply",
     "ReviewState",
-    "apply_reply",
+    "SlipQuestion",
+    "SpanQuestion",
+    "UnseenLabelQuestion",
     "assess_asset",
     "describe_odd_results",
     "find_alarms",
-    "list_answers",
     "measure_edit",
     "review_family",
 ]

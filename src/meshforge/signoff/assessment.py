@@ -3,15 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any, Literal
 
-from meshforge.signoff.question import ReviewQuestion
+from meshforge.signoff.question import NOT_OF_FAMILY, NOT_SOLVED, ExclusionReason, ReviewQuestion
 
 BAR = 0.95
 """The probability from which on an asset is signed off without being looked at."""
 NO_LOOK = "nobody has looked at a result of this program yet"
 """The doubt of all edits by a program of which no result was looked at."""
+CALLED_WRONG = "a person said that this result is wrong"
+CONTRADICTED = "the program does something else than was shown here"
+"""The doubts of such an asset."""
 
 MOST_DOUBTS = 6
 """Doubts of an asset that are named."""
@@ -60,30 +63,47 @@ class AssetConfidence:
 
 @dataclass(frozen=True, slots=True)
 class Assessment:
-    """A family as it stands. assets: by name, in the family's order; looked_at: those that a person has accepted;
-    aside: those that a person has flagged or set aside; question: the one that is worth most now, None where nothing
-    is left to ask.
+    """A family as it stands. assets: by name, in the family's order; looked_at: those of which a person accepted the
+    result, or said what it is; wrong: those of which they only said that it is wrong; excluded: those given up, those
+    that are not of the family too; questions: all that could be asked now, what is worth most first.
     """
 
     assets: Mapping[str, AssetConfidence]
     bar: float = BAR
     looked_at: frozenset[str] = frozenset()
-    aside: frozenset[str] = frozenset()
-    question: ReviewQuestion | None = None
+    wrong: frozenset[str] = frozenset()
+    excluded: Mapping[str, ExclusionReason] = field(default_factory=dict)
+    questions: tuple[ReviewQuestion, ...] = ()
+
+    @property
+    def question(self) -> ReviewQuestion | None:
+        """The one that is worth most now, None where nothing is left to ask."""
+        return next(iter(self.questions), None)
+
+    @property
+    def not_solved(self) -> tuple[str, ...]:
+        """The assets that a person gave up."""
+        return tuple(name for name, reason in self.excluded.items() if reason == NOT_SOLVED)
+
+    @property
+    def foreign(self) -> tuple[str, ...]:
+        """The assets of which a person said that they are not of this family."""
+        return tuple(name for name, reason in self.excluded.items() if reason == NOT_OF_FAMILY)
 
     @property
     def signed_off(self) -> tuple[str, ...]:
-        """The assets at or above the bar, or accepted by a person, but for those set aside."""
+        """The assets at or above the bar, or looked at by a person; none that was called wrong or is given up."""
+        away = {*self.excluded, *self.wrong}
         return tuple(
             name
             for name, one in self.assets.items()
-            if name not in self.aside and (name in self.looked_at or one.probability >= self.bar)
+            if name not in away and (name in self.looked_at or one.probability >= self.bar)
         )
 
     @property
     def held(self) -> tuple[str, ...]:
-        """The assets below the bar that no person has spoken of, the least probable first."""
-        done = {*self.signed_off, *self.aside}
+        """The assets that need a person's review, the least probable first."""
+        done = {*self.signed_off, *self.excluded}
         return tuple(sorted((name for name in self.assets if name not in done), key=self._probability_of))
 
     def _probability_of(self, name: str) -> tuple[float, str]:
@@ -91,5 +111,5 @@ class Assessment:
 
     @property
     def is_done(self) -> bool:
-        """Whether every asset is signed off or set aside."""
+        """Whether no asset needs review."""
         return not self.held

@@ -6,26 +6,37 @@ from collections import defaultdict
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from math import exp, prod
+from math import exp, log, prod
 
 import numpy as np
 
 from meshforge.geometry import Floats
 from meshforge.label_model import FamilyPosterior
 from meshforge.language import EXTREMITY, Program, show
-from meshforge.signoff.assessment import MOST_DOUBTS, NO_LOOK, AssetConfidence, Doubt, DoubtKind
+from meshforge.signoff.assessment import (
+    CALLED_WRONG,
+    CONTRADICTED,
+    MOST_DOUBTS,
+    NO_LOOK,
+    AssetConfidence,
+    Doubt,
+    DoubtKind,
+)
 from meshforge.signoff.confidence import NO_EDIT, AssetEvidence
-from meshforge.signoff.question import ReviewState
 from meshforge.signoff.readings import RuleReadings, compare_readings
 from meshforge.signoff.slips import RuleSlip, find_slips
+from meshforge.signoff.state import ReviewState
 from meshforge.signoff.trial import RULE_OF_FRAME, Flip, Trial, find_flips, select_by, try_program
 from meshforge.synthesis import Reading
 
 SURE_OF_DEMONSTRATED = 0.999
 _WORTH_TELLING = 0.01  # the probability that an edit is wrong for one reason, from which on it is told
-_PROGRAM_RIGHT, _RESULT_RIGHT, _RESULT_WRONG = 2.5, 1.3, 2.2
-"""What speaks for a program as such [nats], and how each result that was found right, or wrong, changes that: no other
-is at the bar before one was looked at, and each wrong one takes about two more that are right."""
+_PROGRAM_RIGHT, _RESULT_RIGHT = 2.5, 1.3
+"""What speaks for a program as such [nats], and for one that does what a person accepted or meant on an asset: no other
+is at the bar before one was looked at."""
+_WRONG_BY_CHANCE, _MOST_EXPECTED = 0.27, 0.995
+"""The share of a program's right results that are called wrong where it is wrong nearly everywhere, and the most that
+a result can be expected to be right."""
 _MOST_MISTRUST = 0.03  # in a program, above which it is told
 _UNLIKE = 1.5  # what is so much farther than usual, as a logarithm, is unlike the rest
 
@@ -63,6 +74,12 @@ class FamilyTrial:
     @cached_property
     def evidence(self) -> tuple[AssetEvidence, ...]:
         """What speaks for the edit of each asset."""
+        trust = self.trust_in_program()
+        return tuple(replace(one, program=trust) for one in self._edits)
+
+    @cached_property
+    def _edits(self) -> tuple[AssetEvidence, ...]:
+        """The same under a program that is not wrong everywhere."""
         agreement = np.ones(len(self.trials))
         for one in self.readings:
             agreement = agreement * one.agreement
@@ -75,18 +92,43 @@ class FamilyTrial:
                 float(trial.asset in self.foreign),
                 float(self._unlikeness[place]),
                 float(len(self.alarms.get(trial.asset, ()))),
-                self.trust_in_program(),
             )
             for place, trial in enumerate(self.trials)
         )
 
     def trust_in_program(self, looks: int = 0) -> float:
-        """The probability that the program is not wrong nearly everywhere, by the results that a person has looked at.
+        """The probability that the program is not wrong nearly everywhere, by Bayes: each result that is as a person
+        accepted or meant it speaks for it, each that is not against it, the more the less that was expected.
 
         looks: more results that are found right.
         """
-        right, wrong = len(self.state.accepted) + looks, len(self.state.mended)
-        return 1 / (1 + exp(-(_PROGRAM_RIGHT + _RESULT_RIGHT * right - _RESULT_WRONG * wrong)))
+        right, wrong = self._results
+        against = sum(log((1 - _WRONG_BY_CHANCE * q) / (1 - q)) for q in map(self._expect, wrong))
+        return 1 / (1 + exp(-(_PROGRAM_RIGHT + _RESULT_RIGHT * (len(right) + looks) - against)))
+
+    @cached_property
+    def _results(self) -> tuple[tuple[str, ...], tuple[str, ...]]:
+        """The assets on which the program does what a person accepted or meant, and those on which it does not."""
+        state, done = self.state, {trial.asset: trial.selected for trial in self.trials}
+        right = [name for name, meant in state.meant.items() if done.get(name) == meant]
+        wrong = [name for name, meant in state.meant.items() if name in done and done[name] != meant]
+        wrong += [name for name, failed in state.failed.items() if name not in state.meant and done.get(name) == failed]
+        return tuple(right), tuple(dict.fromkeys([*wrong, *self.contradicted]))
+
+    def _expect(self, asset: str) -> float:
+        """How probable it was that the result of an asset is right, under a program that is not wrong everywhere."""
+        return min(_MOST_EXPECTED, self._edits[self.places[asset]].probability)
+
+    @cached_property
+    def contradicted(self) -> frozenset[str]:
+        """The demonstrated assets on which the program, written by hand, does something else than was shown."""
+        found = set()
+        for name, demo in self.state.demos.items():
+            done = self.trials[self.places[name]].selected if name in self.places else ()
+            shown = {step.rule: step.select for step in demo.steps if step.select is not None}
+            if any(rule > len(done) or done[rule - 1] != select for rule, select in shown.items()):
+                found.add(name)
+        return frozenset(found)
 
     @cached_property
     def places(self) -> Mapping[str, int]:
@@ -118,11 +160,15 @@ class FamilyTrial:
 
     def confidence_of(self, place: int) -> AssetConfidence:
         """One asset, with its doubts."""
-        trial, evidence = self.trials[place], self.evidence[place]
-        if trial.asset in {*self.state.demos, *self.state.accepted, *self.state.mended}:
-            return AssetConfidence(trial.asset, SURE_OF_DEMONSTRATED)
-        if trial.error:
+        trial, evidence, state = self.trials[place], self.evidence[place], self.state
+        if trial.error and trial.asset not in state.accepted:
             return AssetConfidence(trial.asset, NO_EDIT, (self._doubt_of_error(place),))
+        if trial.asset in self.contradicted:
+            return AssetConfidence(trial.asset, NO_EDIT, (Doubt("reading", CONTRADICTED, share=1.0),))
+        if trial.asset in state.reviewed_assets:
+            return AssetConfidence(trial.asset, SURE_OF_DEMONSTRATED)
+        if trial.asset in state.wrong and trial.selected == state.failed.get(trial.asset):
+            return AssetConfidence(trial.asset, NO_EDIT, (Doubt("reading", CALLED_WRONG, share=1.0),))
         doubts = [*self._reading_doubts(place), *self._label_doubts(place), *self._odd_doubts(place)]
         doubts += self._program_doubts
         weightiest = sorted(doubts, key=lambda one: -one.share)[:MOST_DOUBTS]
@@ -142,9 +188,8 @@ class FamilyTrial:
     def _program_doubts(self) -> tuple[Doubt, ...]:
         """Whether too few results were looked at, or too many of these were wrong."""
         share = 1 - self.trust_in_program()
-        wrong = len(self.state.mended)
-        every = wrong + len(self.state.accepted)
-        text = f"{wrong} of the {every} results that were looked at were wrong" if wrong else NO_LOOK
+        right, wrong = map(len, self._results)
+        text = f"{wrong} of the {right + wrong} results that were looked at are wrong" if wrong else NO_LOOK
         return (Doubt("reading", text, share=share),) if share > _MOST_MISTRUST else ()
 
     def _reading_doubts(self, place: int) -> list[Doubt]:

@@ -1,32 +1,27 @@
-"""What a person is asked about a family, how they reply, and what is known of the family so far."""
+"""What a person is asked about a family, a class each kind, and how they reply."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from hashlib import blake2b
-from typing import Any, Literal, NamedTuple
+from typing import Any, ClassVar, Literal, NamedTuple, TypeVar
 
-from meshforge.language import Orient, Program, Template
-from meshforge.symbolic import SymbolicMesh
-from meshforge.synthesis import Answer, Demonstration
+from meshforge.language import Orient
 
 QuestionKind = Literal[
     "group", "repair", "reading", "label", "selection", "orientation", "result", "demonstrate", "span"
 ]
-"""A group of look-alike hulls and what they are; one hull's label; what a rule means; whether a rule is meant for a
-label that no demonstration shows; whether what was shown or said was a slip; an orientation; whether a
-result is right; an asset to demonstrate; whether a hull that likely spans parts is to be split."""
+ExclusionReason = Literal["not of this family", "not solved"]
+"""Why an asset is given up: it is not edited, not counted and never asked about; or it is counted, and not written."""
+NOT_OF_FAMILY: ExclusionReason = "not of this family"
+NOT_SOLVED: ExclusionReason = "not solved"
+RIGHT, WRONG, YES, NO = "right", "wrong", "yes", "no"
+EXCLUDE: Mapping[str, ExclusionReason] = {"not-of-family": NOT_OF_FAMILY, "not-solved": NOT_SOLVED}
+"""Ids of choices; those of labels are the labels, those of selections a, b, c."""
 
 Selections = tuple[frozenset[str], ...]
 """What each rule selects on an asset, names of hulls."""
-
-RIGHT, WRONG, ASIDE = "right", "wrong", "set aside"
-"""The choices of a question about a result."""
-CORRECT = "correct it"
-"""In place of the first two of them where the program cannot run."""
-SPLIT, ONE_PART = "split so", "no, it is one part"
-"""The choices of a question about a hull that likely spans parts; which parts follows the first."""
 
 
 class HullPlace(NamedTuple):
@@ -38,24 +33,28 @@ class HullPlace(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class ReviewChoice:
-    """One reply. text: what it says; label: that the hulls then get; select: names of the hulls of the asset that the
-    rule then selects; orient: how assets are turned then."""
+    """One reply. id: among the choices of its question; text: what it says; label: that the hulls then get; select:
+    names of the hulls of the asset that the rule then selects; orient: how assets are turned then."""
 
+    id: str
     text: str
     label: str | None = None
     select: tuple[str, ...] | None = None
     orient: Orient | None = None
 
+    @staticmethod
+    def of_label(label: str) -> ReviewChoice:
+        return ReviewChoice(label, label, label)
+
 
 @dataclass(frozen=True, slots=True)
-class ReviewQuestion:
-    """One question. id: bound to all that it is about; text: the question in plain words; seconds: of a person, by the
-    keystroke-level model; gain: assets that an answer makes right, as far as can be expected; asset: where to look;
-    hulls: those in question; refused: what each choice would have selected is in `choices`.
+class QuestionBase:
+    """One question. text: in plain words; seconds: of a person, by the keystroke-level model; gain: assets that an
+    answer makes right, as far as can be expected; asset: where to look; hulls: those in question; choices: the first
+    one leaves things as they are; id: bound to all that it is about.
     """
 
-    id: str
-    kind: QuestionKind
+    kind: ClassVar[QuestionKind]
     text: str
     seconds: float
     gain: float
@@ -63,11 +62,16 @@ class ReviewQuestion:
     rule: int | None = None
     hulls: tuple[HullPlace, ...] = ()
     choices: tuple[ReviewChoice, ...] = ()
+    id: str = ""
 
     @property
     def worth(self) -> float:
         """What an answer makes right a second of a person's time; equal where nobody could tell a difference."""
         return round(self.gain / self.seconds, 9)
+
+    def choice(self, wanted: str | None) -> ReviewChoice | None:
+        """The choice of an id, None where there is none."""
+        return next((one for one in self.choices if one.id == wanted), None)
 
     def to_json(self) -> dict[str, Any]:
         return {
@@ -81,6 +85,7 @@ class ReviewQuestion:
             "hulls": [{"asset": place.asset, "hull": place.hull} for place in self.hulls],
             "choices": [
                 {
+                    "id": choice.id,
                     "text": choice.text,
                     "label": choice.label,
                     "select": None if choice.select is None else list(choice.select),
@@ -90,50 +95,103 @@ class ReviewQuestion:
         }
 
 
-def identify(draft: ReviewQuestion, bound: Sequence[str] = ()) -> ReviewQuestion:
+class GroupQuestion(QuestionBase):
+    """What hulls that look alike are."""
+
+    __slots__ = ()
+    kind: ClassVar[QuestionKind] = "group"
+
+
+class RepairQuestion(QuestionBase):
+    """Whether one hull has another label, with which what was shown makes sense."""
+
+    __slots__ = ()
+    kind: ClassVar[QuestionKind] = "repair"
+
+
+class ReadingQuestion(QuestionBase):
+    """What a rule means on an asset."""
+
+    __slots__ = ()
+    kind: ClassVar[QuestionKind] = "reading"
+
+
+class UnseenLabelQuestion(ReadingQuestion):
+    """What a rule means on an asset with a label that no demonstration shows."""
+
+    __slots__ = ()
+    kind: ClassVar[QuestionKind] = "label"
+
+
+class SlipQuestion(QuestionBase):
+    """Whether hulls were selected, or left out, by mistake where a rule was shown or answered."""
+
+    __slots__ = ()
+    kind: ClassVar[QuestionKind] = "selection"
+
+
+class OrientationQuestion(QuestionBase):
+    """Whether assets are turned first."""
+
+    __slots__ = ()
+    kind: ClassVar[QuestionKind] = "orientation"
+
+
+class ResultQuestion(QuestionBase):
+    """Whether a result is right."""
+
+    __slots__ = ()
+    kind: ClassVar[QuestionKind] = "result"
+
+
+class DemonstrationQuestion(QuestionBase):
+    """Asks for a demonstration."""
+
+    __slots__ = ()
+    kind: ClassVar[QuestionKind] = "demonstrate"
+
+
+class SpanQuestion(QuestionBase):
+    """Whether a hull that likely spans parts is split."""
+
+    __slots__ = ()
+    kind: ClassVar[QuestionKind] = "span"
+
+
+ReviewQuestion = (
+    GroupQuestion
+    | RepairQuestion
+    | ReadingQuestion
+    | SlipQuestion
+    | OrientationQuestion
+    | ResultQuestion
+    | DemonstrationQuestion
+    | SpanQuestion
+)
+Draft = TypeVar("Draft", bound=QuestionBase)
+
+
+def identify(draft: Draft, bound: Sequence[str] = ()) -> Draft:
     """A question with its id, which all that it is about decides. bound: what else it is about."""
     words = [draft.kind, draft.asset, str(draft.rule), *(f"{one.asset}#{one.hull}" for one in draft.hulls), *bound]
-    words += [f"{one.text} {one.label} {one.select}" for one in draft.choices]
+    words += [f"{one.id} {one.label} {one.select}" for one in draft.choices]
     name = blake2b("\n".join(words).encode(), digest_size=6).hexdigest()
     return replace(draft, id=f"{draft.kind}-{name}")
 
 
 @dataclass(frozen=True, slots=True)
 class ReviewReply:
-    """What a person said to a question. choice: the place among its choices, None for none of them; exceptions: hulls
-    of a group that are something else, with their labels; mended: what each rule should have selected where a result
-    is wrong; later: the question is put off."""
+    """What a person said to a question.
 
-    question: str
-    choice: int | None = None
-    exceptions: Mapping[HullPlace, str] = field(default_factory=dict)
-    mended: Selections | None = None
-    later: bool = False
-
-
-@dataclass(frozen=True, slots=True)
-class ReviewState:
-    """All that is known of a family.
-
-    meshes: by name, with the labels that they have; frame: the program without its rules; templates: by the paths that
-    actions name; demos: of some of the meshes, by name; answers: to questions of learning; accepted: what each rule
-    selected on results that a person found right, by asset; mended: what it should have selected on results that were
-    wrong; failed: what it did select there; aside: assets that a person flagged or set aside; later: ids of questions
-    that were put off.
+    choice: the id of one of its choices, None for none of them; exceptions: hulls of a group that are something else,
+    with their labels; selections, labels: where a result is wrong, the hulls that rules should have selected, by their
+    numbers, and labels that hulls of the asset should have; later: the question is snoozed; by: the person's name.
     """
 
-    meshes: Mapping[str, SymbolicMesh]
-    frame: Program
-    templates: Mapping[str, Template] = field(default_factory=dict)
-    demos: Mapping[str, Demonstration] = field(default_factory=dict)
-    answers: tuple[Answer, ...] = ()
-    accepted: Mapping[str, Selections] = field(default_factory=dict)
-    mended: Mapping[str, Selections] = field(default_factory=dict)
-    failed: Mapping[str, Selections] = field(default_factory=dict)
-    aside: frozenset[str] = frozenset()
-    later: frozenset[str] = frozenset()
-
-    @property
-    def reviewed_assets(self) -> frozenset[str]:
-        """The assets of which a person saw what the edit makes of them."""
-        return frozenset((*self.demos, *self.accepted, *self.mended))
+    question: str
+    choice: str | None = None
+    exceptions: Mapping[HullPlace, str] = field(default_factory=dict)
+    selections: Mapping[int, frozenset[str]] = field(default_factory=dict)
+    labels: Mapping[str, str] = field(default_factory=dict)
+    later: bool = False
+    by: str | None = None

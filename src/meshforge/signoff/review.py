@@ -3,7 +3,7 @@ person's time (the expected value of information, Howard 1966)."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from types import MappingProxyType
 
@@ -17,19 +17,26 @@ from meshforge.signoff.family import FamilyTrial
 from meshforge.signoff.groups import LookalikeGroup, find_groups, find_other_label, labels_of_group
 from meshforge.signoff.prices import READING, YES_OR_NO, price_demonstration
 from meshforge.signoff.question import (
-    ASIDE,
-    CORRECT,
+    EXCLUDE,
+    NO,
     RIGHT,
     WRONG,
+    YES,
+    DemonstrationQuestion,
+    GroupQuestion,
     HullPlace,
-    QuestionKind,
+    OrientationQuestion,
+    ReadingQuestion,
+    RepairQuestion,
+    ResultQuestion,
     ReviewChoice,
     ReviewQuestion,
-    ReviewState,
+    UnseenLabelQuestion,
     identify,
 )
 from meshforge.signoff.readings import ReadingSplit, split_readings
 from meshforge.signoff.slips import ask_about_kept_label, ask_about_nearest, ask_about_slip
+from meshforge.signoff.state import ReviewState
 from meshforge.signoff.trial import Trial
 from meshforge.synthesis import (
     Ambiguous,
@@ -60,19 +67,23 @@ def review_family(
     outcome: what was learned from all that the state holds, None before anything was shown; family: its meshes, in
     their order; alarms: sentences on results that stand out, by asset.
     """
-    seen = frozenset([*state.accepted, *state.mended])
+    seen = state.accepted | state.corrected
     if not isinstance(outcome, Found | Ambiguous):  # what was demonstrated is not what any program does
         unknown = {name: AssetConfidence(name, 0.0, (_doubt_of(outcome),)) for name in state.meshes}
-        return Assessment(unknown, bar, seen, state.aside, _question_before(state, outcome))
-    looked_at = seen | frozenset(state.demos)
+        return Assessment(
+            unknown, bar, seen, state.wrong, state.excluded, _sort(_questions_before(state, outcome), state)
+        )
     trial = _try_family(state, outcome, family, alarms)
     assets = {one.asset: trial.confidence_of(place) for place, one in enumerate(trial.trials)}
-    found = Assessment(assets, bar, looked_at, state.aside)
+    stopped = {one.asset for one in trial.trials if one.error} - state.accepted
+    looked_at = (seen | state.demos.keys()) - stopped - trial.contradicted
+    found = Assessment(assets, bar, looked_at, state.wrong, state.excluded)
     if found.is_done:
         looks = list(_ask_last_looks(trial))
-        put_off = any(one.id in state.later for one in looks)  # who puts one off wants no other
-        return Assessment(assets, bar, looked_at, state.aside, None if put_off else _choose(iter(looks), state))
-    return Assessment(assets, bar, looked_at, state.aside, _choose(_questions(trial, found, outcome.suggested), state))
+        if any(one.id in state.snoozed for one in looks):  # who snoozes one wants no other
+            return found
+        return replace(found, questions=_sort(looks, state))
+    return replace(found, questions=_sort(_questions(trial, found, outcome.suggested), state))
 
 
 def assess_asset(
@@ -101,50 +112,47 @@ def _doubt_of(outcome: LearningOutcome | None) -> Doubt:
     return Doubt("reading", getattr(outcome, "why", "no program was found"), share=1.0)
 
 
-def _question_before(state: ReviewState, outcome: LearningOutcome | None) -> ReviewQuestion | None:
-    """What to ask while there is no program."""
+def _questions_before(state: ReviewState, outcome: LearningOutcome | None) -> Iterator[ReviewQuestion]:
+    """What can be asked while there is no program; the first is to be asked before the others."""
     everyone = float(len(state.meshes))
-    if outcome is None:
-        some = [name for name in state.meshes if name not in state.aside]
-        meshes = {name: state.meshes[name] for name in some}
-        frame = state.frame
-        first = choose_first_demonstration(meshes, frame.labels, frame.orient, frame.contact, frame.extremity)
-        asset = first or next(iter(some), None)
-        return _ask_demonstration(state, asset, everyone, "Show the edit on {}.") if asset else None
-    if isinstance(outcome, NeedsRepair):
-        for repair in outcome.repairs:
-            wrong = repair.correction
-            text = f"{wrong.hull} of {wrong.asset} is called {wrong.was or 'nothing'}: is it {wrong.to}? {repair.why}."
-            words = [wrong.to, *([wrong.was] if wrong.was else [])]
-            choices = tuple(ReviewChoice(word, word) for word in words)
-            place = HullPlace(wrong.asset, wrong.hull)
-            question = identify(
-                ReviewQuestion(
-                    "", "repair", text, YES_OR_NO, everyone * repair.belief, wrong.asset, repair.rule, (place,), choices
-                )
-            )
-            if question.id not in state.later:
-                return question
-        kept = (ask_about_kept_label(state, repair, everyone) for repair in outcome.repairs)
-        return next((slip for slip in kept if slip and slip.id not in state.later), None)
-    if isinstance(outcome, NoProgram):
-        if outcome.suggested:
-            question = _ask_orientation(outcome.suggested, state, everyone)
-            if question.id not in state.later:
-                return question
-        asset = outcome.nearest.asset
-        slip = ask_about_nearest(state, outcome.nearest, everyone)
-        if slip and slip.id not in state.later:
-            return slip
-        return _ask_demonstration(state, asset, everyone, f"Nothing fits what was shown on {{}}: {outcome.why}.")
-    return None
+    match outcome:
+        case None:
+            meshes = {name: state.meshes[name] for name in state.meshes if name not in state.excluded}
+            frame = state.frame
+            first = choose_first_demonstration(meshes, frame.labels, frame.orient, frame.contact, frame.extremity)
+            if asset := first or next(iter(meshes), None):
+                yield _ask_demonstration(state, asset, everyone, "Show the edit on {}.")
+        case NeedsRepair():
+            asked = list(_ask_repairs(state, outcome, everyone))
+            kept = (ask_about_kept_label(state, repair, everyone) for repair in outcome.repairs)
+            yield from asked or (slip for slip in kept if slip)
+        case NoProgram():
+            if outcome.suggested:
+                yield _ask_orientation(outcome.suggested, state, everyone)
+            if slip := ask_about_nearest(state, outcome.nearest, everyone):
+                yield slip
+            text = f"Nothing fits what was shown on {{}}: {outcome.why}."
+            yield _ask_demonstration(state, outcome.nearest.asset, everyone, text)
+        case _:
+            return
 
 
-def _ask_orientation(suggested: OrientationSuggestion, state: ReviewState, gain: float) -> ReviewQuestion:
+def _ask_repairs(state: ReviewState, outcome: NeedsRepair, everyone: float) -> Iterator[RepairQuestion]:
+    for repair in outcome.repairs:
+        wrong, place = repair.correction, HullPlace(repair.correction.asset, repair.correction.hull)
+        text = f"{wrong.hull} of {wrong.asset} is called {wrong.was or 'nothing'}: is it {wrong.to}? {repair.why}."
+        choices = tuple(map(ReviewChoice.of_label, [wrong.to, *([wrong.was] if wrong.was else [])]))
+        gain = everyone * repair.belief
+        question = identify(RepairQuestion(text, YES_OR_NO, gain, wrong.asset, repair.rule, (place,), choices))
+        if question.id not in state.snoozed:
+            yield question
+
+
+def _ask_orientation(suggested: OrientationSuggestion, state: ReviewState, gain: float) -> OrientationQuestion:
     text = f"Are assets to be turned first, by {show(suggested.orient)}? {suggested.why}."
-    choices = (ReviewChoice("yes", orient=suggested.orient), ReviewChoice("no"))
+    choices = (ReviewChoice(NO, "no"), ReviewChoice(YES, "yes", orient=suggested.orient))
     asset = next(iter([*suggested.differs_on, *state.meshes]))
-    return identify(ReviewQuestion("", "orientation", text, YES_OR_NO, gain, asset, choices=choices))
+    return identify(OrientationQuestion(text, YES_OR_NO, gain, asset, choices=choices))
 
 
 def _questions(
@@ -162,33 +170,31 @@ def _questions(
         )
 
 
-def _choose(questions: Iterator[ReviewQuestion], state: ReviewState) -> ReviewQuestion | None:
-    """The one that is worth most a second; of equals the first by its id."""
-    asked = (one for one in questions if one.id not in state.later)
-    return min(asked, key=lambda one: (-one.worth, one.id), default=None)
+def _sort(questions: Iterable[ReviewQuestion], state: ReviewState) -> tuple[ReviewQuestion, ...]:
+    """Those that may be asked, what is worth most a second first; of equals the first by its id."""
+    asked = (one for one in questions if one.id not in state.snoozed)
+    return tuple(sorted(asked, key=lambda one: (-one.worth, one.id)))
 
 
-def _ask_group(family: FamilyTrial, group: LookalikeGroup) -> ReviewQuestion:
+def _ask_group(family: FamilyTrial, group: LookalikeGroup) -> GroupQuestion:
     counts = labels_of_group(family, group)
     called = ", ".join(f"{count} {'is' if count == 1 else 'are'} called {name}" for name, count in counts.items())
     labels = list(dict.fromkeys([group.label, *(name for name in counts if name != "nothing")]))
-    choices = tuple(ReviewChoice(label, label) for label in labels)
+    choices = tuple(map(ReviewChoice.of_label, labels))
     first = group.hulls[0]
     if len(group.hulls) == 1:
         text = f"{first.hull} of {first.asset} is called {next(iter(counts))}: is it {group.label}?"
     else:
         text = f"These {len(group.hulls)} hulls look alike; {called}: are all of them {group.label}?"
-    question = identify(
-        ReviewQuestion("", "group", text, group.seconds, group.gain, first.asset, None, group.hulls, choices)
-    )
+    question = identify(GroupQuestion(text, group.seconds, group.gain, first.asset, None, group.hulls, choices))
     other = find_other_label(family, group) if len(labels) == 1 else None  # no part of what the question is about
-    return replace(question, choices=(*choices, ReviewChoice(other, other))) if other else question
+    return replace(question, choices=(*choices, ReviewChoice.of_label(other))) if other else question
 
 
 def _ask_readings(family: FamilyTrial, found: Assessment) -> Iterator[ReviewQuestion]:
     names = list(found.assets)
     known = {(answer.rule, answer.asset) for answer in family.state.answers}
-    settled = {*found.looked_at, *found.aside}
+    settled = {*found.looked_at, *found.excluded}
     for rule in family.readings:
         doubt = 1 - rule.agreement
         places = [k for k in np.argsort(-doubt, kind="stable").tolist() if doubt[k] > 0 and names[k] not in settled]
@@ -203,16 +209,16 @@ def _ask_readings(family: FamilyTrial, found: Assessment) -> Iterator[ReviewQues
             yield _ask_reading(family, rule.rule, split)
 
 
-def _ask_reading(family: FamilyTrial, rule: int, split: ReadingSplit) -> ReviewQuestion:
+def _ask_reading(family: FamilyTrial, rule: int, split: ReadingSplit) -> ReadingQuestion:
     known, trial = family.readings[rule - 1], family.trials[split.asset]
     choices = []
-    for head in split.heads:
+    for letter, head in zip("abc", split.heads, strict=False):
         selected = trial.names(rule, family.select(known, head, split.asset))
-        choices.append(ReviewChoice(show(known.extractors[head]), select=selected))
+        choices.append(ReviewChoice(letter, show(known.extractors[head]), select=selected))
     gain = float(_gains_of(family, [split]).sum()) * family.evidence[split.asset].labels ** _TRUST
-    kind: QuestionKind = "label" if trial.asset in family.foreign else "reading"
+    kind = UnseenLabelQuestion if trial.asset in family.foreign else ReadingQuestion
     text = f"What does rule {rule} mean on {trial.asset}?"
-    return identify(ReviewQuestion("", kind, text, READING, gain, trial.asset, rule, (), tuple(choices)))
+    return identify(kind(text, READING, gain, trial.asset, rule, (), tuple(choices)))
 
 
 def _gains_of(family: FamilyTrial, splits: Sequence[ReadingSplit], looks: int = 0) -> Floats:
@@ -241,7 +247,11 @@ def _ask_results(family: FamilyTrial, found: Assessment) -> Iterator[ReviewQuest
         others[place] = 0.0
         gain = doubt + float(others.sum()) * trust
         seconds = YES_OR_NO + doubt * mend
-        yield _ask_result(trial, gain, seconds)
+        if name in found.wrong and trial.selected == family.state.failed.get(name):
+            text = f"The result of {name} was called wrong: what is right there?"
+            yield _ask_result(trial, 1.0, YES_OR_NO + mend, text, _GIVE_UP)
+        else:
+            yield _ask_result(trial, gain, seconds)
 
 
 def _ask_last_looks(family: FamilyTrial) -> Iterator[ReviewQuestion]:
@@ -249,10 +259,10 @@ def _ask_last_looks(family: FamilyTrial) -> Iterator[ReviewQuestion]:
     have shaped, where nobody has seen any; and one at each asset that has an answer and labels that no demonstration
     shows, as the results of others tell little of it."""
     state = family.state
-    seen = [*state.accepted.values(), *state.mended.values()]
+    seen = [state.meant[name] for name in (*state.accepted, *state.corrected) if name in state.meant]
     answers = [one for one in state.answers if one.select is not None]
     unseen = {one.rule for one in answers if not any(len(done) >= one.rule and done[one.rule - 1] for done in seen)}
-    known = state.reviewed_assets | state.aside
+    known = state.reviewed_assets | state.excluded.keys()
     for trial, evidence in zip(family.trials, family.evidence, strict=True):
         told = {one.rule for one in answers if one.asset == trial.asset}
         if trial.asset in known or (told and trial.asset not in family.foreign):
@@ -260,21 +270,26 @@ def _ask_last_looks(family: FamilyTrial) -> Iterator[ReviewQuestion]:
         looked = told | {rule for rule in unseen if rule <= len(trial.selections) and trial.selections[rule - 1]}
         if looked:
             gain = len(looked) + 1 - evidence.probability
-            yield _ask_result(trial, gain, YES_OR_NO, "One last look: is")
+            yield _ask_result(trial, gain, YES_OR_NO, f"One last look: is the result of {trial.asset} right?")
 
 
-def _ask_result(trial: Trial, gain: float, seconds: float, begin: str = "Is") -> ReviewQuestion:
+EXCLUDE_CHOICES = tuple(ReviewChoice(choice, f"exclude it: {reason}") for choice, reason in EXCLUDE.items())
+_GIVE_UP = (ReviewChoice(WRONG, "say what is right, or later"), *EXCLUDE_CHOICES)
+_CORRECT = (ReviewChoice(WRONG, "correct it"), *EXCLUDE_CHOICES)
+_JUDGE = (ReviewChoice(RIGHT, "right"), ReviewChoice(WRONG, "wrong"), *EXCLUDE_CHOICES)
+
+
+def _ask_result(
+    trial: Trial, gain: float, seconds: float, text: str = "", choices: tuple[ReviewChoice, ...] = _JUDGE
+) -> ResultQuestion:
     """Whether a result is right; where the program cannot run there is none that could be."""
     if trial.error:
-        text = f"The program cannot run on {trial.asset}: {trial.error}. Correct it, or set it aside?"
-        said = [CORRECT, ASIDE]
-    else:
-        text, said = f"{begin} the result of {trial.asset} right?", [RIGHT, WRONG, ASIDE]
-    choices = tuple(map(ReviewChoice, said))
-    draft = ReviewQuestion("", "result", text, seconds, gain, trial.asset, choices=choices)
+        text, choices = f"The program cannot run on {trial.asset}: {trial.error}. Correct it, or exclude it?", _CORRECT
+    text = text or f"Is the result of {trial.asset} right?"
+    draft = ResultQuestion(text, seconds, gain, trial.asset, choices=choices)
     return identify(draft, [f"{bits:x}" for bits in trial.selections])
 
 
-def _ask_demonstration(state: ReviewState, asset: str, gain: float, text: str) -> ReviewQuestion:
+def _ask_demonstration(state: ReviewState, asset: str, gain: float, text: str) -> DemonstrationQuestion:
     seconds = price_demonstration(state.demos.values())
-    return identify(ReviewQuestion("", "demonstrate", text.format(asset), seconds, gain, asset))
+    return identify(DemonstrationQuestion(text.format(asset), seconds, gain, asset))

@@ -4,7 +4,7 @@ question about them."""
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -12,14 +12,13 @@ from meshforge.common import join_names
 from meshforge.geometry import Floats
 from meshforge.language import Program, show
 from meshforge.signoff.prices import YES_OR_NO
-from meshforge.signoff.question import HullPlace, ReviewChoice, ReviewQuestion, ReviewState, identify
+from meshforge.signoff.question import NO, YES, HullPlace, ReviewChoice, SlipQuestion, identify
+from meshforge.signoff.state import ReviewState
 from meshforge.signoff.trial import Trial, select_by
 from meshforge.symbolic import HUMAN_SOURCES, mask_of
-from meshforge.synthesis import Answer, Example, Nearest, Options, Repair, Slip, find_slip
+from meshforge.synthesis import Example, Nearest, Options, Repair, Slip, find_slip
 from meshforge.synthesis.slips import MOST_SLIPS
 
-BY_MISTAKE, ON_PURPOSE = "yes, by mistake", "no, on purpose"
-"""The choices."""
 _LEAST_SHARE = 0.3  # from which on a slip is asked about
 _FITS_BARELY = 0.5  # the probability of a slip where no program fits what was shown
 
@@ -36,7 +35,7 @@ class RuleSlip:
 def find_slips(state: ReviewState, program: Program, trials: Sequence[Trial]) -> Iterator[RuleSlip]:
     """The likely slips under a program that does what was shown, of each rule at most one; those that a person denied
     are not among them, and there are none where nothing was shown, as under a program that a person wrote."""
-    if not state.demos:
+    if state.by_hand or not state.demos:
         return
     options = Options(extremity=program.extremity)
     by_name = {trial.asset: trial for trial in trials}
@@ -45,7 +44,7 @@ def find_slips(state: ReviewState, program: Program, trials: Sequence[Trial]) ->
         if not examples:
             continue
         said = {one.asset for one in state.answers if one.rule == number}.union(state.accepted)
-        said -= state.demos.keys() | state.mended.keys()
+        said -= state.demos.keys() | state.corrected
         slip = find_slip(rule.extractor, examples, program.labels, options, said)
         if slip is None or slip.asset not in {*state.demos, *said} or slip.share < _LEAST_SHARE:
             continue
@@ -57,13 +56,13 @@ def find_slips(state: ReviewState, program: Program, trials: Sequence[Trial]) ->
         ours = [trial.selections[number - 1] if number <= len(trial.selections) else None for trial in trials]
         differs = np.array([float(one != other) for one, other in zip(ours, selected, strict=True)])
         found = RuleSlip(number, slip, differs)
-        if ask_about_slip(state, found).id not in state.later:
+        if ask_about_slip(state, found).id not in state.snoozed:
             yield found
 
 
 def _list_examples(state: ReviewState, trials: Mapping[str, Trial], rule: int) -> Iterator[Example]:
     """What is known to be meant by a rule, as it meets the meshes; what was shown first."""
-    for name in dict.fromkeys([*state.demos, *(one.asset for one in state.answers), *state.accepted, *state.mended]):
+    for name in dict.fromkeys([*state.demos, *(one.asset for one in state.answers), *state.meant]):
         select, trial = _read_selection(state, name, rule), trials.get(name)
         if select is None or trial is None or rule > len(trial.meshes):
             continue
@@ -78,9 +77,8 @@ def _read_selection(state: ReviewState, asset: str, rule: int) -> frozenset[str]
     if asset in state.demos:
         step = state.demos[asset].step(rule)
         return None if step is None else step.select
-    for known in (state.mended, state.accepted):
-        if asset in known and rule <= len(known[asset]):
-            return known[asset][rule - 1]
+    if rule <= len(state.meant.get(asset, ())):
+        return state.meant[asset][rule - 1]
     answers = (one.select for one in reversed(state.answers) if (one.rule, one.asset) == (rule, asset))
     return next((select for select in answers if select is not None), None)
 
@@ -97,18 +95,18 @@ def _is_refused(state: ReviewState, rule: int, trial: Trial, mask: int | None) -
     return bool(refused) and mask is not None and frozenset(trial.names(rule, mask)) in refused
 
 
-def ask_about_slip(state: ReviewState, found: RuleSlip) -> ReviewQuestion:
+def ask_about_slip(state: ReviewState, found: RuleSlip) -> SlipQuestion:
     """The question whether it is one."""
     slip, rule = found.slip, found.rule
     text = f"{_describe(slip.missing, slip.extra)} rule {rule} would just be {show(slip.extractor)}"
     return _ask(state, (slip.asset, rule), slip.missing, slip.extra, text, slip.share * float(found.differs.sum()))
 
 
-def ask_about_nearest(state: ReviewState, nearest: Nearest, everyone: float) -> ReviewQuestion | None:
+def ask_about_nearest(state: ReviewState, nearest: Nearest, everyone: float) -> SlipQuestion | None:
     """The question where nothing fits what was shown and said, and an extractor nearly does."""
     if len(nearest.extra) + len(nearest.missing) > MOST_SLIPS:
         return None
-    if nearest.asset in state.mended or nearest.asset not in state.meshes:
+    if nearest.asset in state.corrected or nearest.asset not in state.meshes:
         return None
     if _read_selection(state, nearest.asset, nearest.rule) is None:
         return None
@@ -119,13 +117,13 @@ def ask_about_nearest(state: ReviewState, nearest: Nearest, everyone: float) -> 
     return _ask(state, place, nearest.extra, nearest.missing, text, _FITS_BARELY * everyone)
 
 
-def ask_about_kept_label(state: ReviewState, repair: Repair, everyone: float) -> ReviewQuestion | None:
+def ask_about_kept_label(state: ReviewState, repair: Repair, everyone: float) -> SlipQuestion | None:
     """The question where a person kept the label that would have to be another one for what was shown and said: what
     was shown or said of that hull may be the slip."""
     hull, asset = repair.correction.hull, repair.correction.asset
     shown = _read_selection(state, asset, repair.rule)
     kept = state.meshes[asset].hull_of(hull).source in HUMAN_SOURCES if asset in state.meshes else False
-    if shown is None or asset in state.mended or not kept:
+    if shown is None or asset in state.corrected or not kept:
         return None
     missing, extra = ((), (hull,)) if hull in shown else ((hull,), ())
     if _is_used_later(state, asset, repair.rule, missing):
@@ -142,7 +140,7 @@ def _describe(missing: Sequence[str], extra: Sequence[str]) -> str:
 
 def _ask(
     state: ReviewState, place: tuple[str, int], missing: Sequence[str], extra: Sequence[str], why: str, gain: float
-) -> ReviewQuestion:
+) -> SlipQuestion:
     asset, rule = place
     shown = _read_selection(state, asset, rule) or frozenset()
     corrected = tuple(sorted((shown | {*missing}) - {*extra}))
@@ -150,16 +148,8 @@ def _ask(
     one = len(missing) + len(extra) == 1
     text = f"{why}: {'was it' if one else 'were they'} {done} on {asset} by mistake?"
     hulls = tuple(HullPlace(asset, name) for name in [*missing, *extra] if name in state.meshes[asset].index)
-    choices = (ReviewChoice(BY_MISTAKE, select=corrected), ReviewChoice(ON_PURPOSE, select=tuple(sorted(shown))))
-    return identify(ReviewQuestion("", "selection", text, YES_OR_NO, gain, asset, rule, hulls, choices))
-
-
-def correct_selection(state: ReviewState, question: ReviewQuestion, select: Sequence[str]) -> ReviewState:
-    """What is known when a person says what they meant to select on an asset: as they show it there, or by an answer,
-    which takes the place of another one, and of a verdict."""
-    rule, asset = question.rule or 1, question.asset
-    if asset in state.demos:
-        return replace(state, demos={**state.demos, asset: state.demos[asset].with_selection(rule, select)})
-    others = (one for one in state.answers if (one.rule, one.asset) != (rule, asset))
-    accepted = {name: done for name, done in state.accepted.items() if name != asset}
-    return replace(state, answers=(*others, Answer(rule, asset, select)), accepted=accepted)
+    choices = (
+        ReviewChoice(NO, "no, on purpose", select=tuple(sorted(shown))),
+        ReviewChoice(YES, "yes, by mistake", select=corrected),
+    )
+    return identify(SlipQuestion(text, YES_OR_NO, gain, asset, rule, hulls, choices))

@@ -51,6 +51,11 @@ class Trial:
         """The hulls of a bit set, as a rule meets them; rule: its number."""
         return tuple(self.meshes[rule - 1].names_of(mask))
 
+    @property
+    def selected(self) -> tuple[frozenset[str], ...]:
+        """What each rule selects, names of hulls; of the rules that were reached."""
+        return tuple(frozenset(self.names(rule, mask)) for rule, mask in enumerate(self.selections, 1))
+
 
 def try_program(asset: str, mesh: SymbolicMesh, program: Program, templates: Mapping[str, Template]) -> Trial:
     """The program on an asset."""

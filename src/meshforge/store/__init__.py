@@ -8,17 +8,23 @@ from typing import TYPE_CHECKING
 from meshforge.common.exports import export_lazily
 
 if TYPE_CHECKING:
-    from meshforge.store.feedback import (
-        AnswerLine,
-        AnswersFile,
-        ConfirmationLine,
+    from meshforge.store.event_log import load_events
+    from meshforge.store.events import (
+        UNASKED,
+        AnswerEvent,
+        Event,
+        ExclusionEvent,
         LabelBefore,
-        RepairLine,
-        Review,
-        RuleSelection,
+        LabelFixEvent,
+        LabelsEvent,
+        Said,
+        SnoozeEvent,
         Verdict,
-        repair_id,
+        VerdictEvent,
+        WithdrawalEvent,
+        format_lines,
     )
+    from meshforge.store.feedback import Feedback
     from meshforge.store.layout import JsonFile, json_text, read_json, write_json
     from meshforge.store.meshes import AssetFacts, AssetFiles, geometry_digest, hull_digests, iterate_survey, survey
     from meshforge.store.preparation_plan import PreparationPlanFile
@@ -27,8 +33,6 @@ if TYPE_CHECKING:
         DemonstrationFile,
         ProgramRecord,
         StepLine,
-        action_text,
-        action_text_without_each,
         parse_action_text,
     )
     from meshforge.store.settings import (
@@ -44,7 +48,7 @@ if TYPE_CHECKING:
         set_value,
         toml_value,
     )
-    from meshforge.store.sign_off import AssessmentFile, ConfidenceLine, SignOff, SignOffFile, find_changes
+    from meshforge.store.sign_off import AssessmentFile, ConfidenceLine, SignOff, find_changes
     from meshforge.store.spans import (
         MOST_TOLD,
         SinglePartsFile,
@@ -60,26 +64,28 @@ else:
 
 __all__ = [
     "MOST_TOLD",
-    "AnswerLine",
-    "AnswersFile",
+    "UNASKED",
+    "AnswerEvent",
     "AssessmentFile",
     "AssetFacts",
     "AssetFiles",
     "ConfidenceLine",
-    "ConfirmationLine",
     "CorrectionsFile",
     "DemonstrationFile",
+    "Event",
+    "ExclusionEvent",
+    "Feedback",
     "JsonFile",
     "LabelBefore",
+    "LabelFixEvent",
+    "LabelsEvent",
     "PreparationPlanFile",
     "ProgramRecord",
-    "RepairLine",
-    "Review",
-    "RuleSelection",
+    "Said",
     "Settings",
     "SignOff",
-    "SignOffFile",
     "SinglePartsFile",
+    "SnoozeEvent",
     "SpanLine",
     "SpanPart",
     "SpansFile",
@@ -87,25 +93,26 @@ __all__ = [
     "StepLine",
     "Store",
     "Verdict",
+    "VerdictEvent",
     "VlmSettings",
-    "action_text",
-    "action_text_without_each",
+    "WithdrawalEvent",
     "add_assets",
     "create_folder",
     "describe_parts",
     "edit_settings",
     "find_assets",
     "find_changes",
+    "format_lines",
     "geometry_digest",
     "hull_digests",
     "iterate_survey",
     "json_text",
+    "load_events",
     "orientation",
     "orientation_text",
     "parse_action_text",
     "read_json",
     "read_settings",
-    "repair_id",
     "set_value",
     "survey",
     "toml_value",

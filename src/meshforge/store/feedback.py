@@ -1,175 +1,91 @@
-"""What a person said: answers and label repairs in answers.json, verdicts on edited assets in review.json."""
+"""What all that people said of a family comes to: a fold over its events."""
 
 from __future__ import annotations
 
-from abc import abstractmethod
-from collections.abc import Mapping
-from typing import Annotated, Any, Literal, Self
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
+from functools import lru_cache
+from typing import assert_never
 
-from pydantic import ConfigDict, Field, SerializerFunctionWrapHandler, model_serializer, model_validator
-
-from meshforge.store.layout import JsonFile
-from meshforge.symbolic import Label, LabelSource
-from meshforge.synthesis import Answer, LabelCorrection
-
-Verdict = Literal["accepted", "flagged"]
-
-
-class _Entry(JsonFile):
-    """An answer or a repair. id: its name, which follows from the other fields."""
-
-    id: str
-
-    @model_validator(mode="after")
-    def _check_id(self) -> Self:
-        if self.id != self.proper_id:
-            raise ValueError(f"the id of this entry is {self.proper_id!r}")
-        return self
-
-    @property
-    @abstractmethod
-    def proper_id(self) -> str:
-        """The id that it must have."""
+from meshforge.store.events import (
+    AnswerEvent,
+    Event,
+    ExclusionEvent,
+    LabelFixEvent,
+    LabelsEvent,
+    SnoozeEvent,
+    VerdictEvent,
+    WithdrawalEvent,
+    parse_events,
+)
 
 
-class AnswerLine(_Entry):
-    """An answer `RULE:ASSET`. select: names of the hulls that the rule selects there, null for neither of the choices,
-    which are in `refused`.
-
-    action: what the rule does, in the language's own text without `Each`, so that an answer is not taken for one to
-    another rule when steps are put in or left out later.
+@dataclass(frozen=True, eq=False)
+class Feedback:
+    """answers, fixes: by id, in the order of their ids; verdicts: of each asset, in order, those since the last that
+    was taken back; exclusions: by asset; snoozed, replied: ids of questions.
     """
 
-    rule: Annotated[int, Field(ge=1)]
-    asset: str
-    select: tuple[str, ...] | None
-    action: str | None = None
-    refused: tuple[tuple[str, ...], ...] = ()
+    answers: Mapping[str, AnswerEvent] = field(default_factory=dict)
+    fixes: Mapping[str, LabelFixEvent] = field(default_factory=dict)
+    verdicts: Mapping[str, tuple[VerdictEvent, ...]] = field(default_factory=dict)
+    exclusions: Mapping[str, ExclusionEvent] = field(default_factory=dict)
+    snoozed: tuple[str, ...] = ()
+    replied: frozenset[str] = frozenset()
 
     @property
-    def proper_id(self) -> str:
-        return f"{self.rule}:{self.asset}"
+    def said(self) -> Mapping[str, AnswerEvent | LabelFixEvent]:
+        """The answers and fixes, which can be withdrawn by their ids."""
+        return {**self.answers, **self.fixes}
 
-    @property
-    def answer(self) -> Answer:
-        return Answer(self.rule, self.asset, self.select, self.refused)
-
-    def fits(self, actions: Mapping[int, str]) -> bool:
-        """Whether its rule still does what it did; actions: what rules do, by number, in the same text."""
-        return actions.get(self.rule) == (self.action or actions.get(self.rule, ""))
-
-
-class RepairLine(_Entry):
-    """A repair of a label `ASSET#HULL=LABEL`. was, `from` in the file: the wrong label, null for none."""
-
-    model_config = ConfigDict(populate_by_name=True)
-
-    asset: str
-    hull: str
-    was: Annotated[str | None, Field(validation_alias="from", serialization_alias="from")]
-    to: str
-
-    @property
-    def proper_id(self) -> str:
-        return repair_id(self.correction)
-
-    @property
-    def correction(self) -> LabelCorrection:
-        return LabelCorrection(self.asset, self.hull, self.was, self.to)
-
-
-class LabelBefore(JsonFile):
-    """The label that a hull had, by whom, and how sure that was; given: see `Label`, left out where there is none."""
-
-    label: str
-    source: LabelSource
-    confidence: Annotated[float, Field(ge=0, le=1)]
-    given: LabelBefore | None = None
+    def verdict_on(self, asset: str) -> VerdictEvent | None:
+        """The last verdict on an asset."""
+        every = self.verdicts.get(asset, ())
+        return every[-1] if every else None
 
     @staticmethod
-    def of(label: Label | None) -> LabelBefore | None:
-        if label is None:
-            return None
-        given = LabelBefore.of(label.given)
-        return LabelBefore(label=label.name, source=label.source, confidence=label.confidence, given=given)
-
-    @property
-    def annotation(self) -> Label:
-        return Label(self.label, self.confidence, self.source, self.given.annotation if self.given else None)
-
-    def rename(self, old: str, new: str) -> LabelBefore:
-        """The same where a label has another name."""
-        given = self.given.rename(old, new) if self.given else None
-        return self.model_copy(update={"label": new if self.label == old else self.label, "given": given})
-
-    @model_serializer(mode="wrap")
-    def _leave_out_none(self, write: SerializerFunctionWrapHandler) -> dict[str, Any]:
-        found: dict[str, Any] = write(self)
-        return {name: value for name, value in found.items() if name != "given" or value is not None}
-
-
-class ConfirmationLine(RepairLine):
-    """A repair that was made. before: what the hull had, null for no label, so that the repair can be taken back."""
-
-    before: LabelBefore | None
-
-
-class AnswersFile(JsonFile):
-    """answers.json: answers by rule and asset, repairs by asset and hull; of one id only the last."""
-
-    answers: tuple[AnswerLine, ...] = ()
-    confirmed: tuple[ConfirmationLine, ...] = ()
-    rejected: tuple[RepairLine, ...] = ()
-
-    @property
-    def ids(self) -> tuple[str, ...]:
-        """The ids of all entries."""
-        return tuple(line.id for line in (*self.answers, *self.confirmed, *self.rejected))
-
-    def without(self, entry: str) -> AnswersFile:
-        """All but the entry of this id."""
-        kinds = {"answers": self.answers, "confirmed": self.confirmed, "rejected": self.rejected}
-        return self.model_copy(
-            update={kind: tuple(line for line in lines if line.id != entry) for kind, lines in kinds.items()}
+    def of(events: Iterable[Event]) -> Feedback:
+        """What events come to; of several on one thing the last counts."""
+        answers, fixes = dict[str, AnswerEvent](), dict[str, LabelFixEvent]()
+        verdicts, exclusions = dict[str, tuple[VerdictEvent, ...]](), dict[str, ExclusionEvent]()
+        snoozed, replied = dict[str, None](), set[str]()
+        for event in events:
+            match event:
+                case AnswerEvent():
+                    answers[event.id] = event
+                case LabelFixEvent():
+                    fixes[event.id] = event
+                case WithdrawalEvent():
+                    answers.pop(event.id, None)
+                    fixes.pop(event.id, None)
+                case VerdictEvent():
+                    verdicts[event.asset] = (*verdicts.get(event.asset, ()), event) if event.verdict else ()
+                case ExclusionEvent():
+                    exclusions[event.asset] = event
+                case SnoozeEvent():
+                    snoozed = {**snoozed, event.question: None} if event.question else {}
+                case LabelsEvent():
+                    pass
+                case _:
+                    assert_never(event)
+            replied |= {event.question} if event.question else set()
+        return Feedback(
+            {one.id: one for one in sorted(answers.values(), key=lambda one: (one.rule, one.asset))},
+            dict(sorted(fixes.items())),
+            dict(sorted((asset, some) for asset, some in verdicts.items() if some)),
+            dict(sorted((asset, one) for asset, one in exclusions.items() if one.reason)),
+            tuple(snoozed),
+            frozenset(replied),
         )
 
-    def with_line(self, line: AnswerLine | RepairLine) -> AnswersFile:
-        """All, and one entry more in place of that of the same id."""
-        rest = self.without(line.id)
-        if isinstance(line, AnswerLine):
-            answers = sorted([*rest.answers, line], key=lambda one: (one.rule, one.asset))
-            return rest.model_copy(update={"answers": tuple(answers)})
-        kind = "confirmed" if isinstance(line, ConfirmationLine) else "rejected"
-        lines = sorted([*getattr(rest, kind), line], key=lambda one: (one.asset, one.hull, one.to))
-        return rest.model_copy(update={kind: tuple(lines)})
+
+@lru_cache(maxsize=4)
+def read_events(text: str, where: str) -> tuple[Event, ...]:
+    """The events of a file of this text; what was read last is not parsed again."""
+    return parse_events(text, where)
 
 
-def repair_id(correction: LabelCorrection) -> str:
-    """What a repair is called: `ASSET#HULL=LABEL`, with the label that it gives."""
-    return f"{correction.asset}#{correction.hull}={correction.to}"
-
-
-class RuleSelection(JsonFile):
-    """What a rule selected on an accepted asset; action: what the rule does, in the language's text without `Each`."""
-
-    rule: Annotated[int, Field(ge=1)]
-    action: str
-    select: tuple[str, ...]
-
-
-class Review(JsonFile):
-    """What a person said about one edited asset; output: the digest of the files that were looked at.
-
-    seen: of a result that was accepted by itself, what the program did there.
-    """
-
-    verdict: Verdict
-    note: str | None = None
-    output: str | None = None
-    seen: tuple[RuleSelection, ...] = ()
-
-
-class ReviewFile(JsonFile):
-    """All reviews, by asset."""
-
-    assets: dict[str, Review] = Field(default_factory=dict)
+@lru_cache(maxsize=4)
+def read_feedback(text: str, where: str) -> Feedback:
+    """What the events of a file of this text come to."""
+    return Feedback.of(read_events(text, where))

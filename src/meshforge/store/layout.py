@@ -13,6 +13,8 @@ from meshforge.batch import RECORD_FILE, SETTINGS, STATE
 from meshforge.common import ProjectError, first_validation_error, write_atomically
 
 _JOURNAL = "selections.json"
+ATTRIBUTES = "events.jsonl merge=union\n"
+"""What the .gitattributes of a project says."""
 Model = TypeVar("Model", bound=BaseModel)
 
 
@@ -59,9 +61,20 @@ class Layout:
         return self.folder / "program.mf"
 
     @property
-    def answers(self) -> Path:
-        """What a person said while the program was learned."""
-        return self.folder / "answers.json"
+    def events(self) -> Path:
+        """What people said."""
+        return self.folder / "events.jsonl"
+
+    @property
+    def sign_offs(self) -> Path:
+        """Which assets are signed off."""
+        return self.folder / "signoffs.jsonl"
+
+    @property
+    def files_before_events(self) -> tuple[Path, ...]:
+        """Where that was kept before: answers, verdicts, sign-offs and snoozed questions."""
+        names = ("answers.json", "review.json", "signoff.json", "later.json")
+        return tuple(self.folder / name for name in names)
 
     @property
     def questions(self) -> Path:
@@ -77,20 +90,6 @@ class Layout:
     def learned_before(self) -> Path:
         """Where that was kept before: read while there is no other, removed when it is written."""
         return self.folder / STATE / "learned.json"
-
-    @property
-    def review(self) -> Path:
-        return self.folder / "review.json"
-
-    @property
-    def sign_off(self) -> Path:
-        """Which assets are signed off."""
-        return self.folder / "signoff.json"
-
-    @property
-    def later(self) -> Path:
-        """Which questions of a review were put off."""
-        return self.folder / "later.json"
 
     @property
     def assessment(self) -> Path:

@@ -11,10 +11,10 @@ from typing import Annotated
 
 from pydantic import Field
 
-from meshforge.batch import Correction, read_template
+from meshforge.batch import Correction, action_text, read_template
 from meshforge.common import MeshForgeError, ProjectError, join_names, relative_name, write_atomically
 from meshforge.formats import MESH_SUFFIXES
-from meshforge.language import Action, Each, Program, show_label
+from meshforge.language import Action, Program
 from meshforge.store.layout import JsonFile, Layout, read_json, write_json
 from meshforge.synthesis import Step
 
@@ -96,16 +96,6 @@ class CorrectionsFile(JsonFile):
 
     asset: str
     steps: tuple[CorrectionLine, ...]
-
-
-def action_text(action: Action, label: str | None) -> str:
-    """An action as a rule has it after its arrow: `Add(+X, "knob.obj") as handle`."""
-    return f"{action} as {show_label(label)}" if label else str(action)
-
-
-def action_text_without_each(action: Action, label: str | None) -> str:
-    """The same without `Each`: what a rule does, whether to all hulls together or to each."""
-    return action_text(action.action if isinstance(action, Each) else action, label)
 
 
 def parse_action_text(text: str, where: str | Path) -> tuple[Action, str | None]:

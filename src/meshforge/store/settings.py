@@ -20,7 +20,7 @@ from meshforge.batch import SETTINGS, AssetSet, asset_id, expand
 from meshforge.common import MeshForgeError, ProjectError, UsageError, plain_path, write_atomically
 from meshforge.formats import all_suffixes, is_asset
 from meshforge.language import Orient, Program, show
-from meshforge.store.layout import invalid_file
+from meshforge.store.layout import ATTRIBUTES, invalid_file
 
 Price = Annotated[float, Field(ge=0, allow_inf_nan=False)]
 Seconds = Annotated[float, Field(gt=0, allow_inf_nan=False)]
@@ -243,7 +243,15 @@ def create_folder(
         orient=text,
     )
     write_settings(folder, settings)
+    _merge_events_by_lines(folder / ".gitattributes")
     return folder
+
+
+def _merge_events_by_lines(path: Path) -> None:
+    """Let git merge what people said on two branches by lines."""
+    text = path.read_text("utf-8") if path.exists() else ""
+    if ATTRIBUTES not in text:
+        write_atomically(path, text + "\n" * (bool(text) and not text.endswith("\n")) + ATTRIBUTES)
 
 
 def find_assets(folder: Path) -> AssetSet:

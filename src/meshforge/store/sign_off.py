@@ -1,17 +1,17 @@
-"""Which assets are signed off, and what that rests on; and what was found when the family was looked at last."""
+"""signoffs.jsonl: which assets are signed off, and what that rests on; and what was found when the family was looked
+at last."""
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping, Sequence
-from typing import Annotated, Literal
+from collections.abc import Mapping, Sequence
+from typing import Literal
 
 from pydantic import Field
 
 from meshforge.batch import OutputInputs
 from meshforge.signoff import AssetConfidence, Doubt, DoubtKind, EditMeasures
+from meshforge.store.events import Probability, list_lines, parse_line
 from meshforge.store.layout import JsonFile
-
-Probability = Annotated[float, Field(ge=0, le=1)]
 
 
 class SignOff(JsonFile):
@@ -19,32 +19,17 @@ class SignOff(JsonFile):
     digests of all that decides its edit.
     """
 
+    asset: str
     by: Literal["tool", "person"]
     when: str
     probability: Probability
     rests_on: OutputInputs
 
 
-class SignOffFile(JsonFile):
-    """signoff.json: sign-offs by asset, and assets that a person set aside though they have no output that could be
-    flagged."""
-
-    assets: dict[str, SignOff] = Field(default_factory=dict)
-    aside: tuple[str, ...] = ()
-
-    def with_aside(self, asset: str) -> SignOffFile:
-        """The same, and an asset set aside."""
-        return self.model_copy(update={"aside": tuple(sorted({*self.aside, asset}))})
-
-    def without_aside(self, assets: Collection[str]) -> SignOffFile:
-        """The same, and some assets not set aside any more."""
-        return self.model_copy(update={"aside": tuple(name for name in self.aside if name not in assets)})
-
-
-class LaterFile(JsonFile):
-    """later.json: the ids of questions that were put off; apart from sign-offs, so that it can be undone by itself."""
-
-    questions: tuple[str, ...] = ()
+def parse_sign_offs(text: str, where: str) -> dict[str, SignOff]:
+    """The sign-offs of a file by asset, one JSON object a line. Raises ProjectError, naming the line, for another."""
+    found = (parse_line(SignOff.model_validate_json, line, number, where) for number, line in list_lines(text))
+    return {one.asset: one for one in found}
 
 
 class DoubtLine(JsonFile):
@@ -58,8 +43,8 @@ class DoubtLine(JsonFile):
 
 
 class ConfidenceLine(JsonFile):
-    """How an asset stood when the family was looked at last; rests_on: as of `SignOff`; looked_at: whether a person
-    showed its edit, or accepted it; stands_out: whether its output has alarms that the probability does not know;
+    """How an asset stood when the family was looked at last; rests_on: as of `SignOff`; looked_at: whether a
+    person showed its edit, or accepted it; stands_out: whether its output has alarms that the probability lacks;
     measures: of its edit, None where it has none."""
 
     probability: Probability
@@ -101,12 +86,12 @@ class ConfidenceLine(JsonFile):
 
 class AssessmentFile(JsonFile):
     """What was found last. bar: the probability from which on an asset is signed off; lesson: the digest of what was
-    learned from and of all verdicts; aside: assets that a person had flagged or set aside.
+    learned from and of all verdicts; wrong: assets of which a person said that the result is wrong.
     """
 
     bar: float
     lesson: str
-    aside: tuple[str, ...] = ()
+    wrong: tuple[str, ...] = ()
     assets: dict[str, ConfidenceLine] = Field(default_factory=dict)
 
     def with_alarms(self, alarms: Mapping[str, Sequence[str]]) -> AssessmentFile:

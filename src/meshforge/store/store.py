@@ -22,11 +22,13 @@ from meshforge.language import Orient, Program, Template
 from meshforge.store import membership
 from meshforge.store import program as program_files
 from meshforge.store import settings as settings_file
-from meshforge.store.feedback import AnswersFile, Review, ReviewFile
+from meshforge.store.event_log import load_events, load_feedback, load_sign_offs, save_events, save_sign_offs
+from meshforge.store.events import Event, SnoozeEvent, VerdictEvent
+from meshforge.store.feedback import Feedback
 from meshforge.store.layout import Layout, read_derived, read_json, write_json
 from meshforge.store.meshes import AssetFiles, read_labels_file
 from meshforge.store.preparation_plan import forget_assets
-from meshforge.store.sign_off import AssessmentFile, LaterFile, SignOffFile
+from meshforge.store.sign_off import AssessmentFile, SignOff
 from meshforge.store.spans import SinglePartsFile, SpansFile
 from meshforge.symbolic import Label, LabelFile, SymbolicMesh, format_labels, match_labels, transfer_labels
 from meshforge.synthesis import Demonstration, Step
@@ -154,7 +156,7 @@ class Store:
                 ):
                     path.unlink(missing_ok=True)
                 remove_preparation(self.layout.preparation(asset))
-            self.write_reviews(dict.fromkeys(assets))
+            self.add_events(*(VerdictEvent(asset=asset) for asset in assets if self.feedback().verdict_on(asset)))
             forget_assets(self.layout, assets)
 
     # Labels
@@ -283,41 +285,47 @@ class Store:
 
     # What a person said
 
-    def answers(self) -> AnswersFile:
-        """All answers to questions, and all repairs of labels that were confirmed or rejected."""
-        return read_json(self.layout.answers, AnswersFile) or AnswersFile()
+    def feedback(self) -> Feedback:
+        """What all that people said comes to. Raises ProjectError, naming file and line, where it cannot be read."""
+        return load_feedback(self.layout)
 
-    def write_answers(self, answers: AnswersFile) -> None:
-        """Write all answers and repairs, under the lock that the caller holds; without any there is no file."""
-        if answers.ids or answers.model_extra:
-            write_json(self.layout.answers, answers)
-        else:
-            self.layout.answers.unlink(missing_ok=True)
-
-    def sign_offs(self) -> SignOffFile:
-        """Which assets are signed off or set aside."""
-        return read_json(self.layout.sign_off, SignOffFile) or SignOffFile()
-
-    def write_sign_offs(self, signed: SignOffFile) -> None:
-        """Write the sign-offs, under the lock that the caller holds."""
-        if signed != self.sign_offs():
-            write_json(self.layout.sign_off, signed)
-
-    def put_off_ids(self) -> tuple[str, ...]:
-        """The ids of questions of a review that were put off."""
-        return (read_json(self.layout.later, LaterFile) or LaterFile()).questions
-
-    def put_off(self, question: str) -> None:
-        """Ask a question of a review no more, as long as what it is about stays."""
+    def add_events(self, *events: Event) -> None:
+        """Keep what a person said, all or nothing."""
         with self.lock():
-            known = self.put_off_ids()
-            if question not in known:
-                write_json(self.layout.later, LaterFile(questions=(*known, question)))
+            save_events(self.layout, [*load_events(self.layout), *events])
+
+    def snooze(self, question: str) -> None:
+        """Ask a question of a review no more, as long as what it is about stays."""
+        self.add_events(SnoozeEvent(question=question))
 
     def ask_again(self) -> None:
-        """Ask all questions that were put off."""
+        """Ask all questions that were snoozed."""
+        if self.feedback().snoozed:
+            self.add_events(SnoozeEvent())
+
+    def migrate(self) -> None:
+        """Keep as events what files of before there were events hold."""
         with self.lock():
-            self.layout.later.unlink(missing_ok=True)
+            if not self.layout.events.exists() and (events := load_events(self.layout)):
+                save_events(self.layout, events)
+
+    def change_events(self, change: Callable[[tuple[Event, ...]], Iterable[Event]]) -> None:
+        """Write other events in the place of all that there are, where anything is other."""
+        with self.lock():
+            before = load_events(self.layout)
+            after = tuple(change(before))
+            if after != before:
+                save_events(self.layout, after)
+
+    def sign_offs(self) -> dict[str, SignOff]:
+        """Which assets are signed off, by asset."""
+        return load_sign_offs(self.layout)
+
+    def write_sign_offs(self, signed: Mapping[str, SignOff]) -> None:
+        """Write which assets are signed off, under the lock that the caller holds."""
+        if signed != self.sign_offs():
+            self.migrate()
+            save_sign_offs(self.layout, signed)
 
     def assessment(self) -> AssessmentFile | None:
         """How the family stood when it was looked at last; None where that is not kept, or damaged."""
@@ -358,15 +366,3 @@ class Store:
     def write_single_parts(self, said: SinglePartsFile) -> None:
         """Write which hulls are one part, under the lock that the caller holds."""
         write_json(self.layout.single_parts, said)
-
-    def reviews(self) -> dict[str, Review]:
-        """What a person said about edited assets."""
-        return (read_json(self.layout.review, ReviewFile) or ReviewFile()).assets
-
-    def write_reviews(self, changes: Mapping[str, Review | None]) -> None:
-        """Write the reviews of some assets beside those of the others; None takes one back."""
-        with self.lock():
-            kept = read_json(self.layout.review, ReviewFile) or ReviewFile()
-            reviews = {asset: review for asset, review in {**kept.assets, **changes}.items() if review}
-            if reviews != kept.assets:
-                write_json(self.layout.review, kept.model_copy(update={"assets": dict(sorted(reviews.items()))}))

@@ -21,6 +21,11 @@ class LabelCorrection:
     to: str
 
     @property
+    def id(self) -> str:
+        """What it is called: `ASSET#HULL=LABEL`, with the label that it gives."""
+        return f"{self.asset}#{self.hull}={self.to}"
+
+    @property
     def reverse(self) -> LabelCorrection | None:
         """The correction that undoes this one, None where the hull had no label."""
         return None if self.was is None else LabelCorrection(self.asset, self.hull, self.to, self.was)

@@ -43,7 +43,7 @@ MeshReader = Callable[[], SymbolicMesh]
 READ_TIMEOUT = 300.0
 """Seconds for one asset."""
 
-StandingWord = Literal["held", "sure", "signed off", "set aside"]
+StandingWord = Literal["held", "sure", "signed off", "excluded"]
 """How an asset of a project stands; sure: to be signed off once its output is up to date; held: anything less."""
 
 

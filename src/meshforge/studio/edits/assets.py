@@ -10,7 +10,7 @@ from meshforge.batch import SETTINGS
 from meshforge.common import join_names, pluralize
 from meshforge.project import Project
 from meshforge.store import parse_action_text
-from meshforge.studio.edits.base import PROGRAM_FILES, SINGLE_PARTS_FILE, Edit, JobEdit, LabelsByAsset
+from meshforge.studio.edits.base import EVENTS_FILE, PROGRAM_FILES, SINGLE_PARTS_FILE, Edit, JobEdit, LabelsByAsset
 from meshforge.studio.wire.requests import HullOfAsset
 
 
@@ -144,7 +144,7 @@ class RenameLabel(Edit):
     """Give a label of the vocabulary another name, wherever it is used."""
 
     kind: Literal["rename-label"] = "rename-label"
-    touches = (SETTINGS, "labels", "demonstrations", "corrections", "answers.json", *PROGRAM_FILES)
+    touches = (SETTINGS, "labels", "demonstrations", "corrections", EVENTS_FILE, *PROGRAM_FILES)
     old: str
     new: str
 
@@ -188,7 +188,7 @@ class _PreparationEdit(Edit):
         "labels/{asset}.json",
         "demonstrations/{asset}.json",
         "corrections/{asset}.json",
-        "answers.json",
+        EVENTS_FILE,
     )
     asset: str
 
@@ -252,9 +252,9 @@ class ReviewAssets(Edit):
     """Accept or flag the outputs of some assets; null takes that back."""
 
     kind: Literal["review"] = "review"
-    touches = ("review.json",)
+    touches = (EVENTS_FILE,)
     ids: tuple[str, ...]
-    verdict: Literal["accepted", "flagged"] | None
+    verdict: Literal["accepted", "wrong"] | None
     note: str | None = None
 
     def apply(self, project: Project) -> None:
@@ -346,7 +346,7 @@ class RemoveAssets(Edit):
     """Remove assets from the project, with their labels, demonstrations and corrections; their own files stay."""
 
     kind: Literal["remove-assets"] = "remove-assets"
-    touches = (SETTINGS, "review.json")
+    touches = (SETTINGS, EVENTS_FILE)
     ids: tuple[str, ...]
 
     def apply(self, project: Project) -> None:

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from typing import Literal
 
-from meshforge.batch import SETTINGS
+from meshforge.batch import SETTINGS, action_text
 from meshforge.common import MeshForgeError, pluralize
 from meshforge.language import Program
 from meshforge.project import Project
-from meshforge.store import action_text, parse_action_text
+from meshforge.store import parse_action_text
 from meshforge.studio.edits.base import (
-    LATER_FILE,
+    EVENTS_FILE,
     LEARNED_BEFORE,
     LEARNED_FILE,
     PROGRAM_FILE,
@@ -70,7 +70,7 @@ class CorrectSelection(Edit):
     """Select other hulls where what was shown, answered or found right of a rule was a slip."""
 
     kind: Literal["correct-selection"] = "correct-selection"
-    touches = ("demonstrations/{asset}.json", "answers.json", "review.json")
+    touches = ("demonstrations/{asset}.json", EVENTS_FILE)
     asset: str
     rule: int
     select: tuple[str, ...]
@@ -93,7 +93,7 @@ def _read_steps(project: Project, asset: str) -> tuple[Step, ...]:
 class _RuleEdit(Edit):
     """An edit of a rule in all demonstrations, and in the answers about it."""
 
-    touches = ("demonstrations", "answers.json")
+    touches = ("demonstrations", EVENTS_FILE)
 
 
 class MoveRule(_RuleEdit):
@@ -141,7 +141,7 @@ class AnswerQuestion(Edit):
     """Say which hulls a rule selects on an asset; null: neither of the choices, which are then in `refused`."""
 
     kind: Literal["answer"] = "answer"
-    touches = ("answers.json",)
+    touches = (EVENTS_FILE,)
     rule: int
     asset: str
     select: tuple[str, ...] | None
@@ -158,7 +158,7 @@ class SettleRepair(Edit):
     """Confirm or refuse a repair of a label."""
 
     kind: Literal["repair"] = "repair"
-    touches = ("answers.json", "labels/{asset}.json")
+    touches = (EVENTS_FILE, "labels/{asset}.json")
     asset: str
     hull: str
     was: str | None
@@ -178,7 +178,7 @@ class TakeBack(Edit):
     """Take back an answer or a repair by its id."""
 
     kind: Literal["take-back"] = "take-back"
-    touches = ("answers.json", "labels")
+    touches = (EVENTS_FILE, "labels")
     id: str
 
     def apply(self, project: Project) -> None:
@@ -192,11 +192,11 @@ class PutOff(Edit):
     """Ask a question of the review no more, as long as what it is about stays."""
 
     kind: Literal["put-off"] = "put-off"
-    touches = (LATER_FILE,)
+    touches = (EVENTS_FILE,)
     id: str
 
     def apply(self, project: Project) -> None:
-        project.put_off(self.id)
+        project.snooze(self.id)
 
     def describe(self, project: Project) -> str:
         return "question put off"

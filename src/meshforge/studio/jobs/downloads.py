@@ -120,7 +120,7 @@ def _list_left_out(
             yield card.asset, "without output"
         elif card.asset in chosen:
             yield card.asset, _NOT_WHOLE
-        elif card.review == "flagged":
+        elif card.review == "wrong":
             yield card.asset, "flagged"
         else:
             yield card.asset, "held" if card.asset in held else "not signed off"

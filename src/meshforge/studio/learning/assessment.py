@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
-from meshforge.batch import OutputInputs
 from meshforge.common import MeshForgeError
 from meshforge.label_model import model_family
 from meshforge.language import Program, explain, parse_extractor, show
@@ -15,8 +14,8 @@ from meshforge.project import (
     add_demonstration_doubts,
     add_span_doubts,
     ask_about_spans,
-    choose_span_question,
     keep_assessment,
+    list_span_questions,
     measure_results,
     sees_whole_family,
 )
@@ -75,7 +74,7 @@ def assess_project(
     )
     program = judged.program if judged else None
     inputs = basis.under(project, program or project.program()).inputs
-    state = read_review_state(project, meshes, inputs)
+    state = project.build_review_state(meshes, inputs)
     measures = measure_results(project, program, meshes, inputs, stop) if program else {}
     model = model_family(list(meshes.values()))
     if stop():
@@ -84,7 +83,7 @@ def assess_project(
     found = review_family(state, judged, model, last.bar if last else BAR, describe_odd_results(measures))
     found = add_span_doubts(project, meshes, found, state.reviewed_assets)
     if accepted is None:
-        found = add_demonstration_doubts(project, found, {*state.accepted, *state.mended})
+        found = add_demonstration_doubts(project, found, state.accepted | state.corrected)
     found = ask_about_spans(project, meshes, found, program is not None)
     return ProjectAssessment(found, state, program, basis, measures)
 
@@ -94,23 +93,9 @@ def view_first_question(project: Project, meshes: Mapping[str, SymbolicMesh], nu
 
     meshes: the assets that it may be about; number: of the learning run that was not needed.
     """
-    question = choose_span_question(project, meshes)
-    asked = _view_question(question, meshes) if question else None
+    questions = list_span_questions(project, meshes)
+    asked = _view_question(questions[0], meshes) if questions else None
     return wire.AssessmentView(number=number, bar=BAR, question=asked)
-
-
-def read_review_state(
-    project: Project, meshes: Mapping[str, SymbolicMesh], inputs: Mapping[str, OutputInputs]
-) -> ReviewState:
-    """All that is known of a project's family. A result that was accepted counts while its output is up to date."""
-    state = project.build_review_state(meshes, inputs)
-    some = [*state.accepted, *state.mended]
-    current = {row.id for row in project.status(some).assets if row.is_done} if some else set()
-    return replace(
-        state,
-        accepted={asset: done for asset, done in state.accepted.items() if asset in current},
-        mended={asset: done for asset, done in state.mended.items() if asset in current},
-    )
 
 
 def view_assessment(
@@ -128,7 +113,7 @@ def view_assessment(
             asset=name,
             probability=round(one.probability, 4),
             doubts=tuple(wire.DoubtView(**doubt.to_json()) for doubt in one.doubts),
-            state="aside" if name in assessment.aside else "signed" if name in signed else "held",
+            state="aside" if name in assessment.excluded else "signed" if name in signed else "held",
             told=name in assessment.looked_at,
         )
         for name, one in assessment.assets.items()

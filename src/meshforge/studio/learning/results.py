@@ -12,7 +12,6 @@ from meshforge import synthesis
 from meshforge.batch import template_digests
 from meshforge.common import MeshForgeError
 from meshforge.language import EXTREMITY, Extractor, Program, Template, apply_rule, explain, select_mask, show
-from meshforge.store import repair_id
 from meshforge.studio.queries.programs import rule_views
 from meshforge.studio.wire import program as wire
 from meshforge.symbolic import SymbolicMesh, bits_of
@@ -63,7 +62,7 @@ def _view_reading(reading: synthesis.Reading) -> wire.ReadingView:
 def _view_repair(repair: synthesis.Repair) -> wire.RepairView:
     wrong = repair.correction
     return wire.RepairView(
-        id=repair_id(wrong),
+        id=wrong.id,
         rule=repair.rule,
         asset=wrong.asset,
         hull=wrong.hull,

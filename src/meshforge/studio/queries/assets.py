@@ -9,13 +9,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from meshforge import rendering
-from meshforge.batch import software_version, text_digest
+from meshforge.batch import action_text, software_version, text_digest
 from meshforge.common import MeshForgeError
 from meshforge.formats import VisualSurfaces
 from meshforge.geometry import Floats, Pose
 from meshforge.language import Orient, Program, orient_mesh
 from meshforge.project import Project, Split
-from meshforge.store import action_text
 from meshforge.studio.edits.base import steps_version
 from meshforge.studio.queries.packets import contact_names, frame_packet, hull_views
 from meshforge.studio.queries.replay import AssetReplay, EditResult, replay_steps

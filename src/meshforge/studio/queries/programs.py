@@ -8,10 +8,10 @@ from dataclasses import fields
 from typing import Any, Literal
 
 from meshforge import language
+from meshforge.batch import action_text
 from meshforge.common import MeshForgeError, ProgramError
 from meshforge.language import EXTREMITY, Extractor, Orient, Program, explain, parse_extractor, select_mask, show
 from meshforge.project import Project
-from meshforge.store import action_text
 from meshforge.studio.edits.base import program_version
 from meshforge.studio.queries.replay import replay_steps
 from meshforge.studio.wire import program as wire

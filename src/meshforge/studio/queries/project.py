@@ -7,12 +7,12 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from importlib.util import find_spec
 
+from meshforge.batch import action_text
 from meshforge.common import MeshForgeError, pluralize
 from meshforge.labels import LabelOffers, check_vlm_settings, endpoint_of
 from meshforge.language import explain
 from meshforge.project import AssetStatus, Project
 from meshforge.rendering import UNSURE, label_color
-from meshforge.store import action_text
 from meshforge.studio.queries.assets import output_picture_digest, picture_digest
 from meshforge.studio.wire.asset import Fault
 from meshforge.studio.wire.family import (
@@ -226,7 +226,7 @@ def _count_held(assessment: AssessmentView) -> str:
 
 def _step_for_sign_off(cards: Sequence[Card], assessment: AssessmentView | None) -> Next | None:
     """What is left to be signed off, and nothing more where nothing is; where some were not looked at, None."""
-    if not assessment or not assessment.assets or any(card.review == "flagged" for card in cards):
+    if not assessment or not assessment.assets or any(card.review == "wrong" for card in cards):
         return None
     if assessment.held:
         least = min((one for one in assessment.assets if one.state == "held"), key=lambda one: one.probability)
@@ -238,7 +238,7 @@ def _step_for_sign_off(cards: Sequence[Card], assessment: AssessmentView | None)
 
 
 def _step_for_reviews(cards: Sequence[Card], sample: Sequence[str]) -> Next:
-    flagged = [c for c in cards if c.review == "flagged"]
+    flagged = [c for c in cards if c.review == "wrong"]
     if flagged:
         return Next(stage="review", say=f"{pluralize(len(flagged), 'asset')} flagged: fix it.", asset=flagged[0].asset)
     open_ = [c for c in cards if c.review is None]
@@ -310,20 +310,18 @@ def vocabulary_view(words: Sequence[str], cards: Iterable[Card]) -> tuple[Vocabu
 
 
 def _list_feedback(project: Project) -> Iterator[AnswerView]:
-    kept = project.answers()
-    for answer in kept.answers:
+    said = project.feedback()
+    for answer in said.answers.values():
         if answer.select is None:
             what = "neither of the choices"
         else:
             what = pluralize(len(answer.select), "hull") if answer.select else "nothing"
         text = f"rule {answer.rule} on {answer.asset} selects {what}"
         yield AnswerView(id=answer.id, kind="answer", asset=answer.asset, text=text)
-    for line in kept.confirmed:
-        text = f"{line.hull} of {line.asset} is {line.to}, not {line.was or 'without a label'}"
-        yield AnswerView(id=line.id, kind="confirmed", asset=line.asset, text=text)
-    for wrong in kept.rejected:
-        text = f"{wrong.hull} of {wrong.asset} is not {wrong.to}"
-        yield AnswerView(id=wrong.id, kind="rejected", asset=wrong.asset, text=text)
+    for line in said.fixes.values():
+        is_or_not = f"is {line.to}, not {line.was or 'without a label'}" if line.accepted else f"is not {line.to}"
+        text = f"{line.hull} of {line.asset} {is_or_not}"
+        yield AnswerView(id=line.id, kind="confirmed" if line.accepted else "rejected", asset=line.asset, text=text)
 
 
 def build_card(

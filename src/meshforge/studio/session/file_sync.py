@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import logging
 from collections.abc import Callable, Iterable, Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from stat import S_ISDIR
 from threading import Event, Thread
@@ -13,8 +13,8 @@ from time import monotonic
 from meshforge.batch import SETTINGS, STATE, source_files
 from meshforge.common import MeshForgeError, relative_name
 from meshforge.project import Project, read_spans
-from meshforge.store import Review, SpanLine
-from meshforge.studio.edits.base import LATER_FILE, LEARNED_FILE, PROGRAM_FILE, SINGLE_PARTS_FILE
+from meshforge.store import Feedback, SpanLine
+from meshforge.studio.edits.base import EVENTS_FILE, LEARNED_FILE, PROGRAM_FILE, SINGLE_PARTS_FILE
 from meshforge.studio.learning.scheduler import LearningScheduler
 from meshforge.studio.pages import PageState
 from meshforge.studio.queries.programs import read_program_view
@@ -28,20 +28,19 @@ _LOG = logging.getLogger(__name__)
 _STAMPS = f"edited/{STATE}/stamps/"
 _ASSET_FOLDERS = ("labels/", "demonstrations/", "corrections/", _STAMPS)
 _LEARNING_FOLDERS = ("labels/", "demonstrations/", "prepared/", "templates/")
-_LEARNING_FILES = frozenset(("answers.json", "review.json", PROGRAM_FILE))
+_LEARNING_FILES = frozenset((PROGRAM_FILE,))
 
-SIGN_OFF_FILE = "signoff.json"
 PREPARATION_PLAN_FILE = "preparation.json"
 _LOOKALIKES_FILE = f"{STATE}/lookalikes.json"
 _FOUND_FILES = (SINGLE_PARTS_FILE, f"{STATE}/spans.json")
-_QUESTION_FILES = (LATER_FILE, *_FOUND_FILES)
+_QUESTION_FILES = _FOUND_FILES
 
 POLL_SECONDS = 1.5
 """Seconds between two polls; more where a poll itself takes long, so that it takes a small share of the time."""
 _SHARE = 10
 _WATCH_FOLDERS = ("labels", "demonstrations", "corrections", "prepared", "templates", f"edited/{STATE}/stamps")
 _WATCH_FILES = (
-    SETTINGS, "answers.json", PROGRAM_FILE, "review.json", SIGN_OFF_FILE, LEARNED_FILE, PREPARATION_PLAN_FILE,
+    SETTINGS, PROGRAM_FILE, EVENTS_FILE, LEARNED_FILE, PREPARATION_PLAN_FILE,
     *_QUESTION_FILES, _LOOKALIKES_FILE,
 )  # fmt: skip
 
@@ -61,14 +60,15 @@ class FileSync:
         self.project = project
         self._pages, self._learning, self._queue = pages, learning, queue
         self._stamps = read_stamps(project)
-        self._reviews = project.reviews()
-        self._aside, self._spans = _read_aside(project), _read_spans(project)
+        self._said, self._spans = _read_feedback(project), _read_spans(project)
 
     def update(self, names: Iterable[str]) -> None:
         """Refresh what depends on files that changed; names: paths from the project's folder."""
         names = frozenset(names)
         self._note_stamps(names)
         changes = changes_of(self.project, names)
+        if EVENTS_FILE in names:
+            changes = self._add_feedback(changes)
         if changes.settings:
             self.reopen()
         is_other = self.show_program() if changes.settings or changes.program else False
@@ -76,14 +76,11 @@ class FileSync:
             self._learning.restart()
         self._pages.announce_assets(sorted(changes.assets), bool(changes.shapes))
         self._queue.add(changes.assets, later=changes.settings)
-        if changes.reviews:
-            self._queue.add(self._update_reviews())
         if not names.isdisjoint((*_FOUND_FILES, _LOOKALIKES_FILE)):
             self._queue.add(self._update_spans())
         if is_other and not changes.learning:
             self._learning.measure_reach()
-        is_asked_otherwise = self._update_aside() if SIGN_OFF_FILE in names else False
-        if (changes.questions or is_asked_otherwise) and not changes.learning:
+        if changes.questions and not changes.learning:
             self._learning.assess()
 
     def show_program(self) -> bool:
@@ -121,29 +118,35 @@ class FileSync:
         kept = {name: at for name, at in self._stamps.items() if name not in names}
         self._stamps = kept | dict(_stamp_files((self.project.folder / name for name in names), self.project.folder))
 
-    def _update_reviews(self) -> list[str]:
-        """The assets whose review changed."""
-        before: dict[str, Review] = self._reviews
-        self._reviews = now = self.project.reviews()
-        return [asset for asset in before | now if before.get(asset) != now.get(asset)]
+    def _add_feedback(self, changes: FileChanges) -> FileChanges:
+        """The same with what people said since: what is learned from it, and of which assets; else, what is asked."""
+        before, now = self._said, _read_feedback(self.project)
+        self._said = now
+        about = {
+            asset
+            for asset in before.verdicts.keys() | now.verdicts.keys()
+            if before.verdict_on(asset) != now.verdict_on(asset)
+        }
+        about |= {
+            one
+            for one in before.exclusions.keys() | now.exclusions.keys()
+            if (one in before.exclusions) != (one in now.exclusions)
+        }
+        learns = bool(about) or before.said != now.said
+        assets = changes.assets | (about & self.project.found.ids.keys())
+        return replace(changes, assets=assets, learning=changes.learning or learns, questions=True)
 
     def _update_spans(self) -> list[str]:
         """The assets of which other hulls likely span parts than before."""
         before, self._spans = self._spans, _read_spans(self.project)
         return [asset for asset in before | self._spans if before.get(asset) != self._spans.get(asset)]
 
-    def _update_aside(self) -> bool:
-        """Whether other assets are set aside than before; sign-offs themselves, which an assessment renews, change
-        nothing that it is made of."""
-        before, self._aside = self._aside, _read_aside(self.project)
-        return before != self._aside
 
-
-def _read_aside(project: Project) -> tuple[str, ...]:
+def _read_feedback(project: Project) -> Feedback:
     try:
-        return project.sign_offs().aside
+        return project.feedback()
     except MeshForgeError:  # the assessment says so
-        return ()
+        return Feedback()
 
 
 def _read_spans(project: Project) -> dict[str, list[dict[str, SpanLine]]]:
@@ -166,15 +169,14 @@ def _view_program(project: Project, before: ProgramView) -> ProgramView:
 class FileChanges:
     """assets: ids of which something changed; shapes: those of them whose hulls may be others.
 
-    settings, program, reviews: whether these changed; questions: whether others are to be asked; learning: whether
-    what is learned from did.
+    settings, program: whether these changed; questions: whether others are to be asked; learning: whether what is
+    learned from did.
     """
 
     assets: frozenset[str] = field(default_factory=frozenset)
     shapes: frozenset[str] = field(default_factory=frozenset)
     settings: bool = False
     program: bool = False
-    reviews: bool = False
     questions: bool = False
     learning: bool = False
 
@@ -193,7 +195,6 @@ def changes_of(project: Project, names: Iterable[str]) -> FileChanges:
         shapes=frozenset(shapes),
         settings=settings,
         program=bool(names & {PROGRAM_FILE, LEARNED_FILE}),
-        reviews="review.json" in names,
         questions=not names.isdisjoint(_QUESTION_FILES),
         learning=settings
         or bool(shapes)

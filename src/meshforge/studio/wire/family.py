@@ -11,7 +11,7 @@ from meshforge.studio.wire.asset import Fault
 from meshforge.studio.wire.jobs import PropagationState
 
 CardOutput = Literal["none", "edited", "unchanged", "failed"]
-Verdict = Literal["accepted", "flagged"]
+Verdict = Literal["accepted", "wrong"]
 Stage = Literal["label", "demonstrate", "learn", "review"]
 
 

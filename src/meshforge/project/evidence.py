@@ -1,0 +1,84 @@
+"""What a program is learned from besides demonstrations: answers, results that were accepted or corrected, and repairs
+that are not to be proposed."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+
+import numpy as np
+
+from meshforge import synthesis
+from meshforge.batch import RuleSelection
+from meshforge.label_model import model_family
+from meshforge.project import demonstrations
+from meshforge.project.run import find_accepted_results
+from meshforge.store import Feedback, Store
+from meshforge.symbolic import SymbolicMesh
+
+TEACHES = 0.8
+"""A result that was corrected is learned from where the labels of the hulls that differ are right with this
+probability; elsewhere the labels may be at fault, and no rule."""
+
+
+def sort_answers(
+    store: Store, said: Feedback, demos: Mapping[str, synthesis.Demonstration], more: Sequence[synthesis.Answer]
+) -> tuple[list[synthesis.Answer], list[synthesis.Answer]]:
+    """The answers to learn from, and those to a rule that does something else by now; more: besides those kept."""
+    given = (demonstrations.check_answer(store, answer) for answer in more)
+    lines = {line.id: line for line in [*said.answers.values(), *given]}
+    actions = demonstrations.actions_of(demo.steps for demo in demos.values())
+    fitting = [line.answer for line in lines.values() if line.fits(actions)]
+    return fitting, [line.answer for line in lines.values() if not line.fits(actions)]
+
+
+def list_accepted(
+    store: Store, demos: Mapping[str, synthesis.Demonstration], said: Sequence[synthesis.Answer]
+) -> list[synthesis.Answer]:
+    """What rules select on results that were accepted, but for what was said otherwise, or of rules that are others."""
+    known = {(answer.rule, answer.asset) for answer in said}
+    every = (one for asset, seen in find_accepted_results(store).items() for one in _number(demos, asset, seen))
+    return [one for one in every if (one.rule, one.asset) not in known]
+
+
+def list_corrected(
+    said: Feedback, demos: Mapping[str, synthesis.Demonstration], meshes: Mapping[str, SymbolicMesh]
+) -> list[synthesis.Answer]:
+    """What rules should have selected on results that were corrected, where the labels are no likely reason why they
+    did not."""
+    last = {asset: some[-1] for asset, some in said.verdicts.items() if asset in meshes and asset not in demos}
+    corrected = {asset: one for asset, one in last.items() if one.meant}
+    if not corrected:
+        return []
+    every = [hull.annotation for mesh in meshes.values() for hull in mesh.hulls]
+    posterior = model_family(list(meshes.values())).infer(every)
+    columns = {label: column for column, label in enumerate(posterior.seen.labels)}
+    found = []
+    for place, (asset, mesh) in enumerate(meshes.items()):
+        if one := corrected.get(asset):
+            pairs = zip(one.seen, one.meant, strict=False)
+            differing = frozenset[str]().union(*({*was.select} ^ {*now.select} for was, now in pairs))
+            rows = zip(mesh.hulls, posterior.chances_of(place), strict=True)
+            shares = [
+                float(row[columns[hull.label]]) if hull.label in columns else 0.0
+                for hull, row in rows
+                if hull.name in differing or not differing
+            ]
+            if np.prod(shares) >= TEACHES:
+                found += list(_number(demos, asset, one.meant))
+    return found
+
+
+def _number(
+    demos: Mapping[str, synthesis.Demonstration], asset: str, selections: Sequence[RuleSelection]
+) -> Iterator[synthesis.Answer]:
+    actions = demonstrations.actions_of(demo.steps for demo in demos.values())
+    yield from (
+        synthesis.Answer(one.rule, asset, one.select) for one in selections if actions.get(one.rule) == one.action
+    )
+
+
+def list_rejections(said: Feedback) -> list[synthesis.LabelCorrection]:
+    """What is not to be proposed: what was refused, and what would undo a fix that was made."""
+    undone = (line.fix.reverse for line in said.fixes.values() if line.accepted)
+    refused = (line.fix for line in said.fixes.values() if not line.accepted)
+    return [*refused, *(reverse for reverse in undone if reverse)]

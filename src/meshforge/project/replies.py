@@ -1,0 +1,155 @@
+"""What becomes of a reply to a question of a review: it is kept as events, and then done."""
+
+from __future__ import annotations
+
+from typing import assert_never
+
+from meshforge import batch
+from meshforge.batch import IN_PROCESS, Failed
+from meshforge.common import ProjectError, join_names, suggest_name
+from meshforge.labels.family_comparison import ignore_stage
+from meshforge.labels.label_by_consensus import label_by_consensus
+from meshforge.labels.merge import ignore_report, set_labels_of
+from meshforge.project import demonstrations, run
+from meshforge.project.span_questions import answer_span
+from meshforge.signoff import (
+    DemonstrationQuestion,
+    GroupQuestion,
+    OrientationQuestion,
+    ReadingQuestion,
+    RepairQuestion,
+    ResultQuestion,
+    ReviewChoice,
+    ReviewQuestion,
+    ReviewReply,
+    SlipQuestion,
+    SpanQuestion,
+)
+from meshforge.signoff.question import EXCLUDE, NO, RIGHT, WRONG
+from meshforge.store import ExclusionEvent, LabelsEvent, Said, SnoozeEvent, Store
+from meshforge.synthesis import Answer, LabelCorrection
+
+
+def reply_to(store: Store, question: ReviewQuestion, reply: ReviewReply) -> None:
+    """Keep what a person said to a question, and do it; killed in between, the question is asked again.
+
+    Raises ProjectError, with nothing kept, where the reply does not fit.
+    """
+    choice, said = find_choice(question, reply), Said(question.id, reply.by)
+    if reply.later:
+        _snooze(store, said)
+        return
+    match question:
+        case ReadingQuestion():
+            refused = [one.select or () for one in question.choices] if choice is None else []
+            select = None if choice is None else choice.select
+            answer = Answer(question.rule or 1, question.asset, select, refused)
+            store.add_events(demonstrations.check_answer(store, answer).with_question(*said))
+        case GroupQuestion():
+            _label(store, question, choice, reply)
+        case RepairQuestion():
+            _repair(store, question, choice, reply)
+        case ResultQuestion():
+            _judge(store, question, choice, reply)
+        case SlipQuestion():
+            if choice is None or choice.id == NO:
+                _snooze(store, said)
+            else:
+                demonstrations.correct_selection(store, question.asset, question.rule or 1, choice.select or (), said)
+        case OrientationQuestion():
+            _snooze(store, said)
+            if choice is not None and choice.orient is not None:
+                store.set_orientation(choice.orient)
+        case SpanQuestion():
+            if choice is None:
+                _snooze(store, said)
+            else:
+                answer_span(store, question, choice)
+        case DemonstrationQuestion():
+            _snooze(store, said)
+        case _:
+            assert_never(question)
+
+
+def find_choice(question: ReviewQuestion, reply: ReviewReply) -> ReviewChoice | None:
+    """The choice that a reply names, None for none of them. Raises ProjectError for one that there is not, and for more
+    than can be said to the question."""
+    choice = question.choice(reply.choice)
+    ids = [one.id for one in question.choices]
+    if reply.choice is not None and choice is None:
+        remedy = suggest_name(reply.choice, ids, f"Its choices are: {join_names(ids) or 'none'}.")
+        raise ProjectError(f"question {question.id} has no choice {reply.choice!r}", remedy=remedy)
+    if (reply.selections or reply.labels) and (not isinstance(question, ResultQuestion) or reply.choice != WRONG):
+        remedy = f'They go with the choice "{WRONG}" of a question whether a result is right.'
+        raise ProjectError(f"question {question.id} takes no selections and labels with that reply", remedy=remedy)
+    if odd := [place for place in reply.exceptions if place not in question.hulls]:
+        raise ProjectError(f"question {question.id} is not about {odd[0].hull} of {odd[0].asset}")
+    return choice
+
+
+def _snooze(store: Store, said: Said) -> None:
+    store.add_events(SnoozeEvent(question=said.question, by=said.by))
+
+
+def _judge(store: Store, question: ResultQuestion, choice: ReviewChoice | None, reply: ReviewReply) -> None:
+    """Keep a verdict on the result as the program makes it now, or why an asset is given up."""
+    asset, said = question.asset, Said(question.id, reply.by)
+    if choice is None:
+        _snooze(store, said)
+    elif choice.id in EXCLUDE:
+        reason = EXCLUDE[choice.id]
+        store.add_events(ExclusionEvent(asset=asset, reason=reason, question=question.id, by=reply.by))
+    elif choice.id == RIGHT:
+        _make_output(store, asset)
+        run.review_assets(store, asset, "accepted", said=said)
+    else:
+        run.review_assets(store, asset, "wrong", selections=reply.selections, labels=reply.labels, said=said)
+        if reply.labels:
+            _agree_again(store)
+        if not (reply.selections or reply.labels) and question.choice(RIGHT) is None:
+            _snooze(store, said)  # it was called wrong before, and nothing more was said
+
+
+def _make_output(store: Store, asset: str) -> None:
+    """Make the output that a verdict is about, where it is not there as it would be now."""
+    program, jobs, templates = run.build_work(store, {asset})
+    for outcome in batch.apply(program, jobs, store.layout.edited, templates=templates, execution=IN_PROCESS):
+        if isinstance(outcome, Failed):
+            raise ProjectError(f"{asset} cannot be edited: {outcome.error}", where=str(store.folder))
+
+
+def _label(store: Store, question: GroupQuestion, choice: ReviewChoice | None, reply: ReviewReply) -> None:
+    """Give labels to a group of hulls."""
+    given = dict.fromkeys(question.hulls, choice.label) if choice and choice.label else {}
+    labels = dict[str, dict[str, str]]()
+    for place, label in sorted({**given, **reply.exceptions}.items()):
+        labels.setdefault(place.asset, {})[place.hull] = str(label)
+    if not labels:
+        _snooze(store, Said(question.id, reply.by))
+        return
+    with store.lock():
+        set_labels_of(store, labels, "user", 1.0)
+        store.add_events(LabelsEvent(labels=labels, question=question.id, by=reply.by))
+    _agree_again(store)
+
+
+def _repair(store: Store, question: RepairQuestion, choice: ReviewChoice | None, reply: ReviewReply) -> None:
+    """Fix the label of a hull, so that it can be withdrawn, or keep it; what was refused is not proposed again."""
+    (place,), said = question.hulls, Said(question.id, reply.by)
+    label = reply.exceptions.get(place) or (choice.label if choice else None)
+    if label is None:
+        _snooze(store, said)
+        return
+    proposed, was = question.choices[0].label, store.mesh(place.asset).hull_of(place.hull).label
+    if label != was:
+        demonstrations.confirm(store, LabelCorrection(place.asset, place.hull, was, label), said)
+    elif proposed:
+        demonstrations.reject(store, LabelCorrection(place.asset, place.hull, was, proposed), said)
+        set_labels_of(store, {place.asset: {place.hull: label}}, "user", 1.0)
+    _agree_again(store)
+
+
+def _agree_again(store: Store) -> None:
+    """Let the labels that consensus gave follow what a person said."""
+    if any(label.source == "consensus" for asset in store.assets() for label in store.labels(asset).labels.values()):
+        label_by_consensus(store, IN_PROCESS, ignore_stage, ignore_report)
