@@ -26,6 +26,7 @@ if TYPE_CHECKING:
         SlipQuestion,
         SpanQuestion,
         UnseenLabelQuestion,
+        question_of,
     )
     from meshforge.signoff.review import assess_asset, review_family
     from meshforge.signoff.state import ReviewState
@@ -61,5 +62,6 @@ __all__ = [
     "describe_odd_results",
     "find_alarms",
     "measure_edit",
+    "question_of",
     "review_family",
 ]
