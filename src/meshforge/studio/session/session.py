@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
-from functools import partial
 from importlib.metadata import version
 from pathlib import Path
 from threading import RLock
@@ -63,7 +62,9 @@ class Session:
         self.options = options
         self._mutex = RLock()
         self.readers, self._drawers, self._checkers = Workers(READERS), Workers(), Workers(1)
-        project = Project.open(folder).with_cache(MeshCache(partial(self.readers.run, read_prepared), _MESHES))
+        project = Project.open(folder).with_cache(
+            MeshCache(lambda path, prepared: self.readers.run(read_prepared, path, prepared), _MESHES)
+        )
         own = project.folder / STATE / "studio"
         self.history = History(project, _list_learned_files)
         self.label_changes = LabelChanges(self.history)
