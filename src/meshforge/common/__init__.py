@@ -50,7 +50,6 @@ from meshforge.common.plugins import (
     blame,
     collect_plugins,
     find_plugins,
-    forget_plugins,
 )
 from meshforge.common.validation import describe_invalid_field, first_validation_error
 
@@ -84,7 +83,6 @@ __all__ = [
     "find_drafts",
     "find_plugins",
     "first_validation_error",
-    "forget_plugins",
     "format_share",
     "import_extra",
     "is_beyond_reach",

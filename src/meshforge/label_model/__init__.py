@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from meshforge.label_model.consensus import EVIDENCE, consensus_weights
     from meshforge.label_model.describe import MeshDescriber, ShapeDescriptor, remember_descriptor
     from meshforge.label_model.odds import LabelBeliefs, LabelOdds, is_human
-    from meshforge.label_model.posterior import FamilyModel, FamilyPosterior, infer_labels, model_family
+    from meshforge.label_model.posterior import FamilyModel, FamilyPosterior, model_family
     from meshforge.label_model.sides import correct_upright, find_doubtful_sides
     from meshforge.label_model.similar import find_similar
     from meshforge.label_model.spans import WHOLE, SpanModel, SpanPosterior
@@ -52,7 +52,6 @@ __all__ = [
     "evidence_of",
     "find_doubtful_sides",
     "find_similar",
-    "infer_labels",
     "is_human",
     "metric_weights",
     "model_family",

@@ -14,7 +14,7 @@ from meshforge.labels import merge
 from meshforge.project.preparation_journal import confirm_selections
 from meshforge.store import UNASKED, Said, Store
 from meshforge.symbolic import Label, SymbolicMesh
-from meshforge.synthesis import Answer, Demonstration, LabelCorrection, Question, Step
+from meshforge.synthesis import Answer, Demonstration, LabelCorrection, Step
 
 
 def demonstrate(store: Store, asset: str, steps: Iterable[Step]) -> None:
@@ -159,16 +159,6 @@ def add_answer(store: Store, answer: Answer) -> str:
     event = check_answer(store, answer)
     store.add_events(event)
     return event.id
-
-
-def answer(store: Store, question: Question, choice: int | None) -> str:
-    """Answer a question by a choice, counted from 0, or by None for neither; give the answer's id `RULE:ASSET`.
-
-    Raises UsageError where there is no such choice.
-    """
-    if choice is not None and not 0 <= choice < len(question.choices):
-        raise UsageError(f"the question {question.id} has {len(question.choices)} choices, none at place {choice}")
-    return add_answer(store, question.answer_with(choice))
 
 
 def check_answer(store: Store, given: Answer) -> files.AnswerEvent:

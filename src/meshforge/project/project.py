@@ -113,7 +113,6 @@ class Project(LabelStore):
 
     # What a person said while it was learned
 
-    answer = demonstrations.answer
     add_answer = demonstrations.add_answer
     confirm = demonstrations.confirm
     reject = demonstrations.reject

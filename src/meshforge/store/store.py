@@ -113,10 +113,6 @@ class Store:
         (files,) = self.asset_files([asset])
         return files.read_mesh()
 
-    def meshes(self) -> Iterator[SymbolicMesh]:
-        """All assets with their labels, one after the other; those that cannot be read are left out."""
-        return (mesh for _, mesh in self.meshes_by_id())
-
     def meshes_by_id(self, assets: Iterable[str] | None = None) -> Iterator[tuple[str, SymbolicMesh]]:
         """All assets, or some, with their ids and labels; those that cannot be read are left out."""
         for asset in self.assets() if assets is None else assets:

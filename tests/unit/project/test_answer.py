@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from meshforge.common import ProjectError, UsageError
+from meshforge.common import DemonstrationError, ProjectError
 from meshforge.project import Project, learn, select_assets
 from meshforge.symbolic import Label
 from meshforge.synthesis import Answer, Choice, LabelCorrection, Question
@@ -24,7 +24,7 @@ def knob(project: Project) -> Label | None:
 
 def test_an_answer_is_kept_as_one_can_read_it(tmp_path: Path) -> None:
     project = ambiguous(tmp_path)
-    assert project.answer(QUESTION, 1) == "1:rack2.obj"
+    assert project.add_answer(QUESTION.answer_with(1)) == "1:rack2.obj"
     assert json.loads((project.folder / "answers.json").read_text()) == {
         "answers": [
             {"id": "1:rack2.obj", "rule": 1, "asset": SHELVED, "select": ["top"], "action": "Delete", "refused": []}
@@ -37,7 +37,7 @@ def test_an_answer_is_kept_as_one_can_read_it(tmp_path: Path) -> None:
 
 def test_neither_keeps_what_was_refused(tmp_path: Path) -> None:
     project = ambiguous(tmp_path)
-    project.answer(QUESTION, None)
+    project.add_answer(QUESTION.answer_with(None))
     (line,) = project.answers().answers
     assert line.answer == QUESTION.answer_with(None)
     assert set(line.answer.refused) == {frozenset(choice.select) for choice in QUESTION.choices}
@@ -59,15 +59,15 @@ def test_of_very_many_assets_some_are_learned_from_and_all_of_which_something_wa
 def test_the_last_answer_to_a_question_counts_and_the_order_is_stable(tmp_path: Path) -> None:
     project = ambiguous(tmp_path)
     project.add_answer(Answer(1, "rack4.obj", ()))
-    project.answer(QUESTION, 0)
-    project.answer(QUESTION, None)
+    project.add_answer(QUESTION.answer_with(0))
+    project.add_answer(QUESTION.answer_with(None))
     said = [(line.asset, line.select) for line in project.answers().answers]
     assert said == [(SHELVED, None), ("rack4.obj", ())]
 
 
 def test_fields_that_this_version_does_not_know_are_kept(tmp_path: Path) -> None:
     project = ambiguous(tmp_path)
-    project.answer(QUESTION, 0)
+    project.add_answer(QUESTION.answer_with(0))
     path = project.folder / "answers.json"
     data = json.loads(path.read_text())
     data["author"] = "me"
@@ -104,8 +104,8 @@ def test_answers_that_cannot_be_are_refused(tmp_path: Path) -> None:
         project.add_answer(Answer(1, "rack.obj", None))
     with pytest.raises(ProjectError, match="no rule 2 to answer for: only rules 1 to 1 are demonstrated"):
         project.add_answer(Answer(2, SHELVED, None))
-    with pytest.raises(UsageError, match="2 choices, none at place 2"):
-        project.answer(QUESTION, 2)
+    with pytest.raises(DemonstrationError, match="2 choices, and none at place 2"):
+        QUESTION.answer_with(2)
     assert not (project.folder / "answers.json").exists()
 
 
@@ -173,14 +173,14 @@ def test_an_unknown_id_names_the_nearest(tmp_path: Path) -> None:
     project = ambiguous(tmp_path)
     with pytest.raises(ProjectError, match="--list-answers"):
         project.take_back("1:rack2.obj")
-    project.answer(QUESTION, 0)
+    project.add_answer(QUESTION.answer_with(0))
     with pytest.raises(ProjectError, match=r"Did you mean '1:rack2\.obj'"):
         project.take_back("1:rack2.ob")
 
 
 def test_everything_can_be_forgotten(tmp_path: Path) -> None:
     project = mislabelled(tmp_path)
-    project.answer(QUESTION, 0)
+    project.add_answer(QUESTION.answer_with(0))
     project.confirm(WRONG)
     project.reject(LabelCorrection(OTHER, "left", "leg", "knob"))
     assert project.forget_answers() == ()

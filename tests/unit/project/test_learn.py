@@ -25,7 +25,7 @@ def test_a_question_stays_open_until_it_is_answered(tmp_path: Path) -> None:
     say = project.status(workers=0).next.say
     assert say == "It is open what rule 1 does on rack2.obj: answer the question, or apply the program as it is."
     (choice,) = (k for k, c in enumerate(outcome.question.choices) if c.select == ("top",))
-    project.answer(outcome.question, choice)
+    project.add_answer(outcome.question.answer_with(choice))
     assert project.status(workers=0).outdated
     outcome = project.synthesize()
     assert isinstance(outcome, Found) and outcome.settled
