@@ -12,7 +12,7 @@ from meshforge.batch import action_text_without_each
 from meshforge.common import MeshForgeError, ProjectError, UsageError, suggest_among, suggest_name
 from meshforge.labels import merge
 from meshforge.project.preparation_journal import confirm_selections
-from meshforge.store import UNASKED, Said, Store
+from meshforge.store import NO_ORIGIN, Origin, Store
 from meshforge.symbolic import Label, SymbolicMesh
 from meshforge.synthesis import Answer, Demonstration, LabelCorrection, Step
 
@@ -36,7 +36,7 @@ def demonstrate(store: Store, asset: str, steps: Iterable[Step]) -> None:
     confirm_selections(store, asset)
 
 
-def correct_selection(store: Store, asset: str, rule: int, select: Sequence[str], said: Said = UNASKED) -> None:
+def correct_selection(store: Store, asset: str, rule: int, select: Sequence[str], said: Origin = NO_ORIGIN) -> None:
     """Select other hulls in a step of a demonstration after a slip; on an asset that is not demonstrated by an answer,
     and what was accepted there counts no more. Raises ProjectError where there is no such step, and as `demonstrate`
     and `add_answer` do."""
@@ -183,7 +183,7 @@ def actions_of(demonstrations: Iterable[Iterable[Step]]) -> dict[int, str]:
     return dict(sorted(found.items()))
 
 
-def confirm(store: Store, right: LabelCorrection, said: Said = UNASKED) -> str:
+def confirm(store: Store, right: LabelCorrection, said: Origin = NO_ORIGIN) -> str:
     """Repair a label, as a `Repair` proposes it or not, remembering the one before; give the repair's id
     `ASSET#HULL=LABEL`.
 
@@ -204,7 +204,7 @@ def confirm(store: Store, right: LabelCorrection, said: Said = UNASKED) -> str:
     return event.id
 
 
-def reject(store: Store, wrong: LabelCorrection, said: Said = UNASKED) -> str:
+def reject(store: Store, wrong: LabelCorrection, said: Origin = NO_ORIGIN) -> str:
     """Refuse a repair, so that it is not proposed again; give its id."""
     store.path(wrong.asset)
     event = files.LabelFixEvent(asset=wrong.asset, hull=wrong.hull, was=wrong.was, to=wrong.to, accepted=False)

@@ -57,7 +57,7 @@ class FamilyStateReader:
             tuple(line.answer for line in feedback.answers.values() if line.fits(actions)),
             meant=found.list_meant(program),
             failed=found.list_failed(program),
-            accepted=frozenset(asset for asset, one in found.accepted() if self._stands(asset, one, program)),
+            accepted=frozenset(asset for asset, one in found.list_accepted() if self._stands(asset, one, program)),
             corrected=found.list_corrected(program),
             wrong=found.list_wrong(program),
             excluded=given_up,
@@ -103,7 +103,7 @@ class _Verdicts:
 
     by_asset: Mapping[str, Sequence[VerdictEvent]]
 
-    def accepted(self) -> Iterator[tuple[str, VerdictEvent]]:
+    def list_accepted(self) -> Iterator[tuple[str, VerdictEvent]]:
         """Those that are accepted now."""
         yield from ((asset, some[-1]) for asset, some in self.by_asset.items() if some[-1].verdict == "accepted")
 

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from typing import Any, Literal
 
-from meshforge.signoff.question import NOT_OF_FAMILY, NOT_SOLVED, ExclusionReason, ReviewQuestion
+from meshforge.signoff.question import ExclusionReason, ReviewQuestion
 
 BAR = 0.95
 """The probability from which on an asset is signed off without being looked at."""
@@ -79,16 +79,6 @@ class Assessment:
     def question(self) -> ReviewQuestion | None:
         """The one that is worth most now, None where nothing is left to ask."""
         return next(iter(self.questions), None)
-
-    @property
-    def not_solved(self) -> tuple[str, ...]:
-        """The assets that a person gave up."""
-        return tuple(name for name, reason in self.excluded.items() if reason == NOT_SOLVED)
-
-    @property
-    def foreign(self) -> tuple[str, ...]:
-        """The assets of which a person said that they are not of this family."""
-        return tuple(name for name, reason in self.excluded.items() if reason == NOT_OF_FAMILY)
 
     @property
     def signed_off(self) -> tuple[str, ...]:

@@ -10,14 +10,14 @@ from meshforge.common.exports import export_lazily
 if TYPE_CHECKING:
     from meshforge.store.event_log import load_events
     from meshforge.store.events import (
-        UNASKED,
+        NO_ORIGIN,
         AnswerEvent,
         Event,
         ExclusionEvent,
         LabelBefore,
         LabelFixEvent,
         LabelsEvent,
-        Said,
+        Origin,
         SnoozeEvent,
         Verdict,
         VerdictEvent,
@@ -65,7 +65,7 @@ else:
 
 __all__ = [
     "MOST_TOLD",
-    "UNASKED",
+    "NO_ORIGIN",
     "AnswerEvent",
     "AssessmentFile",
     "AssetFacts",
@@ -81,9 +81,9 @@ __all__ = [
     "LabelFixEvent",
     "LabelsEvent",
     "MeshCache",
+    "Origin",
     "PreparationPlanFile",
     "ProgramRecord",
-    "Said",
     "Settings",
     "SignOff",
     "SinglePartsFile",

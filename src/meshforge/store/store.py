@@ -31,7 +31,7 @@ from meshforge.store.meshes import AssetFiles, read_labels_file
 from meshforge.store.preparation_plan import forget_assets
 from meshforge.store.sign_off import AssessmentFile, SignOff
 from meshforge.store.spans import SinglePartsFile, SpansFile
-from meshforge.symbolic import Label, LabelFile, SymbolicMesh, format_labels, match_labels, transfer_labels
+from meshforge.symbolic import Label, LabelFile, SymbolicMesh, format_labels, match_labels
 from meshforge.synthesis import Demonstration, Step
 
 
@@ -108,10 +108,8 @@ class Store:
 
     def mesh(self, asset: str) -> SymbolicMesh:
         """An asset as it is prepared, with its labels. Raises AssetError where it cannot be read."""
-        if self.cache:
-            return self.cache.get(self, asset)
         (files,) = self.asset_files([asset])
-        return files.read_mesh()
+        return self.cache.get(files) if self.cache else files.read_mesh()
 
     def meshes_by_id(self, assets: Iterable[str] | None = None) -> Iterator[tuple[str, SymbolicMesh]]:
         """All assets, or some, with their ids and labels; those that cannot be read are left out."""
@@ -168,10 +166,6 @@ class Store:
         """What the labels file of an asset holds, empty where there is none."""
         path = self.layout.labels(asset)
         return path.read_bytes() if path.exists() else b""
-
-    def relabel(self, asset: str, mesh: SymbolicMesh) -> SymbolicMesh:
-        """The mesh of an asset with the labels that it has now; what was measured between its hulls stays known."""
-        return transfer_labels(self.labels(asset), mesh.with_labels(dict.fromkeys(mesh.index))).mesh
 
     def write_labels(
         self,
