@@ -77,11 +77,6 @@ class Layout:
         return tuple(self.folder / name for name in names)
 
     @property
-    def questions(self) -> Path:
-        """Pictures of the question that is being asked."""
-        return self.folder / STATE / "questions"
-
-    @property
     def learned(self) -> Path:
         """What the program was learned from; it belongs beside the program, in git too."""
         return self.folder / "learned.json"
