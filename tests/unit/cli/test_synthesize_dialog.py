@@ -84,7 +84,7 @@ def test_neither_leads_to_the_labels(tmp_path: Path) -> None:
     outcome, seen, _ = talk(project, "n", "shelf=lek", "shelf", "shelf=leg", "1")
     assert isinstance(outcome, Found)
     assert project.mesh(SHELVED).hull_of("shelf").label == "leg"
-    assert project.answers().ids == ("1:rack3.obj",)
+    assert tuple(project.feedback().said) == ("1:rack3.obj",)
     assert (
         """
 Then a label may be wrong. The choices differ on:
@@ -104,7 +104,7 @@ def test_neither_without_a_wrong_label_goes_on_to_another_asset(tmp_path: Path) 
     outcome, _, _ = talk(project, "n", "", "s")
     assert isinstance(outcome, Ambiguous)
     assert outcome.question.asset != SHELVED
-    assert project.answers().ids == ("1:rack2.obj",)
+    assert tuple(project.feedback().said) == ("1:rack2.obj",)
 
 
 @pytest.mark.parametrize("lines", [("s",), ()])
@@ -112,14 +112,14 @@ def test_stopping_leaves_the_program_and_the_question(tmp_path: Path, lines: tup
     project = ambiguous(tmp_path)
     outcome, _, _ = talk(project, *lines)
     assert isinstance(outcome, Ambiguous) and project.program() == outcome.program
-    assert not project.answers().ids
+    assert not project.feedback().said
 
 
 def test_having_enough_amid_the_labels_keeps_what_was_said(tmp_path: Path) -> None:
     project = ambiguous(tmp_path)
     _, seen, _ = talk(project, "n")
     assert seen.endswith("\nstopped; what you said so far is kept")
-    assert project.answers().ids == ("1:rack2.obj",)
+    assert tuple(project.feedback().said) == ("1:rack2.obj",)
 
 
 @pytest.mark.slow
@@ -129,7 +129,7 @@ def test_an_answer_that_leaves_no_program_can_be_taken_back(tmp_path: Path, monk
 
     def without_program(self: LearningSession) -> LearningOutcome:
         """As if no rule agreed with the answer."""
-        if not project.answers().ids:
+        if not project.feedback().said:
             return learn(self)
         found = failed()
         assert found.program
@@ -140,7 +140,7 @@ def test_an_answer_that_leaves_no_program_can_be_taken_back(tmp_path: Path, monk
     outcome, seen, _ = talk(project, "1", "y", "1", "n")
     assert isinstance(outcome, NoProgram)
     assert seen.count("With your answer about rack2.obj there is no program: none fits") == 2
-    assert project.answers().ids == ("1:rack2.obj",)
+    assert tuple(project.feedback().said) == ("1:rack2.obj",)
 
 
 def _missing(project: Project) -> NoProgram:
@@ -180,4 +180,4 @@ def test_a_refused_repair_is_not_asked_about_again(tmp_path: Path) -> None:
 def test_a_repair_can_be_left_open(tmp_path: Path) -> None:
     project = mislabelled(tmp_path)
     assert isinstance(talk(project, "s")[0], NeedsRepair)
-    assert not project.answers().ids
+    assert not project.feedback().said
