@@ -66,7 +66,7 @@ def choose_assets(store: Store, assets: Iterable[str] | None, sure: float) -> tu
     Raises UsageError for a probability that is none, ProjectError for an asset that the project does not have.
     """
     if not 0 < sure <= 1:
-        raise UsageError(f"--sure {sure:g}: a probability is needed, above 0 and at most 1")
+        raise UsageError(f"--min-confidence {sure:g}: a probability is needed, above 0 and at most 1")
     ids = store.assets() if assets is None else tuple(dict.fromkeys(assets))
     for asset in ids:
         store.path(asset)

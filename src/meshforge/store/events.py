@@ -97,6 +97,11 @@ class LabelBefore(JsonFile):
     confidence: Probability
     given: LabelBefore | None = None
 
+    @model_serializer(mode="wrap")
+    def _leave_out_given(self, write: SerializerFunctionWrapHandler) -> dict[str, Any]:
+        found: dict[str, Any] = write(self)
+        return {name: value for name, value in found.items() if name != "given" or value is not None}
+
     @staticmethod
     def of(label: Label | None) -> LabelBefore | None:
         if label is None:
