@@ -5,14 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
-from meshforge.batch import (
-    ApplyTask,
-    OutputInputs,
-    program_digest,
-    read_stamp,
-    replay_corrections,
-    template_digests,
-)
+from meshforge.batch import ApplyTask, OutputInputs, program_digest, read_stamp, replay_corrections, template_digests
 from meshforge.common import MeshForgeError
 from meshforge.language import Program
 from meshforge.project import run

@@ -106,11 +106,7 @@ def _rename_in_answers(answers: files.AnswersFile, where: Path, old: str, new: s
 
 
 def _rename_in_repair(line: files.RepairLine, old: str, new: str) -> files.RepairLine:
-    right = replace(
-        line.correction,
-        was=new if line.was == old else line.was,
-        to=new if line.to == old else line.to,
-    )
+    right = replace(line.correction, was=new if line.was == old else line.was, to=new if line.to == old else line.to)
     values: dict[str, object] = {"id": files.repair_id(right), "was": right.was, "to": right.to}
     if isinstance(line, files.ConfirmationLine) and line.before:
         values["before"] = line.before.rename(old, new)

@@ -7,12 +7,11 @@ from typing import TYPE_CHECKING
 from meshforge.common.exports import export_lazily
 
 if TYPE_CHECKING:
-    from meshforge.signoff.alarms import Alarm, AlarmKind, describe_odd_results, find_alarms
+    from meshforge.signoff.alarms import describe_odd_results
     from meshforge.signoff.assessment import BAR, Assessment, AssetConfidence, Doubt, DoubtKind
     from meshforge.signoff.measures import EditMeasures, measure_edit
     from meshforge.signoff.question import (
         HullPlace,
-        QuestionKind,
         ReviewChoice,
         ReviewQuestion,
         ReviewReply,
@@ -25,15 +24,12 @@ else:
 
 __all__ = [
     "BAR",
-    "Alarm",
-    "AlarmKind",
     "Assessment",
     "AssetConfidence",
     "Doubt",
     "DoubtKind",
     "EditMeasures",
     "HullPlace",
-    "QuestionKind",
     "ReviewChoice",
     "ReviewQuestion",
     "ReviewReply",
@@ -41,7 +37,6 @@ __all__ = [
     "apply_reply",
     "assess_asset",
     "describe_odd_results",
-    "find_alarms",
     "list_answers",
     "measure_edit",
     "review_family",
