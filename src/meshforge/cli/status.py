@@ -19,6 +19,9 @@ def status(
     signed_off: Annotated[
         bool, typer.Option("--signed-off", help="Exit code 1 while some asset is not signed off.")
     ] = False,
+    verify: Annotated[
+        bool, typer.Option("--verify", help="Read every file anew, even where its size and times are what they were.")
+    ] = False,
     json: Json = False,
 ) -> None:
     """Show what is labelled, demonstrated, learned, applied, stale and flagged, and the next sensible step.
@@ -27,7 +30,7 @@ def status(
     """
     opened = Project.open(project)
     with progress(len(opened.assets()), "reading") as advance:
-        found = opened.status(progress=advance)
+        found = opened.status(progress=advance, verify=verify)
     if json:
         print_json(found.to_json())
     else:

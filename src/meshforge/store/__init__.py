@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     )
     from meshforge.store.layout import JsonFile, json_text, read_json, write_json
     from meshforge.store.meshes import AssetFacts, AssetFiles, geometry_digest, hull_digests, iterate_survey, survey
+    from meshforge.store.outputs import AssetOutput, find_outputs
     from meshforge.store.preparation_plan import PreparationPlanFile
     from meshforge.store.program import (
         CorrectionsFile,
@@ -40,20 +41,18 @@ if TYPE_CHECKING:
         find_assets,
         orientation,
         orientation_text,
-        read_settings,
         set_value,
         toml_value,
     )
-    from meshforge.store.sign_off import AssessmentFile, ConfidenceLine, SignOff, SignOffFile, find_changes
-    from meshforge.store.spans import (
-        MOST_TOLD,
-        SinglePartsFile,
-        SpanLine,
-        SpanPart,
-        SpansFile,
-        SplitHull,
-        describe_parts,
+    from meshforge.store.sign_off import (
+        AssessmentFile,
+        ConfidenceLine,
+        SignOff,
+        SignOffBasis,
+        SignOffFile,
+        find_changes,
     )
+    from meshforge.store.spans import MOST_TOLD, SpanLine, SpanPart, SpansFile, SplitHull, describe_parts
     from meshforge.store.store import Store
 else:
     __getattr__ = export_lazily(__name__)
@@ -65,6 +64,7 @@ __all__ = [
     "AssessmentFile",
     "AssetFacts",
     "AssetFiles",
+    "AssetOutput",
     "ConfidenceLine",
     "ConfirmationLine",
     "CorrectionsFile",
@@ -78,8 +78,8 @@ __all__ = [
     "RuleSelection",
     "Settings",
     "SignOff",
+    "SignOffBasis",
     "SignOffFile",
-    "SinglePartsFile",
     "SpanLine",
     "SpanPart",
     "SpansFile",
@@ -96,6 +96,7 @@ __all__ = [
     "edit_settings",
     "find_assets",
     "find_changes",
+    "find_outputs",
     "geometry_digest",
     "hull_digests",
     "iterate_survey",
@@ -104,7 +105,6 @@ __all__ = [
     "orientation_text",
     "parse_action_text",
     "read_json",
-    "read_settings",
     "repair_id",
     "set_value",
     "survey",
