@@ -2,6 +2,7 @@
 
 from meshforge.common.extras import import_extra, require_mujoco
 from meshforge.common.files import (
+    FileState,
     FileStates,
     confine_reading,
     do_at_once,
@@ -57,6 +58,7 @@ __all__ = [
     "PLUGIN_KINDS",
     "AssetError",
     "DemonstrationError",
+    "FileState",
     "FileStates",
     "GeometryError",
     "HullNotFoundError",

@@ -33,11 +33,7 @@ class LabelStore(Store):
         return set_labels(self, asset, labels, source, confidence)
 
     def set_labels_of(
-        self,
-        labels: Mapping[str, Mapping[str, str | None]],
-        *,
-        source: LabelSource = "user",
-        confidence: float = 1.0,
+        self, labels: Mapping[str, Mapping[str, str | None]], *, source: LabelSource = "user", confidence: float = 1.0
     ) -> tuple[LabelOutcome, ...]:
         """Label hulls of several assets as `set_labels` does, all or none. labels: by asset and hull."""
         return set_labels_of(self, labels, source, confidence)

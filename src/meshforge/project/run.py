@@ -60,9 +60,7 @@ def build_work(
     program = store.program()
     if program is None:
         raise ProjectError(
-            "there is no program yet",
-            where=str(store.folder),
-            remedy=f"Learn it: meshforge synthesize {store.folder}",
+            "there is no program yet", where=str(store.folder), remedy=f"Learn it: meshforge synthesize {store.folder}"
         )
     return program, build_jobs(store, only), build_task(store, program).templates
 

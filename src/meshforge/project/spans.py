@@ -103,10 +103,7 @@ def _write_likely(store: Store, likely: Mapping[str, dict[str, SpanLine]]) -> No
 
 
 def list_spans(
-    store: Store,
-    *,
-    execution: batch.ExecutionOptions = batch.EXECUTION_DEFAULTS,
-    stage: Stage = ignore_stage,
+    store: Store, *, execution: batch.ExecutionOptions = batch.EXECUTION_DEFAULTS, stage: Stage = ignore_stage
 ) -> tuple[PreparationResult, ...]:
     """Find anew which hulls span parts, for `spans`, the status and the review; of each asset why it could not be
     looked at, and what of it was not.

@@ -28,6 +28,7 @@ if TYPE_CHECKING:
     from meshforge.store.layout import JsonFile, json_text, read_json, write_json
     from meshforge.store.mesh_cache import MeshCache
     from meshforge.store.meshes import AssetFacts, AssetFiles, geometry_digest, hull_digests, iterate_survey, survey
+    from meshforge.store.outputs import AssetOutput, find_outputs
     from meshforge.store.preparation_plan import PreparationPlanFile
     from meshforge.store.program import (
         CorrectionsFile,
@@ -45,20 +46,11 @@ if TYPE_CHECKING:
         find_assets,
         orientation,
         orientation_text,
-        read_settings,
         set_value,
         toml_value,
     )
-    from meshforge.store.sign_off import AssessmentFile, ConfidenceLine, SignOff, find_changes
-    from meshforge.store.spans import (
-        MOST_TOLD,
-        SinglePartsFile,
-        SpanLine,
-        SpanPart,
-        SpansFile,
-        SplitHull,
-        describe_parts,
-    )
+    from meshforge.store.sign_off import AssessmentFile, ConfidenceLine, SignOff, SignOffBasis, find_changes
+    from meshforge.store.spans import MOST_TOLD, SpanLine, SpanPart, SpansFile, SplitHull, describe_parts
     from meshforge.store.store import Store
 else:
     __getattr__ = export_lazily(__name__)
@@ -70,6 +62,7 @@ __all__ = [
     "AssessmentFile",
     "AssetFacts",
     "AssetFiles",
+    "AssetOutput",
     "ConfidenceLine",
     "CorrectionsFile",
     "DemonstrationFile",
@@ -86,7 +79,7 @@ __all__ = [
     "ProgramRecord",
     "Settings",
     "SignOff",
-    "SinglePartsFile",
+    "SignOffBasis",
     "SnoozeEvent",
     "SpanLine",
     "SpanPart",
@@ -104,6 +97,7 @@ __all__ = [
     "edit_settings",
     "find_assets",
     "find_changes",
+    "find_outputs",
     "format_lines",
     "geometry_digest",
     "hull_digests",
@@ -114,7 +108,6 @@ __all__ = [
     "orientation_text",
     "parse_action_text",
     "read_json",
-    "read_settings",
     "set_value",
     "survey",
     "toml_value",

@@ -110,6 +110,11 @@ class Layout:
         return self.folder / STATE / "survey.json"
 
     @property
+    def outputs(self) -> Path:
+        """What is known of the files of outputs, so that they are not hashed again for a status."""
+        return self.folder / STATE / "outputs.json"
+
+    @property
     def spans(self) -> Path:
         """Which hulls were found to span parts."""
         return self.folder / STATE / "spans.json"

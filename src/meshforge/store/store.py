@@ -211,7 +211,8 @@ class Store:
 
     def demonstration_ids(self) -> tuple[str, ...]:
         """The ids of the assets that have a demonstration."""
-        return tuple(asset for asset in self.assets() if self.layout.demonstration(asset).exists())
+        shown = set(self.layout.ids_with("demonstrations"))
+        return tuple(asset for asset in self.assets() if asset in shown)
 
     def demonstrations(self) -> dict[str, Demonstration]:
         """All demonstrations, by asset."""

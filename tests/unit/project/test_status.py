@@ -372,6 +372,7 @@ def test_the_status_is_plain_data_for_scripts(tmp_path: Path) -> None:
         "sign_off": "unknown",
         "signed_by": None,
         "void": [],
+        "found_since": [],
         "probability": None,
         "doubts": [],
     }
