@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 PAGES = ("README.md", "docs/python.md", "docs/plugins.md")
 """What these name in code, people call from Python and from plug-ins."""
-GENERATORS = ("script.wire", "script.samples")
+GENERATORS = ("script.wire", "script.samples", "script.families")
 """Scripts that write files of the wheel. All others draw, measure or test: no callers, as benchmarks are none."""
 PLAIN_DECORATORS = (
     *("dataclass", "property", "cached_property", "staticmethod", "classmethod", "abstractmethod", "contextmanager"),
