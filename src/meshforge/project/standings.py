@@ -45,9 +45,7 @@ class Standings:
     ) -> SignOffState:
         if asset.id in self.said.exclusions:
             return "excluded"
-        if (asset.review == "wrong" and not self._is_corrected(asset.id)) or (
-            self.last and asset.id in self.last.wrong
-        ):
+        if asset.id in self.last.wrong if self.last else asset.review == "wrong" and not self._is_corrected(asset.id):
             return "held"
         if asset.review == "accepted" and not asset.stale:
             return "signed off"
