@@ -32,8 +32,12 @@ def demonstrate(store: Store, asset: str, steps: Iterable[Step]) -> None:
     for rule, name in find_unknown_hulls(Demonstration(mesh, steps, asset).steps, mesh.index):
         remedy = suggest_name(name, mesh.index)
         raise ProjectError(f"rule {rule}: there is no hull {name!r}", where=asset, remedy=remedy)
-    store.write_steps(asset, steps)
-    confirm_selections(store, asset)
+    with store.lock():
+        said = store.feedback().verdict_on(asset)
+        if steps and said and said.meant:  # what is shown now counts, no more what was said of a result before
+            store.add_events(said.model_copy(update={"meant": ()}))
+        store.write_steps(asset, steps)
+        confirm_selections(store, asset)
 
 
 def correct_selection(store: Store, asset: str, rule: int, select: Sequence[str], said: Origin = NO_ORIGIN) -> None:

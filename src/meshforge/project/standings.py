@@ -55,8 +55,8 @@ class Standings:
         if asset.id in self.said.exclusions:
             return "excluded"
         verdict = self.said.verdict_on(asset.id)
-        is_corrected = bool(verdict and verdict.meant) or asset.demonstrated
-        if (asset.review == "wrong" and not is_corrected) or (self.last and asset.id in self.last.wrong):
+        is_wrong = asset.review == "wrong" and not (verdict and verdict.meant) and not asset.demonstrated
+        if asset.id in self.last.wrong if self.last else is_wrong:
             return "held"
         if is_signed or asset.review == "accepted":
             return "void" if is_void else "signed off"

@@ -76,7 +76,7 @@ def review_family(
     trial = _try_family(state, outcome, family, alarms)
     assets = {one.asset: trial.confidence_of(place) for place, one in enumerate(trial.trials)}
     stopped = {one.asset for one in trial.trials if one.error} - state.accepted
-    looked_at = (seen | state.demos.keys()) - stopped - trial.contradicted
+    looked_at = (seen | state.demos.keys()) - stopped - trial.contradicted - state.wrong
     found = Assessment(assets, bar, looked_at, state.wrong, state.excluded)
     if found.is_done:
         looks = list(_ask_last_looks(trial))

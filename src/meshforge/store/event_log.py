@@ -72,7 +72,7 @@ def _read_text(path: Path) -> str | None:
     except FileNotFoundError:
         return None
     except (OSError, UnicodeDecodeError) as error:
-        raise ProjectError("cannot be read", where=str(path)) from error
+        raise ProjectError("cannot be read", where=str(path), remedy=_BY_HAND) from error
 
 
 def _migrate(layout: Layout) -> Iterator[Event]:

@@ -202,7 +202,7 @@ def test_a_review_counts_until_the_output_changes(tmp_path: Path) -> None:
     project.set_verdict(SECOND, "wrong", "left leg")
     assert [a.review for a in of(project).assets] == ["accepted", "wrong", None]
     project.set_verdict(THIRD, "accepted")
-    assert "first table1/model.obj" in of(project).next.say
+    assert "table1/model.obj is not signed off" in of(project).next.say
     project.set_verdict(THIRD, None)
     kept = project.feedback().verdict_on(SECOND)
     assert kept is not None and (kept.verdict, kept.note) == ("wrong", "left leg")
@@ -369,6 +369,7 @@ def test_the_status_is_plain_data_for_scripts(tmp_path: Path) -> None:
         "error": None,
         "flags": [],
         "review": None,
+        "excluded": None,
         "sign_off": "unknown",
         "signed_by": None,
         "void": [],
