@@ -45,6 +45,7 @@ if TYPE_CHECKING:
         toml_value,
     )
     from meshforge.store.sign_off import (
+        SAID,
         AssessmentFile,
         ConfidenceLine,
         SignOff,
@@ -59,6 +60,7 @@ else:
 
 __all__ = [
     "MOST_TOLD",
+    "SAID",
     "AnswerLine",
     "AnswersFile",
     "AssessmentFile",

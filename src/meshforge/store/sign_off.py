@@ -11,6 +11,9 @@ from meshforge.batch import OutputInputs
 from meshforge.signoff import AssetConfidence, Doubt, DoubtKind, EditMeasures
 from meshforge.store.layout import JsonFile
 
+SAID = "what people showed and said"
+"""How demonstrations, answers and verdicts are called where they changed."""
+
 Probability = Annotated[float, Field(ge=0, le=1)]
 
 
@@ -34,7 +37,7 @@ class SignOffBasis(OutputInputs):
         """What differs between the two, in words."""
         if isinstance(other, SignOffBasis) and other.said is None:
             return ("how sign-offs are kept",)
-        return tuple("what people showed and said" if one == "said" else one for one in super().changes(other))
+        return tuple(SAID if one == "said" else one for one in super().changes(other))
 
 
 class SignOff(JsonFile):
