@@ -27,6 +27,7 @@ from meshforge.project import run
 from meshforge.project.learn import digest_demonstrations, digest_learning_inputs, digest_settings
 from meshforge.signoff import Assessment, EditMeasures
 from meshforge.store import (
+    SAID,
     AssessmentFile,
     AssetOutput,
     ConfidenceLine,
@@ -150,7 +151,7 @@ def renew_sign_offs(
 
     Where nothing changed of what a sign-off rests on, it stays whatever was found since. alarms: sentences on outputs
     that stand out of those just written, by asset: the tool signs off none that has more of them than the review knew.
-    keep_persons: those of a person stay where something changed; they are void then, and named so.
+    keep_persons: those of a person stay where something but what was said changed; they are void then, and named so.
     """
     last, edits = store.assessment(), find_inputs(store, execution)
     if last is None or not last.holds(digest_lesson(store), edits):
@@ -176,7 +177,7 @@ def renew_sign_offs(
             elif good and outputs[name].is_whole and is_written(outputs[name].stamp, edits[name]):
                 by: Literal["person", "tool"] = "person" if line.looked_at else "tool"
                 kept[name] = SignOff(asset=name, by=by, when=when, probability=line.probability, rests_on=now)
-            elif old and (good or (keep_persons and old.by == "person" and changes)):
+            elif old and (good or (keep_persons and old.by == "person" and {*changes} - {SAID})):
                 kept[name] = old  # where something changed void, and named so, until its output is there again
             elif old:
                 lost[name] = _describe_loss(old, line, changes, is_away)

@@ -49,7 +49,7 @@ if TYPE_CHECKING:
         set_value,
         toml_value,
     )
-    from meshforge.store.sign_off import AssessmentFile, ConfidenceLine, SignOff, SignOffBasis, find_changes
+    from meshforge.store.sign_off import SAID, AssessmentFile, ConfidenceLine, SignOff, SignOffBasis, find_changes
     from meshforge.store.spans import MOST_TOLD, SpanLine, SpanPart, SpansFile, SplitHull, describe_parts
     from meshforge.store.store import Store
 else:
@@ -58,6 +58,7 @@ else:
 __all__ = [
     "MOST_TOLD",
     "NO_ORIGIN",
+    "SAID",
     "AnswerEvent",
     "AssessmentFile",
     "AssetFacts",

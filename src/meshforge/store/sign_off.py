@@ -13,6 +13,9 @@ from meshforge.signoff import AssetConfidence, Doubt, DoubtKind, EditMeasures
 from meshforge.store.events import Probability, list_lines, parse_line
 from meshforge.store.layout import JsonFile
 
+SAID = "what people showed and said"
+"""How demonstrations, answers and verdicts are called where they changed."""
+
 
 class SignOffBasis(OutputInputs):
     """Digests of all that a sign-off rests on: of all that decides the edit, where `settings` are those of the project
@@ -34,7 +37,7 @@ class SignOffBasis(OutputInputs):
         """What differs between the two, in words."""
         if isinstance(other, SignOffBasis) and other.said is None:
             return ("how sign-offs are kept",)
-        return tuple("what people showed and said" if one == "said" else one for one in super().changes(other))
+        return tuple(SAID if one == "said" else one for one in super().changes(other))
 
 
 class SignOff(JsonFile):

@@ -13,7 +13,7 @@ import pytest
 from meshforge.batch import IN_PROCESS
 from meshforge.language import Add, Delete, Program
 from meshforge.project import AssetStatus, Project
-from meshforge.store import SpanLine, SpansFile, hull_digests
+from meshforge.store import SAID, SpanLine, SpansFile, hull_digests
 from meshforge.synthesis import Answer, Step
 from tests.unit.batch.families import obj, write_tables, write_urdf_table
 from tests.unit.cli.in_process import Run, runner
@@ -21,7 +21,6 @@ from tests.unit.project.tables import FIRST, SECOND, STEPS, THIRD
 
 ACCEPTED = "urdf/table.urdf"
 FAMILY = (FIRST, SECOND, THIRD, ACCEPTED)
-SAID = "what people showed and said"
 
 Voids = dict[str, tuple[str, ...]]
 NONE: Voids = {}

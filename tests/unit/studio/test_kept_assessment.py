@@ -13,7 +13,7 @@ from meshforge.batch import IN_PROCESS
 from meshforge.language import Delete
 from meshforge.project import Project
 from meshforge.signoff import Assessment, review_family
-from meshforge.store import SpanLine, SpansFile, hull_digests
+from meshforge.store import SAID, SpanLine, SpansFile, hull_digests
 from meshforge.studio.learning import process
 from meshforge.studio.learning.queue import CancelFlag
 from meshforge.studio.session.file_sync import FileSync
@@ -76,6 +76,13 @@ def test_what_is_not_written_is_sure_and_not_signed_off(tmp_path: Path, flag: Ca
     assert [one.sign_off for one in project.status().assets] == ["sure", "signed off", "sure"]
 
 
+def found_since(project: Project) -> tuple[str, ...]:
+    """What was found of the third asset since it was signed off, which it still is."""
+    third = next(one for one in project.status().assets if one.id == THIRD)
+    assert third.sign_off == "signed off"
+    return third.found_since
+
+
 def find_span(project: Project, asset: str, chance: float = 0.6) -> str:
     """Keep that the first hull of an asset likely spans parts; its name."""
     hull, geometry = next(iter(hull_digests(project.mesh(asset)).items()))
@@ -97,16 +104,17 @@ def test_an_asset_with_a_hull_that_likely_spans_parts_is_held_as_a_review_holds_
     assert files_of(project) == before
 
 
-def test_what_was_signed_off_is_taken_back_once_a_hull_is_found_to_span_parts(tmp_path: Path, flag: CancelFlag) -> None:
+def test_what_is_signed_off_stays_so_when_a_hull_is_found_to_span_parts(tmp_path: Path, flag: CancelFlag) -> None:
     project = assessed(tmp_path, flag)
     assert THIRD in signers_of(project)
     hull = find_span(project, THIRD)
     learn(project, flag, 2)
     assess(project, flag, 2)
-    assert THIRD not in signers_of(project)
+    assert found_since(project) == ("two parts",)
     project.mark_as_one_part(THIRD, hull)
     learn(project, flag, 3)
     assess(project, flag, 3)
+    assert found_since(project) == ()
     assert signers_of(project)[THIRD] == "tool"
 
 
@@ -217,7 +225,7 @@ def test_a_persons_sign_off_is_void_and_not_lost_when_the_program_changes(tmp_pa
     learn(project, flag)
     assess(project, flag)
     assert signers_of(project)[THIRD] == "person"
-    assert next(one for one in project.status().assets if one.id == THIRD).void == ("program",)
+    assert next(one for one in project.status().assets if one.id == THIRD).void == ("program", SAID)
 
 
 def test_new_sign_offs_are_not_assessed_again_and_what_is_set_aside_is(tmp_path: Path) -> None:
