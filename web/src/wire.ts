@@ -8,20 +8,17 @@ export type AnyEdit =
   | SetVocabulary
   | RenameLabel
   | SetSteps
-  | CorrectSelection
   | MoveRule
   | DeleteRule
   | SetOrientation
-  | AnswerQuestion
-  | SettleRepair
+  | Reply
+  | AnswerForRule
   | TakeBack
-  | PutOff
   | WriteProgram
   | CutHull
-  | SplitSpan
-  | MarkAsOnePart
   | Unprepare
   | ReviewAssets
+  | ExcludeAssets
   | CorrectByHand
   | DropCorrections
   | LeaveOut
@@ -45,7 +42,7 @@ export type NewProject = ProjectOfFolder | ProjectOfUpload | ProjectOfFamily;
 
 export interface Everything {
   ActionForm: ActionForm;
-  AnswerQuestion: AnswerQuestion;
+  AnswerForRule: AnswerForRule;
   AnswerView: AnswerView;
   AnyEdit: AnyEdit;
   ApplyJob: ApplyJob;
@@ -64,10 +61,8 @@ export interface Everything {
   CheckPicture: CheckPicture;
   CheckRequest: CheckRequest;
   CheckResult: CheckResult;
-  ChoiceView: ChoiceView;
   ConfidenceView: ConfidenceView;
   CorrectByHand: CorrectByHand;
-  CorrectSelection: CorrectSelection;
   CorrectionView: CorrectionView;
   CoverageView: CoverageView;
   CutHull: CutHull;
@@ -82,6 +77,7 @@ export interface Everything {
   EditReceipt: EditReceipt;
   EngineView: EngineView;
   Event: Event;
+  ExcludeAssets: ExcludeAssets;
   ExportJob: ExportJob;
   FamilyOffer: FamilyOffer;
   Fault: Fault;
@@ -92,7 +88,6 @@ export interface Everything {
   FolderView: FolderView;
   ForecastJob: ForecastJob;
   GeneraliseRequest: GeneraliseRequest;
-  GroupHull: GroupHull;
   Guess: Guess;
   Guesses: Guesses;
   Hello: Hello;
@@ -115,10 +110,10 @@ export interface Everything {
   LabelSources: LabelSources;
   LabelUpdate: LabelUpdate;
   LabelUpdateChanged: LabelUpdateChanged;
+  LabelledHull: LabelledHull;
   LanguageView: LanguageView;
   LeaveOut: LeaveOut;
   Mark: Mark;
-  MarkAsOnePart: MarkAsOnePart;
   Model: Model;
   MoveRule: MoveRule;
   NearMiss: NearMiss;
@@ -144,15 +139,13 @@ export interface Everything {
   ProjectView: ProjectView;
   PropagateJob: PropagateJob;
   PropagationState: PropagationState;
-  PutOff: PutOff;
-  QuestionView: QuestionView;
   Reach: Reach;
   ReachChanged: ReachChanged;
   ReadingView: ReadingView;
   RecentProject: RecentProject;
   RemoveAssets: RemoveAssets;
   RenameLabel: RenameLabel;
-  RepairView: RepairView;
+  Reply: Reply;
   ReviewAssets: ReviewAssets;
   ReviewChoiceView: ReviewChoiceView;
   ReviewQuestionView: ReviewQuestionView;
@@ -163,14 +156,12 @@ export interface Everything {
   SetOrientation: SetOrientation;
   SetSteps: SetSteps;
   SetVocabulary: SetVocabulary;
-  SettleRepair: SettleRepair;
   ShapeRow: ShapeRow;
   ShapesHeader: ShapesHeader;
   SimilarRequest: SimilarRequest;
   SimilarView: SimilarView;
   SpansJob: SpansJob;
   SplitHullView: SplitHullView;
-  SplitSpan: SplitSpan;
   Start: Start;
   StartView: StartView;
   StepText: StepText;
@@ -204,14 +195,13 @@ export interface Argument {
   required: boolean;
 }
 /**
- * Say which hulls a rule selects on an asset; null: neither of the choices, which are then in `refused`.
+ * Say which hulls a rule selects on an asset, without being asked.
  */
-export interface AnswerQuestion {
+export interface AnswerForRule {
   kind: "answer";
   rule: number;
   asset: string;
-  select: string[] | null;
-  refused?: string[][];
+  select: string[];
 }
 /**
  * An answer, or a repair of a label that was confirmed or refused; id: to take it back.
@@ -232,20 +222,19 @@ export interface LabelHulls {
   label: string | null;
 }
 /**
- * Give hulls of several assets one label, but for exceptions among them; null takes their labels away.
+ * Give hulls of several assets one label; null takes their labels away.
  */
 export interface LabelGroup {
   kind: "label-group";
-  hulls: GroupHull[];
+  hulls: HullOfAsset[];
   label: string | null;
 }
 /**
- * A hull of a group. label: that it gets in place of the group's, where it is an exception.
+ * A hull of an asset, both by name.
  */
-export interface GroupHull {
+export interface HullOfAsset {
   asset: string;
   hull: string;
-  label?: string | null;
 }
 /**
  * Take over the labels files beside the assets.
@@ -291,15 +280,6 @@ export interface StepText {
   action: string;
 }
 /**
- * Select other hulls where what was shown, answered or found right of a rule was a slip.
- */
-export interface CorrectSelection {
-  kind: "correct-selection";
-  asset: string;
-  rule: number;
-  select: string[];
-}
-/**
  * Put a rule at another place, in all demonstrations; rules count from 1.
  */
 export interface MoveRule {
@@ -322,28 +302,73 @@ export interface SetOrientation {
   text: string;
 }
 /**
- * Confirm or refuse a repair of a label.
+ * Reply to a question. question: as it was asked; choice: the id of one of its choices, null for none of them.
+ *
+ * exceptions: hulls of a group that are something else, or all that are labelled where none of the choices fits;
+ * selections, labels: where a result is wrong, the hulls that rules should have selected, by their numbers, and labels
+ * that hulls should have; later: the question is snoozed.
  */
-export interface SettleRepair {
-  kind: "repair";
+export interface Reply {
+  kind: "reply";
+  question: ReviewQuestionView;
+  choice?: string | null;
+  exceptions?: LabelledHull[];
+  selections?: {
+    [k: string]: string[];
+  };
+  labels?: {
+    [k: string]: string;
+  };
+  later?: boolean;
+}
+/**
+ * A question. seconds: of a person; gain: assets that an answer makes right, as far as can be expected; hulls:
+ * those in question.
+ */
+export interface ReviewQuestionView {
+  id: string;
+  kind: "group" | "repair" | "reading" | "label" | "selection" | "orientation" | "result" | "demonstrate" | "span";
+  text: string;
+  seconds: number;
+  gain: number;
+  asset: string;
+  rule: number | null;
+  hulls: HullRef[];
+  choices: ReviewChoiceView[];
+}
+/**
+ * A hull of an asset. place: its position among the asset's own hulls.
+ */
+export interface HullRef {
   asset: string;
   hull: string;
-  was: string | null;
-  to: string;
-  accept: boolean;
+  place: number;
+}
+/**
+ * One reply. id: among those of its question; label: that the hulls then get; select: names of the hulls that the
+ * rule then selects; sentence: that reading in words; orient: the directive that the family then gets.
+ */
+export interface ReviewChoiceView {
+  id: string;
+  text: string;
+  label: string | null;
+  select: string[] | null;
+  sentence: string;
+  orient: string | null;
+}
+/**
+ * A hull and the label that it gets.
+ */
+export interface LabelledHull {
+  asset: string;
+  hull: string;
+  label: string;
 }
 /**
  * Take back an answer or a repair by its id.
  */
 export interface TakeBack {
   kind: "take-back";
-  id: string;
-}
-/**
- * Ask a question of the review no more, as long as what it is about stays.
- */
-export interface PutOff {
-  kind: "put-off";
   id: string;
 }
 /**
@@ -373,22 +398,6 @@ export interface CutHull {
   across: [number, number, number];
 }
 /**
- * Split a hull that likely spans parts into those that were found last.
- */
-export interface SplitSpan {
-  asset: string;
-  kind: "split-span";
-  hull: string;
-}
-/**
- * Keep that a hull is one part, so that nobody is asked whether to split it.
- */
-export interface MarkAsOnePart {
-  kind: "one-part";
-  asset: string;
-  hull: string;
-}
-/**
  * Take back the last thing that was done to an asset before the program.
  */
 export interface Unprepare {
@@ -396,13 +405,30 @@ export interface Unprepare {
   kind: "unprepare";
 }
 /**
- * Accept or flag the outputs of some assets; null takes that back.
+ * Accept the results of some assets, or call them wrong; null takes that back.
+ *
+ * selections, labels: where the result of one asset is wrong, the hulls that rules should have selected, and labels
+ * that hulls should have.
  */
 export interface ReviewAssets {
   kind: "review";
   ids: string[];
   verdict: ("accepted" | "wrong") | null;
   note?: string | null;
+  selections?: {
+    [k: string]: string[];
+  };
+  labels?: {
+    [k: string]: string;
+  };
+}
+/**
+ * Give some assets up, with the reason; null includes them again.
+ */
+export interface ExcludeAssets {
+  kind: "exclude";
+  ids: string[];
+  reason: ("not of this family" | "not solved") | null;
 }
 /**
  * Add an edit by hand, on hulls by the names they have after the program and the edits before.
@@ -463,7 +489,7 @@ export interface AssessmentChanged {
 }
 /**
  * A family as the last learning run left it. number: of that run; bar: the probability from which on an asset is
- * signed off; signed_off, held, aside: how many assets; unseen: those of the family that nobody looked at, as there
+ * signed off; signed_off, held, excluded: how many assets; unseen: those of the family that nobody looked at, as there
  * are too many, or they cannot be read; assets: the others in the family's order, empty while there is no program;
  * question: null where nothing is left to ask.
  */
@@ -472,20 +498,20 @@ export interface AssessmentView {
   bar: number;
   signed_off: number;
   held: number;
-  aside: number;
+  excluded: number;
   unseen: number;
   assets: ConfidenceView[];
   question: ReviewQuestionView | null;
 }
 /**
  * One asset. probability: that its edit is right; doubts: the weightiest first; state: whether it is signed off,
- * held below the bar, or set aside by a person; told: whether a person demonstrated or accepted it.
+ * held below the bar, or excluded; told: whether a person demonstrated or accepted it.
  */
 export interface ConfidenceView {
   asset: string;
   probability: number;
   doubts: DoubtView[];
-  state: "signed" | "held" | "aside";
+  state: "signed" | "held" | "excluded";
   told: boolean;
 }
 /**
@@ -496,41 +522,6 @@ export interface DoubtView {
   text: string;
   hulls: string[];
   rule: number | null;
-}
-/**
- * A question. seconds: of a person; gain: assets that an answer makes right, as far as can be expected; hulls:
- * those in question; was: the label of the first of them.
- */
-export interface ReviewQuestionView {
-  id: string;
-  kind: "group" | "repair" | "reading" | "label" | "selection" | "orientation" | "result" | "demonstrate" | "span";
-  text: string;
-  seconds: number;
-  gain: number;
-  asset: string;
-  rule: number | null;
-  hulls: HullRef[];
-  was: string | null;
-  choices: ReviewChoiceView[];
-}
-/**
- * A hull of an asset. place: its position among the asset's own hulls.
- */
-export interface HullRef {
-  asset: string;
-  hull: string;
-  place: number;
-}
-/**
- * One reply. label: that the hulls then get; select: names of the hulls that the rule then selects; sentence: that
- * reading in words; orient: the directive that the family then gets.
- */
-export interface ReviewChoiceView {
-  text: string;
-  label: string | null;
-  select: string[] | null;
-  sentence: string;
-  orient: string | null;
 }
 /**
  * Hulls of an asset that got a new label, by position. new: those that had none; changed: those that had another;
@@ -663,7 +654,7 @@ export interface AssetsFound {
  * place in the vocabulary or -1 for none; unsure: positions of hulls whose label is not sure; given: how many labels
  * a person or a file gave.
  * after: how many hulls the output has; after_labels: like `labels`, empty where they are not known; stale: what
- * changed since the output was made; corrections: how many edits by hand.
+ * changed since the output was made; excluded: why it is given up; corrections: how many edits by hand.
  * sources: how many pieces and bodies have no hulls and can be decomposed; prepared: what was done before the program.
  * spans: the hulls that likely hold more than one part, by name, in words, as found last.
  * picture, edited_picture: the digest that the address of the thumbnail takes, null where there is none yet.
@@ -685,6 +676,7 @@ export interface Card {
   flags: string[];
   review: ("accepted" | "wrong") | null;
   note: string | null;
+  excluded: ("not of this family" | "not solved") | null;
   corrections: number;
   sources: number;
   prepared: string[];
@@ -765,15 +757,6 @@ export interface Figure {
   unit: "m" | "m/s" | "kg" | "l" | "%" | "°" | "";
   before: number | null;
   after: number | null;
-}
-/**
- * One answer to a question; select: names of hulls as they are before the rule.
- */
-export interface ChoiceView {
-  reading: string;
-  extractor: string;
-  sentence: string;
-  select: string[];
 }
 /**
  * What an extractor selects on every asset, by positions of the asset's own hulls; in very large families on those
@@ -1052,7 +1035,8 @@ export interface RuleView {
 }
 /**
  * The outcome of a learning run. number: counts the runs; program: its text, null where there is none; looked_at:
- * how many assets the run looked at; settled: whether the program is unambiguous.
+ * how many assets the run looked at; settled: whether the program is unambiguous; repairs: how many labels
+ * are probably wrong.
  *
  * error: a message in place of an outcome; seconds: the time it took. why, advice, nearest: for a rule without an
  * extractor. suggested_orientation, suggested_because: a directive in which the rules do better, and why.
@@ -1067,8 +1051,7 @@ export interface OutcomeView {
   rules: RuleView[];
   settled: boolean;
   readings: ReadingView[];
-  repairs: RepairView[];
-  question: QuestionView | null;
+  repairs: number;
   nearest: NearestView | null;
   hint: HintView | null;
   why: string | null;
@@ -1093,30 +1076,6 @@ export interface ReadingView {
   size: number;
   belief: number;
   differs_on: string[];
-}
-/**
- * A label that is probably wrong. was: the present label, null for none; to: the probable one.
- */
-export interface RepairView {
-  id: string;
-  rule: number;
-  asset: string;
-  hull: string;
-  was: string | null;
-  to: string;
-  belief: number;
-  why: string;
-}
-/**
- * A question: which hulls does a rule select on an asset? harm: expected share of assets edited wrongly.
- */
-export interface QuestionView {
-  id: string;
-  rule: number;
-  asset: string;
-  choices: ChoiceView[];
-  harm: number;
-  left: number;
 }
 /**
  * The extractor that comes nearest, for a rule without any that fits, and how it differs on one asset.
@@ -1302,13 +1261,6 @@ export interface Guess {
 export interface Guesses {
   asset: string;
   guesses: Guess[];
-}
-/**
- * A hull of an asset, both by name.
- */
-export interface HullOfAsset {
-  asset: string;
-  hull: string;
 }
 /**
  * Some hulls of an asset, by name, and their positions in it.

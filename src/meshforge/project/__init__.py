@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from meshforge.project.preparation_plan import SPLIT_DEFAULTS, SplitSettings, forget_plan, read_preparation_plan
     from meshforge.project.prepare import PreparationResult
     from meshforge.project.project import Project
+    from meshforge.project.replies import has_agreed_labels
     from meshforge.project.review import ProjectReview
     from meshforge.project.run import make_correction, output_digest, run_with_corrections
     from meshforge.project.run_report import add_standings, build_run_report, summarize_outputs
@@ -66,6 +67,7 @@ __all__ = [
     "format_review",
     "format_standing",
     "format_status",
+    "has_agreed_labels",
     "keep_assessment",
     "list_new",
     "list_span_questions",

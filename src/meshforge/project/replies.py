@@ -149,7 +149,12 @@ def _repair(store: Store, question: RepairQuestion, choice: ReviewChoice | None,
     _agree_again(store)
 
 
+def has_agreed_labels(store: Store) -> bool:
+    """Whether consensus gave labels, so that those of other hulls may follow what a person says of one."""
+    return any(label.source == "consensus" for asset in store.assets() for label in store.labels(asset).labels.values())
+
+
 def _agree_again(store: Store) -> None:
     """Let the labels that consensus gave follow what a person said."""
-    if any(label.source == "consensus" for asset in store.assets() for label in store.labels(asset).labels.values()):
+    if has_agreed_labels(store):
         label_by_consensus(store, IN_PROCESS, ignore_stage, ignore_report)

@@ -25,6 +25,7 @@ if TYPE_CHECKING:
         SlipQuestion,
         SpanQuestion,
         UnseenLabelQuestion,
+        question_of,
     )
     from meshforge.signoff.review import assess_asset, review_family
     from meshforge.signoff.state import ReviewState
@@ -56,5 +57,6 @@ __all__ = [
     "assess_asset",
     "describe_odd_results",
     "measure_edit",
+    "question_of",
     "review_family",
 ]

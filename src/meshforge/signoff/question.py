@@ -7,7 +7,7 @@ from dataclasses import dataclass, field, replace
 from hashlib import blake2b
 from typing import Any, ClassVar, Literal, NamedTuple, TypeVar
 
-from meshforge.language import Orient
+from meshforge.language import Orient, parse_orient
 
 QuestionKind = Literal[
     "group", "repair", "reading", "label", "selection", "orientation", "result", "demonstrate", "span"
@@ -168,6 +168,47 @@ ReviewQuestion = (
     | DemonstrationQuestion
     | SpanQuestion
 )
+_KINDS: Mapping[str, type[ReviewQuestion]] = {
+    one.kind: one
+    for one in (
+        GroupQuestion,
+        RepairQuestion,
+        ReadingQuestion,
+        UnseenLabelQuestion,
+        SlipQuestion,
+        OrientationQuestion,
+        ResultQuestion,
+        DemonstrationQuestion,
+        SpanQuestion,
+    )
+}
+
+
+def question_of(asked: Mapping[str, Any]) -> ReviewQuestion:
+    """The question that somebody was asked; asked: as `to_json` writes it, orient: of a choice, as a program's text."""
+    choices = tuple(
+        ReviewChoice(
+            one["id"],
+            one["text"],
+            one["label"],
+            None if one["select"] is None else tuple(one["select"]),
+            parse_orient(f"orient {one['orient']}") if one.get("orient") else None,
+        )
+        for one in asked["choices"]
+    )
+    hulls = tuple(HullPlace(one["asset"], one["hull"]) for one in asked["hulls"])
+    return _KINDS[asked["kind"]](
+        text=asked["text"],
+        seconds=asked["seconds"],
+        gain=asked["gain"],
+        asset=asked["asset"],
+        rule=asked["rule"],
+        hulls=hulls,
+        choices=choices,
+        id=asked["id"],
+    )
+
+
 Draft = TypeVar("Draft", bound=QuestionBase)
 
 

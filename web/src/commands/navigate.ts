@@ -15,12 +15,12 @@ import {
 } from "../store/workspace";
 import type { Command } from "./command";
 
-/** The next asset that wants to be looked at: flagged, failed, or with labels that are not sure. */
+/** The next asset that wants to be looked at: wrong, flagged, failed, or with labels that are not sure. */
 function nextDoubtful(): string | null {
   const { cards, order } = useProject.getState();
   const doubtful = (asset: string) => {
     const card = cards[asset];
-    return card !== undefined && (matchesFilter(card, "flagged") || matchesFilter(card, "failed") || matchesFilter(card, "unsure"));
+    return card !== undefined && (matchesFilter(card, "wrong") || matchesFilter(card, "flagged") || matchesFilter(card, "failed") || matchesFilter(card, "unsure"));
   };
   return neighbour(order, order, useWorkspace.getState().asset, 1, doubtful);
 }
@@ -59,7 +59,7 @@ export const goCommands: readonly Command[] = [
   },
   {
     id: "next-doubtful",
-    title: "Next asset that is flagged, failed or unsure",
+    title: "Next asset that is wrong, flagged, failed or unsure",
     group: "Go",
     keys: ["N"],
     enabled: () => ["demonstrate", "learn"].includes(useWorkspace.getState().stage) && nextDoubtful() !== null,

@@ -48,7 +48,7 @@ describe("accepting", () => {
   });
 
   it("takes all at once that are legal, and reports those that are not", async () => {
-    family(card("a"), card("b"), card("c", { stale: ["program"] }), card("d", { review: "flagged" }));
+    family(card("a"), card("b"), card("c", { stale: ["program"] }), card("d", { review: "wrong" }));
     vi.spyOn(api, "result").mockImplementation((asset) => {
       const findings = asset === "b" ? [{ severity: "error", text: "not convex", hull: null }] : [];
       return Promise.resolve({ header: { findings } as unknown as EditHeader, rows: [], shapes: [] });
@@ -68,21 +68,21 @@ describe("keys of the review stage", () => {
     expect(command("accept")?.enabled?.()).toBe(false);
   });
 
-  it("accept only what is up to date, which can be flagged all the same", () => {
+  it("accept only what is up to date, which can be wrong all the same", () => {
     family(card("a", { stale: ["program"] }), card("b"));
     useWorkspace.setState({ asset: "a" });
-    expect([command("accept")?.enabled?.(), command("flag")?.enabled?.()]).toEqual([false, true]);
+    expect([command("accept")?.enabled?.(), command("wrong")?.enabled?.()]).toEqual([false, true]);
     useWorkspace.setState({ asset: "b" });
     expect(command("accept")?.enabled?.()).toBe(true);
   });
 
-  it("flag, and take a flag back", () => {
-    family(card("a"), card("b", { review: "flagged" }));
+  it("call a result wrong, and take that back", () => {
+    family(card("a"), card("b", { review: "wrong" }));
     useWorkspace.setState({ asset: "b" });
-    command("flag")?.run();
+    command("wrong")?.run();
     useWorkspace.setState({ asset: "a" });
-    command("flag")?.run();
-    return vi.waitFor(() => expect(edits.map((edit) => "verdict" in edit && edit.verdict)).toEqual([null, "flagged"]));
+    command("wrong")?.run();
+    return vi.waitFor(() => expect(edits.map((edit) => "verdict" in edit && edit.verdict)).toEqual([null, "wrong"]));
   });
 
   it("say so when nothing is left to review", () => {

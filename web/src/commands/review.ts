@@ -1,4 +1,4 @@
-// What a person does with results: apply, accept, flag, correct, export, and go to the next that wants a look.
+// What a person does with results: apply, accept, call wrong, exclude, correct, export, and go to the next that wants a look.
 import { startDraft } from "../store/draft";
 import { perform } from "../store/edits";
 import { applyTo, checkAll, whyNotApply, whyNotCheck } from "../store/jobs";
@@ -23,12 +23,15 @@ export async function accept(asset: string): Promise<void> {
   if (done && next && useWorkspace.getState().asset === asset) openAsset(next);
 }
 
-export const flag = (asset: string, note: string | null): Promise<boolean> =>
-  perform({ kind: "review", ids: [asset], verdict: "flagged", note });
+export const callWrong = (asset: string, note: string | null): Promise<boolean> =>
+  perform({ kind: "review", ids: [asset], verdict: "wrong", note });
 
-/** Keeps a note with a flag that is there. */
-export const noteFlag = (asset: string, note: string | null): Promise<boolean> =>
-  perform({ kind: "review", ids: [asset], verdict: "flagged", note }, { quiet: true });
+/** Keeps a note with a result that was called wrong. */
+export const noteWrong = (asset: string, note: string | null): Promise<boolean> =>
+  perform({ kind: "review", ids: [asset], verdict: "wrong", note }, { quiet: true });
+
+/** Gives an asset up, or includes it again. */
+export const exclude = (asset: string, reason: Card["excluded"]): Promise<boolean> => perform({ kind: "exclude", ids: [asset], reason });
 
 export const withdrawReview = (asset: string): Promise<boolean> =>
   perform({ kind: "review", ids: [asset], verdict: null });
@@ -74,7 +77,7 @@ function nextOf(asset: string | null): string | null {
   return nextInQueue(queue(), useProject.getState().order, asset);
 }
 
-/** Opens the next asset that failed, is flagged, or was not reviewed yet. */
+/** Opens the next asset that failed, is wrong or flagged, or was not reviewed yet. */
 export function nextToReview(): void {
   const { asset } = useWorkspace.getState();
   const next = nextOf(asset);
@@ -103,14 +106,14 @@ export const reviewCommands: readonly Command[] = [
     },
   },
   {
-    id: "flag",
-    title: "Flag the result, or remove the flag",
+    id: "wrong",
+    title: "Call the result wrong, or take that back",
     group: "Review",
     keys: ["F"],
     enabled: () => reviewable() !== null,
     run: () => {
       const card = reviewable();
-      if (card) return (card.review === "flagged" ? withdrawReview(card.asset) : flag(card.asset, card.note));
+      if (card) return card.review === "wrong" ? withdrawReview(card.asset) : callWrong(card.asset, card.note);
     },
   },
   {

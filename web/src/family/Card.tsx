@@ -16,6 +16,7 @@ import {
   Split,
   Tag,
   TriangleAlert,
+  X,
 } from "lucide-react";
 import { memo, type MouseEvent, useState } from "react";
 import { Thumbnail } from "../pictures/Thumbnail";
@@ -213,6 +214,7 @@ export const ICONS: Readonly<Record<Badge["name"], LucideIcon>> = {
   edited: Pencil,
   stale: RefreshCw,
   accepted: Check,
+  wrong: X,
   flagged: Flag,
   failed: CircleAlert,
   corrected: Hand,

@@ -26,11 +26,11 @@ export function SignOff() {
 }
 
 function Known({ assessment }: { assessment: AssessmentView }) {
-  const { bar, aside } = assessment;
+  const { bar, excluded } = assessment;
   const mood = moodOf(assessment);
   const Icon = mood === "good" ? CircleCheck : CircleQuestionMark;
   const look = lookText(assessment);
-  const more = [`at least ${barText(bar)} sure, or accepted by you`, aside > 0 && `${aside.toLocaleString("en-GB")} set aside`, unseenText(assessment)];
+  const more = [`at least ${barText(bar)} sure, or accepted by you`, excluded > 0 && `${excluded.toLocaleString("en-GB")} excluded`, unseenText(assessment)];
   return (
     <>
       <div className={css.line} data-mood={mood} role="status">
@@ -56,9 +56,9 @@ function Known({ assessment }: { assessment: AssessmentView }) {
   );
 }
 
-/** The shares of the family that are signed off, set aside, held, and not looked at; the words beside it say the same. */
-function Meter({ assessment: { signed_off, aside, held, unseen } }: { assessment: AssessmentView }) {
-  const shares = { signed: signed_off, aside, held, unseen };
+/** The shares of the family that are signed off, excluded, held, and not looked at; the words beside it say the same. */
+function Meter({ assessment: { signed_off, excluded, held, unseen } }: { assessment: AssessmentView }) {
+  const shares = { signed: signed_off, excluded, held, unseen };
   return (
     <span className={css.meter} aria-hidden>
       {Object.entries(shares).map(([what, count]) => count > 0 && <i key={what} data-what={what} style={{ flexGrow: count }} />)}

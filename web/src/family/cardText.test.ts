@@ -17,6 +17,7 @@ const card: Card = {
   error: null,
   flags: [],
   review: null,
+  excluded: null,
   note: null,
   corrections: 1,
   sources: 0,
@@ -39,9 +40,9 @@ test("every way an asset stands has a badge of its own", () => {
   ]);
 });
 
-test("why an asset is flagged is said", () => {
-  const [first] = badgesOf({ ...card, review: "flagged", note: "leg too short", flags: ["open mesh"] });
-  expect(first?.text).toBe("Flagged: leg too short; open mesh");
+test("why a result is wrong or flagged is said", () => {
+  const [first, second] = badgesOf({ ...card, review: "wrong", note: "leg too short", flags: ["open mesh"] });
+  expect([first?.text, second?.text]).toEqual(["Wrong: leg too short", "Flagged: open mesh"]);
 });
 
 test("a screen reader hears name, hulls before and after, and how it stands", () => {

@@ -22,7 +22,8 @@ export function badgesOf(card: Card, engine = ""): readonly Badge[] {
   const [faults, spans] = [faultsOf(card, engine), Object.values(card.spans)];
   const out: (Badge | false)[] = [
     output === "failed" && { name: "failed", text: "The program fails on it" },
-    matchesFilter(card, "flagged") && { name: "flagged", text: flaggedText(card) },
+    review === "wrong" && { name: "wrong", text: ["Wrong", card.note].filter(Boolean).join(": ") },
+    card.flags.length > 0 && { name: "flagged", text: `Flagged: ${card.flags.join("; ")}` },
     review === "accepted" && { name: "accepted", text: "Accepted" },
     matchesFilter(card, "stale") && { name: "stale", text: `Not up to date: ${stale.join(", ")}` },
     faults.length > 0 && { name: "findings", count: faults.length, text: findingsText(faults), old: !countByEdit(faults) },
@@ -52,11 +53,6 @@ export function fitBadges(all: readonly Badge[], room: number): { shown: readonl
   if (sum(all.length) <= room) return { shown: all, rest: [] };
   const most = widths.findLastIndex((_, k) => sum(k) + SIGN <= room);
   return { shown: all.slice(0, Math.max(most, 0)), rest: all.slice(Math.max(most, 0)) };
-}
-
-function flaggedText(card: Card): string {
-  const reasons = [card.note, ...card.flags].filter(Boolean);
-  return reasons.length ? `Flagged: ${reasons.join("; ")}` : "Flagged";
 }
 
 /** What became of the labels of an asset: `24 labels are new, 1 is another`. */

@@ -15,7 +15,7 @@ const HOW = [
   ["Label", "Label hulls: select them and press a digit, on a few assets or on all."],
   ["Demonstrate", "On one or two assets, select hulls and choose an action, step by step."],
   ["Learn", "MeshForge finds the program that does the same. Answer its questions until every result is sure, or was looked at."],
-  ["Review", "Apply the program to the family, accept or flag each result, and export."],
+  ["Review", "Apply the program to the family, accept each result or call it wrong, and export."],
 ] as const;
 
 const close = () => useWorkspace.setState({ overlay: "none" });

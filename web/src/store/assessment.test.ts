@@ -1,7 +1,7 @@
 // How sure edits are in words, and which question is open.
 import { describe, expect, it } from "vitest";
-import type { DoubtView } from "../wire";
-import { asReadings, doubtsText, groupHeld, leftText, moodOf, openQuestion, percentText, placesOf, probabilityText, signedText } from "./assessment";
+import type { DoubtView, ReviewQuestionView } from "../wire";
+import { doubtsText, groupHeld, leftText, moodOf, openQuestion, percentText, placesOf, probabilityText, signedText } from "./assessment";
 import { filterAssets } from "./family";
 import { applyEvent, emptyProject } from "./project";
 import { sampleAssessment, sampleCard, sampleQuestion, sampleRow } from "./sample.test-help";
@@ -12,7 +12,7 @@ describe("how sure the family is", () => {
     expect(told(75, 4)).toEqual(["Signed off 71 of 75", "4 are less than 95% sure: look at these 4."]);
     expect(told(2, 1)).toEqual(["Signed off 1 of 2", "1 is less than 95% sure: look at this one."]);
     expect(told(5, 0)).toEqual(["Signed off 5 of 5", null]);
-    expect(told(5, 1, { signed_off: 2, aside: 2 })[1]).toBe("1 is less than 95% sure: look at this one; 2 are set aside.");
+    expect(told(5, 1, { signed_off: 2, excluded: 2 })[1]).toBe("1 is less than 95% sure: look at this one; 2 are excluded.");
     expect([sampleAssessment(5, 1), sampleAssessment(5, 0)].map(moodOf)).toEqual(["warn", "good"]);
   });
 
@@ -70,7 +70,7 @@ describe("how sure the family is", () => {
     const confidence = {
       a: sampleRow(),
       b: sampleRow({ asset: "b", probability: 0.2, state: "held" }),
-      c: sampleRow({ asset: "c", probability: 0.1, state: "aside" }),
+      c: sampleRow({ asset: "c", probability: 0.1, state: "excluded" }),
     };
     const shown = (only: readonly "held"[]) =>
       filterAssets(cards, Object.keys(cards), { search: "", only, sort: "probability", chosen: true }, emptyProject.project, "", confidence);
@@ -80,33 +80,13 @@ describe("how sure the family is", () => {
 });
 
 describe("the question of the assessment", () => {
-  const asked = (question: ReturnType<typeof sampleQuestion>, outcome: object | null = null) =>
-    openQuestion({ assessment: sampleAssessment(3, 1, { question }), outcome: outcome as never });
-  const learned = { question: null, repairs: [], hint: null, suggested_orientation: null };
-
-  it("is not asked twice", () => {
-    const reading = sampleQuestion({ kind: "reading", rule: 2, asset: "a1" });
-    expect(asked(reading, { ...learned, question: { rule: 2, asset: "a1" } })).toBeNull();
-    expect(asked(reading, { ...learned, question: { rule: 1, asset: "a2" } })).toBeNull(); // one about readings at a time
-    expect(asked(reading, learned)).toBe(reading);
-    const repair = sampleQuestion({ kind: "repair", hulls: [{ asset: "a1", hull: "h", place: 0 }] });
-    expect(asked(repair, { ...learned, repairs: [{ asset: "a1", hull: "h" }] })).toBeNull();
-    expect(asked(repair, learned)).toBe(repair);
+  it("is none while there is no program, but for hulls that span parts and labels that may be wrong", () => {
+    const asked = (count: number, kind: ReviewQuestionView["kind"]) => openQuestion({ assessment: sampleAssessment(count, 0, { question: sampleQuestion({ kind }) }) });
+    expect([asked(0, "group"), asked(0, "demonstrate"), openQuestion({ assessment: null })]).toEqual([null, null, null]);
+    expect([asked(0, "span"), asked(0, "repair"), asked(1, "group")].map((one) => one?.kind)).toEqual(["span", "repair", "group"]);
   });
 
-  it("is none while there is no program, but for hulls that span parts", () => {
-    const before = (question: ReturnType<typeof sampleQuestion>) =>
-      openQuestion({ assessment: sampleAssessment(0, 0, { question }), outcome: null });
-    expect(before(sampleQuestion())).toBeNull();
-    const span = sampleQuestion({ kind: "span" });
-    expect(before(span)).toBe(span);
-  });
-
-  it("about readings is one of pictures; hulls are found by asset", () => {
-    const choice = { text: "Is(leg)", label: null, select: ["x"], sentence: "the legs", orient: null };
-    const view = asReadings(sampleQuestion({ kind: "reading", rule: 1, choices: [choice] }));
-    expect(view?.choices[0]).toEqual({ reading: "Is(leg)", extractor: "Is(leg)", sentence: "the legs", select: ["x"] });
-    expect(asReadings(sampleQuestion())).toBeNull();
+  it("has its hulls by asset", () => {
     const hulls = [{ asset: "a", hull: "x", place: 3 }, { asset: "b", hull: "y", place: 0 }, { asset: "a", hull: "z", place: 5 }];
     expect(placesOf({ hulls })).toEqual({ a: [3, 5], b: [0] });
   });

@@ -1,5 +1,5 @@
 // How sure the edits of the family are, in words, and which question is open; knows neither DOM nor three.js.
-import type { AssessmentView, ConfidenceView, OutcomeView, QuestionView, ReviewQuestionView } from "../wire";
+import type { AssessmentView, ConfidenceView, ReviewQuestionView } from "../wire";
 import type { ProjectState } from "./project";
 import { countText } from "./words";
 
@@ -61,10 +61,10 @@ export function unseenText({ unseen }: Pick<AssessmentView, "unseen">): string |
 
 /** What of the family is not signed off, as a sentence; null where all is. */
 export function leftText(assessment: AssessmentView): string | null {
-  const { held, aside, bar } = assessment;
+  const { held, excluded, bar } = assessment;
   const parts = [
     held > 0 && `${held.toLocaleString("en-GB")} ${held === 1 ? "is" : "are"} less than ${barText(bar)} sure: ${lookText(assessment)}`,
-    aside > 0 && `${aside.toLocaleString("en-GB")} ${aside === 1 ? "is" : "are"} set aside`,
+    excluded > 0 && `${excluded.toLocaleString("en-GB")} ${excluded === 1 ? "is" : "are"} excluded`,
     unseenText(assessment),
   ].filter(Boolean);
   return parts.length ? `${parts.join("; ")}.` : null;
@@ -97,37 +97,20 @@ export function doubtsText(asset: string, row: ConfidenceView | undefined, bar: 
 export const rowsOf = (assessment: AssessmentView): Readonly<Record<string, ConfidenceView>> =>
   Object.fromEntries(assessment.assets.map((row) => [row.asset, row]));
 
-/**
- * The question of the assessment; null where there is none, or what learning asks itself would ask the same. While there
- * is no program only whether hulls span parts.
- */
-export function openQuestion({ assessment, outcome }: Pick<ProjectState, "assessment" | "outcome">): ReviewQuestionView | null {
+/** Kinds of questions that are asked while there is no program. */
+const FIRST: readonly ReviewQuestionView["kind"][] = ["span", "repair"];
+
+/** The question of the assessment; null where there is none. */
+export function openQuestion({ assessment }: Pick<ProjectState, "assessment">): ReviewQuestionView | null {
   const question = assessment?.question ?? null;
-  const asked = assessment?.assets.length || question?.kind === "span" ? question : null;
-  return asked && !(outcome && asksSame(asked, outcome)) ? asked : null;
+  return question && (assessment?.assets.length || FIRST.includes(question.kind)) ? question : null;
 }
 
-/** Whether a question is open, of learning itself, of the assessment, or about a label that learning thinks wrong. */
-export const isAsked = (state: Pick<ProjectState, "assessment" | "outcome">): boolean =>
-  (state.outcome?.question ?? openQuestion(state) ?? state.outcome?.repairs[0] ?? null) !== null;
+/** Whether a question is open. */
+export const isAsked = (state: Pick<ProjectState, "assessment">): boolean => openQuestion(state) !== null;
 
 /** Assets of a group whose hulls get another label than the others, or, with null, none. */
 export type Exceptions = Readonly<Record<string, string | null>>;
-
-/** Whether learning asks the same itself, beside its program or as a repair that it proposes. */
-function asksSame({ kind, hulls }: ReviewQuestionView, { question, repairs }: OutcomeView): boolean {
-  if (kind === "reading" || kind === "label") return question !== null; // one card at a time
-  const [first] = hulls;
-  if ((kind !== "group" && kind !== "repair") || !first || hulls.length > 1) return false;
-  return repairs.some(({ asset, hull }) => asset === first.asset && hull === first.hull);
-}
-
-/** A question about readings as learning asks its own, for the same card; null for other questions. */
-export function asReadings({ id, kind, rule, asset, choices }: ReviewQuestionView): QuestionView | null {
-  if (kind === "selection" || rule === null || !choices.length || choices.some((choice) => choice.select === null)) return null;
-  const rows = choices.map(({ text, sentence, select }) => ({ reading: text, extractor: text, sentence, select: select ?? [] }));
-  return { id, rule, asset, choices: rows, harm: 0, left: 0 };
-}
 
 /** Positions of the hulls in question, by asset. */
 export function placesOf({ hulls }: Pick<ReviewQuestionView, "hulls">): Readonly<Record<string, readonly number[]>> {

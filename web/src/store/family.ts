@@ -11,6 +11,7 @@ export const FILTERS: readonly FilterName[] = [
   "demonstrated",
   "edited",
   "accepted",
+  "wrong",
   "flagged",
   "failed",
   "stale",
@@ -31,7 +32,8 @@ const MATCHES: Readonly<Record<FilterName, (card: Card, engine: string, sure?: C
   demonstrated: (card) => card.demonstrated,
   edited: (card) => card.output === "edited",
   accepted: (card) => card.review === "accepted",
-  flagged: (card) => card.review === "flagged" || card.flags.length > 0,
+  wrong: (card) => card.review === "wrong",
+  flagged: (card) => card.flags.length > 0,
   failed: (card) => card.output === "failed" || card.error !== null,
   stale: (card) => card.output !== "none" && card.stale.length > 0,
   findings: (card, engine) => faultsOf(card, engine).length > 0,
@@ -110,10 +112,10 @@ function sortByName(order: readonly string[]): readonly string[] {
   return found;
 }
 
-/** The least probable first; after them those that a person set aside, and those of which nothing is known. */
+/** The least probable first; after them those that are excluded, and those of which nothing is known. */
 function urgency(sure: ConfidenceView | undefined): number {
   if (!sure) return 3;
-  return sure.state === "aside" ? 2 : sure.probability;
+  return sure.state === "excluded" ? 2 : sure.probability;
 }
 
 const amount = (card: Card | undefined, by: Amount, engine: string) =>

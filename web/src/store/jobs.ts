@@ -3,7 +3,6 @@ import { api } from "../server/api";
 import type { DownloadJob, Job, JobRequest, Model } from "../wire";
 import { useSplitChoice } from "./newAssets";
 import { useProject } from "./project";
-import { isUpToDate } from "./reviews";
 import { reportError } from "./toasts";
 import { givenLabels } from "./unsureHulls";
 
@@ -50,31 +49,6 @@ const applyJob = (assets: readonly string[] | null): JobRequest => ({
 
 /** Applies the program to all assets, or to some; those that are new are prepared before. */
 export const applyTo = (assets: readonly string[] | null): Promise<boolean> => startJob(applyJob(assets));
-
-/** How long the result of one asset may take [ms]. */
-const PATIENCE = 120_000;
-
-/** Makes the result of an asset; whether it is there then as it would be now. */
-export async function makeResult(asset: string): Promise<boolean> {
-  const id = await requestJob(applyJob([asset]));
-  if (id === null) return false;
-  return new Promise((pass) => {
-    const end = (made: boolean) => {
-      stop();
-      clearTimeout(late);
-      pass(made);
-    };
-    const look = () => {
-      const { cards, jobs } = useProject.getState();
-      const [card, job] = [cards[asset], jobs.find((one) => one.id === id)];
-      if (isUpToDate(card)) end(true);
-      else if (job?.state === "failed" || job?.state === "cancelled" || (job?.state === "done" && card?.output === "failed")) end(false);
-    };
-    const late = setTimeout(() => end(false), PATIENCE);
-    const stop = useProject.subscribe(look);
-    look();
-  });
-}
 
 export const propagateLabels = (): Promise<boolean> => startJob({ kind: "propagate" });
 

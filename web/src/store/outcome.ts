@@ -29,8 +29,8 @@ export function summarizeOutcome(
     case "ambiguous":
       return summary("warn", "One question is open", "The program fits your demonstrations; your answer decides the rest.");
     case "repair": {
-      const labels = countText(outcome.repairs.length, "label");
-      return summary("warn", `${labels} may be wrong`, `With ${outcome.repairs.length === 1 ? "it" : "them"} repaired, a program fits.`);
+      const labels = countText(outcome.repairs, "label");
+      return summary("warn", `${labels} may be wrong`, `With ${outcome.repairs === 1 ? "it" : "them"} repaired, a program fits.`);
     }
     case "none":
       return summary("bad", `No program${outcome.nearest ? ` yet: rule ${outcome.nearest.rule} cannot be expressed` : ""}`, outcome.why);

@@ -1,7 +1,7 @@
 // The readings of a rule: in which order they are listed, how the choices of a question differ, and which assets tell
 // them apart.
 import { api } from "../server/api";
-import type { ChoiceView, OutcomeView, ProgramView, ReadingView, RuleView } from "../wire";
+import type { OutcomeView, ProgramView, ReadingView, ReviewChoiceView, RuleView } from "../wire";
 import { useProject } from "./project";
 import { countText, listText } from "./words";
 
@@ -77,7 +77,7 @@ export function extractorOf(rule: string): string {
 }
 
 /** What a choice of a question takes; a later one by how it differs from the first, where that says it shorter. */
-export function choiceText(choices: readonly ChoiceView[], k: number): string {
+export function choiceText(choices: readonly Pick<ReviewChoiceView, "select">[], k: number): string {
   const own = choices[k]?.select ?? [];
   const first = choices[0]?.select ?? [];
   if (!own.length) return "No hull";
@@ -88,6 +88,9 @@ export function choiceText(choices: readonly ChoiceView[], k: number): string {
   const parts = [more.length ? ` and ${listText(more)}` : "", less.length ? ` without ${listText(less)}` : ""];
   return `${count}: those of 1${parts.filter(Boolean).join(",")}`;
 }
+
+/** The hulls that a choice takes. */
+export const selectOf = ({ select }: Pick<ReviewChoiceView, "select">): readonly string[] => select ?? [];
 
 /** Names that are in some of the sets but not in all. */
 export function differing(sets: readonly (readonly string[])[]): string[] {

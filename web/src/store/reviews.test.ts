@@ -22,7 +22,7 @@ const family = [
   card("a", { review: "accepted" }),
   card("b"),
   card("c", { output: "failed", error: "no leg" }),
-  card("d", { review: "flagged" }),
+  card("d", { review: "wrong" }),
   card("e", { flags: ["an edit by hand was left out"] }),
   card("f", { stale: ["program"], review: "accepted" }),
   card("g", { output: "none", after: null }),
@@ -34,12 +34,14 @@ describe("results in groups", () => {
     const rows = groupCards(family);
     expect(Object.fromEntries(Object.entries(rows).map(([group, cards]) => [group, cards.map((one) => one.asset)]))).toEqual({
       failed: ["c"],
-      flagged: ["d", "e"],
+      wrong: ["d"],
+      flagged: ["e"],
       stale: ["f"],
       informative: [],
       open: ["b"],
       accepted: ["a"],
       none: ["g", "h"],
+      excluded: [],
     });
   });
 
@@ -48,11 +50,15 @@ describe("results in groups", () => {
     const names = (group: Group) => rows[group].map((one) => one.asset);
     expect([names("informative"), names("open")]).toEqual([["y", "b"], ["x"]]);
     const rest = groupCards(family);
-    for (const group of ["failed", "flagged", "stale", "accepted", "none"] as const) expect(rows[group]).toEqual(rest[group]);
+    for (const group of ["failed", "wrong", "flagged", "stale", "accepted", "none"] as const) expect(rows[group]).toEqual(rest[group]);
   });
 
   it("takes an accepted result for accepted although something was left out", () => {
     expect(groupOf(card("x", { flags: ["left out"], review: "accepted" }))).toBe("accepted");
+  });
+
+  it("keeps what is excluded apart, whatever became of it", () => {
+    expect(groupOf(card("x", { output: "failed", excluded: "not solved" }))).toBe("excluded");
   });
 
   it("lets a failure wait for the next run once what it failed on has changed", () => {
@@ -63,7 +69,7 @@ describe("results in groups", () => {
 describe("the queue of what wants a look", () => {
   const order = family.map((one) => one.asset);
 
-  it("has what failed first, then what is flagged, then what nobody reviewed", () => {
+  it("has what failed first, then what is wrong or flagged, then what nobody reviewed", () => {
     expect(reviewQueue(family, [])).toEqual(["c", "d", "e", "b"]);
   });
 
@@ -103,7 +109,7 @@ describe("what can be done with all", () => {
     expect(countExportable(family, {})).toEqual({ signed: 1, all: 5 });
     const sure = Object.fromEntries(family.map(({ asset }) => [asset, sampleRow({ asset })]));
     const signed = family.filter((one) => isSignedOff(one, sure[one.asset]));
-    expect(signed.every(({ stale, review }) => !stale.length && review !== "flagged")).toBe(true);
+    expect(signed.every(({ stale, review }) => !stale.length && review !== "wrong")).toBe(true);
     expect(countExportable(family, sure).signed).toBe(signed.length);
     expect(signed.length).toBeGreaterThan(1);
   });

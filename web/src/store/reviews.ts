@@ -3,16 +3,18 @@ import { create } from "zustand";
 import { api } from "../server/api";
 import type { Card, ConfidenceView, EditHeader, HullView } from "../wire";
 
-export type Group = "failed" | "flagged" | "stale" | "informative" | "open" | "accepted" | "none";
+export type Group = "failed" | "wrong" | "flagged" | "stale" | "informative" | "open" | "accepted" | "none" | "excluded";
 
 /** In the order in which they want a look. */
-export const GROUPS: readonly Group[] = ["failed", "flagged", "stale", "informative", "open", "accepted", "none"];
+export const GROUPS: readonly Group[] = ["failed", "wrong", "flagged", "stale", "informative", "open", "accepted", "none", "excluded"];
 
 /** Where the result of an asset belongs; sample: the assets whose results tell best whether the program is right. */
 export function groupOf(card: Card, sample: readonly string[] = []): Group {
+  if (card.excluded) return "excluded";
   if (card.output === "failed") return card.stale.length ? "stale" : "failed";
   if (card.output === "none") return "none";
-  if (card.review === "flagged" || (card.flags.length > 0 && card.review === null)) return "flagged";
+  if (card.review === "wrong") return "wrong";
+  if (card.flags.length > 0 && card.review === null) return "flagged";
   if (card.stale.length) return "stale";
   if (card.review === "accepted") return "accepted";
   return sample.includes(card.asset) ? "informative" : "open";
@@ -20,16 +22,16 @@ export function groupOf(card: Card, sample: readonly string[] = []): Group {
 
 /** The cards by group, in the family's order; those that tell most, in the order of the sample. */
 export function groupCards(cards: readonly Card[], sample: readonly string[] = []): Readonly<Record<Group, readonly Card[]>> {
-  const rows: Record<Group, Card[]> = { failed: [], flagged: [], stale: [], informative: [], open: [], accepted: [], none: [] };
+  const rows: Record<Group, Card[]> = { failed: [], wrong: [], flagged: [], stale: [], informative: [], open: [], accepted: [], none: [], excluded: [] };
   for (const card of cards) rows[groupOf(card, sample)].push(card);
   rows.informative.sort((one, other) => sample.indexOf(one.asset) - sample.indexOf(other.asset));
   return rows;
 }
 
-/** Assets that want a look: failed and flagged first, then those that nobody reviewed, the most informative ahead. */
+/** Assets that want a look: what failed, is wrong or flagged first, then those that nobody reviewed, the most informative ahead. */
 export function reviewQueue(cards: readonly Card[], sample: readonly string[]): readonly string[] {
-  const { failed, flagged, informative, open } = groupCards(cards, sample);
-  return [...failed, ...flagged, ...informative, ...open].map((card) => card.asset);
+  const { failed, wrong, flagged, informative, open } = groupCards(cards, sample);
+  return [...failed, ...wrong, ...flagged, ...informative, ...open].map((card) => card.asset);
 }
 
 /** The one of a queue that comes after an asset, from the front again at its end. */
@@ -41,7 +43,7 @@ export function nextInQueue(queue: readonly string[], order: readonly string[], 
   return queue.find((name) => (places.get(name) ?? -1) > here) ?? queue[0] ?? null;
 }
 
-/** Assets whose output is up to date, not flagged by anyone or anything, legal as far as is known, and not held. */
+/** Assets whose output is up to date, not called wrong, not flagged, legal as far as is known, and not held. */
 export function listAcceptable(cards: readonly Card[], confidence: Readonly<Record<string, ConfidenceView>> = {}): readonly string[] {
   const isOpen = (card: Card) => groupOf(card) === "open" && confidence[card.asset]?.state !== "held";
   return cards.filter(isOpen).map((card) => card.asset);

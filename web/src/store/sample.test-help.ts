@@ -16,6 +16,7 @@ export const sampleCard = (change: Partial<Card> = {}): Card => ({
   flags: [],
   review: null,
   note: null,
+  excluded: null,
   corrections: 0,
   sources: 0,
   prepared: [],
@@ -41,7 +42,7 @@ export function sampleAssessment(count: number, held: number, change: Partial<As
   const assets = Array.from({ length: count }, (_, k) =>
     sampleRow(k < held ? { asset: `a${k}`, probability: 0.5, state: "held" } : { asset: `a${k}` }),
   );
-  return { number: 1, bar: 0.95, signed_off: count - held, held, aside: 0, unseen: 0, assets, question: null, ...change };
+  return { number: 1, bar: 0.95, signed_off: count - held, held, excluded: 0, unseen: 0, assets, question: null, ...change };
 }
 
 export const sampleQuestion = (change: Partial<ReviewQuestionView> = {}): ReviewQuestionView => ({
@@ -53,7 +54,6 @@ export const sampleQuestion = (change: Partial<ReviewQuestionView> = {}): Review
   asset: "a0",
   rule: null,
   hulls: [],
-  was: null,
   choices: [],
   ...change,
 });

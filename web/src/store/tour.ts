@@ -30,7 +30,7 @@ const onlyHas = (workspace: WorkspaceState, label: string) => {
 /** Whether a first program is learned, and it is known how sure its edits are. */
 const isAssessed = ({ assessment }: ProjectState) => (assessment?.assets.length ?? 0) > 0;
 const isSignedOff = ({ assessment }: ProjectState) =>
-  assessment !== null && assessment.assets.length > 0 && assessment.held === 0 && assessment.unseen === 0 && assessment.aside === 0;
+  assessment !== null && assessment.assets.length > 0 && assessment.held === 0 && assessment.unseen === 0 && assessment.excluded === 0;
 /** Whether the person has answered what the program asked first. */
 const hasAnswered = ({ project, assessment, cards }: ProjectState) =>
   project.said.length > 0 || Object.values(cards).some((card) => card.review === "accepted") || assessment?.held === 0;
@@ -100,7 +100,7 @@ export const TOUR_STOPS: readonly TourStop[] = [
     title: "Answer until nothing is held",
     text: (project) =>
       `${tablesText(project)} One card at a time: press Y where it is right; where it is not, choose another reply, or N to ` +
-      "correct the table. S shows what a card is about, L puts it off.",
+      "say what is right. S shows what a card is about, L puts it off.",
     done: isSignedOff,
   },
   {

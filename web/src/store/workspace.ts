@@ -65,6 +65,7 @@ export type FilterName =
   | "demonstrated"
   | "edited"
   | "accepted"
+  | "wrong"
   | "flagged"
   | "failed"
   | "stale"

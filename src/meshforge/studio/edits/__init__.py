@@ -6,7 +6,7 @@ from typing import Annotated
 
 from pydantic import Field
 
-from meshforge.studio.edits import assets, program
+from meshforge.studio.edits import assets, program, replies
 
 AnyEdit = Annotated[
     assets.LabelHulls
@@ -16,20 +16,17 @@ AnyEdit = Annotated[
     | assets.SetVocabulary
     | assets.RenameLabel
     | program.SetSteps
-    | program.CorrectSelection
     | program.MoveRule
     | program.DeleteRule
     | program.SetOrientation
-    | program.AnswerQuestion
-    | program.SettleRepair
+    | replies.Reply
+    | program.AnswerForRule
     | program.TakeBack
-    | program.PutOff
     | program.WriteProgram
     | assets.CutHull
-    | assets.SplitSpan
-    | assets.MarkAsOnePart
     | assets.Unprepare
     | assets.ReviewAssets
+    | assets.ExcludeAssets
     | assets.CorrectByHand
     | assets.DropCorrections
     | assets.LeaveOut

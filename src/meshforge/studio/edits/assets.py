@@ -6,11 +6,21 @@ from collections import Counter
 from pathlib import Path
 from typing import Literal
 
+from pydantic import Field
+
 from meshforge.batch import SETTINGS
 from meshforge.common import join_names, pluralize
 from meshforge.project import Project
-from meshforge.store import parse_action_text
-from meshforge.studio.edits.base import EVENTS_FILE, PROGRAM_FILES, SINGLE_PARTS_FILE, Edit, JobEdit, LabelsByAsset
+from meshforge.signoff import ExclusionReason
+from meshforge.store import ExclusionEvent, parse_action_text
+from meshforge.studio.edits.base import (
+    EVENTS_FILE,
+    PREPARATION_FILES,
+    PROGRAM_FILES,
+    Edit,
+    JobEdit,
+    LabelsByAsset,
+)
 from meshforge.studio.wire.requests import HullOfAsset
 
 
@@ -60,18 +70,12 @@ class LabelByName(Edit):
         return f"{self.asset}: {', '.join(parts)}"
 
 
-class GroupHull(HullOfAsset):
-    """A hull of a group. label: that it gets in place of the group's, where it is an exception."""
-
-    label: str | None = None
-
-
 class LabelGroup(Edit):
-    """Give hulls of several assets one label, but for exceptions among them; null takes their labels away."""
+    """Give hulls of several assets one label; null takes their labels away."""
 
     kind: Literal["label-group"] = "label-group"
     touches = ()
-    hulls: tuple[GroupHull, ...]
+    hulls: tuple[HullOfAsset, ...]
     label: str | None
 
     def apply(self, project: Project) -> None:
@@ -80,7 +84,7 @@ class LabelGroup(Edit):
     def list_labels(self) -> LabelsByAsset:
         labels: dict[str, dict[str, str | None]] = {}
         for one in self.hulls:
-            labels.setdefault(one.asset, {})[one.hull] = one.label or self.label
+            labels.setdefault(one.asset, {})[one.hull] = self.label
         return labels
 
     def list_paths(self, project: Project) -> tuple[Path, ...]:
@@ -90,9 +94,6 @@ class LabelGroup(Edit):
         count = len(self._assets)
         where = self._assets[0] if count == 1 else pluralize(count, "asset")
         hulls = f"{pluralize(len(self.hulls), 'hull')} of {where}"
-        counts = Counter(one.label or self.label for one in self.hulls)
-        if len(counts) > 1:
-            return f"{hulls}: {', '.join(f'{count} {label}' for label, count in counts.items())}"
         return f"{hulls} labelled {self.label}" if self.label else f"label of {hulls} taken away"
 
     @property
@@ -183,13 +184,7 @@ Vector = tuple[float, float, float]
 
 
 class _PreparationEdit(Edit):
-    touches = (
-        "prepared/{asset}",
-        "labels/{asset}.json",
-        "demonstrations/{asset}.json",
-        "corrections/{asset}.json",
-        EVENTS_FILE,
-    )
+    touches = PREPARATION_FILES
     asset: str
 
 
@@ -208,34 +203,6 @@ class CutHull(_PreparationEdit):
         return f"{self.hull} of {self.asset} cut in two"
 
 
-class SplitSpan(_PreparationEdit):
-    """Split a hull that likely spans parts into those that were found last."""
-
-    kind: Literal["split-span"] = "split-span"
-    hull: str
-
-    def apply(self, project: Project) -> None:
-        project.split_as_found(self.asset, self.hull)
-
-    def describe(self, project: Project) -> str:
-        return f"{self.hull} of {self.asset} split into its parts"
-
-
-class MarkAsOnePart(Edit):
-    """Keep that a hull is one part, so that nobody is asked whether to split it."""
-
-    kind: Literal["one-part"] = "one-part"
-    touches = (SINGLE_PARTS_FILE,)
-    asset: str
-    hull: str
-
-    def apply(self, project: Project) -> None:
-        project.mark_as_one_part(self.asset, self.hull)
-
-    def describe(self, project: Project) -> str:
-        return f"{self.hull} of {self.asset} is one part"
-
-
 class Unprepare(_PreparationEdit):
     """Take back the last thing that was done to an asset before the program."""
 
@@ -249,19 +216,46 @@ class Unprepare(_PreparationEdit):
 
 
 class ReviewAssets(Edit):
-    """Accept or flag the outputs of some assets; null takes that back."""
+    """Accept the results of some assets, or call them wrong; null takes that back.
+
+    selections, labels: where the result of one asset is wrong, the hulls that rules should have selected, and labels
+    that hulls should have.
+    """
 
     kind: Literal["review"] = "review"
     touches = (EVENTS_FILE,)
     ids: tuple[str, ...]
     verdict: Literal["accepted", "wrong"] | None
     note: str | None = None
+    selections: dict[int, tuple[str, ...]] = Field(default_factory=dict)
+    labels: dict[str, str] = Field(default_factory=dict)
 
     def apply(self, project: Project) -> None:
-        project.set_verdict(self.ids, self.verdict, self.note)
+        project.set_verdict(self.ids, self.verdict, self.note, selections=self.selections, labels=self.labels)
+
+    def list_paths(self, project: Project) -> tuple[Path, ...]:
+        labels = map(project.layout.labels, self.ids if self.labels else ())
+        return (*super().list_paths(project), *labels)
 
     def describe(self, project: Project) -> str:
         return f"{_count_or_name(self.ids)} {self.verdict or 'not reviewed'}"
+
+
+class ExcludeAssets(Edit):
+    """Give some assets up, with the reason; null includes them again."""
+
+    kind: Literal["exclude"] = "exclude"
+    touches = (EVENTS_FILE,)
+    ids: tuple[str, ...]
+    reason: ExclusionReason | None
+
+    def apply(self, project: Project) -> None:
+        for asset in self.ids:
+            project.path(asset)
+        project.add_events(*(ExclusionEvent(asset=asset, reason=self.reason) for asset in self.ids))
+
+    def describe(self, project: Project) -> str:
+        return f"{_count_or_name(self.ids)} {f'excluded: {self.reason}' if self.reason else 'included again'}"
 
 
 class _CorrectionEdit(Edit):

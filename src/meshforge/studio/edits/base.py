@@ -19,6 +19,15 @@ LEARNED_FILE, LEARNED_BEFORE = "learned.json", f"{STATE}/learned.json"
 PROGRAM_FILES = (PROGRAM_FILE, PREVIOUS_FILE, LEARNED_FILE, LEARNED_BEFORE)
 """The files that accepting a program writes, from the project's folder."""
 
+PREPARATION_FILES = (
+    "prepared/{asset}",
+    "labels/{asset}.json",
+    "demonstrations/{asset}.json",
+    "corrections/{asset}.json",
+    EVENTS_FILE,
+)
+"""The files that preparing an asset writes."""
+
 LabelsByAsset = Mapping[str, Mapping[str, str | None]]
 """Labels of hulls by their names, by asset; None where one is taken away."""
 

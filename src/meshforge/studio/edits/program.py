@@ -21,7 +21,7 @@ from meshforge.studio.edits.base import (
 )
 from meshforge.studio.errors import ConflictError
 from meshforge.studio.wire import Wire
-from meshforge.synthesis import Answer, LabelCorrection, Step
+from meshforge.synthesis import Answer, Step
 
 
 class StepText(Wire):
@@ -64,22 +64,6 @@ class SetSteps(Edit):
             return f"{pluralize(len(before) - len(now), 'step')} of {self.asset} taken away"
         changed = [k for k, (a, b) in enumerate(zip(before, now, strict=False), 1) if a != b]
         return f"step {changed[0]} of {self.asset} changed" if changed else f"steps of {self.asset}"
-
-
-class CorrectSelection(Edit):
-    """Select other hulls where what was shown, answered or found right of a rule was a slip."""
-
-    kind: Literal["correct-selection"] = "correct-selection"
-    touches = ("demonstrations/{asset}.json", EVENTS_FILE)
-    asset: str
-    rule: int
-    select: tuple[str, ...]
-
-    def apply(self, project: Project) -> None:
-        project.correct_selection(self.asset, self.rule, self.select)
-
-    def describe(self, project: Project) -> str:
-        return f"what rule {self.rule} selects on {self.asset} corrected"
 
 
 def _read_steps(project: Project, asset: str) -> tuple[Step, ...]:
@@ -137,41 +121,20 @@ class SetOrientation(Edit):
         return f"orientation: {self.text}" if self.text else "orientation taken away"
 
 
-class AnswerQuestion(Edit):
-    """Say which hulls a rule selects on an asset; null: neither of the choices, which are then in `refused`."""
+class AnswerForRule(Edit):
+    """Say which hulls a rule selects on an asset, without being asked."""
 
     kind: Literal["answer"] = "answer"
     touches = (EVENTS_FILE,)
     rule: int
     asset: str
-    select: tuple[str, ...] | None
-    refused: tuple[tuple[str, ...], ...] = ()
+    select: tuple[str, ...]
 
     def apply(self, project: Project) -> None:
-        project.add_answer(Answer(self.rule, self.asset, self.select, self.refused))
+        project.add_answer(Answer(self.rule, self.asset, self.select))
 
     def describe(self, project: Project) -> str:
         return f"rule {self.rule} on {self.asset} answered"
-
-
-class SettleRepair(Edit):
-    """Confirm or refuse a repair of a label."""
-
-    kind: Literal["repair"] = "repair"
-    touches = (EVENTS_FILE, "labels/{asset}.json")
-    asset: str
-    hull: str
-    was: str | None
-    to: str
-    accept: bool
-
-    def apply(self, project: Project) -> None:
-        decide = project.confirm if self.accept else project.reject
-        decide(LabelCorrection(self.asset, self.hull, self.was, self.to))
-
-    def describe(self, project: Project) -> str:
-        how = "is now labelled" if self.accept else "is not"
-        return f"{self.hull} of {self.asset} {how} {self.to}"
 
 
 class TakeBack(Edit):
@@ -186,20 +149,6 @@ class TakeBack(Edit):
 
     def describe(self, project: Project) -> str:
         return f"{self.id} taken back"
-
-
-class PutOff(Edit):
-    """Ask a question of the review no more, as long as what it is about stays."""
-
-    kind: Literal["put-off"] = "put-off"
-    touches = (EVENTS_FILE,)
-    id: str
-
-    def apply(self, project: Project) -> None:
-        project.snooze(self.id)
-
-    def describe(self, project: Project) -> str:
-        return "question put off"
 
 
 class WriteProgram(Edit):

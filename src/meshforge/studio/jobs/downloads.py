@@ -29,7 +29,8 @@ _REMEDIES = {
     "failed": "the program failed on it",
     "without output": "the program was not applied to it yet",
     _NOT_WHOLE: "files of its output are gone or changed: apply the program to it again",
-    "flagged": "it is flagged",
+    "wrong": "it was called wrong",
+    "excluded": "it is excluded",
     "not signed off": "it is not signed off",
 }
 """Why a result is not in a zip: in a count, and of one."""
@@ -121,7 +122,9 @@ def _list_left_out(
         elif card.asset in chosen:
             yield card.asset, _NOT_WHOLE
         elif card.review == "wrong":
-            yield card.asset, "flagged"
+            yield card.asset, "wrong"
+        elif card.excluded:
+            yield card.asset, "excluded"
         else:
             yield card.asset, "held" if card.asset in held else "not signed off"
 

@@ -113,18 +113,18 @@ def view_assessment(
             asset=name,
             probability=round(one.probability, 4),
             doubts=tuple(wire.DoubtView(**doubt.to_json()) for doubt in one.doubts),
-            state="aside" if name in assessment.excluded else "signed" if name in signed else "held",
+            state="excluded" if name in assessment.excluded else "signed" if name in signed else "held",
             told=name in assessment.looked_at,
         )
         for name, one in assessment.assets.items()
     )
-    counts = {what: sum(row.state == what for row in rows) for what in ("signed", "held", "aside")}
+    counts = {what: sum(row.state == what for row in rows) for what in ("signed", "held", "excluded")}
     return wire.AssessmentView(
         number=number,
         bar=assessment.bar,
         signed_off=counts["signed"],
         held=counts["held"],
-        aside=counts["aside"],
+        excluded=counts["excluded"],
         unseen=unseen,
         assets=rows,
         question=asked,
@@ -132,7 +132,6 @@ def view_assessment(
 
 
 def _view_question(question: ReviewQuestion, meshes: Mapping[str, SymbolicMesh]) -> wire.ReviewQuestionView:
-    first = next(iter(question.hulls), None)
     return wire.ReviewQuestionView(
         id=question.id,
         kind=question.kind,
@@ -144,13 +143,13 @@ def _view_question(question: ReviewQuestion, meshes: Mapping[str, SymbolicMesh])
         hulls=tuple(
             wire.HullRef(asset=asset, hull=hull, place=meshes[asset].index[hull]) for asset, hull in question.hulls
         ),
-        was=meshes[first.asset].hull_of(first.hull).label if first else None,
         choices=tuple(map(_view_choice, question.choices)),
     )
 
 
 def _view_choice(choice: ReviewChoice) -> wire.ReviewChoiceView:
     return wire.ReviewChoiceView(
+        id=choice.id,
         text=choice.text,
         label=choice.label,
         select=choice.select,

@@ -32,8 +32,7 @@ def build_outcome_view(
         rules=rule_views(outcome.program or Program(rules=outcome.rules), counts),
         settled=outcome.settled,
         readings=tuple(map(_view_reading, outcome.readings)),
-        repairs=tuple(map(_view_repair, outcome.repairs)),
-        question=_view_question(outcome.question, outcome) if outcome.question else None,
+        repairs=len(outcome.repairs),
         nearest=_view_nearest(outcome.nearest) if outcome.nearest else None,
         hint=wire.HintView(asset=outcome.hint.asset, why=outcome.hint.why) if outcome.hint else None,
         why=failure.why if failure else None,
@@ -56,40 +55,6 @@ def _view_reading(reading: synthesis.Reading) -> wire.ReadingView:
         size=reading.size,
         belief=reading.belief,
         differs_on=reading.differs_on,
-    )
-
-
-def _view_repair(repair: synthesis.Repair) -> wire.RepairView:
-    wrong = repair.correction
-    return wire.RepairView(
-        id=wrong.id,
-        rule=repair.rule,
-        asset=wrong.asset,
-        hull=wrong.hull,
-        was=wrong.was,
-        to=wrong.to,
-        belief=repair.belief,
-        why=repair.why,
-    )
-
-
-def _view_question(question: synthesis.Question, outcome: synthesis.LearningOutcome) -> wire.QuestionView:
-    readings = {reading.id: reading for reading in outcome.readings}
-    return wire.QuestionView(
-        id=question.id,
-        rule=question.rule,
-        asset=question.asset,
-        choices=tuple(
-            wire.ChoiceView(
-                reading=choice.reading,
-                extractor=show(readings[choice.reading].extractor),
-                sentence=explain(readings[choice.reading].extractor),
-                select=choice.select,
-            )
-            for choice in question.choices
-        ),
-        harm=question.harm,
-        left=question.left,
     )
 
 

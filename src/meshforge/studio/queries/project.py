@@ -164,11 +164,8 @@ def _step_for_learning(outcome: OutcomeView | None, has_program: bool) -> Next |
     if outcome is None:
         return None
     if outcome.repairs:
-        first = outcome.repairs[0]
-        return Next(stage="learn", say=f"Is {first.hull} of {first.asset} labelled wrongly?", asset=first.asset)
-    if outcome.question:
-        say = f"Which hulls does rule {outcome.question.rule} select on {outcome.question.asset}?"
-        return Next(stage="learn", say=say, asset=outcome.question.asset)
+        say = f"{pluralize(outcome.repairs, 'label')} may be wrong: answer the question."
+        return Next(stage="learn", say=say)
     if outcome.status in ("none", "timeout", "error"):
         return Next(
             stage="learn", say=_explain_failure(outcome), asset=outcome.nearest.asset if outcome.nearest else None
@@ -238,9 +235,11 @@ def _step_for_sign_off(cards: Sequence[Card], assessment: AssessmentView | None)
 
 
 def _step_for_reviews(cards: Sequence[Card], sample: Sequence[str]) -> Next:
-    flagged = [c for c in cards if c.review == "wrong"]
-    if flagged:
-        return Next(stage="review", say=f"{pluralize(len(flagged), 'asset')} flagged: fix it.", asset=flagged[0].asset)
+    wrong = [c for c in cards if c.review == "wrong"]
+    if wrong:
+        return Next(
+            stage="review", say=f"{pluralize(len(wrong), 'result')} wrong: say what is right.", asset=wrong[0].asset
+        )
     open_ = [c for c in cards if c.review is None]
     waiting = {c.asset for c in open_}
     best = [asset for asset in sample if asset in waiting]
@@ -249,7 +248,7 @@ def _step_for_reviews(cards: Sequence[Card], sample: Sequence[str]) -> Next:
         say = f"Look at {what} best whether the program is right{', first' if len(best) > 1 else ':'} {best[0]}."
         return Next(stage="review", say=say, asset=best[0])
     if open_:
-        say = f"Look through the results: {pluralize(len(open_), 'asset')} to accept or flag."
+        say = f"Look through the results: {pluralize(len(open_), 'asset')} to judge."
         return Next(stage="review", say=say, asset=open_[0].asset)
     return Next(stage="review", say="All results are accepted: export them.")
 
@@ -355,6 +354,7 @@ def build_card(
         flags=status.flags,
         review=status.review,
         note=status.review_note,
+        excluded=status.excluded,
         corrections=status.corrections,
         sources=status.sources,
         prepared=status.prepared,

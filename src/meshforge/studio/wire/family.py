@@ -6,6 +6,7 @@ from typing import Literal
 
 from pydantic import Field
 
+from meshforge.signoff import ExclusionReason
 from meshforge.studio.wire import Wire
 from meshforge.studio.wire.asset import Fault
 from meshforge.studio.wire.jobs import PropagationState
@@ -22,7 +23,7 @@ class Card(Wire):
     place in the vocabulary or -1 for none; unsure: positions of hulls whose label is not sure; given: how many labels
     a person or a file gave.
     after: how many hulls the output has; after_labels: like `labels`, empty where they are not known; stale: what
-    changed since the output was made; corrections: how many edits by hand.
+    changed since the output was made; excluded: why it is given up; corrections: how many edits by hand.
     sources: how many pieces and bodies have no hulls and can be decomposed; prepared: what was done before the program.
     spans: the hulls that likely hold more than one part, by name, in words, as found last.
     picture, edited_picture: the digest that the address of the thumbnail takes, null where there is none yet.
@@ -44,6 +45,7 @@ class Card(Wire):
     flags: tuple[str, ...] = ()
     review: Verdict | None = None
     note: str | None = None
+    excluded: ExclusionReason | None = None
     corrections: int = 0
     sources: int = 0
     prepared: tuple[str, ...] = ()

@@ -31,39 +31,6 @@ class ReadingView(Wire):
     differs_on: tuple[str, ...]
 
 
-class ChoiceView(Wire):
-    """One answer to a question; select: names of hulls as they are before the rule."""
-
-    reading: str
-    extractor: str
-    sentence: str
-    select: tuple[str, ...]
-
-
-class QuestionView(Wire):
-    """A question: which hulls does a rule select on an asset? harm: expected share of assets edited wrongly."""
-
-    id: str
-    rule: int
-    asset: str
-    choices: tuple[ChoiceView, ...]
-    harm: float
-    left: float
-
-
-class RepairView(Wire):
-    """A label that is probably wrong. was: the present label, null for none; to: the probable one."""
-
-    id: str
-    rule: int
-    asset: str
-    hull: str
-    was: str | None
-    to: str
-    belief: float
-    why: str
-
-
 class NearestView(Wire):
     """The extractor that comes nearest, for a rule without any that fits, and how it differs on one asset."""
 
@@ -83,7 +50,8 @@ class HintView(Wire):
 
 class OutcomeView(Wire):
     """The outcome of a learning run. number: counts the runs; program: its text, null where there is none; looked_at:
-    how many assets the run looked at; settled: whether the program is unambiguous.
+    how many assets the run looked at; settled: whether the program is unambiguous; repairs: how many labels
+    are probably wrong.
 
     error: a message in place of an outcome; seconds: the time it took. why, advice, nearest: for a rule without an
     extractor. suggested_orientation, suggested_because: a directive in which the rules do better, and why.
@@ -98,8 +66,7 @@ class OutcomeView(Wire):
     rules: tuple[RuleView, ...] = ()
     settled: bool = False
     readings: tuple[ReadingView, ...] = ()
-    repairs: tuple[RepairView, ...] = ()
-    question: QuestionView | None = None
+    repairs: int = 0
     nearest: NearestView | None = None
     hint: HintView | None = None
     why: str | None = None

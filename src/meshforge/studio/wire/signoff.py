@@ -10,7 +10,7 @@ DoubtKind = Literal["reading", "label", "orientation", "unlike", "alarm"]
 QuestionKind = Literal[
     "group", "repair", "reading", "label", "selection", "orientation", "result", "demonstrate", "span"
 ]
-SignoffState = Literal["signed", "held", "aside"]
+SignoffState = Literal["signed", "held", "excluded"]
 
 
 class DoubtView(Wire):
@@ -24,7 +24,7 @@ class DoubtView(Wire):
 
 class ConfidenceView(Wire):
     """One asset. probability: that its edit is right; doubts: the weightiest first; state: whether it is signed off,
-    held below the bar, or set aside by a person; told: whether a person demonstrated or accepted it."""
+    held below the bar, or excluded; told: whether a person demonstrated or accepted it."""
 
     asset: str
     probability: float
@@ -42,9 +42,10 @@ class HullRef(Wire):
 
 
 class ReviewChoiceView(Wire):
-    """One reply. label: that the hulls then get; select: names of the hulls that the rule then selects; sentence: that
-    reading in words; orient: the directive that the family then gets."""
+    """One reply. id: among those of its question; label: that the hulls then get; select: names of the hulls that the
+    rule then selects; sentence: that reading in words; orient: the directive that the family then gets."""
 
+    id: str
     text: str
     label: str | None = None
     select: tuple[str, ...] | None = None
@@ -54,7 +55,7 @@ class ReviewChoiceView(Wire):
 
 class ReviewQuestionView(Wire):
     """A question. seconds: of a person; gain: assets that an answer makes right, as far as can be expected; hulls:
-    those in question; was: the label of the first of them."""
+    those in question."""
 
     id: str
     kind: QuestionKind
@@ -64,13 +65,12 @@ class ReviewQuestionView(Wire):
     asset: str
     rule: int | None = None
     hulls: tuple[HullRef, ...] = ()
-    was: str | None = None
     choices: tuple[ReviewChoiceView, ...] = ()
 
 
 class AssessmentView(Wire):
     """A family as the last learning run left it. number: of that run; bar: the probability from which on an asset is
-    signed off; signed_off, held, aside: how many assets; unseen: those of the family that nobody looked at, as there
+    signed off; signed_off, held, excluded: how many assets; unseen: those of the family that nobody looked at, as there
     are too many, or they cannot be read; assets: the others in the family's order, empty while there is no program;
     question: null where nothing is left to ask."""
 
@@ -78,7 +78,7 @@ class AssessmentView(Wire):
     bar: float
     signed_off: int = 0
     held: int = 0
-    aside: int = 0
+    excluded: int = 0
     unseen: int = 0
     assets: tuple[ConfidenceView, ...] = ()
     question: ReviewQuestionView | None = None

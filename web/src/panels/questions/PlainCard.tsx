@@ -1,8 +1,8 @@
-// Every question but that for readings: labels of look-alikes, repairs, slips, orientations, results, demonstrations.
-import { Check, Flag, TriangleAlert, X } from "lucide-react";
+// Every question but those of pictures: labels of look-alikes, slips, orientations, results, demonstrations.
+import { TriangleAlert } from "lucide-react";
 import { useMemo, useState } from "react";
 import { demonstrate } from "../../commands/learn";
-import { acceptResult, canBeRight, labelGroup, putOff, reply, setAside, showAsked } from "../../commands/question";
+import { canBeRight, groupReply, putOff, reply, showAsked } from "../../commands/question";
 import { Thumbnail } from "../../pictures/Thumbnail";
 import { type Exceptions, placesOf, worthText } from "../../store/assessment";
 import { isUpToDate } from "../../store/reviews";
@@ -10,11 +10,12 @@ import { useProject } from "../../store/project";
 import { shortName, toSentence } from "../../store/words";
 import { setHighlight } from "../../store/workspace";
 import { Swatch } from "../../ui/Section";
-import type { ReviewQuestionView } from "../../wire";
-import { type CardKeys, useCardKeys } from "./cardKeys";
+import type { ReviewChoiceView, ReviewQuestionView } from "../../wire";
+import { useCardKeys } from "./cardKeys";
 import { GroupHulls, groupText } from "./GroupHulls";
 import css from "./questions.module.css";
 import { LaterReply, Reply, ShowReply } from "./Replies";
+import { ResultReplies } from "./ResultReplies";
 
 export function PlainCard({ question }: { question: ReviewQuestionView }) {
   const places = useMemo(() => placesOf(question), [question]);
@@ -33,7 +34,7 @@ export function PlainCard({ question }: { question: ReviewQuestionView }) {
       <h3 id="asked">{question.text}</h3>
       {question.hulls.length > 0 && <GroupHulls question={question} exceptions={exceptions} onChange={setExceptions} />}
       {canBeRight(question) && <ResultPictures asset={question.asset} />}
-      <Replies question={question} exceptions={exceptions} />
+      {question.kind === "result" ? <ResultReplies question={question} /> : <Replies question={question} exceptions={exceptions} />}
       {worth && <p className={css.dim}>{worth}</p>}
     </section>
   );
@@ -68,57 +69,42 @@ function ResultPictures({ asset }: { asset: string }) {
 }
 
 interface Line {
+  id: string;
   text: React.ReactNode;
   run: () => void;
 }
 
-/** The replies of a question by its kind, with their keys. */
+/** The replies of a question, in the order of its choices, with their keys. */
 function Replies({ question, exceptions }: { question: ReviewQuestionView; exceptions: Exceptions }) {
   const { kind, asset, hulls } = question;
-  const later = () => void putOff(question);
-  const show = () => showAsked(question);
-  const mend = () => demonstrate(asset);
-  const canShow = kind === "result" || hulls.length > 0;
-  const [first, ...others] = choicesOf(question, exceptions);
-  const reject = kind === "result" ? mend : kind === "group" || kind === "repair" ? later : undefined;
-  const accept = kind === "demonstrate" ? mend : first?.run;
-  const keys: CardKeys = {
-    choices: [first, ...others].flatMap((line) => line?.run ?? []),
+  const isOfLabels = kind === "group" || kind === "repair";
+  const lines = choicesOf(question, exceptions);
+  const runOf = (id: string) => lines.find((line) => line.id === id)?.run;
+  const accept = kind === "demonstrate" ? () => demonstrate(asset) : (runOf("yes") ?? (isOfLabels ? lines[0]?.run : undefined));
+  const reject = isOfLabels ? () => void reply(question, {}) : runOf("no");
+  const [later, show] = [() => void putOff(question), () => showAsked(question)];
+  const canShow = hulls.length > 0;
+  const doing = useCardKeys({
+    choices: lines.map(({ run }) => run),
     later,
     ...(accept && { accept }),
     ...(reject && { reject }),
     ...(canShow && { show }),
-  };
-  const doing = useCardKeys(keys);
+  });
   return (
     <div className={css.row}>
-      {first && (
-        <Reply keyName="Y" look="primary" {...(kind === "result" && { icon: Check })} onClick={doing(first.run)}>
-          {first.text}
-        </Reply>
-      )}
-      {others.map(({ text, run }, k) => (
-        <Reply key={k} keyName={String(k + 2)} onClick={doing(run)}>
+      {lines.map(({ id, text, run }, k) => (
+        <Reply key={id} keyName={run === accept ? "Y" : run === reject ? "N" : String(k + 1)} look={k ? "plain" : "primary"} onClick={doing(run)}>
           {text}
         </Reply>
       ))}
       {kind === "demonstrate" && (
-        <Reply keyName="Y" look="primary" onClick={mend}>
+        <Reply keyName="Y" look="primary" onClick={() => demonstrate(asset)}>
           Demonstrate {shortName(asset)}
         </Reply>
       )}
-      {kind === "result" && (
-        <>
-          <Reply keyName="N" icon={X} tip="Show on this asset what is right" onClick={mend}>
-            {first ? "Wrong: correct it" : "Correct it"}
-          </Reply>
-          <Reply look="quiet" icon={Flag} tip="Flag it: it is no longer held, and not signed off" onClick={doing(() => void setAside(asset))}>
-            Set aside
-          </Reply>
-        </>
-      )}
-      {(kind === "group" || kind === "repair") && (
-        <Reply keyName="N" look="quiet" tip="Asks another question; label these hulls yourself where none fits" onClick={doing(later)}>
+      {isOfLabels && (
+        <Reply keyName="N" look="quiet" tip="Asks another question; label these hulls yourself where none fits" onClick={doing(reject)}>
           None of these
         </Reply>
       )}
@@ -128,24 +114,23 @@ function Replies({ question, exceptions }: { question: ReviewQuestionView; excep
   );
 }
 
-/** What a person may choose, the likeliest first. */
+/** What a person may choose. */
 function choicesOf(question: ReviewQuestionView, exceptions: Exceptions): readonly Line[] {
-  const { kind, asset, choices, hulls } = question;
-  if (kind === "demonstrate") return [];
-  if (kind === "result") return canBeRight(question) ? [{ text: "Right", run: () => void acceptResult(asset) }] : [];
-  const lines = choices.map((choice, k) => ({
-    text: <ChoiceText label={choice.label} text={choice.text} many={kind === "group" && hulls.length > 1} />,
-    run: () => void reply(question, k),
-  }));
+  const { kind, choices, hulls } = question;
   const [first] = choices;
-  if (kind !== "group" || !first?.label || !Object.keys(exceptions).length) return lines;
-  const { label } = first;
-  return [{ text: groupText(question, label, exceptions), run: () => void labelGroup(question, label, exceptions) }];
+  if (kind === "group" && first?.label && Object.keys(exceptions).length) {
+    return [{ id: first.id, text: groupText(question, first.label, exceptions), run: () => void reply(question, groupReply(question, exceptions)) }];
+  }
+  return choices.map((choice) => ({
+    id: choice.id,
+    text: <ChoiceText choice={choice} many={kind === "group" && hulls.length > 1} />,
+    run: () => void reply(question, { choice: choice.id }),
+  }));
 }
 
-function ChoiceText({ label, text, many }: { label: string | null; text: string; many: boolean }) {
+function ChoiceText({ choice: { label, text }, many }: { choice: ReviewChoiceView; many: boolean }) {
   const color = useProject((state) => state.project.vocabulary.find(({ name }) => name === label)?.color);
-  if (label === null) return text.charAt(0).toUpperCase() + text.slice(1);
+  if (label === null) return toSentence(text).replace(/\.$/, "");
   return (
     <>
       <Swatch color={color ?? "var(--hull-unlabelled)"} />

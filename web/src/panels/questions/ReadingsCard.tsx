@@ -1,35 +1,25 @@
 // The question which hulls a rule should take: pictures to choose from.
 import { useMemo } from "react";
-import { answer, showQuestion } from "../../commands/learn";
-import { putOff } from "../../commands/question";
+import { putOff, reply, showAsked } from "../../commands/question";
 import { worthText } from "../../store/assessment";
-import { choiceText, differing } from "../../store/readings";
-import { listText, shareText, shortName } from "../../store/words";
-import type { QuestionView, ReviewQuestionView } from "../../wire";
+import { choiceText, differing, selectOf } from "../../store/readings";
+import { listText, shortName } from "../../store/words";
+import type { ReviewQuestionView } from "../../wire";
 import { HullsPicture, type RulePictureView, useRulePicture } from "../learn/RulePicture";
 import { useExtractorHighlight } from "../learn/RuleText";
 import { useCardKeys } from "./cardKeys";
 import css from "./questions.module.css";
 import { LaterReply, Reply, ShowReply } from "./Replies";
 
-interface ReadingsCardProps {
-  question: QuestionView;
-  /** Where the assessment asks it. */
-  review?: ReviewQuestionView;
-  /** Puts a question of learning itself off, which only this page knows. */
-  onLater?: () => void;
-}
-
-export function ReadingsCard({ question, review, onLater }: ReadingsCardProps) {
-  const { rule, asset, choices, harm } = question;
-  const worth = review ? worthText(review) : `Without an answer ${shareText(harm)} would be edited wrongly.`;
-  const telling = useMemo(() => differing(choices.map((choice) => choice.select)), [choices]);
+export function ReadingsCard({ question }: { question: ReviewQuestionView }) {
+  const { asset, choices } = question;
+  const rule = question.rule ?? 1;
+  const worth = worthText(question);
+  const telling = useMemo(() => differing(choices.map(selectOf)), [choices]);
   const picture = useRulePicture(asset, rule, telling);
-  const later = review ? () => void putOff(review) : onLater;
-  const reject = () => void answer(question, null);
-  const show = () => showQuestion(question);
-  const picks = choices.map((_, k) => () => void answer(question, k));
-  const doing = useCardKeys({ choices: picks, reject, show, ...(later && { later }) });
+  const [later, show, reject] = [() => void putOff(question), () => showAsked(question), () => void reply(question, {})];
+  const picks = choices.map(({ id }) => () => void reply(question, { choice: id }));
+  const doing = useCardKeys({ choices: picks, reject, show, later });
   return (
     <section className={css.card} aria-labelledby={`question-${question.id}`}>
       <h3 id={`question-${question.id}`}>
@@ -37,7 +27,7 @@ export function ReadingsCard({ question, review, onLater }: ReadingsCardProps) {
       </h3>
       <div className={css.choices} data-many={choices.length > 2}>
         {choices.map((choice, k) => (
-          <ChoiceButton key={choice.reading} question={question} place={k} picture={picture} onClick={doing(picks[k])} />
+          <ChoiceButton key={choice.id} question={question} place={k} picture={picture} onClick={doing(picks[k])} />
         ))}
       </div>
       <div className={css.row}>
@@ -45,7 +35,7 @@ export function ReadingsCard({ question, review, onLater }: ReadingsCardProps) {
           {choices.length > 2 ? "None of these" : "Neither"}
         </Reply>
         <ShowReply onClick={doing(show)} />
-        {later && <LaterReply onClick={doing(later)} />}
+        <LaterReply onClick={doing(later)} />
       </div>
       {worth && <p className={css.dim}>{worth}</p>}
     </section>
@@ -53,7 +43,7 @@ export function ReadingsCard({ question, review, onLater }: ReadingsCardProps) {
 }
 
 interface ChoiceButtonProps {
-  question: QuestionView;
+  question: ReviewQuestionView;
   place: number;
   picture: RulePictureView | "failed" | null;
   onClick: () => void;
@@ -61,9 +51,9 @@ interface ChoiceButtonProps {
 
 /** One choice: a picture with its hulls, and what it is in words; pointing at it lights it up everywhere. */
 function ChoiceButton({ question, place, picture, onClick }: ChoiceButtonProps) {
-  const { choices, rule } = question;
+  const { choices } = question;
   const choice = choices[place];
-  const point = useExtractorHighlight(choice?.extractor ?? "", rule);
+  const point = useExtractorHighlight(choice?.text ?? "", question.rule ?? 1);
   if (!choice) return null;
   const hidden = outOfSight(question, place, picture);
   return (
@@ -77,7 +67,7 @@ function ChoiceButton({ question, place, picture, onClick }: ChoiceButtonProps) 
       onFocus={point.on}
       onBlur={point.off}
     >
-      <HullsPicture picture={picture} hulls={choice.select} label="" />
+      <HullsPicture picture={picture} hulls={selectOf(choice)} label="" />
       <span className={css.choiceText}>
         <strong>
           <kbd>{place + 1}</kbd> {choiceText(choices, place)}
@@ -90,9 +80,9 @@ function ChoiceButton({ question, place, picture, onClick }: ChoiceButtonProps) 
 }
 
 /** Hulls by which a choice differs from others, where its picture does not show most of them. */
-function outOfSight({ choices }: QuestionView, place: number, picture: RulePictureView | "failed" | null): string[] {
+function outOfSight({ choices }: ReviewQuestionView, place: number, picture: RulePictureView | "failed" | null): string[] {
   if (!picture || picture === "failed") return [];
-  const matters = new Set(differing(choices.map((choice) => choice.select)));
+  const matters = new Set(differing(choices.map(selectOf)));
   const own = (choices[place]?.select ?? []).filter((name) => matters.has(name));
   const hidden = own.filter((name) => !picture.inSight.has(name));
   return 2 * hidden.length > own.length ? hidden : [];

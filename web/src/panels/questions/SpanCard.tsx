@@ -22,11 +22,11 @@ export function SpanCard({ question }: { question: ReviewQuestionView }) {
   const header = useHullParts((state) => state.shown?.packet.header);
   const [parts, like] = [header?.parts ?? NO_PARTS, header?.like ?? null];
   const rest = useProject(({ cards }) => countSpans(cards) - Number(hull in (cards[asset]?.spans ?? {})));
-  const split = () => void reply(question, 0);
-  const keep = () => void reply(question, 1);
+  const split = () => void reply(question, { choice: "yes" });
+  const keep = () => void reply(question, { choice: "no" });
   const later = () => void putOff(question);
   const show = () => showAsked(question);
-  const doing = useCardKeys({ choices: [split, keep], accept: split, reject: keep, later, show });
+  const doing = useCardKeys({ choices: [keep, split], accept: split, reject: keep, later, show });
   return (
     <section className={css.card} aria-labelledby="asked">
       <h3 id="asked">{question.text}</h3>

@@ -1,7 +1,7 @@
 // The result of the open asset: verdict, numbers, findings, what each rule did, and edits by hand.
-import { Check, Flag, RotateCw, SkipForward, Undo2 } from "lucide-react";
+import { Check, RotateCw, SkipForward, Undo2, X } from "lucide-react";
 import { useState } from "react";
-import { accept, flag, nextToReview, noteFlag, withdrawReview } from "../../commands/review";
+import { accept, callWrong, exclude, nextToReview, noteWrong, withdrawReview } from "../../commands/review";
 import { Doubts } from "../../family/Sureness";
 import { applyTo, whyNotApply } from "../../store/jobs";
 import { useProject } from "../../store/project";
@@ -13,6 +13,7 @@ import { Note, Section } from "../../ui/Section";
 import type { Card } from "../../wire";
 import { Checks } from "./Checks";
 import { Corrections } from "./Corrections";
+import { type ExcludeId, ExcludeMenu } from "../questions/ExcludeMenu";
 import { Findings, NumbersTable, Trace, useResult, useResultKind } from "./ResultDetails";
 import css from "./review.module.css";
 
@@ -55,7 +56,7 @@ function OneAsset({ asset }: { asset: string }) {
   );
 }
 
-/** Accept or flag the output of an asset, with a note. */
+/** Accept the output of an asset, call it wrong, with a note, or exclude the asset. */
 function VerdictSection({ asset }: { asset: string }) {
   const card = useProject((state) => state.cards[asset]);
   const some = useProject((state) => Object.values(state.cards).some(({ output }) => output !== "none"));
@@ -77,30 +78,40 @@ function VerdictSection({ asset }: { asset: string }) {
             Accept
           </Button>
         )}
-        {written && card.review !== "flagged" && (
-          <Button icon={Flag} tip="Flag it for another look" keys="F" onClick={() => void flag(asset, card.note)}>
-            Flag
+        {written && card.review !== "wrong" && (
+          <Button icon={X} tip="It needs review until somebody says what is right" keys="F" onClick={() => void callWrong(asset, card.note)}>
+            Wrong
           </Button>
         )}
         {card.review && (
           <Button icon={Undo2} onClick={() => void withdrawReview(asset)}>
-            {card.review === "accepted" ? "Undo accept" : "Remove flag"}
+            {card.review === "accepted" ? "Undo accept" : "Undo wrong"}
           </Button>
         )}
+        {card.excluded ? (
+          <Button icon={Undo2} tip={`It is excluded: ${card.excluded}`} onClick={() => void exclude(asset, null)}>
+            Include again
+          </Button>
+        ) : (
+          <ExcludeMenu onPick={(id) => void exclude(asset, REASONS[id])} />
+        )}
         {some && (
-          <Button look="quiet" icon={SkipForward} tip="Next failed, flagged or unreviewed result" keys="N" onClick={nextToReview}>
+          <Button look="quiet" icon={SkipForward} tip="Next failed, wrong or unreviewed result" keys="N" onClick={nextToReview}>
             Next
           </Button>
         )}
       </div>
-      {card.review === "flagged" && <NoteField key={card.note ?? ""} card={card} />}
+      {card.review === "wrong" && <NoteField key={card.note ?? ""} card={card} />}
     </Section>
   );
 }
 
+const REASONS: Readonly<Record<ExcludeId, Card["excluded"]>> = { "not-of-family": "not of this family", "not-solved": "not solved" };
+
 function ReviewState({ card }: { card: Card }) {
+  if (card.excluded) return <span className={css.dim}>excluded: {card.excluded}</span>;
   if (card.review === "accepted") return <span className={css.good}>✓ accepted</span>;
-  if (card.review === "flagged") return <span className={css.warn}>⚑ flagged</span>;
+  if (card.review === "wrong") return <span className={css.warn}>✗ wrong</span>;
   if (card.output === "failed") return <span className={css.bad}>✗ failed</span>;
   return <>{card.output === "none" ? "not applied yet" : "not reviewed"}</>;
 }
@@ -108,12 +119,12 @@ function ReviewState({ card }: { card: Card }) {
 function NoteField({ card }: { card: Card }) {
   const [note, setNote] = useState(card.note ?? "");
   const keep = () => {
-    if (note.trim() !== (card.note ?? "")) void noteFlag(card.asset, note.trim() || null);
+    if (note.trim() !== (card.note ?? "")) void noteWrong(card.asset, note.trim() || null);
   };
   return (
     <input
       className={css.field}
-      aria-label="Why it is flagged"
+      aria-label="Why it is wrong"
       placeholder="What is wrong with it? (Enter keeps the note)"
       value={note}
       onChange={(event) => setNote(event.target.value)}

@@ -25,12 +25,14 @@ import css from "./review.module.css";
 
 const HEADS: Readonly<Record<Group, string>> = {
   failed: "Failed",
+  wrong: "Wrong",
   flagged: "Flagged",
   stale: "Not up to date",
   informative: "Look at these first",
   open: "Not reviewed",
   accepted: "Accepted",
   none: "Not applied yet",
+  excluded: "Excluded",
 };
 
 type Line = { kind: "head"; group: Group; count: number } | { kind: "card"; card: Card };
@@ -148,7 +150,8 @@ const ResultRow = memo(function ResultRow({ card, onOpen }: { card: Card; onOpen
 function StateLine({ card }: { card: Card }) {
   if (card.output === "failed" || card.error) return <FailureLine card={card} />;
   if (card.stale.length) return <span className={css.warn}>not up to date: {staleText(card.stale)}</span>;
-  if (card.review === "flagged") return <span className={css.warn}>⚑ {card.note ?? "flagged"}</span>;
+  if (card.excluded) return <span className={css.dim}>excluded: {card.excluded}</span>;
+  if (card.review === "wrong") return <span className={css.warn}>✗ {card.note ?? "wrong"}</span>;
   const flag = card.flags[0];
   if (flag) return <span className={css.warn}>⚑ {flag}</span>;
   return card.review === "accepted" ? <span className={css.good}>✓ accepted</span> : null;

@@ -1,4 +1,4 @@
-// The review stage: apply the program, look at what came of it, accept, flag, correct, export.
+// The review stage: apply the program, look at what came of it, accept, call wrong, exclude, correct, export.
 import { Play } from "lucide-react";
 import { useMemo, useState } from "react";
 import { SignOff } from "../../family/Sureness";
@@ -127,11 +127,12 @@ function OutputCounts() {
 
 function countOutputs(cards: readonly Card[]): (readonly [string, number])[] {
   const of = (output: Card["output"]) => cards.filter((card) => card.output === output).length;
-  const { accepted, flagged } = groupCards(cards);
+  const { accepted, wrong, flagged } = groupCards(cards);
   const rows = [
     ["edited", of("edited")],
     ["unchanged", of("unchanged")],
     ["failed", of("failed")],
+    ["wrong", wrong.length],
     ["flagged", flagged.length],
     ["accepted", accepted.length],
   ] as const;

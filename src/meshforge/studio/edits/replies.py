@@ -1,0 +1,152 @@
+"""The one edit that a reply to a question is, whatever its kind."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterator
+from functools import cached_property
+from pathlib import Path
+from typing import Literal, assert_never
+
+from pydantic import Field
+
+from meshforge.common import pluralize
+from meshforge.project import Project, has_agreed_labels
+from meshforge.signoff import (
+    DemonstrationQuestion,
+    GroupQuestion,
+    HullPlace,
+    OrientationQuestion,
+    ReadingQuestion,
+    RepairQuestion,
+    ResultQuestion,
+    ReviewChoice,
+    ReviewQuestion,
+    ReviewReply,
+    SlipQuestion,
+    SpanQuestion,
+    question_of,
+)
+from meshforge.signoff.question import NO
+from meshforge.studio.edits.base import EVENTS_FILE, PREPARATION_FILES, Edit, LabelsByAsset
+from meshforge.studio.wire.requests import HullOfAsset
+from meshforge.studio.wire.signoff import ReviewQuestionView
+
+
+class LabelledHull(HullOfAsset):
+    """A hull and the label that it gets."""
+
+    label: str
+
+
+class Reply(Edit):
+    """Reply to a question. question: as it was asked; choice: the id of one of its choices, null for none of them.
+
+    exceptions: hulls of a group that are something else, or all that are labelled where none of the choices fits;
+    selections, labels: where a result is wrong, the hulls that rules should have selected, by their numbers, and labels
+    that hulls should have; later: the question is snoozed.
+    """
+
+    kind: Literal["reply"] = "reply"
+    touches = (EVENTS_FILE,)
+    question: ReviewQuestionView
+    choice: str | None = None
+    exceptions: tuple[LabelledHull, ...] = ()
+    selections: dict[int, tuple[str, ...]] = Field(default_factory=dict)
+    labels: dict[str, str] = Field(default_factory=dict)
+    later: bool = False
+
+    def apply(self, project: Project) -> None:
+        project.reply(self._asked, self._reply)
+
+    def list_paths(self, project: Project) -> tuple[Path, ...]:
+        return (*super().list_paths(project), *self._list_more_paths(project))
+
+    def list_labels(self) -> LabelsByAsset:
+        labels: dict[str, dict[str, str | None]] = {}
+        for (asset, hull), label in self._labels.items():
+            labels.setdefault(asset, {})[hull] = label
+        return labels
+
+    def describe(self, project: Project) -> str:
+        if self._is_put_off:
+            return "question put off"
+        question, choice, asset = self._asked, self._choice, self._asked.asset
+        match question:
+            case ReadingQuestion():
+                return f"rule {question.rule} on {asset} answered"
+            case GroupQuestion() | RepairQuestion():
+                counts = Counter(self._labels.values()).items()
+                return ", ".join(f"{pluralize(count, 'hull')} labelled {label}" for label, count in counts)
+            case ResultQuestion():
+                return f"result of {asset}: {choice.text if choice else 'none'}"
+            case SlipQuestion():
+                return f"what rule {question.rule} selects on {asset} corrected"
+            case OrientationQuestion():
+                return "assets are turned first"
+            case SpanQuestion():
+                how = "is one part" if self.choice == NO else "split into its parts"
+                return f"{question.hulls[0].hull} of {asset} {how}"
+            case DemonstrationQuestion():
+                return "question put off"
+            case _:
+                assert_never(question)
+
+    @cached_property
+    def _asked(self) -> ReviewQuestion:
+        return question_of(self.question.model_dump())
+
+    @property
+    def _reply(self) -> ReviewReply:
+        return ReviewReply(
+            self.question.id,
+            self.choice,
+            {HullPlace(one.asset, one.hull): one.label for one in self.exceptions},
+            {rule: frozenset(hulls) for rule, hulls in self.selections.items()},
+            self.labels,
+            self.later,
+        )
+
+    @property
+    def _choice(self) -> ReviewChoice | None:
+        return self._asked.choice(self.choice)
+
+    @property
+    def _labels(self) -> dict[HullPlace, str]:
+        """The labels that hulls get."""
+        if self.later:
+            return {}
+        asked, choice = self._asked, self._choice
+        given = dict.fromkeys(asked.hulls, choice.label) if choice and choice.label else {}
+        said = {HullPlace(asked.asset, hull): label for hull, label in self.labels.items()}
+        return {place: label for place, label in {**given, **self._reply.exceptions, **said}.items() if label}
+
+    @property
+    def _is_put_off(self) -> bool:
+        if self.later or isinstance(self._asked, DemonstrationQuestion):
+            return True
+        if isinstance(self._asked, SlipQuestion | OrientationQuestion):
+            return self.choice is None or self.choice == NO
+        return self.choice is None and not self._labels and not isinstance(self._asked, ReadingQuestion)
+
+    def _list_more_paths(self, project: Project) -> Iterator[Path]:
+        """The files and folders beside the events that the reply may change."""
+        if self._is_put_off:
+            return
+        layout = project.layout
+        match self._asked:
+            case GroupQuestion() | RepairQuestion() | ResultQuestion():
+                assets = self.list_labels()
+                everywhere = bool(assets) and has_agreed_labels(project)
+                yield from [project.folder / "labels"] if everywhere else map(layout.labels, assets)
+            case SlipQuestion():
+                yield layout.demonstration(self._asked.asset)
+            case OrientationQuestion():
+                yield layout.settings
+            case SpanQuestion():
+                names = (name.format(asset=self._asked.asset) for name in PREPARATION_FILES)
+                yield from (layout.single_parts, *(project.folder / name for name in names))
+            case ReadingQuestion() | DemonstrationQuestion():
+                return
+            case other:
+                assert_never(other)

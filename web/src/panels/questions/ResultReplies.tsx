@@ -1,0 +1,91 @@
+// The replies to the question whether a result is right; after "wrong", what is right.
+import { Check, CircleDot, MousePointer2, Tag, X } from "lucide-react";
+import { useState } from "react";
+import { demonstrate } from "../../commands/learn";
+import { canBeRight, correctSelection, putOff, reply, showAsked } from "../../commands/question";
+import { useProject } from "../../store/project";
+import { countText } from "../../store/words";
+import { openAsset, openStage, useWorkspace, visit } from "../../store/workspace";
+import type { ReviewQuestionView } from "../../wire";
+import { ExcludeMenu } from "./ExcludeMenu";
+import { useCardKeys } from "./cardKeys";
+import css from "./questions.module.css";
+import { LaterReply, Reply, ShowReply } from "./Replies";
+
+export function ResultReplies({ question }: { question: ReviewQuestionView }) {
+  const { asset, choices } = question;
+  const asks = canBeRight(question);
+  const has = (id: string) => choices.some((choice) => choice.id === id);
+  const [wrong, setWrong] = useState(!asks);
+  const right = () => void reply(question, { choice: "right" });
+  const reject = () => {
+    if (wrong) return void (asks && reply(question, { choice: "wrong" }));
+    setWrong(true);
+    visit(asset, { kind: "source" }); // where hulls can be selected that a rule should have taken
+  };
+  const [later, show] = [() => void putOff(question), () => showAsked(question)];
+  const doing = useCardKeys({ later, show, ...(asks && { choices: [right, reject], accept: right }), ...(has("wrong") && { reject }) });
+  return (
+    <>
+      {wrong && has("wrong") && <WhatIsRight question={question} />}
+      <div className={css.row}>
+        {asks && (
+          <Reply keyName="Y" look={wrong ? "plain" : "primary"} icon={Check} onClick={doing(right)}>
+            Right
+          </Reply>
+        )}
+        {!wrong && (
+          <Reply keyName="N" icon={X} tip="Then say what is right, if you like" onClick={doing(reject)}>
+            Wrong
+          </Reply>
+        )}
+        <ExcludeMenu onPick={(id) => void reply(question, { choice: id })} />
+        <ShowReply onClick={doing(show)} />
+        <LaterReply onClick={doing(later)} />
+      </div>
+    </>
+  );
+}
+
+/** The ways to say what is right: other hulls for a rule, other labels, a demonstration; or nothing more. */
+function WhatIsRight({ question }: { question: ReviewQuestionView }) {
+  const { asset } = question;
+  const rules = useProject((state) => state.program.rules);
+  const isOpen = useWorkspace((state) => state.asset === asset && state.showing.kind === "source");
+  const count = useWorkspace((state) => state.selection.size);
+  const isNew = canBeRight(question);
+  const tell = async (next: () => void) => {
+    if (!isNew || (await reply(question, { choice: "wrong" }))) next();
+  };
+  const label = () => {
+    openAsset(asset);
+    openStage("label");
+  };
+  return (
+    <div className={css.ways} role="group" aria-label="What is right">
+      <p>What is right? Select the hulls that a rule should take, or:</p>
+      {rules.map(({ rule, sentence }) => (
+        <Reply
+          key={rule}
+          icon={MousePointer2}
+          tip={isOpen ? `${sentence} Here it should take the ${countText(count, "hull")} selected in the view` : "Show the asset, and select hulls"}
+          onClick={isOpen ? () => void correctSelection(question, rule) : () => visit(asset, { kind: "source" })}
+        >
+          Select other hulls for rule {rule}
+          {isOpen && <span className={css.facts}>{countText(count, "hull")}</span>}
+        </Reply>
+      ))}
+      <Reply icon={Tag} tip="Opens the asset, to label its hulls" onClick={() => void tell(label)}>
+        Labels are wrong
+      </Reply>
+      <Reply icon={CircleDot} tip="Opens the asset, to demonstrate the edit on it" onClick={() => void tell(() => demonstrate(asset))}>
+        Show it
+      </Reply>
+      {isNew && (
+        <Reply keyName="N" icon={X} tip="It needs review until somebody says what is right" onClick={() => void tell(() => undefined)}>
+          Just wrong
+        </Reply>
+      )}
+    </div>
+  );
+}
