@@ -93,7 +93,7 @@ def correct(store: Store, asset: str, select: Iterable[str], action: Action, lab
         added = make_correction(before.mesh, asset, sorted(set(select)), action, label)
         if not before.corrections:
             seen = number_selections(before.program, {line.rule: line.selected for line in before.run.trace})
-            meant = meant_selections(store.feedback(), asset)  # what was edited by hand was made with these
+            meant = find_selections(store.feedback(), asset)  # what was edited by hand was made with these
             store.add_events(VerdictEvent(asset=asset, verdict="wrong", note="edited by hand", seen=seen, meant=meant))
         store.write_corrections(asset, (*before.corrections, added))
 
