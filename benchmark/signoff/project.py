@@ -1,5 +1,4 @@
-"""A family of the benchmark as a project on disk: asset files that read back with the very same hulls, and their labels.
-"""
+"""A family of the benchmark as a project on disk: asset files that read back with the very same hulls, and their labels."""
 
 from __future__ import annotations
 
@@ -51,9 +50,7 @@ def write_project(desk: Desk, folder: Path) -> Project:
         (assets / name).write_text(_format_obj(shapes, mesh.index), encoding="utf-8")
     files = [assets / name for name in desk.meshes]
     frame = one.program
-    project = Project.create(
-        folder / "project", files, name=one.name, vocabulary=frame.labels, orient=frame.orient
-    )
+    project = Project.create(folder / "project", files, name=one.name, vocabulary=frame.labels, orient=frame.orient)
     _write_thresholds(project, frame.contact, frame.extremity)
     for name, template in one.templates.items():
         project.add_template(name, _format_obj(template.shapes).encode())
@@ -73,7 +70,9 @@ def take_labels(desk: Desk) -> Desk:
         project.label_by_consensus()
         found = {name: project.mesh(f"{name}{_SUFFIX}") for name in desk.meshes}
     meshes = {name: mesh.with_labels(dict(found[name].labels)) for name, mesh in desk.meshes.items()}
-    same = {name: desk.meshes[name] if mesh.labels == desk.meshes[name].labels else mesh for name, mesh in meshes.items()}
+    same = {
+        name: desk.meshes[name] if mesh.labels == desk.meshes[name].labels else mesh for name, mesh in meshes.items()
+    }
     return desk.with_meshes(same)
 
 
