@@ -34,14 +34,14 @@ class Standing:
 
 
 class Client:
-    """By the public methods of `Project`. program: that of the project at the last look."""
+    """By the public methods of `Project`. found: by the last look; program: of the project then."""
 
     name = "Project"
 
     def __init__(self, project: Project) -> None:
         self.project, self.program = project, project.program()
         self._meshes = FamilyMeshes(project)
-        self._found: ProjectReview | None = None
+        self.found: ProjectReview | None = None
         self._outputs = dict[tuple[str, str, bytes, str], Output]()
 
     # What a person does
@@ -49,7 +49,7 @@ class Client:
     def review(self) -> Standing:
         """Look how the family stands. Raises MeshForgeError where the product refuses what was shown."""
         try:
-            self._found = found = self.project.review(execution=IN_PROCESS)
+            self.found = found = self.project.review(execution=IN_PROCESS)
         finally:
             self.program = self.project.program()
         outcome = found.outcome
@@ -58,8 +58,8 @@ class Client:
 
     def reply(self, question: ReviewQuestion, reply: ReviewReply) -> None:
         """Reply to the question that the last look asked."""
-        assert self._found, "nobody has looked yet"
-        self.project.reply(self._found, question, reply)
+        assert self.found, "nobody has looked yet"
+        self.project.reply(self.found, question, reply)
 
     def demonstrate(self, asset: str, steps: Iterable[Step]) -> None:
         """Show the edit on an asset."""
@@ -71,6 +71,12 @@ class Client:
         for line in self.project.answers().answers:
             if line.asset == asset:
                 self.project.take_back(line.id)
+
+    def accept(self, asset: str) -> None:
+        """Find the result of an asset right, once it is written."""
+        for _ in self.project.apply([asset], execution=IN_PROCESS):
+            pass
+        self.project.set_verdict(asset, "accepted")
 
     def refuse_choices(self, answer: Answer) -> None:
         """Say in place of an answer that none of the choices was meant."""
@@ -105,10 +111,10 @@ class Client:
         by_hand = project.corrections(asset)
         key = (asset, str(program), project.label_bytes(asset), str(by_hand))
         if key not in self._outputs:
-            self._outputs[key] = Output(self._run(asset, program), bool(by_hand))
+            self._outputs[key] = Output(self._edit(asset, program), bool(by_hand))
         return self._outputs[key]
 
-    def _run(self, asset: str, program: Program) -> EditResult:
+    def _edit(self, asset: str, program: Program) -> EditResult:
         try:
             done = run_with_corrections(self.project, asset, self.read_meshes()[asset], program)
         except MeshForgeError as error:

@@ -1,4 +1,4 @@
-"""A family of the benchmark as a project on disk: asset files that read back with the very same hulls, and their labels."""
+"""A family of the benchmark as a project on disk: files of assets that read back with the very same hulls, and labels."""
 
 from __future__ import annotations
 

@@ -38,9 +38,9 @@ class Review:
     assets, possible: of the family, and those that the reference gets right under true labels; reference: those that
     it gets right under the labels there are in the end; seconds, acts: of the person, by what they did; aside: assets
     set aside; first: of each asset not demonstrated, where a right edit is possible, the probability that the tool gave
-    it when it first had a program, and whether it was right; wrong: assets signed off in the end, yet not right; unseen:
-    assets that nobody had demonstrated when there was the first program; early, early_wrong: those of them that were
-    signed off then, and of these the ones that were not right.
+    it when it first had a program, and whether it was right; wrong: assets signed off in the end, yet not right;
+    unseen: assets that nobody had demonstrated when there was the first program; early, early_wrong: those of them that
+    were signed off then, and of these the ones that were not right.
     """
 
     task: str
@@ -126,7 +126,7 @@ class ReviewCourse:
         elif question is not None and not (question.kind == "demonstrate" and question.asset in self.shown):
             self._take(question, cap)
         elif question is not None or not standing.has_program:
-            self._recover(standing.nearest, question and question.asset, cap)
+            self._recover(standing.nearest, question.asset if question else None, cap)
         else:
             self.log.ended = EMPTY if standing.held else DONE
 
@@ -232,11 +232,12 @@ class ReviewCourse:
         through the labels there, those first that are named; or take the demonstration back that nothing fits."""
         if self.reviewer.ledger.total >= cap:
             self.log.ended = BROKEN
-        elif nearest and self._refuse_choices(nearest.rule, nearest.asset):
             return
-        elif self.shown and self._look_again(named if named in self.shown else self.shown[-1], nearest):
+        if nearest and self._refuse_choices(nearest.rule, nearest.asset):
             return
-        elif not self.shown:
+        if self.shown and self._look_again(named if named and named in self.shown else self.shown[-1], nearest):
+            return
+        if not self.shown:
             self._demonstrate("")
 
     def _look_again(self, name: str, nearest: Nearest | None) -> bool:
