@@ -1,4 +1,4 @@
-"""A family of the benchmark as a project on disk: files of assets that read back with the very same hulls, and labels."""
+"""A family of the benchmark as a project on disk: assets that read back with the very same hulls, and their labels."""
 
 from __future__ import annotations
 
@@ -9,8 +9,11 @@ from dataclasses import replace
 from functools import lru_cache
 from pathlib import Path
 
+import numpy as np
+
 from benchmark.study.desk import Bench, Desk, Start
-from meshforge.geometry import Shape, digest
+from meshforge.formats import read
+from meshforge.geometry import Shape
 from meshforge.project import Project
 from meshforge.symbolic import SymbolicMesh, write_labels
 
@@ -20,15 +23,34 @@ _MEMORY = Path("/dev/shm")  # a disk in memory, where there is one
 
 @lru_cache(maxsize=8)
 def name_by_files(bench: Bench) -> Bench:
-    """The same bench with its meshes under the ids that they have in a project; what it remembers stays with it."""
+    """The same bench with its meshes as they read back from files, under the ids that they have in a project: the
+    product orders the vertices of a hull in its own way. What it remembers stays with it."""
 
     def rename(name: str) -> str:
         return f"{name}{_SUFFIX}"
 
     start = bench.start
     parts = {rename(name): labels for name, labels in start.parts.items()}
-    samples = [replace(sample, name=rename(name)) for name, sample in bench.samples.items()]
+    with _open_folder() as folder:
+        samples = [
+            replace(sample, name=rename(name), mesh=_read_back(sample.mesh, folder / rename(name)))
+            for name, sample in bench.samples.items()
+        ]
     return Bench(bench.task, samples, Start(tuple(map(rename, start.by_hand)), parts))
+
+
+def _read_back(mesh: SymbolicMesh, file: Path) -> SymbolicMesh:
+    """A mesh with its shapes as they are read from a file; all else is as it was."""
+    file.write_text(_format_obj((hull.shape for hull in mesh.hulls), mesh.index), encoding="utf-8")
+    rows = zip(mesh.hulls, read(file).geoms, strict=True)
+    return SymbolicMesh(tuple(replace(hull, shape=geom.shape) for hull, geom in rows))
+
+
+@contextmanager
+def _open_folder() -> Iterator[Path]:
+    """A folder in memory, where there is such a disk, that goes away afterwards."""
+    with tempfile.TemporaryDirectory(dir=_MEMORY if _MEMORY.is_dir() else None) as folder:
+        yield Path(folder)
 
 
 @contextmanager
@@ -37,8 +59,8 @@ def open_project(desk: Desk) -> Iterator[Project]:
 
     The meshes have the names that `name_by_files` gives.
     """
-    with tempfile.TemporaryDirectory(dir=_MEMORY if _MEMORY.is_dir() else None) as folder:
-        yield write_project(desk, Path(folder))
+    with _open_folder() as folder:
+        yield write_project(desk, folder)
 
 
 def write_project(desk: Desk, folder: Path) -> Project:
@@ -65,7 +87,11 @@ def take_labels(desk: Desk) -> Desk:
     """The meshes with the labels that the product gives them by consensus of all that is said; a person's stay."""
     if not any(mesh.labels for mesh in desk.meshes.values()):
         return desk
-    named = Desk(name_by_files(desk.bench), {f"{name}{_SUFFIX}": mesh for name, mesh in desk.meshes.items()})
+    bench = name_by_files(desk.bench)
+    pairs = zip(bench.truth.meshes.items(), desk.meshes.values(), strict=True)
+    named = Desk(
+        bench, {name: own.with_labels({**dict.fromkeys(own.index), **mesh.labels}) for (name, own), mesh in pairs}
+    )
     with open_project(named) as project:
         project.label_by_consensus()
         found = {name: project.mesh(f"{name}{_SUFFIX}") for name in desk.meshes}
@@ -99,8 +125,8 @@ def _check_meshes(project: Project, meshes: Mapping[str, SymbolicMesh]) -> None:
     """Each asset reads back with the same hulls in the same order, and the same labels."""
     assert list(project.assets()) == list(meshes)
     for name, mesh in meshes.items():
-        read = project.mesh(name)
-        rows = zip(read.hulls, mesh.hulls, strict=True)
-        same = all(a.name == b.name and digest(a.shape) == digest(b.shape) for a, b in rows)
+        found = project.mesh(name)
+        rows = zip(found.hulls, mesh.hulls, strict=True)
+        same = all(a.name == b.name and np.array_equal(a.vertices, b.vertices) for a, b in rows)
         assert same, f"{name} does not read back as it was written"
-        assert dict(read.labels) == dict(mesh.labels), f"the labels of {name} do not read back as they were written"
+        assert dict(found.labels) == dict(mesh.labels), f"the labels of {name} do not read back as they were written"

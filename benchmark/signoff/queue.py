@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable, Collection, Mapping
+from contextlib import suppress
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -166,14 +167,19 @@ class ReviewCourse:
             if question.kind == "result" and chosen in (WRONG, CORRECT):
                 self._correct(question, reply, output)
             else:
-                self.client.reply(question, reply)
+                self._reply(question, reply)
+
+    def _reply(self, question: ReviewQuestion, reply: ReviewReply) -> None:
+        """Reply; where that is refused the question is asked again."""
+        with suppress(MeshForgeError):
+            self.client.reply(question, reply)
 
     def _correct(self, question: ReviewQuestion, reply: ReviewReply, output: Output | None) -> None:
         """What the person does once they have seen that a result is wrong: says so, then shows the edit there, as the
         command proposes; or looks through the labels there, where the mesh is turned wrongly. What they showed there
         before, or took back, stays flagged."""
         name = question.asset
-        self.client.reply(question, reply)
+        self._reply(question, reply)
         done = output and output.selections
         is_turned_wrongly = done == self.bench.truth.reference[name] and not self.judge.looks_right(name, output)
         if (done is None or is_turned_wrongly) and self._look_through(name):

@@ -16,7 +16,6 @@ from meshforge.cli.label import label
 from meshforge.cli.main import load_command
 from meshforge.cli.review import review
 from meshforge.cli.synthesize import synthesize
-from meshforge.common import MeshForgeError
 from meshforge.project import Project
 from meshforge.signoff import HullPlace, ReviewChoice, ReviewQuestion, ReviewReply
 from meshforge.synthesis import Answer, Step
@@ -47,10 +46,7 @@ class TerminalClient(Client):
             reply = ReviewReply(question.id)
         file = self.project.folder.parent / "answers.json"
         file.write_text(json.dumps([_format_reply(reply)]), encoding="utf-8")
-        try:
-            self._told = self._call("review", "--answers", str(file), "--json")
-        except MeshForgeError:
-            self._told = None  # the next look says what is wrong
+        self._told = self._call("review", "--answers", str(file), "--json")
 
     def demonstrate(self, asset: str, steps: Iterable[Step]) -> None:
         self._call("demonstrate", asset, *map(_format_step, steps))

@@ -23,6 +23,7 @@ from benchmark.signoff.queue import DONE, Review
 from benchmark.signoff.sessions import Unit, run_sessions
 from benchmark.study import FLAT, REPORTED, TRUE
 from benchmark.study.condition import PROPAGATED, SYSTEMATIC
+from benchmark.tasks import DIFFICULTIES
 from meshforge.common import write_atomically
 
 FROZEN = Path(__file__).resolve().parent / "unchanged.json"
@@ -35,8 +36,12 @@ TITLE = "Through the product, before anything was changed"
 
 
 def list_units() -> list[Unit]:
-    """One person a task and condition; those through `Project` first."""
-    rows = ((client, name, one) for client, some in CONDITIONS.items() for name in list_tasks() for one in some)
+    """One person a task and condition; those through `Project` first, and the tasks in an order in which the first
+    third has each category, and each level about as often."""
+    levels, every = len(DIFFICULTIES), list_tasks()
+    turns = [every[k : k + levels] for k in range(0, len(every), levels)]
+    names = [turn[(place + shift) % levels] for shift in range(levels) for place, turn in enumerate(turns)]
+    rows = ((client, name, one) for client, some in CONDITIONS.items() for name in names for one in some)
     return [Unit(name, one.name, REPORTED[0], None, client) for client, name, one in rows]
 
 
