@@ -3,19 +3,18 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 
-from benchmark.signoff.judge import Judge
-from benchmark.signoff.ledger import Ledger, price_of_hand, price_of_mend
+from benchmark.signoff.judge import Judge, Output
+from benchmark.signoff.ledger import Ledger, price_of_hand
 from benchmark.study.condition import Condition
-from benchmark.study.desk import Bench, Desk, Selections
+from benchmark.study.desk import Bench, Desk
 from benchmark.study.keystrokes import ANSWER, APPROVAL, CONFIRMATION, GLANCE, STROKE, price_group
 from benchmark.study.person import Person
 from benchmark.study.propagation import HandLabels
 from meshforge.language import Program
 from meshforge.signoff import HullPlace, ReviewQuestion, ReviewReply
 from meshforge.signoff.question import ASIDE, CORRECT, RIGHT, WRONG
-from meshforge.symbolic import Label
 from meshforge.synthesis import Demonstration, Step
 
 
@@ -28,8 +27,10 @@ class Reviewer:
         self._looked_at = set[HullPlace]()
         self._truth = bench.truth
 
-    def reply(self, question: ReviewQuestion, desk: Desk, program: Program | None) -> ReviewReply:
-        """What they say to a question that needs no demonstration."""
+    def reply(
+        self, question: ReviewQuestion, desk: Desk, program: Program | None, output: Output | None
+    ) -> ReviewReply:
+        """What they say to a question that needs no demonstration; output: of the asset that it is about."""
         if question.kind == "group":
             return self._name_group(question)
         if question.kind in ("reading", "label") and all(choice.select is not None for choice in question.choices):
@@ -37,7 +38,7 @@ class Reviewer:
         if question.kind == "selection":
             return self._check_selection(question)
         if question.kind == "result":
-            return self._look(question, desk, program)
+            return self._look(question, output)
         return self._confirm(question)
 
     def _name_group(self, question: ReviewQuestion) -> ReviewReply:
@@ -69,63 +70,52 @@ class Reviewer:
         return ReviewReply(question.id, self.person.slips_from(gaps.index(min(gaps)), len(gaps)))
 
     def _confirm(self, question: ReviewQuestion) -> ReviewReply:
-        """The label of one hull; what is asked besides is declined."""
+        """The label of one hull; an orientation is theirs already, so that another one is declined."""
+        if question.kind == "orientation":
+            self.ledger.add(question.kind, CONFIRMATION)
+            keep = next(place for place, choice in enumerate(question.choices) if choice.orient is None)
+            return ReviewReply(question.id, self.person.slips_from(keep, len(question.choices)))
         labels = [choice.label for choice in question.choices]
         true = self._label_of(question.hulls[0]) if question.hulls else None
         right = labels.index(true) if true is not None and true in labels else None
         self.ledger.add(question.kind, CONFIRMATION)
         return ReviewReply(question.id, self.person.slips_from(right, len(labels)))
 
-    def _look(self, question: ReviewQuestion, desk: Desk, program: Program | None) -> ReviewReply:
+    def _look(self, question: ReviewQuestion, output: Output | None) -> ReviewReply:
         """Whether a result is right; set aside what nobody could show."""
         there = any(choice.text == RIGHT for choice in question.choices)  # else the program cannot run
-        right = (self.judge.looks_right(desk, program, question.asset) != self.person.errs_now()) and there
+        right = (self.judge.looks_right(question.asset, output) != self.person.errs_now()) and there
         said = RIGHT if right else WRONG if self._truth.reference[question.asset] is not None else ASIDE
         self.ledger.add("result", GLANCE + APPROVAL)
-        place = place_of(question, CORRECT if said == WRONG and not there else said)
-        return ReviewReply(
-            question.id, place, mended=self._mends(desk, program, question.asset) if said == WRONG else None
-        )
+        return ReviewReply(question.id, place_of(question, CORRECT if said == WRONG and not there else said))
 
-    def _mends(self, desk: Desk, program: Program | None, name: str) -> Selections | None:
-        """What each rule should have selected; None where the mesh is not turned as it should be."""
-        done, wanted = desk.select(program, name) if program else None, self._truth.reference[name]
-        if wanted is None or done is None or done == wanted:
-            return None
-        self.ledger.add("mend", price_of_mend(done, wanted))
-        slips = [
-            frozenset(hull for hull in one ^ other if self.person.errs_now())
-            for one, other in zip(done, wanted, strict=True)
-        ]
-        return tuple(one ^ slip for one, slip in zip(wanted, slips, strict=True))
-
-    def shows(self, desk: Desk, name: str) -> Demonstration:
-        """All of an edit by hand; each hull is left out where they slip."""
+    def shows(self, desk: Desk, name: str, act: str = "demonstration") -> Demonstration:
+        """All of an edit by hand; each hull is left out where they slip. act: what it is noted as."""
         meant = self.person.shows(desk, name)
         steps = [Step(step.rule, self._select(step), step.action, step.label) for step in meant.steps]
         selections = [step.select or () for step in steps]
         self.slipped.discard(name)
         if any(made.select != step.select for made, step in zip(steps, meant.steps, strict=True)):
             self.slipped.add(name)
-        self.ledger.add("demonstration", price_of_hand(selections))
+        self.ledger.add(act, price_of_hand(selections))
         return Demonstration(meant.mesh, steps, name)
 
     def _select(self, step: Step) -> list[str] | None:
         return None if step.select is None else [name for name in sorted(step.select) if not self.person.errs_now()]
 
-    def paints(self, desk: Desk, name: str, hulls: Sequence[str], inspected: int = 0) -> Desk:
-        """The desk when some hulls of a mesh got their true labels by hand; inspected: hulls looked at before."""
-        labels = {hull: Label(self._label_of(HullPlace(name, hull))) for hull in hulls}
-        self.ledger.add_labels(HandLabels(inspected, len(labels), len({label.name for label in labels.values()})))
-        return desk.with_meshes({**desk.meshes, name: desk.meshes[name].with_labels({**labels})}) if labels else desk
+    def name_hulls(self, name: str, hulls: Iterable[str], inspected: int = 0) -> dict[str, str]:
+        """The true labels of some hulls of a mesh, given by hand; inspected: hulls looked at before."""
+        labels = {hull: self._label_of(HullPlace(name, hull)) for hull in hulls}
+        self.ledger.add_labels(HandLabels(inspected, len(labels), len(set(labels.values()))))
+        return labels
 
-    def looks_through(self, desk: Desk, name: str, hulls: Sequence[str]) -> Desk:
-        """The desk when some labels of a mesh were looked at, one by one, and the wrong ones painted; each once."""
+    def inspect_labels(self, desk: Desk, name: str, hulls: Sequence[str]) -> dict[str, str]:
+        """The labels that were found wrong when some were looked at, one by one; each hull is looked at once."""
         left = [hull for hull in hulls if HullPlace(name, hull) not in self._looked_at]
         self._looked_at.update(HullPlace(name, hull) for hull in left)
         mesh = desk.meshes[name]
         wrong = [hull for hull in left if mesh.hull_of(hull).label != self._label_of(HullPlace(name, hull))]
-        return self.paints(desk, name, [hull for hull in wrong if not self.person.errs_now()], len(left))
+        return self.name_hulls(name, [hull for hull in wrong if not self.person.errs_now()], len(left))
 
     def _label_of(self, place: HullPlace) -> str:
         return str(self._truth.meshes[place.asset].hull_of(place.hull).label)
