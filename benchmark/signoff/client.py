@@ -21,14 +21,14 @@ class Standing:
     """How a family stands, as a person is told.
 
     question: the one that is asked; has_program: whether a program fits all that was shown and said; signed_off, held,
-    aside: ids of assets; probabilities: by id, as far as they are told; nearest: what came nearest where nothing fits.
+    excluded: ids of assets; probabilities: by id, as far as they are told; nearest: what came nearest where nothing fits.
     """
 
     question: ReviewQuestion | None
     has_program: bool
     signed_off: Collection[str]
     held: Collection[str]
-    aside: Collection[str]
+    excluded: Collection[str]
     probabilities: Mapping[str, float] = field(default_factory=dict)
     nearest: Nearest | None = None
 
@@ -58,8 +58,7 @@ class Client:
 
     def reply(self, question: ReviewQuestion, reply: ReviewReply) -> None:
         """Reply to the question that the last look asked."""
-        assert self.found, "nobody has looked yet"
-        self.project.reply(self.found, question, reply)
+        self.project.reply(question, reply)
 
     def demonstrate(self, asset: str, steps: Iterable[Step]) -> None:
         """Show the edit on an asset."""
@@ -68,9 +67,9 @@ class Client:
     def take_demonstration_back(self, asset: str) -> None:
         """Take the demonstration of an asset back, and what was answered about it."""
         self.project.demonstrate(asset, ())
-        for line in self.project.answers().answers:
-            if line.asset == asset:
-                self.project.take_back(line.id)
+        for name, answer in self.project.feedback().answers.items():
+            if answer.asset == asset:
+                self.project.take_back(name)
 
     def accept(self, asset: str) -> None:
         """Find the result of an asset right, once it is written."""
@@ -97,7 +96,7 @@ class Client:
     @property
     def answers(self) -> tuple[Answer, ...]:
         """What was answered so far."""
-        return tuple(line.answer for line in self.project.answers().answers)
+        return tuple(line.answer for line in self.project.feedback().answers.values())
 
     def read_meshes(self) -> dict[str, SymbolicMesh]:
         """All assets with their labels; those whose labels stay are the same objects."""
@@ -108,8 +107,8 @@ class Client:
         program, project = self.program, self.project
         if program is None:
             return None
-        by_hand = project.corrections(asset)
-        key = (asset, str(program), project.label_bytes(asset), str(by_hand))
+        by_hand, meant = project.corrections(asset), project.feedback().verdict_on(asset)
+        key = (asset, str(program), project.label_bytes(asset), f"{by_hand} {meant and meant.meant}")
         if key not in self._outputs:
             self._outputs[key] = Output(self._edit(asset, program), bool(by_hand))
         return self._outputs[key]
@@ -128,4 +127,4 @@ class Client:
 
 def _stand(found: Assessment, has_program: bool, nearest: Nearest | None) -> Standing:
     shares = {name: one.probability for name, one in found.assets.items()}
-    return Standing(found.question, has_program, found.signed_off, found.held, found.aside, shares, nearest)
+    return Standing(found.question, has_program, found.signed_off, found.held, found.excluded, shares, nearest)

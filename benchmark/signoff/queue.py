@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Callable, Collection, Mapping
 from contextlib import suppress
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 from benchmark.signoff.client import Client, Standing
@@ -20,8 +20,8 @@ from benchmark.study.keystrokes import CONFIRMATION, GLANCE
 from benchmark.study.propagation import begin_by_hand
 from meshforge.common import MeshForgeError
 from meshforge.project import Project
-from meshforge.signoff import ReviewQuestion, ReviewReply
-from meshforge.signoff.question import CORRECT, WRONG
+from meshforge.signoff import ResultQuestion, ReviewQuestion, ReviewReply
+from meshforge.signoff.question import WRONG
 from meshforge.synthesis import Nearest
 
 CAP = 600.0
@@ -108,7 +108,7 @@ class ReviewCourse:
         log.program = str(program) if program else None
         log.seconds = {what: round(seconds, 2) for what, seconds in ledger.seconds.items()}
         log.acts = dict(ledger.acts)
-        log.aside = sorted(self._standing.aside) if self._standing else []
+        log.aside = sorted(self._standing.excluded) if self._standing else []
         return log
 
     def _step(self, cap: float) -> None:
@@ -132,7 +132,7 @@ class ReviewCourse:
             self.log.ended = EMPTY if standing.held else DONE
 
     def _note(self, standing: Standing) -> None:
-        aside, signed = set(standing.aside), set(standing.signed_off)
+        aside, signed = set(standing.excluded), set(standing.signed_off)
         right = {name for name in self.bench.samples if name not in aside and self._is_right(name)}
         wrong = (signed & self.judge.possible) - right
         figures = (len(right), len(signed), len(wrong), len(standing.held), len(signed & right))
@@ -163,8 +163,7 @@ class ReviewCourse:
         else:
             output = self.client.read_output(question.asset)
             reply = self.reviewer.reply(question, self.desk, self.client.program, output)
-            chosen = None if reply.choice is None or not question.choices else question.choices[reply.choice].text
-            if question.kind == "result" and chosen in (WRONG, CORRECT):
+            if isinstance(question, ResultQuestion) and reply.choice == WRONG:
                 self._correct(question, reply, output)
             else:
                 self._reply(question, reply)
@@ -175,16 +174,21 @@ class ReviewCourse:
             self.client.reply(question, reply)
 
     def _correct(self, question: ReviewQuestion, reply: ReviewReply, output: Output | None) -> None:
-        """What the person does once they have seen that a result is wrong: says so, then shows the edit there, as the
-        command proposes; or looks through the labels there, where the mesh is turned wrongly. What they showed there
-        before, or took back, stays flagged."""
+        """Say what is right of a result that is wrong: which hulls, or which labels where the mesh is turned wrongly or the
+        program cannot run; where no label helps, show the whole edit."""
         name = question.asset
-        self._reply(question, reply)
-        done = output and output.selections
-        is_turned_wrongly = done == self.bench.truth.reference[name] and not self.judge.looks_right(name, output)
-        if (done is None or is_turned_wrongly) and self._look_through(name):
+        done, wanted = output and output.selections, self.bench.truth.reference[name]
+        if done is not None and wanted is not None and done != wanted:
+            selections = self.reviewer.correct_selections(done, wanted)
+            self._reply(question, replace(reply, selections=selections))
             return
-        if name in self._showable() or name in self.reviewer.slipped:
+        there = [hull.name for hull in self.desk.meshes[name].hulls]
+        labels = self.reviewer.inspect_labels(self.desk, name, there)
+        self._reply(question, replace(reply, labels=labels))
+        if labels:
+            self.client.take_labels()
+            self.desk = self.desk.with_meshes(self.client.read_meshes())
+        elif name in self._showable() or name in self.reviewer.slipped:
             self._show(name, "correction")
 
     def _look_through(self, name: str, hulls: Collection[str] | None = None) -> bool:

@@ -7,7 +7,7 @@ import io
 import json
 from collections.abc import Iterable, Mapping
 from contextlib import redirect_stderr, redirect_stdout
-from typing import Any
+from typing import Any, get_args
 from unittest.mock import patch
 
 from benchmark.signoff.client import Client, Standing
@@ -17,10 +17,12 @@ from meshforge.cli.main import load_command
 from meshforge.cli.review import review
 from meshforge.cli.synthesize import synthesize
 from meshforge.project import Project
-from meshforge.signoff import HullPlace, ReviewChoice, ReviewQuestion, ReviewReply
+from meshforge.signoff import HullPlace, ReviewChoice, ReviewQuestion, ReviewReply, UnseenLabelQuestion
 from meshforge.synthesis import Answer, Step
 
 _PICTURES = "meshforge.cli.review.draw_question"  # nobody looks at them here, and they take half of the time
+_KINDS: dict[str, type[ReviewQuestion]] = {kind.kind: kind for kind in get_args(ReviewQuestion)}
+_KINDS["label"] = UnseenLabelQuestion
 _COMMANDS = {one.__name__: load_command(one.__name__) for one in (demonstrate, label, review, synthesize)}
 
 
@@ -81,7 +83,10 @@ class TerminalClient(Client):
 def _format_reply(reply: ReviewReply) -> dict[str, Any]:
     """One entry of the file of replies."""
     exceptions = {f"{place.asset}#{place.hull}": label for place, label in reply.exceptions.items()}
-    return {"id": reply.question, "choice": reply.choice, "exceptions": exceptions, "later": reply.later}
+    selections = {str(rule): sorted(hulls) for rule, hulls in reply.selections.items()}
+    labels = dict(reply.labels)
+    row = {"id": reply.question, "choice": reply.choice, "exceptions": exceptions, "later": reply.later}
+    return {**row, "selections": selections, "labels": labels}
 
 
 def _format_step(step: Step) -> str:
@@ -93,18 +98,19 @@ def _format_step(step: Step) -> str:
 def _read_standing(told: Mapping[str, Any], assets: Iterable[str]) -> Standing:
     """How the family stands by what the command printed."""
     held = {one["asset"]: float(one["probability"]) for one in told["held"]}
-    aside = frozenset(told["set_aside"])
-    signed = [name for name in assets if name not in held and name not in aside]
+    excluded = frozenset(told["excluded"])
+    signed = [name for name in assets if name not in held and name not in excluded]
     assert len(signed) == told["signed_off"]
     question = _read_question(told["question"]) if told["question"] else None
-    return Standing(question, bool(signed) or any(held.values()), signed, list(held), aside, held)
+    return Standing(question, bool(signed) or any(held.values()), signed, list(held), excluded, held)
 
 
 def _read_question(told: Mapping[str, Any]) -> ReviewQuestion:
     choices = tuple(
-        ReviewChoice(one["text"], one["label"], None if one["select"] is None else tuple(one["select"]))
+        ReviewChoice(one["id"], one["text"], one["label"], None if one["select"] is None else tuple(one["select"]))
         for one in told["choices"]
     )
     hulls = tuple(HullPlace(one["asset"], one["hull"]) for one in told["hulls"])
     figures = float(told["seconds"]), float(told["gain"])
-    return ReviewQuestion(told["id"], told["kind"], told["text"], *figures, told["asset"], told["rule"], hulls, choices)
+    kind = _KINDS[told["kind"]]
+    return kind(told["text"], *figures, told["asset"], told["rule"], hulls, choices, told["id"])
