@@ -53,7 +53,7 @@ def review(given: ReviewArguments) -> None:
     In a terminal it asks one question after the other; what is said is kept at once. Exit code 1 while some result
     needs review, or where a reply did not fit any more.
     """
-    project = Project.open(given.project)
+    project = Project.open(given.project).with_cache()
     replies = [replace(reply, by=given.by) for reply in read_replies(given.answers)] if given.answers else []
     if given.again:
         project.ask_again()

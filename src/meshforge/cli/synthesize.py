@@ -86,7 +86,7 @@ def synthesize(given: SynthesizeArguments) -> None:
         budget=given.budget,
         follow=Program.read(given.follow) if given.follow else None,
     )
-    session = LearningSession(project, options, keep=not given.dry_run)
+    session = LearningSession(project.with_cache(), options, keep=not given.dry_run)
     answers = read_answers(given.answers, project) if given.answers else None
     verdict = given.accept_repairs if given.accept_repairs or given.reject_repairs else None
     asks = _is_interactive() and not (given.json or given.dry_run) and answers is None and verdict is None

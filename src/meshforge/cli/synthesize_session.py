@@ -7,7 +7,6 @@ from __future__ import annotations
 import json
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from functools import cached_property
 from pathlib import Path
 from types import NoneType
 from typing import Any
@@ -17,7 +16,7 @@ from meshforge.cli.synthesize_text import describe_change
 from meshforge.cli.terminal import catch_interrupt, remark
 from meshforge.common import MeshForgeError, UsageError
 from meshforge.language import Program
-from meshforge.project import FamilyMeshes, Project
+from meshforge.project import Project, select_assets
 from meshforge.symbolic import SymbolicMesh
 from meshforge.synthesis import Ambiguous, Answer, LearningOutcome, Options, Question, Repair
 
@@ -58,13 +57,9 @@ class LearningSession:
         else:
             self.given[answer.rule, answer.asset] = answer
 
-    @cached_property
-    def family(self) -> FamilyMeshes:
-        return FamilyMeshes(self.project)
-
     def meshes(self) -> dict[str, SymbolicMesh]:
         """The assets that can be read."""
-        return self.family.meshes()
+        return dict(self.project.meshes_by_id(select_assets(self.project)))
 
 
 class QuestionPictures:

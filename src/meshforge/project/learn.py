@@ -26,25 +26,6 @@ MOST_COMPARED = 100
 """Of more assets so many are looked at, evenly over all: each has to be read."""
 
 
-class FamilyMeshes:
-    """Reads every asset once; labels are looked at anew each time, as answers change them."""
-
-    def __init__(self, store: Store) -> None:
-        self._store = store
-        self._kept: dict[str, tuple[bytes, SymbolicMesh]] = {}
-
-    def meshes(self) -> dict[str, SymbolicMesh]:
-        """The assets to learn from that can be read, by id, with the labels they have now."""
-        if not self._kept:
-            rows = self._store.meshes_by_id(select_assets(self._store))
-            self._kept = {asset: (self._store.label_bytes(asset), mesh) for asset, mesh in rows}
-        for asset, (before, mesh) in self._kept.items():
-            now = self._store.label_bytes(asset)
-            if now != before:
-                self._kept[asset] = now, self._store.relabel(asset, mesh)
-        return {asset: mesh for asset, (_, mesh) in self._kept.items()}
-
-
 def select_assets(store: Store) -> tuple[str, ...]:
     """The assets to learn from: all, or of very many those that a person said something about, and some evenly."""
     every = store.assets()
@@ -172,10 +153,10 @@ def learn_program(
 
     accept: what is found becomes the project's program, and what `confirm` says about repairs is kept at once.
     confirm, stop: as of `meshforge.synthesize`; answers: for this run, before those that are kept.
-    meshes: the assets by id, where they are in memory already (`FamilyMeshes`); else they are read, of very many some.
+    meshes: the assets by id, where they are in memory already; else they are read, of very many some.
     Raises ProjectError where nothing is demonstrated.
     """
-    meshes = FamilyMeshes(store).meshes() if meshes is None else meshes
+    meshes = dict(store.meshes_by_id(select_assets(store))) if meshes is None else meshes
     demos = _read_demonstrations(store, meshes)
     inputs = digest_learning_inputs(store)
     said = store.feedback()

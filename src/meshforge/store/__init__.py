@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     )
     from meshforge.store.feedback import Feedback
     from meshforge.store.layout import JsonFile, json_text, read_json, write_json
+    from meshforge.store.mesh_cache import MeshCache
     from meshforge.store.meshes import AssetFacts, AssetFiles, geometry_digest, hull_digests, iterate_survey, survey
     from meshforge.store.preparation_plan import PreparationPlanFile
     from meshforge.store.program import (
@@ -79,6 +80,7 @@ __all__ = [
     "LabelBefore",
     "LabelFixEvent",
     "LabelsEvent",
+    "MeshCache",
     "PreparationPlanFile",
     "ProgramRecord",
     "Said",

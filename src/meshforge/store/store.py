@@ -26,6 +26,7 @@ from meshforge.store.event_log import load_events, load_feedback, load_sign_offs
 from meshforge.store.events import Event, SnoozeEvent, VerdictEvent
 from meshforge.store.feedback import Feedback
 from meshforge.store.layout import Layout, read_derived, read_json, write_json
+from meshforge.store.mesh_cache import MeshCache
 from meshforge.store.meshes import AssetFiles, read_labels_file
 from meshforge.store.preparation_plan import forget_assets
 from meshforge.store.sign_off import AssessmentFile, SignOff
@@ -38,11 +39,12 @@ from meshforge.synthesis import Demonstration, Step
 class Store:
     """A project folder. It holds nothing but paths in memory: what is asked for is read, what is set is written.
 
-    found: the assets, as they were when the project was opened.
+    found: the assets, as they were when the project was opened; cache: of meshes, so that they are not read again.
     """
 
     folder: Path
     found: AssetSet = field(repr=False)
+    cache: MeshCache | None = field(default=None, repr=False, compare=False)
 
     @property
     def layout(self) -> Layout:
@@ -106,6 +108,8 @@ class Store:
 
     def mesh(self, asset: str) -> SymbolicMesh:
         """An asset as it is prepared, with its labels. Raises AssetError where it cannot be read."""
+        if self.cache:
+            return self.cache.get(self, asset)
         (files,) = self.asset_files([asset])
         return files.read_mesh()
 
@@ -115,10 +119,9 @@ class Store:
 
     def meshes_by_id(self, assets: Iterable[str] | None = None) -> Iterator[tuple[str, SymbolicMesh]]:
         """All assets, or some, with their ids and labels; those that cannot be read are left out."""
-        ids = self.assets() if assets is None else tuple(assets)
-        for asset, files in zip(ids, self.asset_files(ids), strict=True):
+        for asset in self.assets() if assets is None else assets:
             try:
-                yield asset, files.read_mesh()
+                yield asset, self.mesh(asset)
             except MeshForgeError:
                 continue
 
