@@ -10,7 +10,7 @@ from benchmark.tasks import EditResult
 from meshforge.batch import IN_PROCESS
 from meshforge.common import MeshForgeError
 from meshforge.language import Program
-from meshforge.project import FamilyMeshes, Project, ProjectReview, run_with_corrections
+from meshforge.project import Project, ProjectReview, run_with_corrections
 from meshforge.signoff import Assessment, ReviewQuestion, ReviewReply
 from meshforge.symbolic import SymbolicMesh
 from meshforge.synthesis import Answer, Nearest, NoProgram, Step
@@ -39,8 +39,7 @@ class Client:
     name = "Project"
 
     def __init__(self, project: Project) -> None:
-        self.project, self.program = project, project.program()
-        self._meshes = FamilyMeshes(project)
+        self.project, self.program = project.with_cache(), project.program()
         self.found: ProjectReview | None = None
         self._outputs = dict[tuple[str, str, bytes, str], Output]()
 
@@ -100,7 +99,7 @@ class Client:
 
     def read_meshes(self) -> dict[str, SymbolicMesh]:
         """All assets with their labels; those whose labels stay are the same objects."""
-        return self._meshes.meshes()
+        return dict(self.project.meshes_by_id())
 
     def read_output(self, asset: str) -> Output | None:
         """What the project would write of an asset: by its program, then by hand; None while there is no program."""
