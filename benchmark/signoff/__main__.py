@@ -13,13 +13,13 @@ import sys
 from pathlib import Path
 
 from benchmark.report import as_text
-from benchmark.signoff import before, unchanged
+from benchmark.signoff import before, product_before
 from benchmark.signoff.conditions import ASKED, MAKE, list_tasks
 from benchmark.signoff.fit import fit
 from benchmark.signoff.review import run, summarize
 from benchmark.study import CONDITIONS
 
-_FREEZE = {"before": before.freeze, "unchanged": unchanged.freeze}
+_FREEZE = {"before": before.freeze, "unchanged": product_before.freeze}
 
 
 def main(arguments: list[str] | None = None) -> int:

@@ -17,7 +17,7 @@ from meshforge.synthesis import Answer, Nearest, NoProgram, Step
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class Standing:
+class FamilyStatus:
     """How a family stands, as a person is told.
 
     question: the one that is asked; has_program: whether a program fits all that was shown and said; signed_off, held,
@@ -45,7 +45,7 @@ class Client:
 
     # What a person does
 
-    def review(self) -> Standing:
+    def review(self) -> FamilyStatus:
         """Look how the family stands. Raises MeshForgeError where the product refuses what was shown."""
         try:
             self.found = found = self.project.review(execution=IN_PROCESS)
@@ -53,7 +53,7 @@ class Client:
             self.program = self.project.program()
         outcome = found.outcome
         nearest = outcome.nearest if isinstance(outcome, NoProgram) else None
-        return _stand(found.assessment, outcome is not None and outcome.program is not None, nearest)
+        return _build_status(found.assessment, outcome is not None and outcome.program is not None, nearest)
 
     def reply(self, question: ReviewQuestion, reply: ReviewReply) -> None:
         """Reply to the question that the last look asked."""
@@ -124,6 +124,6 @@ class Client:
         return EditResult(done.mesh, done.run.trace, frozenset(named))
 
 
-def _stand(found: Assessment, has_program: bool, nearest: Nearest | None) -> Standing:
+def _build_status(found: Assessment, has_program: bool, nearest: Nearest | None) -> FamilyStatus:
     shares = {name: one.probability for name, one in found.assets.items()}
-    return Standing(found.question, has_program, found.signed_off, found.held, found.excluded, shares, nearest)
+    return FamilyStatus(found.question, has_program, found.signed_off, found.held, found.excluded, shares, nearest)

@@ -15,7 +15,7 @@ from scipy.optimize import minimize
 from benchmark.journal import run_units
 from benchmark.report import Tell
 from benchmark.signoff.calibration import calibrate
-from benchmark.signoff.client import Client, Standing
+from benchmark.signoff.client import Client, FamilyStatus
 from benchmark.signoff.conditions import open_family
 from benchmark.signoff.judge import Judge
 from benchmark.signoff.opening import open_review
@@ -52,10 +52,10 @@ class _Observer(Client):
         super().__init__(project)
         self._judge, self._looks = judge, looks
 
-    def review(self) -> Standing:
-        standing = super().review()
+    def review(self) -> FamilyStatus:
+        status = super().review()
         self._looks.append(self._list_rows(self.found) if self.found else [])
-        return standing
+        return status
 
     def _list_rows(self, found: ProjectReview) -> list[list[float]]:
         """The features of each edit that was judged, how far its program is trusted, and whether it is right, where

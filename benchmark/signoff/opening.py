@@ -6,7 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
-from benchmark.signoff.client import Client, Standing
+from benchmark.signoff.client import Client, FamilyStatus
 from benchmark.signoff.judge import Judge
 from benchmark.signoff.project import name_by_files, open_project, take_labels
 from benchmark.study.condition import Condition
@@ -51,17 +51,17 @@ def open_review(
     course.session(())
     with open_project(course.desk) as project:
         person = client(project)
-        standing = _tell(course, person, sorted(course.found_right) if tells_looks else [])
+        status = _tell(course, person, sorted(course.found_right) if tells_looks else [])
         right = {name for name in bench.samples if judge.is_right(name, person.read_output(name))}
         looked_at = {asset for asset, one in project.reviews().items() if one.verdict == "accepted"}
     known = {*course.log.shown, *looked_at}
     rest = [name for name in bench.samples if name in judge.possible and name not in known]
-    shares = standing.probabilities if standing and standing.has_program else {}
+    shares = status.probabilities if status and status.has_program else {}
     pairs = tuple((round(shares[name], 4), name in right) for name in rest if name in shares)
     return FirstLook(bench.task.name, condition.name, seed, len(judge.possible), len(right), pairs)
 
 
-def _tell(course: Course, client: Client, found_right: list[str]) -> Standing | None:
+def _tell(course: Course, client: Client, found_right: list[str]) -> FamilyStatus | None:
     """Tell a project all that was shown, answered and accepted, and look at it; None where it refuses that.
 
     found_right: results that are accepted now, besides those that were before and are as they were.
@@ -72,11 +72,11 @@ def _tell(course: Course, client: Client, found_right: list[str]) -> Standing | 
     for answer in course.answers:
         client.project.add_answer(answer)
     try:
-        standing = client.review()
+        status = client.review()
         outputs = {name: client.read_output(name) for name in course.accepted}
         same = [name for name, one in outputs.items() if one and one.selections == course.accepted[name]]
         for name in dict.fromkeys([*same, *found_right]):
             client.accept(name)
-        return client.review() if same or found_right else standing
+        return client.review() if same or found_right else status
     except MeshForgeError:
         return None

@@ -9,7 +9,7 @@ from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from typing import Any
 
-from benchmark.signoff.client import Client, Standing
+from benchmark.signoff.client import Client, FamilyStatus
 from benchmark.signoff.judge import Output
 from benchmark.signoff.point import Point
 from benchmark.signoff.project import name_by_files, open_project
@@ -96,7 +96,7 @@ class ReviewCourse:
         self.desk = desk.with_meshes(client.read_meshes())
         self.shown = list[str]()
         self._given_up = set[str]()
-        self._standing: Standing | None = None
+        self._status: FamilyStatus | None = None
         self._asked = Counter[str]()
 
     def run(self, cap: float) -> Review:
@@ -108,43 +108,43 @@ class ReviewCourse:
         log.program = str(program) if program else None
         log.seconds = {what: round(seconds, 2) for what, seconds in ledger.seconds.items()}
         log.acts = dict(ledger.acts)
-        log.aside = sorted(self._standing.excluded) if self._standing else []
+        log.aside = sorted(self._status.excluded) if self._status else []
         return log
 
     def _step(self, cap: float) -> None:
         """Look how the family stands, and take what is asked."""
         try:
-            standing = self.client.review()
+            status = self.client.review()
         except MeshForgeError as error:
             self._recover(None, error.where, cap)
             return
         finally:
             self.desk = self.desk.with_meshes(self.client.read_meshes())
-        self._standing, question = standing, standing.question
-        self._note(standing)
+        self._status, question = status, status.question
+        self._note(status)
         if self.reviewer.ledger.total >= cap:
             self.log.ended = BROKEN
         elif question is not None and not (question.kind == "demonstrate" and question.asset in self.shown):
             self._take(question, cap)
-        elif question is not None or not standing.has_program:
-            self._recover(standing.nearest, question.asset if question else None, cap)
+        elif question is not None or not status.has_program:
+            self._recover(status.nearest, question.asset if question else None, cap)
         else:
-            self.log.ended = EMPTY if standing.held else DONE
+            self.log.ended = EMPTY if status.held else DONE
 
-    def _note(self, standing: Standing) -> None:
-        aside, signed = set(standing.excluded), set(standing.signed_off)
+    def _note(self, status: FamilyStatus) -> None:
+        aside, signed = set(status.excluded), set(status.signed_off)
         right = {name for name in self.bench.samples if name not in aside and self._is_right(name)}
         wrong = (signed & self.judge.possible) - right
-        figures = (len(right), len(signed), len(wrong), len(standing.held), len(signed & right))
+        figures = (len(right), len(signed), len(wrong), len(status.held), len(signed & right))
         self.log.points.append(Point(round(self.reviewer.ledger.total, 2), *figures))
         self.log.wrong = sorted(wrong)
-        if standing.has_program and not self.log.first:
-            self._note_first(standing, right)
+        if status.has_program and not self.log.first:
+            self._note_first(status, right)
 
-    def _note_first(self, standing: Standing, right: set[str]) -> None:
+    def _note_first(self, status: FamilyStatus, right: set[str]) -> None:
         """How the assets stand that nobody demonstrated, when there is the first program."""
         rest = [name for name in self.bench.samples if name not in self.shown]
-        shares, signed = standing.probabilities, set(standing.signed_off)
+        shares, signed = status.probabilities, set(status.signed_off)
         able = [name for name in rest if name in self.judge.possible]
         self.log.first = [(round(shares[name], 4), name in right) for name in able if name in shares]
         self.log.unseen = len(rest)

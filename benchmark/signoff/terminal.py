@@ -10,7 +10,7 @@ from contextlib import redirect_stderr, redirect_stdout
 from typing import Any, get_args
 from unittest.mock import patch
 
-from benchmark.signoff.client import Client, Standing
+from benchmark.signoff.client import Client, FamilyStatus
 from meshforge.cli.demonstrate import demonstrate
 from meshforge.cli.label import label
 from meshforge.cli.main import load_command
@@ -36,12 +36,12 @@ class TerminalClient(Client):
         self._told: str | None = None
         self._refused = set[tuple[int, str]]()
 
-    def review(self) -> Standing:
+    def review(self) -> FamilyStatus:
         try:
             told = self._told or self._call("review", "--json")
         finally:
             self._told, self.program = None, self.project.program()
-        return _read_standing(json.loads(told), self.project.assets())
+        return _read_status(json.loads(told), self.project.assets())
 
     def reply(self, question: ReviewQuestion, reply: ReviewReply) -> None:
         if (question.rule, question.asset) in self._refused:
@@ -95,14 +95,14 @@ def _format_step(step: Step) -> str:
     return f"{hulls} => {step.action}{f' as {step.label}' if step.label else ''}"
 
 
-def _read_standing(told: Mapping[str, Any], assets: Iterable[str]) -> Standing:
+def _read_status(told: Mapping[str, Any], assets: Iterable[str]) -> FamilyStatus:
     """How the family stands by what the command printed."""
     held = {one["asset"]: float(one["probability"]) for one in told["held"]}
     excluded = frozenset(told["excluded"])
     signed = [name for name in assets if name not in held and name not in excluded]
     assert len(signed) == told["signed_off"]
     question = _read_question(told["question"]) if told["question"] else None
-    return Standing(question, bool(signed) or any(held.values()), signed, list(held), excluded, held)
+    return FamilyStatus(question, bool(signed) or any(held.values()), signed, list(held), excluded, held)
 
 
 def _read_question(told: Mapping[str, Any]) -> ReviewQuestion:

@@ -10,7 +10,7 @@ import pytest
 from benchmark.assets import family
 from benchmark.signoff.before import Before, teach_before
 from benchmark.signoff.calibration import calibrate
-from benchmark.signoff.client import Client, Standing
+from benchmark.signoff.client import Client, FamilyStatus
 from benchmark.signoff.conditions import ERRS
 from benchmark.signoff.judge import Judge, run_on_desk
 from benchmark.signoff.opening import FirstLook, open_review
@@ -33,16 +33,16 @@ GROUP = 3
 class FakeClient(Client):
     """Asks for a demonstration, about one group of hulls, then about each result in turn."""
 
-    def review(self) -> Standing:
-        standing = super().review()
+    def review(self) -> FamilyStatus:
+        status = super().review()
         verdicts = {asset: one.verdict for asset, one in self.project.reviews().items()}
         known = {*verdicts, *self.project.demonstration_ids()}
         held = [name for name in self.project.assets() if name not in known]
         aside = {asset for asset, verdict in verdicts.items() if verdict == "flagged"}
         signed = [name for name in self.project.assets() if name in known - aside]
-        if not standing.has_program and self.project.demonstration_ids():
-            return replace(standing, question=None, signed_off=[], held=list(self.project.assets()), aside=aside)
-        return replace(standing, question=self.ask(held), signed_off=signed, held=held, aside=aside)
+        if not status.has_program and self.project.demonstration_ids():
+            return replace(status, question=None, signed_off=[], held=list(self.project.assets()), aside=aside)
+        return replace(status, question=self.ask(held), signed_off=signed, held=held, aside=aside)
 
     def ask(self, held: list[str]) -> ReviewQuestion | None:
         meshes = self.read_meshes()

@@ -11,12 +11,12 @@ import pytest
 from benchmark.assets import family
 from benchmark.signoff.client import Client
 from benchmark.signoff.judge import Judge, Output, run_on_desk
+from benchmark.signoff.product_before import FROZEN, list_units, measure, read, write
 from benchmark.signoff.project import name_by_files, open_project, take_labels
 from benchmark.signoff.queue import DONE, ReviewCourse, sign_off
 from benchmark.signoff.reviewer import Reviewer
 from benchmark.signoff.sessions import Unit
 from benchmark.signoff.terminal import TerminalClient
-from benchmark.signoff.unchanged import FROZEN, list_units, measure, read, write
 from benchmark.study import TRUE, Bench
 from benchmark.study.condition import PROPAGATED
 from benchmark.tasks import task

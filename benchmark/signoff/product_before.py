@@ -78,7 +78,7 @@ def measure(tell: Tell, quick: bool) -> Result:
     for client, review in sessions:
         groups.setdefault((review.condition, client), []).append(review)
     tables = (_tell_figures(groups), _tell_probabilities(groups), _tell_long(sessions))
-    return Result("unchanged", TITLE, tables, (), tuple(_list_notes(commit)))
+    return Result("product_before", TITLE, tables, (), tuple(_list_notes(commit)))
 
 
 _Groups = dict[tuple[str, str], list[Review]]
