@@ -21,7 +21,7 @@ class FamilyStatus:
     """How a family stands, as a person is told.
 
     question: the one that is asked; has_program: whether a program fits all that was shown and said; signed_off, held,
-    excluded: ids of assets; probabilities: by id, as far as they are told; nearest: what came nearest where nothing fits.
+    excluded: ids of assets; probabilities: by id, as far as they are told; nearest: what came nearest if nothing fits.
     """
 
     question: ReviewQuestion | None

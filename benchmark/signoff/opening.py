@@ -53,7 +53,7 @@ def open_review(
         person = client(project)
         status = _tell(course, person, sorted(course.found_right) if tells_looks else [])
         right = {name for name in bench.samples if judge.is_right(name, person.read_output(name))}
-        looked_at = {asset for asset, one in project.reviews().items() if one.verdict == "accepted"}
+        looked_at = {name for name, some in project.feedback().verdicts.items() if some[-1].verdict == "accepted"}
     known = {*course.log.shown, *looked_at}
     rest = [name for name in bench.samples if name in judge.possible and name not in known]
     shares = status.probabilities if status and status.has_program else {}

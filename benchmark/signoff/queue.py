@@ -174,10 +174,10 @@ class ReviewCourse:
             self.client.reply(question, reply)
 
     def _correct(self, question: ReviewQuestion, reply: ReviewReply, output: Output | None) -> None:
-        """Say what is right of a result that is wrong: which hulls, or which labels where the mesh is turned wrongly or the
-        program cannot run; where no label helps, show the whole edit."""
+        """Say what is right of a result that is wrong: which hulls, or which labels where the mesh is turned wrongly or
+        the program cannot run; where no label helps, show the whole edit."""
         name = question.asset
-        done, wanted = output and output.selections, self.bench.truth.reference[name]
+        done, wanted = output.selections if output else None, self.bench.truth.reference[name]
         if done is not None and wanted is not None and done != wanted:
             selections = self.reviewer.correct_selections(done, wanted)
             self._reply(question, replace(reply, selections=selections))

@@ -144,4 +144,3 @@ class Reviewer:
 
     def _label_of(self, place: HullPlace) -> str:
         return str(self._truth.meshes[place.asset].hull_of(place.hull).label)
-

@@ -276,11 +276,11 @@ def _ask_last_looks(family: FamilyTrial) -> Iterator[ReviewQuestion]:
 EXCLUDE_CHOICES = tuple(ReviewChoice(choice, f"exclude it: {reason}") for choice, reason in EXCLUDE.items())
 _GIVE_UP = (ReviewChoice(WRONG, "say what is right, or later"), *EXCLUDE_CHOICES)
 _CORRECT = (ReviewChoice(WRONG, "correct it"), *EXCLUDE_CHOICES)
-_JUDGE = (ReviewChoice(RIGHT, "right"), ReviewChoice(WRONG, "wrong"), *EXCLUDE_CHOICES)
+JUDGE_CHOICES = (ReviewChoice(RIGHT, "right"), ReviewChoice(WRONG, "wrong"), *EXCLUDE_CHOICES)
 
 
 def _ask_result(
-    trial: Trial, gain: float, seconds: float, text: str = "", choices: tuple[ReviewChoice, ...] = _JUDGE
+    trial: Trial, gain: float, seconds: float, text: str = "", choices: tuple[ReviewChoice, ...] = JUDGE_CHOICES
 ) -> ResultQuestion:
     """Whether a result is right; where the program cannot run there is none that could be."""
     if trial.error:

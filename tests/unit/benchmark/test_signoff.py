@@ -24,8 +24,15 @@ from benchmark.study.condition import PROPAGATED
 from benchmark.study.keystrokes import APPROVAL, GLANCE, STROKE, price_group
 from benchmark.study.person import Person
 from benchmark.tasks import task
-from meshforge.signoff import HullPlace, ReviewChoice, ReviewQuestion
-from meshforge.signoff.question import ASIDE, RIGHT, WRONG
+from meshforge.signoff import (
+    DemonstrationQuestion,
+    GroupQuestion,
+    HullPlace,
+    ResultQuestion,
+    ReviewChoice,
+    ReviewQuestion,
+)
+from meshforge.signoff.review import JUDGE_CHOICES
 
 GROUP = 3
 
@@ -35,30 +42,27 @@ class FakeClient(Client):
 
     def review(self) -> FamilyStatus:
         status = super().review()
-        verdicts = {asset: one.verdict for asset, one in self.project.reviews().items()}
-        known = {*verdicts, *self.project.demonstration_ids()}
+        known = {*self.project.feedback().verdicts, *self.project.demonstration_ids()}
         held = [name for name in self.project.assets() if name not in known]
-        aside = {asset for asset, verdict in verdicts.items() if verdict == "flagged"}
-        signed = [name for name in self.project.assets() if name in known - aside]
+        signed = [name for name in self.project.assets() if name in known]
         if not status.has_program and self.project.demonstration_ids():
-            return replace(status, question=None, signed_off=[], held=list(self.project.assets()), aside=aside)
-        return replace(status, question=self.ask(held), signed_off=signed, held=held, aside=aside)
+            return replace(status, question=None, signed_off=[], held=list(self.project.assets()))
+        return replace(status, question=self.ask(held), signed_off=signed, held=held)
 
     def ask(self, held: list[str]) -> ReviewQuestion | None:
         meshes = self.read_meshes()
         first = next(iter(meshes))
         hulls = meshes[first].hulls[:GROUP]
         if not self.project.demonstration_ids():
-            return ReviewQuestion(f"show {first}", "demonstrate", "", 1.0, 1.0, first)
+            return DemonstrationQuestion("", 1.0, 1.0, first, id=f"show {first}")
         if any(hull.source != "user" for hull in hulls):
             labels = sorted({str(h.label) for mesh in meshes.values() for h in mesh.hulls})
             places = tuple(HullPlace(first, hull.name) for hull in hulls)
-            choices = tuple(ReviewChoice(label, label) for label in labels)
-            return ReviewQuestion("group", "group", "", 1.0, 1.0, first, hulls=places, choices=choices)
+            choices = tuple(map(ReviewChoice.of_label, labels))
+            return GroupQuestion("", 1.0, 1.0, first, hulls=places, choices=choices, id="group")
         if not held:
             return None
-        choices = tuple(map(ReviewChoice, (RIGHT, WRONG, ASIDE)))
-        return ReviewQuestion(f"result {held[0]}", "result", "", 1.0, 1.0, held[0], choices=choices)
+        return ResultQuestion("", 1.0, 1.0, held[0], choices=JUDGE_CHOICES, id=f"result {held[0]}")
 
 
 @pytest.fixture(scope="module")
@@ -137,9 +141,9 @@ def test_each_exception_of_a_group_is_named_and_paid_for(bench: Bench) -> None:
     alike = [hull.name for hull in sample.mesh.hulls if hull.label == labels[0]]
     other = next(hull.name for hull in sample.mesh.hulls if hull.label == labels[1])
     hulls = tuple(HullPlace(name, hull) for hull in (*alike, other))
-    question = ReviewQuestion("group", "group", "", 1.0, 1.0, name, None, hulls, (ReviewChoice("", labels[0]),))
+    question = GroupQuestion("", 1.0, 1.0, name, None, hulls, (ReviewChoice.of_label(labels[0]),), "group")
     reply = reviewer.reply(question, bench.truth, None, None)
-    assert (reply.choice, reply.exceptions) == (0, {HullPlace(name, other): labels[1]})
+    assert (reply.choice, reply.exceptions) == (labels[0], {HullPlace(name, other): labels[1]})
     assert reviewer.ledger.total == pytest.approx(price_group(len(hulls), 1) + STROKE)
 
 

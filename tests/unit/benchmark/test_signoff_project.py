@@ -73,7 +73,7 @@ def test_commands_alone_come_to_the_same_as_methods(bench: Bench, condition: obj
 
 
 @pytest.mark.slow
-def test_who_says_wrong_flags_the_result_and_shows_the_edit_there(bench: Bench) -> None:
+def test_who_says_wrong_says_which_hulls_are_right(bench: Bench) -> None:
     reviewer = Reviewer(bench, 1, TRUE)
     with open_project(bench.truth) as project:
         client = Client(project)
@@ -84,10 +84,13 @@ def test_who_says_wrong_flags_the_result_and_shows_the_edit_there(bench: Bench) 
         while (question := client.review().question) and question.kind != "result":
             client.reply(question, ReviewReply(question.id, later=True))
         assert question
-        wrong = next(k for k, choice in enumerate(question.choices) if choice.text == "wrong")
-        course._correct(question, ReviewReply(question.id, wrong), client.read_output(question.asset))
-        assert project.reviews()[question.asset].verdict == "flagged"
-        assert question.asset in project.demonstration_ids()
+        output = client.read_output(question.asset)
+        assert output and output.selections
+        trace = [replace(line, selected=()) for line in output.edited.trace]
+        odd = replace(output, edited=replace(output.edited, trace=tuple(trace)))
+        course._correct(question, ReviewReply(question.id, "wrong"), odd)
+        (verdict,) = project.feedback().verdicts[question.asset]
+        assert tuple(frozenset(one.select) for one in verdict.meant) == bench.truth.reference[question.asset]
         assert reviewer.ledger.acts["correction"] == 1
         assert second in project.assets()
 
